@@ -1,0 +1,240 @@
+"""Topics and services inside the process, and the door through which an algorithm enters.
+
+A published message is given away: its arrays become read-only and it is delivered, in the order
+of publishing, when the simulation reaches the end of its step (`Bus.deliver`). What a callback
+publishes in turn is delivered in the same step: computing takes no simulation time. A parameter
+``latency_s`` of an algorithm delays all that it publishes. Services answer at once.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import deque
+from collections.abc import Callable, Mapping
+from typing import Any, Generic, Protocol, TypeVar, cast, runtime_checkable
+
+import numpy as np
+
+from .errors import BadSetting, UnknownName, UwsimError
+
+M = TypeVar("M")
+MAX_MESSAGES_PER_STEP = 100_000
+
+
+@runtime_checkable
+class Node(Protocol):
+    """All that an algorithm under test ever sees."""
+
+    @property
+    def now(self) -> float:
+        """Simulation time [s]."""
+
+    @property
+    def parameters(self) -> Mapping[str, float | str]:
+        """What ``--set algorithm.name=value`` said; the algorithm has its own defaults."""
+
+    @property
+    def random(self) -> np.random.Generator:
+        """The algorithm's own random stream, repeatable under the run's seed."""
+
+    def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
+        """Have ``callback`` called with every message on ``topic``."""
+
+    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
+        """Return ``publish(message)`` for ``topic``."""
+
+    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
+        """Offer a service; ``type`` is the class of its request."""
+
+    def call(self, name: str, request: object) -> object:
+        """Call a service and return its response; UnknownName when nobody serves it."""
+
+    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
+
+
+class Algorithm(Protocol):
+    """A program under test: it is started once and lives on callbacks alone."""
+
+    def start(self, node: Node) -> None:
+        """Subscribe, serve, call ``startBench``; from then on only callbacks."""
+
+
+class Inbox(Generic[M]):
+    """The messages of one topic that one reader has not looked at yet, and the last one."""
+
+    def __init__(self) -> None:
+        self._new: deque[M] = deque()
+        self.last: M | None = None
+        """The newest message ever received."""
+        self.last_step: int | None = None
+        """The step at which it was delivered."""
+
+    def receive(self, message: M, step: int) -> None:
+        """Put a message in; called by the bus."""
+        self._new.append(message)
+        self.last, self.last_step = message, step
+
+    def take(self) -> list[M]:
+        """Take out all messages that came since the last call, oldest first."""
+        messages = list(self._new)
+        self._new.clear()
+        return messages
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._new.clear()
+        self.last, self.last_step = None, None
+
+
+@dataclasses.dataclass
+class _Topic:
+    type: type | None = None
+    readers: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
+
+
+class Bus:
+    """Named topics and services; delivery only when `deliver` is called.
+
+    Topic and service names are compared without a leading slash, so ``/uwsim/camera1`` and
+    ``uwsim/camera1`` are one, as they are for a ROS node in the root namespace.
+    """
+
+    def __init__(self) -> None:
+        self._topics: dict[str, _Topic] = {}
+        self._services: dict[str, tuple[type, Callable[[Any], object]]] = {}
+        self._due_now: deque[tuple[str, object]] = deque()
+        self._due_later: list[tuple[int, int, str, object]] = []
+        self._posted = 0
+        self.step = 0
+        """The current step; set by whoever owns the clock."""
+
+    def subscribe(
+        self, topic: str, type: type[M], callback: Callable[[M], None]
+    ) -> Callable[[], None]:
+        """Call ``callback`` with every message on ``topic``; returns the way to stop it."""
+        entry = self._typed(topic, type)
+        entry.readers.append(callback)
+        return lambda: entry.readers.remove(callback) if callback in entry.readers else None
+
+    def inbox(self, topic: str, type: type[M]) -> Inbox[M]:
+        """Return an inbox that collects the messages of ``topic`` from now on."""
+        inbox: Inbox[M] = Inbox()
+        self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
+        return inbox
+
+    def publisher(self, topic: str, type: type[M], *, delay_steps: int = 0) -> Callable[[M], None]:
+        """Return ``publish(message)`` for ``topic``, delayed by ``delay_steps``."""
+        name = _plain(topic)
+        entry = self._typed(topic, type)
+
+        def publish(message: M) -> None:
+            if not isinstance(message, type):
+                raise BadSetting(
+                    f"Topic {topic!r} carries {_type_name(type)}, not {_type_name(message.__class__)}."
+                )
+            if not entry.readers:
+                return
+            freeze(message)
+            if delay_steps:
+                self._posted += 1
+                self._due_later.append((self.step + delay_steps, self._posted, name, message))
+            else:
+                self._due_now.append((name, message))
+
+        return publish
+
+    def has_readers(self, topic: str) -> bool:
+        """Whether anybody would see a message on ``topic``."""
+        entry = self._topics.get(_plain(topic))
+        return bool(entry and entry.readers)
+
+    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
+        """Offer a service whose request class is ``type``; a later offer takes its place."""
+        self._services[_plain(name)] = (type, handler)
+
+    def withdraw(self, name: str) -> None:
+        """Stop offering a service, if it is offered."""
+        self._services.pop(_plain(name), None)
+
+    def serves(self, name: str) -> bool:
+        """Whether somebody offers the service."""
+        return _plain(name) in self._services
+
+    def call(self, name: str, request: object) -> object:
+        """Call a service now.
+
+        Raises:
+            UnknownName: nobody serves it.
+            BadSetting: the request is of another type.
+        """
+        if _plain(name) not in self._services:
+            raise UnknownName("service", name, self._services)
+        type, handler = self._services[_plain(name)]
+        if not isinstance(request, type):
+            raise BadSetting(
+                f"Service {name!r} takes {_type_name(type)}, not {_type_name(request.__class__)}."
+            )
+        return handler(freeze(request))
+
+    def deliver(self) -> None:
+        """Hand out everything that is due at the current step, in the order of publishing."""
+        if self._due_later:
+            due = sorted(post for post in self._due_later if post[0] <= self.step)
+            self._due_later = [post for post in self._due_later if post[0] > self.step]
+            self._due_now.extend((topic, message) for _, _, topic, message in due)
+        for _ in range(MAX_MESSAGES_PER_STEP):
+            if not self._due_now:
+                return
+            topic, message = self._due_now.popleft()
+            for reader in list(self._topics[topic].readers):
+                reader(message)
+        raise UwsimError(
+            f"More than {MAX_MESSAGES_PER_STEP} messages in one step: two callbacks answer each "
+            f"other without end, the last on topic {topic!r}."
+        )
+
+    @property
+    def topics(self) -> dict[str, str]:
+        """Topic name -> message type, sorted by name."""
+        return {name: _type_name(self._topics[name].type) for name in sorted(self._topics)}
+
+    @property
+    def services(self) -> tuple[str, ...]:
+        """The names of the services offered, sorted."""
+        return tuple(sorted(self._services))
+
+    def _typed(self, topic: str, type: type[M]) -> _Topic:
+        entry = self._topics.setdefault(_plain(topic), _Topic())
+        if entry.type is None:
+            entry.type = type
+        elif entry.type is not type:
+            raise BadSetting(
+                f"Topic {topic!r} carries {_type_name(entry.type)}, not {_type_name(type)}."
+            )
+        return entry
+
+
+def freeze(message: M) -> M:
+    """Make every array inside a message read-only, and return it."""
+    for field in dataclasses.fields(cast("Any", message)):
+        _freeze_value(getattr(message, field.name))
+    return message
+
+
+def _freeze_value(value: object) -> None:
+    if isinstance(value, np.ndarray):
+        value.flags.writeable = False
+    elif dataclasses.is_dataclass(value):
+        freeze(value)
+    elif isinstance(value, list):
+        for item in value:
+            _freeze_value(item)
+
+
+def _plain(name: str) -> str:
+    return name.strip().lstrip("/")
+
+
+def _type_name(type: type | None) -> str:
+    return str(getattr(type, "__msgtype__", getattr(type, "__name__", "nothing yet")))

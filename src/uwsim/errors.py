@@ -1,0 +1,109 @@
+"""What can go wrong, and how it is said.
+
+.. code-block:: text
+
+    UwsimError
+      FileError            a file is wrong: all its faults at once, each with its place
+        SceneError         ... a scene or robot file
+        BenchmarkError     ... a benchmark file
+      UnknownName          a name that nothing has; names the nearest right one
+      AssetNotFound        a file that is nowhere; names every folder searched
+      AssetError           a file that was found and cannot be used
+      BadSetting           a command-line setting or a parameter that cannot be used
+      MissingExtra         an optional part that is not installed; says how to install it
+      NoGraphics           no OpenGL context; says what to install
+      NeverStarted         the start trigger of a benchmark never went on
+      ResultError          a result that cannot be read, resumed or trusted
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+
+class UwsimError(Exception):
+    """Anything uwsim refuses to do, with a message for the user."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fault:
+    """One thing that is wrong, or worth knowing, about a file."""
+
+    file: str
+    """The file as the user named it."""
+    line: int | None
+    """Line number from 1; None when the whole file is meant."""
+    message: str
+    """What was found, what was expected, and the nearest right answer."""
+    severity: Literal["fault", "notice"] = "fault"
+    """A notice does not make the file wrong ("read, not simulated yet")."""
+
+    def __str__(self) -> str:
+        place = self.file if self.line is None else f"{self.file}:{self.line}"
+        return f"{place}: {self.message}"
+
+
+class FileError(UwsimError):
+    """A file is wrong; carries every fault found, not only the first."""
+
+    def __init__(self, faults: Sequence[Fault]) -> None:
+        self.faults = tuple(faults)
+        super().__init__("\n".join(str(fault) for fault in self.faults))
+
+
+class SceneError(FileError):
+    """A scene or robot file is wrong."""
+
+
+class BenchmarkError(FileError):
+    """A benchmark file is wrong."""
+
+
+class UnknownName(UwsimError):
+    """A name that nothing has."""
+
+    def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
+        self.kind, self.name, self.known = kind, name, tuple(sorted(known))
+        super().__init__(
+            f"No {kind} is called {name!r}.{did_you_mean(name, self.known)} "
+            f"Known: {', '.join(self.known) or 'none'}."
+        )
+
+
+class AssetNotFound(UwsimError):
+    """A file that is in none of the folders searched."""
+
+
+class AssetError(UwsimError):
+    """A file that was found and cannot be used."""
+
+
+class BadSetting(UwsimError):
+    """A command-line setting or parameter that cannot be used."""
+
+
+class MissingExtra(UwsimError):
+    """An optional part that is not installed."""
+
+
+class NoGraphics(UwsimError):
+    """No OpenGL context could be made."""
+
+
+class NeverStarted(UwsimError):
+    """The start trigger of a benchmark never went on."""
+
+
+class ResultError(UwsimError):
+    """A result that cannot be read, resumed or trusted."""
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return " Did you mean 'x'?" for the nearest known name, or nothing."""
+    names = list(known)
+    by_lower = {candidate.lower(): candidate for candidate in names}
+    close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
+    return f" Did you mean {by_lower[close[0]]!r}?" if close else ""

@@ -1,0 +1,203 @@
+"""Poses, rotations and pinhole cameras: the numbers everything else is said in.
+
+Transforms are named ``a_from_b`` and map coordinates of frame b into frame a.
+Quaternions are wxyz. numpy only.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+
+def rotation_x(angle: float) -> Array:
+    """Right-handed rotation about x by ``angle`` [rad], (3, 3)."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def rotation_y(angle: float) -> Array:
+    """Right-handed rotation about y by ``angle`` [rad], (3, 3)."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+
+
+def rotation_z(angle: float) -> Array:
+    """Right-handed rotation about z by ``angle`` [rad], (3, 3)."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Array:
+    """``Rz(yaw) Ry(pitch) Rx(roll)``: about fixed axes, as in ROS and URDF [rad], (3, 3)."""
+    return rotation_z(yaw) @ rotation_y(pitch) @ rotation_x(roll)
+
+
+def rotation_from_xyz(x: float, y: float, z: float) -> Array:
+    """``Rx(x) Ry(y) Rz(z)``: UWSim's other order (vehicles, offsetr, twists) [rad], (3, 3)."""
+    return rotation_x(x) @ rotation_y(y) @ rotation_z(z)
+
+
+def rotation_about(axis: Array, angle: float) -> Array:
+    """Rotation by ``angle`` [rad] about the (not necessarily unit) ``axis`` (3,), Rodrigues."""
+    unit = np.asarray(axis, dtype=np.float64) / np.linalg.norm(axis)
+    k = np.array([[0.0, -unit[2], unit[1]], [unit[2], 0.0, -unit[0]], [-unit[1], unit[0], 0.0]])
+    turned: Array = np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * (k @ k)
+    return turned
+
+
+def quaternion_from_rotation(rotation: Array) -> Array:
+    """Unit quaternion wxyz, w >= 0, of a rotation matrix (3, 3) (Shepperd's method), (4,)."""
+    r = rotation
+    choices = np.array([np.trace(r), r[0, 0], r[1, 1], r[2, 2]])
+    i = int(np.argmax(choices))
+    q = np.empty(4)
+    if i == 0:
+        q[:] = 1.0 + choices[0], r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
+    else:
+        a, b, c = i - 1, i % 3, (i + 1) % 3
+        q[0] = r[c, b] - r[b, c]
+        q[1 + a] = 1.0 + r[a, a] - r[b, b] - r[c, c]
+        q[1 + b] = r[b, a] + r[a, b]
+        q[1 + c] = r[c, a] + r[a, c]
+    q /= np.linalg.norm(q)
+    return -q if q[0] < 0.0 else q
+
+
+def rotation_from_quaternion(wxyz: Array) -> Array:
+    """Rotation matrix (3, 3) of a quaternion wxyz (4,), normalised first."""
+    w, x, y, z = np.asarray(wxyz, dtype=np.float64) / np.linalg.norm(wxyz)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Where frame b stands in frame a: ``a_from_b``."""
+
+    position: Array
+    """Origin of b in a, (3,) [m]."""
+    rotation: Array
+    """Axes of b in a as columns, (3, 3)."""
+
+    @staticmethod
+    def identity() -> Pose:
+        """The pose of a frame in itself."""
+        return Pose(np.zeros(3), np.eye(3))
+
+    @staticmethod
+    def from_rpy(position: tuple[float, float, float], rpy: tuple[float, float, float]) -> Pose:
+        """From a position [m] and fixed-axis angles, ``Rz Ry Rx`` [rad]."""
+        return Pose(np.array(position, dtype=np.float64), rotation_from_rpy(*rpy))
+
+    @staticmethod
+    def from_xyz(position: tuple[float, float, float], xyz: tuple[float, float, float]) -> Pose:
+        """From a position [m] and UWSim's vehicle order, ``Rx Ry Rz`` [rad]."""
+        return Pose(np.array(position, dtype=np.float64), rotation_from_xyz(*xyz))
+
+    @staticmethod
+    def from_quaternion(position: Array, wxyz: Array) -> Pose:
+        """From a position (3,) [m] and a quaternion wxyz (4,)."""
+        return Pose(np.array(position, dtype=np.float64), rotation_from_quaternion(wxyz))
+
+    @property
+    def quaternion(self) -> Array:
+        """The rotation as a unit quaternion wxyz, (4,)."""
+        return quaternion_from_rotation(self.rotation)
+
+    @property
+    def matrix(self) -> Array:
+        """Homogeneous matrix, (4, 4)."""
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = self.rotation, self.position
+        return matrix
+
+    def __matmul__(self, other: Pose) -> Pose:
+        return Pose(self.rotation @ other.position + self.position, self.rotation @ other.rotation)
+
+    def inverse(self) -> Pose:
+        """``b_from_a``."""
+        return Pose(-self.rotation.T @ self.position, self.rotation.T)
+
+    def transform(self, points: Array) -> Array:
+        """Points in b (n, 3) as points in a (n, 3) [m]."""
+        moved: Array = points @ self.rotation.T + self.position
+        return moved
+
+
+@dataclass(frozen=True, kw_only=True)
+class Intrinsics:
+    r"""A pinhole camera with OpenGL axes: x right, y up, looking along -z.
+
+    Image coordinates (u, v) are in pixels from the top left *corner* of the image: u to the
+    right, v down; the centre of the first pixel is (0.5, 0.5).
+
+    .. math:: u = c_x + (f_x X + k Y) / (-Z), \qquad v = c_y - f_y Y / (-Z)
+
+    Not modelled: lens distortion, refraction at the housing.
+    """
+
+    width: int
+    """Columns [px]."""
+    height: int
+    """Rows [px]."""
+    fx: float
+    """Focal length along u [px]."""
+    fy: float
+    """Focal length along v [px]."""
+    cx: float
+    """Principal point from the left edge [px]."""
+    cy: float
+    """Principal point from the top edge [px]."""
+    skew: float = 0.0
+    """Skew k [px]."""
+    near: float = 0.18
+    """Nearest planar depth drawn [m]."""
+    far: float = 2000.0
+    """Farthest planar depth drawn [m]."""
+
+    @staticmethod
+    def from_fovy(
+        width: int, height: int, fovy: float, *, near: float = 0.18, far: float = 2000.0
+    ) -> Intrinsics:
+        """Square pixels and a centred axis from a vertical field of view [rad]."""
+        focal = height / (2.0 * math.tan(fovy / 2.0))
+        return Intrinsics(
+            width=width,
+            height=height,
+            fx=focal,
+            fy=focal,
+            cx=width / 2.0,
+            cy=height / 2.0,
+            near=near,
+            far=far,
+        )
+
+    def project(self, points: Array) -> Array:
+        """Image coordinates (n, 2) [px] of points in the camera frame (n, 3) [m].
+
+        Points at or behind the camera plane give NaN.
+        """
+        depth = -points[:, 2]
+        depth = np.where(depth > 0.0, depth, np.nan)
+        u = self.cx + (self.fx * points[:, 0] + self.skew * points[:, 1]) / depth
+        v = self.cy - self.fy * points[:, 1] / depth
+        return np.stack([u, v], axis=1)
+
+    def rays(self) -> Array:
+        """Direction of the ray of each pixel centre, camera frame, with -z = 1, (h, w, 3)."""
+        u = np.arange(self.width) + 0.5
+        v = np.arange(self.height) + 0.5
+        y = (self.cy - v) / self.fy
+        x = (u[None, :] - self.cx - self.skew * y[:, None]) / self.fx
+        return np.stack([x, np.broadcast_to(y[:, None], x.shape), np.full(x.shape, -1.0)], axis=2)

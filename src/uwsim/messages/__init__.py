@@ -1,0 +1,106 @@
+"""ROS message and service types: what travels on the bus.
+
+Messages are the ROS 2 (Jazzy) dataclasses that rosbags ships; their text is ROS's own. Services
+and the types of the UWSim packages are in this room, beside the ``.srv`` text they are checked
+against by a test. Headers are ROS 2's; the ROS 1 adapter adds ``seq``.
+"""
+
+from __future__ import annotations
+
+from rosbags.typesys.stores.ros2_jazzy import (
+    builtin_interfaces__msg__Time as Time,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__Point as Point,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__Pose as Pose,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__PoseWithCovariance as PoseWithCovariance,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__Quaternion as Quaternion,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__Twist as Twist,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__TwistStamped as TwistStamped,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__TwistWithCovariance as TwistWithCovariance,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__Vector3 as Vector3,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    nav_msgs__msg__Odometry as Odometry,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    sensor_msgs__msg__CameraInfo as CameraInfo,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    sensor_msgs__msg__Image as Image,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    sensor_msgs__msg__JointState as JointState,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    sensor_msgs__msg__RegionOfInterest as RegionOfInterest,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__Bool as Bool,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__Float32MultiArray as Float32MultiArray,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__Header as Header,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__MultiArrayDimension as MultiArrayDimension,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__MultiArrayLayout as MultiArrayLayout,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__String as String,
+)
+
+from .build import floats, header, image, picture, seconds, time_from_seconds
+from .services import Empty, EmptyResponse, GTpublish, GTpublishResponse, Service
+
+__all__ = [
+    "Bool",
+    "CameraInfo",
+    "Empty",
+    "EmptyResponse",
+    "Float32MultiArray",
+    "GTpublish",
+    "GTpublishResponse",
+    "Header",
+    "Image",
+    "JointState",
+    "MultiArrayDimension",
+    "MultiArrayLayout",
+    "Odometry",
+    "Point",
+    "Pose",
+    "PoseWithCovariance",
+    "Quaternion",
+    "RegionOfInterest",
+    "Service",
+    "String",
+    "Time",
+    "Twist",
+    "TwistStamped",
+    "TwistWithCovariance",
+    "Vector3",
+    "floats",
+    "header",
+    "image",
+    "picture",
+    "seconds",
+    "time_from_seconds",
+]

@@ -1,0 +1,70 @@
+"""Short ways to build and read the messages that everybody needs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+from rosbags.typesys.stores.ros2_jazzy import (
+    builtin_interfaces__msg__Time as Time,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    sensor_msgs__msg__Image as Image,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__Float32MultiArray as Float32MultiArray,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__Header as Header,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__MultiArrayLayout as MultiArrayLayout,
+)
+
+NANOSECONDS = 1_000_000_000
+
+
+def time_from_seconds(time: float) -> Time:
+    """Return ``time`` [s] as a ROS time, to the nearest nanosecond."""
+    total = round(time * NANOSECONDS)
+    return Time(sec=total // NANOSECONDS, nanosec=total % NANOSECONDS)
+
+
+def seconds(stamp: Time) -> float:
+    """Return a ROS time in seconds."""
+    return stamp.sec + stamp.nanosec / NANOSECONDS
+
+
+def header(time: float, frame_id: str = "") -> Header:
+    """Build a header for simulation time ``time`` [s]."""
+    return Header(stamp=time_from_seconds(time), frame_id=frame_id)
+
+
+def image(pixels: npt.NDArray[np.uint8], *, time: float, frame_id: str = "") -> Image:
+    """Build an ``rgb8`` image from (h, w, 3) or ``mono8`` from (h, w); row 0 is the top."""
+    height, width = pixels.shape[:2]
+    channels = 3 if pixels.ndim == 3 else 1
+    return Image(
+        header=header(time, frame_id),
+        height=height,
+        width=width,
+        encoding="rgb8" if channels == 3 else "mono8",
+        is_bigendian=0,
+        step=width * channels,
+        data=np.ascontiguousarray(pixels).reshape(-1),
+    )
+
+
+def picture(message: Image) -> npt.NDArray[np.uint8]:
+    """Return the pixels of an ``rgb8`` (h, w, 3) or ``mono8`` (h, w) image, without a copy."""
+    if message.encoding == "mono8":
+        return message.data.reshape(message.height, message.width)
+    return message.data.reshape(message.height, message.width, 3)
+
+
+def floats(values: Sequence[float] | npt.NDArray[np.float64]) -> Float32MultiArray:
+    """Build a Float32MultiArray without a layout."""
+    return Float32MultiArray(
+        layout=MultiArrayLayout(dim=[], data_offset=0), data=np.asarray(values, dtype=np.float32)
+    )

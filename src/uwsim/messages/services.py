@@ -1,0 +1,55 @@
+"""Service types: a request and a response each.
+
+``srv/`` holds their text; a test holds the two together.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+
+@dataclass(frozen=True)
+class Service:
+    """A service type: its ROS name and the classes of its two halves."""
+
+    name: str
+    request: type
+    response: type
+
+
+@dataclass(frozen=True)
+class Empty:
+    """Request of ``std_srvs/srv/Empty``."""
+
+    __msgtype__: ClassVar[str] = "std_srvs/srv/Empty_Request"
+
+
+@dataclass(frozen=True)
+class EmptyResponse:
+    """Response of ``std_srvs/srv/Empty``."""
+
+    __msgtype__: ClassVar[str] = "std_srvs/srv/Empty_Response"
+
+
+@dataclass(frozen=True, eq=False)
+class GTpublish:
+    """Request of ``underwater_sensor_msgs/srv/GTpublish``: ground truth handed to an algorithm."""
+
+    groundTruth: npt.NDArray[np.float32]  # noqa: N815 - the field's name in ROS
+    """For corners: x, y of NW, NE, SE, SW [px], (8,)."""
+    __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/GTpublish_Request"
+
+
+@dataclass(frozen=True)
+class GTpublishResponse:
+    """Response of ``underwater_sensor_msgs/srv/GTpublish``."""
+
+    __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/GTpublish_Response"
+
+
+EMPTY = Service("std_srvs/srv/Empty", Empty, EmptyResponse)
+GT_PUBLISH = Service("underwater_sensor_msgs/srv/GTpublish", GTpublish, GTpublishResponse)

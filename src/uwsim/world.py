@@ -1,0 +1,136 @@
+"""What measures, triggers, updaters and sensors may see of the simulation: protocols only.
+
+Positions are in W, the world frame inside (z up); ``world_from_localized`` leads to L, the frame
+of files, topics and results. Everything handed out is a copy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from .bus import Inbox
+from .geometry import Intrinsics, Pose
+
+M = TypeVar("M")
+
+
+@dataclass(frozen=True)
+class Box:
+    """An axis-aligned box in the frame of what it bounds."""
+
+    lower: tuple[float, float, float]
+    """Smallest coordinates [m]."""
+    upper: tuple[float, float, float]
+    """Largest coordinates [m]."""
+
+    def corners(self) -> npt.NDArray[np.float64]:
+        """The eight corners, (8, 3) [m]."""
+        low, high = np.array(self.lower), np.array(self.upper)
+        picks = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)])
+        corners: npt.NDArray[np.float64] = np.where(picks == 1, high, low)
+        return corners
+
+
+class Body(Protocol):
+    """A node with a name and a pose: a vehicle, a link or an object."""
+
+    @property
+    def name(self) -> str:
+        """The route it was asked for by."""
+
+    @property
+    def world_from_body(self) -> Pose:
+        """Where it is now (objects: the mesh frame; links: the visual frame)."""
+
+    @property
+    def box(self) -> Box | None:
+        """Local bounding box of its meshes; None when it has none."""
+
+
+class Camera(Protocol):
+    """A virtual camera of a vehicle."""
+
+    @property
+    def name(self) -> str:
+        """Its name in the scene."""
+
+    @property
+    def intrinsics(self) -> Intrinsics:
+        """Its pinhole."""
+
+    @property
+    def world_from_camera(self) -> Pose:
+        """Where it is now; OpenGL axes."""
+
+
+class World(Protocol):
+    """What a measure or a trigger sees."""
+
+    @property
+    def step(self) -> int:
+        """Physics steps since the simulation began."""
+
+    @property
+    def timestep(self) -> float:
+        """Length of a step [s]."""
+
+    @property
+    def time(self) -> float:
+        """``step * timestep`` [s]."""
+
+    @property
+    def world_from_localized(self) -> Pose:
+        """W from L: the scene's offset."""
+
+    @property
+    def compatibility(self) -> frozenset[str]:
+        """The names of the original's slips asked for (`uwsim.compatibility`)."""
+
+    def body(self, name: str) -> Body:
+        """Find a vehicle, link or object by its route ``a/b``; UnknownName if none."""
+
+    def camera(self, name: str) -> Camera:
+        """Find a virtual camera; UnknownName if none."""
+
+    def inbox(self, topic: str, type: type[M]) -> Inbox[M]:
+        """Collect the messages of a topic from now on."""
+
+    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
+        """Return ``publish(message)``."""
+
+    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
+        """Offer a service."""
+
+    def serves(self, name: str) -> bool:
+        """Whether somebody offers the service."""
+
+    def call(self, name: str, request: object) -> object:
+        """Call a service; UnknownName when nobody serves it."""
+
+    def stream(self, name: str) -> np.random.Generator:
+        """The random generator of that name under the run's seed (DESIGN 4)."""
+
+
+class Stage(World, Protocol):
+    """What a scene updater sees: the world, and the knobs it may turn."""
+
+    @property
+    def vehicles(self) -> tuple[str, ...]:
+        """Names of the vehicles, in the file's order."""
+
+    def set_fog(self, density: float) -> None:
+        """Set the fog density [1/m] of the water, and its colour to (0, 0.05, 0.3)."""
+
+    def set_light_rate(self, rate: float) -> None:
+        """Scale the light of the scene; 1 is as usual."""
+
+    def set_camera_noise(self, std: float) -> None:
+        """Set the noise [0..1] of every colour camera."""
+
+    def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
+        """Set joints by their number in the joint vector [rad or m], clamped to limits."""
