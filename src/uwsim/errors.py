@@ -14,6 +14,7 @@
       NoGraphics           no OpenGL context; says what to install
       NeverStarted         the start trigger of a benchmark never went on
       ResultError          a result that cannot be read, resumed or trusted
+        ReplayDiffers      ... a replay that did not give the rows that are stored
 """
 
 from __future__ import annotations
@@ -99,6 +100,10 @@ class NeverStarted(UwsimError):
 
 class ResultError(UwsimError):
     """A result that cannot be read, resumed or trusted."""
+
+
+class ReplayDiffers(ResultError):
+    """A replay did not give the rows that are stored; found only by running."""
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -1,0 +1,16 @@
+# uwsim: three commands, each doing the set-up it needs first.
+#   make demo      play the visibility benchmark and show its table and where the report is
+#   make test      every check and every test, as CI runs them
+#   make install   set-up alone, into .venv
+
+.PHONY: install demo test
+
+install:
+	@scripts/setup
+
+demo: install
+	.venv/bin/uwsim bench visibility --out demo.result --overwrite
+	@echo "The report: $(CURDIR)/demo.result/report.html"
+
+test: install
+	scripts/check --all

@@ -1,0 +1,153 @@
+"""The frame of the command line: which commands there are, and how their faults are said.
+
+A command is a function with typer's annotations in a module of its own. `COMMANDS` names them;
+only the one that was asked for is imported, so that ``uwsim --help`` stays under 0.3 s.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Annotated
+
+import typer
+
+from .. import __version__
+from .faults import INTERRUPTED, exit_status, one_line
+
+
+@dataclass(frozen=True, kw_only=True)
+class Command:
+    """Where a command lives and what ``uwsim --help`` says about it."""
+
+    module: str
+    """The module of this room that holds it."""
+    function: str
+    """The function in that module; its docstring is the command's help."""
+    summary: str
+    """One line for ``uwsim --help``."""
+    examples: tuple[str, ...]
+    """Calls that work as they stand; shown by ``uwsim COMMAND --help``."""
+
+    def load(self) -> Callable[..., object]:
+        """Import the module and return its function."""
+        module = importlib.import_module(f".{self.module}", __package__)
+        function: Callable[..., object] = getattr(module, self.function)
+        return function
+
+
+COMMANDS: dict[str, Command] = {
+    "bench": Command(
+        module="bench",
+        function="bench",
+        summary="Play a benchmark: levels, scores, table, plots and a report.",
+        examples=(
+            "uwsim bench visibility --seed 1",
+            "uwsim bench visibility --algorithm ecc --level fog=0.5 --out ecc.result",
+        ),
+    ),
+    "check": Command(
+        module="check",
+        function="check",
+        summary="Find every fault of scene and benchmark files, with line numbers.",
+        examples=("uwsim check my-scene.xml my-benchmark.xml",),
+    ),
+    "list": Command(
+        module="list",
+        function="list_names",
+        summary="List the scenes, benchmarks, algorithms and parts that have names.",
+        examples=("uwsim list", "uwsim list benchmarks"),
+    ),
+    "render": Command(
+        module="render",
+        function="render",
+        summary="Draw what a camera sees: colour, depth, segmentation.",
+        examples=(
+            "uwsim render visibility-scene --camera bowtech1 -o view.png",
+            "uwsim render my-scene.xml --camera bowtech1 -o view.png --depth "
+            "--set oceanState.fog.density=0.4",
+        ),
+    ),
+    "report": Command(
+        module="report",
+        function="report",
+        summary="Draw the report and the plots of a result again.",
+        examples=("uwsim report visibility.result",),
+    ),
+}
+
+TRACEBACK = "--traceback"
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run ``uwsim`` and return its exit status: 0 done, 2 wrong input, 3 the run failed."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    wanted = [argument for argument in given if argument != TRACEBACK]
+    try:
+        result = build(wanted)(wanted, prog_name="uwsim", standalone_mode=False)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        sys.stdout = None  # whoever read us has left; say no more
+        return 0
+    except (Exception, KeyboardInterrupt) as error:
+        if TRACEBACK in given:
+            raise
+        return say(error)
+    if result == INTERRUPTED:
+        return say(KeyboardInterrupt())
+    return result if isinstance(result, int) else 0
+
+
+def say(error: BaseException) -> int:
+    """Print an error for its reader, one line a fault, and return the exit status it earns."""
+    message = one_line(error)
+    if message:
+        print(message, file=sys.stderr)
+    return exit_status(error)
+
+
+def build(arguments: Sequence[str]) -> typer.Typer:
+    """Build the application, with only the command that ``arguments`` ask for imported."""
+    wanted = next((word for word in arguments if not word.startswith("-")), None)
+    app = typer.Typer(
+        help="Underwater robots, simulated and measured.",
+        epilog="Try 'uwsim bench visibility'. 'uwsim COMMAND --help' shows examples.",
+        no_args_is_help=True,
+        add_completion=False,
+        rich_markup_mode=None,
+    )
+    app.callback()(global_options)
+    for name, command in COMMANDS.items():
+        examples = "\b\nExamples:\n" + "\n".join(f"  $ {line}" for line in command.examples)
+        app.command(name, short_help=command.summary, epilog=examples, no_args_is_help=False)(
+            command.load() if name == wanted else not_wanted
+        )
+    return app
+
+
+def not_wanted() -> None:
+    """Stand in the list of commands for one that was not asked for."""
+
+
+def show_version(wanted: bool) -> None:
+    """Print the version and stop, if that was ``wanted``."""
+    if wanted:
+        print(f"uwsim {__version__}")
+        raise typer.Exit
+
+
+def global_options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=show_version, is_eager=True, help="Show the version and stop."
+        ),
+    ] = False,
+    traceback: Annotated[
+        bool,
+        typer.Option(TRACEBACK, help="Show where in the program an error was raised."),
+    ] = False,
+) -> None:
+    """Take the options that stand before the command; ``main`` has read them already."""
