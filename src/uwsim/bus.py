@@ -131,7 +131,8 @@ class Bus:
         def publish(message: M) -> None:
             if not isinstance(message, type):
                 raise BadSetting(
-                    f"Topic {topic!r} carries {_type_name(type)}, not {_type_name(message.__class__)}."
+                    f"Topic {topic!r} carries {_type_name(type)}, "
+                    f"not {_type_name(message.__class__)}."
                 )
             if not entry.readers:
                 return

@@ -134,3 +134,24 @@ class Stage(World, Protocol):
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their number in the joint vector [rad or m], clamped to limits."""
+
+
+class SensorWorld(World, Protocol):
+    """What a sensor sees: the world, and light."""
+
+    def photograph(
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        *,
+        std: float,
+        random: np.random.Generator,
+    ) -> npt.NDArray[np.uint8]:
+        """Draw what a camera would see now, with noise, (h, w, 3); row 0 is the top.
+
+        Args:
+            world_from_camera: where the camera is; OpenGL axes.
+            intrinsics: its pinhole.
+            std: noise of each channel, 0..1.
+            random: the camera's random stream.
+        """

@@ -1,0 +1,9 @@
+"""The step: commands, forces, physics, clock, sensors, messages, callbacks."""
+
+from __future__ import annotations
+
+from .image_publisher import ImagePublisher, sample_step
+from .node import InProcessNode
+from .simulation import Simulation
+
+__all__ = ["ImagePublisher", "InProcessNode", "Simulation", "sample_step"]

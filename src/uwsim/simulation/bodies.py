@@ -1,0 +1,122 @@
+"""Names to bodies: vehicles, links, objects, and the frame L."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from ..assets import find, folders_searched
+from ..errors import AssetNotFound, UnknownName
+from ..geometry import Pose
+from ..physics.state import State
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec, read_urdf
+from ..world import Box
+from .scenery import Part
+
+
+class SceneBody:
+    """A named frame of the scene that moves with it (`uwsim.world.Body`)."""
+
+    def __init__(self, name: str, pose: Callable[[], Pose], box: Box | None) -> None:
+        self._name, self._pose, self._box = name, pose, box
+
+    @property
+    def name(self) -> str:
+        """The route it was asked for by."""
+        return self._name
+
+    @property
+    def world_from_body(self) -> Pose:
+        """Where it is now."""
+        return self._pose()
+
+    @property
+    def box(self) -> Box | None:
+        """Bounding box of its mesh in its own frame; None without a mesh."""
+        return self._box
+
+
+def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, RobotSpec]:
+    """Find and read the URDF of every vehicle, by the vehicle's number.
+
+    Raises:
+        AssetNotFound: a file is nowhere; names every folder searched.
+        SceneError: a file is wrong.
+    """
+    beside = Path(scene.path).parent if scene.path else None
+    robots: dict[int, RobotSpec] = {}
+    for index, vehicle in enumerate(scene.vehicles):
+        path = find(vehicle.file, beside=beside, data_path=data_path)
+        if path is None:
+            folders = ", ".join(str(f) for f in folders_searched(beside, data_path))
+            raise AssetNotFound(
+                f"The robot file {vehicle.file!r} of vehicle {vehicle.name!r} is in none of the "
+                f"folders searched: {folders}."
+            )
+        robots[index] = read_urdf(path)
+    return robots
+
+
+def name_bodies(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], state: State, parts: Sequence[Part]
+) -> dict[str, SceneBody]:
+    """Give every frame of the scene its routes; where two share a name, the first has it.
+
+    ``vehicle`` is the base frame, ``vehicle/link`` and ``link`` the kinematic frame of a link,
+    ``link@visual`` its visual frame (the original's meaning of a link's name), an object its mesh
+    frame (scale moves the frame's origin and does not turn it), ``localizedWorld`` is L.
+    """
+    bodies = {
+        "localizedWorld": SceneBody("localizedWorld", lambda: scene.world_from_localized, None)
+    }
+    boxes = {(part.vehicle, part.link, part.object): part.model.box for part in parts}
+
+    def add(names: Sequence[str], pose: Callable[[], Pose], box: Box | None) -> None:
+        for name in names:
+            bodies.setdefault(name, SceneBody(name, pose, box))
+
+    for index, vehicle in enumerate(scene.vehicles):
+        add([vehicle.name], partial(state.vehicle_pose, index), None)
+        for link in robots[index].links:
+            pose = partial(state.link_pose, index, link.name)
+            names = [f"{vehicle.name}/{link.name}", link.name]
+            add(names, pose, None)
+            if link.visual is not None:
+                link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
+                add(
+                    [f"{name}@visual" for name in names],
+                    partial(_attached, pose, link_from_visual),
+                    boxes.get((index, link.name, None)),
+                )
+    for index, thing in enumerate(scene.objects):
+        mesh = thing.object_from_mesh
+        origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
+        add(
+            [thing.name],
+            partial(_attached, partial(state.object_pose, index), Pose(origin, mesh.rotation)),
+            boxes.get((None, "", index)),
+        )
+    return bodies
+
+
+def find_body(route: str, bodies: Mapping[str, SceneBody]) -> SceneBody:
+    """Find what a route ``a/b/c`` names; nodes between the first and the last may be skipped.
+
+    Raises:
+        UnknownName: nothing matches; lists what there is.
+    """
+    nodes = [node.strip() for node in route.strip().strip("/").split("/")]
+    if nodes[0] == "localizedWorld" and len(nodes) > 1:
+        nodes = nodes[1:]
+    name = nodes[0] if len(nodes) == 1 else f"{nodes[0]}/{nodes[-1]}"
+    if name not in bodies:
+        raise UnknownName("body", route, bodies)
+    return bodies[name]
+
+
+def _attached(pose: Callable[[], Pose], a_from_b: Pose) -> Pose:
+    return pose() @ a_from_b

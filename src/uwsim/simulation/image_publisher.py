@@ -1,0 +1,72 @@
+"""Images of a virtual camera on a topic, at a rate, and only when somebody reads them."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from ..bus import Bus
+from ..messages import CameraInfo, Image, image
+from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
+from ..sensors.virtual_camera import VirtualCamera
+
+
+def sample_step(n: int, rate: float, timestep: float) -> int:
+    """Step at which sample ``n`` of a sensor with ``rate`` [Hz] is taken (DESIGN 4)."""
+    return math.ceil(n / (rate * timestep) - 1e-9)
+
+
+class ImagePublisher:
+    """One ``<VirtualCameraToROSImage>`` at work.
+
+    A sample that nobody reads is not drawn, but takes its turn in the camera's random stream: the
+    pictures do not depend on who is listening.
+    """
+
+    def __init__(
+        self,
+        spec: VirtualCameraToROSImageSpec,
+        camera: VirtualCamera,
+        bus: Bus,
+        timestep: float,
+    ) -> None:
+        self.camera = camera
+        """The camera whose images these are."""
+        self.n_frames = 0
+        """Images published."""
+        self.last: npt.NDArray[np.uint8] | None = None
+        """The pixels of the last image published; read-only."""
+        self._bus = bus
+        self._timestep = timestep
+        self._rate = float(spec.rate)
+        self._image_topic, self._info_topic = spec.image_topic, spec.info_topic
+        self._publish_image = bus.publisher(spec.image_topic, Image)
+        self._publish_info = bus.publisher(spec.info_topic, CameraInfo)
+        self._next_sample = 0
+        self._digest = hashlib.sha256()
+
+    @property
+    def sha256(self) -> str:
+        """Hash of all pixels published so far, in order."""
+        return self._digest.hexdigest()
+
+    def publish_if_due(self) -> None:
+        """Take the sample and publish it, if its step has come."""
+        step = self._bus.step
+        if step < sample_step(self._next_sample, self._rate, self._timestep):
+            return
+        self._next_sample += 1
+        time = step * self._timestep
+        if self._bus.has_readers(self._info_topic):
+            self._publish_info(self.camera.info(time))
+        if not self._bus.has_readers(self._image_topic):
+            self.camera.skip()
+            return
+        pixels = self.camera.shoot()
+        self._digest.update(pixels)
+        self.last = pixels
+        self.n_frames += 1
+        self._publish_image(image(pixels, time=time, frame_id=self.camera.frame_id))

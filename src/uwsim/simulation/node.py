@@ -1,0 +1,118 @@
+"""The door of an algorithm that lives in this process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TypeVar
+
+import numpy as np
+
+from ..bus import Algorithm, Bus
+from ..errors import BadSetting
+
+M = TypeVar("M")
+
+
+class InProcessNode:
+    """A `uwsim.bus.Node` in lock-step: callbacks run inside the step, time waits for them.
+
+    An exception in a callback is the algorithm's failure, not the simulator's: it is kept in
+    `error`, and the algorithm is not called any more.
+    """
+
+    def __init__(
+        self,
+        bus: Bus,
+        *,
+        name: str,
+        timestep: float,
+        random: np.random.Generator,
+        parameters: Mapping[str, float | str],
+    ) -> None:
+        self._bus = bus
+        self._timestep = timestep
+        self._random = random
+        self._parameters = dict(parameters)
+        self._timers: list[tuple[int, float, Callable[[], None]]] = []
+        self._fired: list[int] = []
+        latency = self._parameters.pop("latency_s", 0.0)
+        if not isinstance(latency, float | int) or latency < 0.0:
+            raise BadSetting(f"algorithm.latency_s is {latency!r}; expected a time >= 0 [s].")
+        self._delay_steps = round(latency / timestep)
+        self._close: list[Callable[[], None]] = []
+        self.name = name
+        """Name of the algorithm."""
+        self.error: str | None = None
+        """What it raised, if it did."""
+
+    @property
+    def now(self) -> float:
+        """Simulation time [s]."""
+        return self._bus.step * self._timestep
+
+    @property
+    def parameters(self) -> Mapping[str, float | str]:
+        """What the user set; the algorithm has its own defaults."""
+        return self._parameters
+
+    @property
+    def random(self) -> np.random.Generator:
+        """The algorithm's own random stream."""
+        return self._random
+
+    def run(self, algorithm: Algorithm) -> None:
+        """Start the algorithm; what it raises is kept in `error`."""
+        self._guard(algorithm.start, self)
+
+    def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
+        """Have ``callback`` called with every message on ``topic``."""
+        self._close.append(
+            self._bus.subscribe(topic, type, lambda message: self._guard(callback, message))
+        )
+
+    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
+        """Return ``publish(message)``; delayed by the parameter ``latency_s``."""
+        return self._bus.publisher(topic, type, delay_steps=self._delay_steps)
+
+    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
+        """Offer a service; ``type`` is the class of its request."""
+
+        def answer(request: M) -> object:
+            return self._guard(handler, request)
+
+        self._bus.serve(name, type, answer)
+        self._close.append(lambda: self._bus.withdraw(name))
+
+    def call(self, name: str, request: object) -> object:
+        """Call a service; UnknownName when nobody serves it."""
+        return self._bus.call(name, request)
+
+    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
+        if not period_s > 0.0:
+            raise BadSetting(f"A timer's period is {period_s!r}; expected a time > 0 [s].")
+        self._timers.append((self._bus.step, period_s / self._timestep, callback))
+        self._fired.append(0)
+
+    def tick(self) -> None:
+        """Call the timers that are due at the current step, in the order they were set."""
+        for i, (start, period, callback) in enumerate(self._timers):
+            if self._bus.step >= start + int(np.ceil(self._fired[i] * period - 1e-9)):
+                self._fired[i] += 1
+                self._guard(callback)
+
+    def close(self) -> None:
+        """Take the algorithm off the bus."""
+        for close in self._close:
+            close()
+        self._close.clear()
+        self._timers.clear()
+
+    def _guard(self, callback: Callable[..., object], *arguments: object) -> object:
+        if self.error is not None:
+            return None
+        try:
+            return callback(*arguments)
+        except Exception as error:  # whatever a stranger's program raises is its own failure
+            self.error = f"{type(error).__name__}: {error}"
+            return None

@@ -1,0 +1,159 @@
+"""What a scene looks like: its models, where they stand, and the renderer that draws them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..assets import load_model, primitive
+from ..assets.mesh import Model
+from ..geometry import Intrinsics, Pose
+from ..physics.state import State
+from ..rendering.renderer import Picture, Renderer
+from ..rendering.water import Light, Water
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec, VisualSpec
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One model of the scene and whose it is."""
+
+    id: int
+    """Number in segmentation pictures, from 1."""
+    name: str
+    """``vehicle/link`` or the object's name."""
+    model: Model
+    vehicle: int | None
+    """Number of the vehicle; None for an object."""
+    link: str
+    """Link of the vehicle; empty for an object."""
+    object: int | None
+    """Number of the object; None for a link."""
+    frame_from_mesh: npt.NDArray[np.float64]
+    """Mesh frame in the link's or object's frame, (4, 4) [m]; an object's scale is in it."""
+    scale: tuple[float, float, float]
+    """Scale of the vehicle as a whole, in its base frame."""
+    is_hidden: bool
+    """Ghosts (``vr``) are seen in the viewer, not by virtual cameras."""
+
+
+class Scenery:
+    """The models of a scene; makes a renderer when the first picture is asked for."""
+
+    def __init__(
+        self,
+        scene: SceneSpec,
+        robots: Mapping[int, RobotSpec],
+        state: State,
+        *,
+        data_path: tuple[Path, ...],
+    ) -> None:
+        self._state = state
+        self._renderer: Renderer | None = None
+        self._handles: dict[int, int] = {}
+        self._drawn_version = -1
+        self.parts = tuple(_parts(scene, robots, data_path))
+        self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
+
+    def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
+        """Where a part stands now, with its scale, (4, 4) [m]."""
+        if part.vehicle is None:
+            assert part.object is not None
+            frame = self._state.object_pose(part.object).matrix
+        elif part.scale == (1.0, 1.0, 1.0):
+            frame = self._state.link_pose(part.vehicle, part.link).matrix
+        else:
+            world_from_base = self._state.vehicle_pose(part.vehicle)
+            base_from_link = world_from_base.inverse() @ self._state.link_pose(
+                part.vehicle, part.link
+            )
+            frame = world_from_base.matrix @ np.diag([*part.scale, 1.0]) @ base_from_link.matrix
+        placed: npt.NDArray[np.float64] = frame @ part.frame_from_mesh
+        return placed
+
+    def draw(
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        water: Water,
+        light: Light,
+        *,
+        targets: frozenset[str],
+        colour: str,
+    ) -> Picture:
+        """Draw what a camera sees."""
+        if self._renderer is None:
+            self._renderer = Renderer()
+            for part in self.parts:
+                self._handles[part.id] = self._renderer.add(part.model, part.id)
+        if self._drawn_version != self._state.version:
+            for part in self.parts:
+                self._renderer.place(self._handles[part.id], self.world_from_mesh(part))
+            self._drawn_version = self._state.version
+        return self._renderer.draw(
+            world_from_camera,
+            intrinsics,
+            water,
+            light,
+            targets=targets,
+            colour=colour,
+            hidden=self._hidden,
+        )
+
+    def close(self) -> None:
+        """Give the graphics context back."""
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
+
+
+def _parts(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
+) -> list[Part]:
+    parts: list[Part] = []
+    beside = Path(scene.path).parent if scene.path else None
+    for index, vehicle in enumerate(scene.vehicles):
+        robot = robots[index]
+        for link in robot.links:
+            if link.visual is None:
+                continue
+            parts.append(
+                Part(
+                    len(parts) + 1,
+                    f"{vehicle.name}/{link.name}",
+                    _visual_model(link.visual, Path(robot.path).parent, data_path),
+                    index,
+                    link.name,
+                    None,
+                    Pose.from_rpy(link.visual.position, link.visual.rpy).matrix
+                    @ np.diag([*link.visual.scale, 1.0]),
+                    vehicle.scale_factor,
+                    bool(vehicle.vr),
+                )
+            )
+    for index, thing in enumerate(scene.objects):
+        parts.append(
+            Part(
+                len(parts) + 1,
+                thing.name,
+                load_model(thing.file, beside=beside, data_path=data_path),
+                None,
+                "",
+                index,
+                np.diag([*thing.scale_factor, 1.0]) @ thing.object_from_mesh.matrix,
+                (1.0, 1.0, 1.0),
+                False,
+            )
+        )
+    return parts
+
+
+def _visual_model(visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]) -> Model:
+    if visual.kind == "mesh":
+        return load_model(visual.file, beside=beside, data_path=data_path)
+    return primitive(visual.kind, visual.size, visual.colour)

@@ -1,0 +1,288 @@
+"""The simulation: one step after the other.
+
+.. code-block:: text
+
+    commands from the bus -> devices -> forces -> physics step -> clock
+      -> sensors whose period is due (images last) -> messages on the bus
+      -> algorithms' callbacks -> observers
+
+Time is an integer count of steps. The tail of the step (sensors and after) also runs once at
+step 0, when the simulation is opened.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from ..bus import Algorithm, Bus, Inbox
+from ..chance import stream
+from ..errors import UnknownName
+from ..geometry import Intrinsics, Pose
+from ..physics.state import State
+from ..rendering.noise import add_noise
+from ..rendering.renderer import Picture
+from ..rendering.water import Light, Water
+from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
+from ..scene.spec import SceneSpec
+from ..sensors.virtual_camera import VirtualCamera
+from .bodies import SceneBody, find_body, name_bodies, read_robots
+from .image_publisher import ImagePublisher
+from .node import InProcessNode
+from .scenery import Scenery
+
+M = TypeVar("M")
+BENCHMARK_FOG_COLOUR = (0.0, 0.05, 0.3)
+"""What the original sets whenever a benchmark changes the fog."""
+ALL_TARGETS = frozenset({"colour", "range", "ids"})
+
+
+class Simulation:
+    """A scene that lives: implements `uwsim.world.Stage` and owns the bus and the clock.
+
+    Args:
+        scene: what the file says.
+        seed: the run's seed.
+        stream_prefix: stands in front of the name of every random stream.
+        timestep: length of a step [s].
+        data_path: folders in which files are looked for.
+        compatibility: the original's slips asked for.
+    """
+
+    def __init__(
+        self,
+        scene: SceneSpec,
+        *,
+        seed: int = 0,
+        stream_prefix: str = "",
+        timestep: float = 0.002,
+        data_path: tuple[Path, ...] = (),
+        compatibility: frozenset[str] = frozenset(),
+    ) -> None:
+        self._scene = scene
+        self._seed = seed
+        self._prefix = stream_prefix
+        self._timestep = timestep
+        self._compatibility = compatibility
+        self.bus = Bus()
+        """Topics and services of this simulation."""
+        self.robots = read_robots(scene, data_path)
+        """The robot of each vehicle, by its number in the scene."""
+        self._state = State(scene, self.robots)
+        self._scenery = Scenery(scene, self.robots, self._state, data_path=data_path)
+        self._bodies = name_bodies(scene, self.robots, self._state, self._scenery.parts)
+        self._water = Water(
+            fog=scene.ocean_state.fog.density,
+            fog_colour=scene.ocean_state.fog.color,
+            colour=scene.ocean_state.color,
+            attenuation=scene.ocean_state.attenuation,
+            surface_height=scene.ocean_state.ocean_surface_height,
+            fog_distance="clip" if "fog-distance" in compatibility else "ray",
+        )
+        self._light = Light(rate=scene.sim_params.light_rate)
+        self._nodes: list[InProcessNode] = []
+        self._cameras: dict[str, VirtualCamera] = {}
+        for vehicle in scene.vehicles:
+            for spec in vehicle.virtual_cameras:
+                self._cameras.setdefault(spec.name, spec.bind(self, vehicle.name))
+        self.images: dict[str, ImagePublisher] = {}
+        """What publishes images, by topic."""
+        for interface in scene.ros_interfaces:
+            if isinstance(interface, VirtualCameraToROSImageSpec):
+                camera = self._cameras.get(interface.camera_name)
+                if camera is not None and not interface.depth:
+                    self.images[interface.image_topic] = ImagePublisher(
+                        interface, camera, self.bus, timestep
+                    )
+
+    # -- the clock and the step ---------------------------------------------------------------
+
+    @property
+    def step(self) -> int:
+        """Physics steps since the simulation began."""
+        return self.bus.step
+
+    @property
+    def timestep(self) -> float:
+        """Length of a step [s]."""
+        return self._timestep
+
+    @property
+    def time(self) -> float:
+        """``step * timestep`` [s]."""
+        return self.bus.step * self._timestep
+
+    def open(self) -> None:
+        """Run the tail of step 0: first samples, first messages."""
+        self._tail()
+
+    def advance(self) -> None:
+        """Take one step."""
+        self.bus.step += 1
+        self._move_vehicles()
+        self._tail()
+
+    def _tail(self) -> None:
+        for publisher in self.images.values():
+            publisher.publish_if_due()
+        self.bus.deliver()
+        for node in self._nodes:
+            node.tick()
+        self.bus.deliver()
+
+    def _move_vehicles(self) -> None:
+        for index, vehicle in enumerate(self._scene.vehicles):
+            if vehicle.sways:
+                localized_from_base = vehicle.swayed(self.time)
+                self._state.place_vehicle(index, self.world_from_localized @ localized_from_base)
+
+    def attach(
+        self, algorithm: Algorithm, *, name: str, parameters: Mapping[str, float | str]
+    ) -> InProcessNode:
+        """Let an algorithm in through its door and start it."""
+        node = InProcessNode(
+            self.bus,
+            name=name,
+            timestep=self._timestep,
+            random=self.stream("algorithm"),
+            parameters=parameters,
+        )
+        self._nodes.append(node)
+        node.run(algorithm)
+        return node
+
+    def close(self) -> None:
+        """Give back the graphics context and take the algorithms off the bus."""
+        for node in self._nodes:
+            node.close()
+        self._scenery.close()
+
+    # -- what measures and triggers see (uwsim.world.World) ------------------------------------
+
+    @property
+    def world_from_localized(self) -> Pose:
+        """W from L: the scene's offset."""
+        return self._scene.world_from_localized
+
+    @property
+    def compatibility(self) -> frozenset[str]:
+        """The original's slips asked for."""
+        return self._compatibility
+
+    @property
+    def vehicles(self) -> tuple[str, ...]:
+        """Names of the vehicles, in the file's order."""
+        return tuple(vehicle.name for vehicle in self._scene.vehicles)
+
+    def body(self, name: str) -> SceneBody:
+        """Find a vehicle, link or object by its route (see `name_bodies`)."""
+        return find_body(name, self._bodies)
+
+    def camera(self, name: str) -> VirtualCamera:
+        """Find a virtual camera."""
+        if name not in self._cameras:
+            raise UnknownName("virtual camera", name, self._cameras)
+        return self._cameras[name]
+
+    def inbox(self, topic: str, type: type[M]) -> Inbox[M]:
+        """Collect the messages of a topic from now on."""
+        return self.bus.inbox(topic, type)
+
+    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
+        """Return ``publish(message)``."""
+        return self.bus.publisher(topic, type)
+
+    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
+        """Offer a service."""
+        self.bus.serve(name, type, handler)
+
+    def withdraw(self, name: str) -> None:
+        """Stop offering a service."""
+        self.bus.withdraw(name)
+
+    def serves(self, name: str) -> bool:
+        """Whether somebody offers the service."""
+        return self.bus.serves(name)
+
+    def call(self, name: str, request: object) -> object:
+        """Call a service."""
+        return self.bus.call(name, request)
+
+    def stream(self, name: str) -> np.random.Generator:
+        """Return the random generator of that name."""
+        return stream(self._seed, self._prefix + name)
+
+    # -- what sensors see (uwsim.world.SensorWorld) --------------------------------------------
+
+    def photograph(
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        *,
+        std: float,
+        random: np.random.Generator,
+    ) -> npt.NDArray[np.uint8]:
+        """Draw what a camera would see now, with noise, (h, w, 3); row 0 is the top."""
+        colour = "linear16" if std > 0.0 else "uint8"
+        picture = self._scenery.draw(
+            world_from_camera,
+            intrinsics,
+            self._water,
+            self._light,
+            targets=frozenset({"colour"}),
+            colour=colour,
+        )
+        if std > 0.0:
+            return add_noise(picture.colour, std, random)
+        return picture.colour
+
+    def picture(
+        self, world_from_camera: Pose, intrinsics: Intrinsics, *, fog: float | None = None
+    ) -> Picture:
+        """Draw a noise-free picture with range and ids, as things stand, or at another fog."""
+        water = self._water if fog is None else replace(self._water, fog=fog)
+        return self._scenery.draw(
+            world_from_camera, intrinsics, water, self._light, targets=ALL_TARGETS, colour="uint8"
+        )
+
+    @property
+    def part_names(self) -> dict[int, str]:
+        """Number in segmentation pictures -> ``vehicle/link`` or object."""
+        return {part.id: part.name for part in self._scenery.parts}
+
+    @property
+    def asset_hashes(self) -> dict[str, str]:
+        """Name of each model -> sha256 of its bytes or arrays, sorted by name."""
+        models = {part.model.name: part.model.sha256 for part in self._scenery.parts}
+        return {name: models[name] for name in sorted(models)}
+
+    # -- what scene updaters may turn (uwsim.world.Stage) --------------------------------------
+
+    def set_fog(self, density: float) -> None:
+        """Set the fog density [1/m] of the water, and its colour to (0, 0.05, 0.3)."""
+        self._water = replace(self._water, fog=density, fog_colour=BENCHMARK_FOG_COLOUR)
+
+    def set_light_rate(self, rate: float) -> None:
+        """Scale the light of the scene; 1 is as usual."""
+        self._light = replace(self._light, rate=rate)
+
+    def set_camera_noise(self, std: float) -> None:
+        """Set the noise [0..1] of every colour camera."""
+        for camera in self._cameras.values():
+            camera.std = std
+
+    def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
+        """Set joints by their number in the joint vector [rad or m], clamped to limits."""
+        if vehicle not in self.vehicles:
+            raise UnknownName("vehicle", vehicle, self.vehicles)
+        index = self.vehicles.index(vehicle)
+        joints = self._state.joints(index)
+        for number, value in values.items():
+            if 0 <= number < len(joints):
+                joints[number] = value
+        self._state.set_joints(index, joints)
