@@ -1,0 +1,30 @@
+"""Provenance: where, when and how fast a result came about.
+
+``provenance.json`` holds what differs between two runs that found the same: host, CPU, load, dates,
+wall time, workers, resumes, the achieved real-time factor, versions of the packages. Nothing here
+is ever part of a score.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from .result import write_whole
+
+
+def save_provenance(provenance: Mapping[str, object], directory: Path) -> Path:
+    """Write ``provenance.json`` into the result directory."""
+    path = directory / "provenance.json"
+    write_whole(path, json.dumps(provenance, indent=2, ensure_ascii=False) + "\n")
+    return path
+
+
+def load_provenance(directory: Path) -> dict[str, object]:
+    """Read ``provenance.json``; empty when it is not there or not whole."""
+    try:
+        provenance = json.loads((directory / "provenance.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return provenance if isinstance(provenance, dict) else {}

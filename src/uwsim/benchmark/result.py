@@ -1,0 +1,386 @@
+r"""Result: what a benchmark found, in one file that explains itself.
+
+The format's history, newest first:
+
+``uwsim-result/1`` (uwsim 0.1.0)
+    ``inputs``, ``run``, ``columns``, ``rows``, ``missing``; and, read as empty where they are not
+    there, ``facts``, ``image_streams``, ``pictures``. ``docs/result-format.md`` describes them.
+
+A result is a pure function of inputs, seed and versions: the same run gives the same bytes. What is
+not (wall time, host, date) stands in ``provenance.json`` beside it.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields
+from numbers import Integral, Real
+from pathlib import Path
+from typing import Literal, TypeVar, cast, get_args
+
+from ..errors import ResultError, UnknownName, did_you_mean
+
+FORMAT = "uwsim-result/1"
+
+Kind = Literal["run", "level", "measure", "detail", "score", "status", "time"]
+Cell = float | int | str | None
+Json = Mapping[str, object]
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Column:
+    """What stands in one cell of every row."""
+
+    name: str
+    """``fog``, ``corners``, ``corners.mean``, ``total``, ``status``, ``ended_at``, ``seed``."""
+    kind: Kind
+    """``run`` is repeat or seed; a ``detail`` belongs to the measure before its first dot."""
+    unit: str | None = None
+    """Unit such as ``px`` or ``1/m``; None where there is none."""
+    expression: str | None = None
+    """Of a score: the function it was computed with."""
+
+    @property
+    def label(self) -> str:
+        """Name and unit for people: ``corners [px]``."""
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+
+@dataclass(frozen=True, kw_only=True)
+class Missing:
+    """Why a cell is null."""
+
+    row: int
+    """Row, from 0."""
+    column: str
+    """Name of the column."""
+    why: str
+    """The reason with its time, for people."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImageStream:
+    """Fingerprint of every image one unit of work handed to an algorithm."""
+
+    seed: int
+    """Seed of the unit."""
+    level: tuple[float, ...] | None
+    """The unit's level, outermost first; None when one unit plays all levels."""
+    topic: str
+    """Topic the images went out on."""
+    frames: int
+    """How many there were."""
+    sha256: str
+    """SHA-256 over all of their bytes, in order."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TakenPicture:
+    """A camera's picture at the end of a level, kept for the report."""
+
+    row: int
+    """Row it belongs to, from 0."""
+    camera: str
+    """Name of the camera."""
+    file: str
+    """PNG, relative to the result directory."""
+    truth: tuple[float, ...] | None = None
+    """True corners x, y, x, y, ... [px from the top left corner]."""
+    estimate: tuple[float, ...] | None = None
+    """The algorithm's corners, alike; None when it gave none."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result:
+    """Everything a benchmark found, and everything it was found with.
+
+    Numbers are finite and every row has as many cells as there are columns; anything else is
+    refused where the result is made, with ResultError.
+    """
+
+    inputs: Json
+    """``benchmark`` and ``scene`` as (name, hash), ``assets`` as name -> hash."""
+    run: Json
+    """Seed, mode, algorithm, parameters, timestep, versions."""
+    columns: tuple[Column, ...]
+    """What the cells of a row mean."""
+    rows: tuple[tuple[Cell, ...], ...]
+    """One a level (and repeat), in the order played."""
+    missing: tuple[Missing, ...] = ()
+    """Reasons of the null cells."""
+    facts: Json = field(default_factory=dict)
+    """Measured constants of the scene as (value, unit): ``S``, ``sigma``, ``d``, ``f_star``."""
+    image_streams: tuple[ImageStream, ...] = ()
+    """Fingerprints of what the algorithm saw."""
+    pictures: tuple[TakenPicture, ...] = ()
+    """Pictures kept for the report."""
+
+    def __post_init__(self) -> None:
+        for name in ("inputs", "run", "facts"):
+            object.__setattr__(self, name, _plain(getattr(self, name), name))
+        for name in ("columns", "missing", "image_streams", "pictures"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        object.__setattr__(self, "rows", _plain(self.rows, "rows"))
+        _check_columns(self)
+        _check_rows(self)
+        _check_notes(self)
+
+    def index(self, name: str) -> int:
+        """Return the place of a column in every row; UnknownName if there is none."""
+        names = [column.name for column in self.columns]
+        if name not in names:
+            raise UnknownName("column", name, names)
+        return names.index(name)
+
+    def values(self, name: str) -> tuple[Cell, ...]:
+        """Return one column's cells, top to bottom."""
+        index = self.index(name)
+        return tuple(row[index] for row in self.rows)
+
+    def numbers(self, name: str) -> tuple[float | None, ...]:
+        """Return one column's cells as floats; None stays None."""
+        return tuple(float(v) if isinstance(v, int | float) else None for v in self.values(name))
+
+    def of_kind(self, *kinds: Kind) -> tuple[Column, ...]:
+        """Return the columns of these kinds, in their order."""
+        return tuple(column for column in self.columns if column.kind in kinds)
+
+    def why(self, row: int, column: str) -> str | None:
+        """Return why a cell is null; a detail has the reason of its measure."""
+        reasons = {m.column: m.why for m in self.missing if m.row == row}
+        return reasons.get(column) or reasons.get(column.split(".")[0])
+
+    def fact(self, name: str) -> tuple[float, str] | None:
+        """Return a measured constant as (value, unit); None if it was not measured."""
+        entry = self.facts.get(name)
+        if not isinstance(entry, tuple) or len(entry) != 2 or not isinstance(entry[0], int | float):
+            return None
+        return float(entry[0]), str(entry[1])
+
+
+def file_of(path: Path) -> Path:
+    """Return the ``result.json`` meant by itself or by its directory."""
+    return path / "result.json" if path.is_dir() else path
+
+
+def save(result: Result, path: Path) -> Path:
+    """Write a result, whole or not at all, into ``path`` (a directory or ``.../result.json``)."""
+    path = file_of(path) if path.suffix == ".json" or path.is_dir() else path / "result.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, dumps(result))
+    return path
+
+
+def load(path: Path) -> Result:
+    """Read a result directory or its ``result.json``.
+
+    Raises:
+        ResultError: it is not there, not whole, or not in this format; says which.
+    """
+    file = file_of(path)
+    try:
+        text = file.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ResultError(f"{path}: no result here (no result.json).") from None
+    except UnicodeDecodeError as error:
+        raise ResultError(f"{file}: not a result: not UTF-8 at byte {error.start}.") from None
+    except OSError as error:
+        raise ResultError(f"{file}: cannot be read: {error.strerror}.") from None
+    try:
+        return loads(text)
+    except ResultError as error:
+        raise ResultError(f"{file}: {error}") from None
+
+
+def dumps(result: Result) -> str:
+    """Return the text of ``result.json``: one column, row or reason a line, floats exact."""
+    parts = {
+        "format": _json(FORMAT),
+        "inputs": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.inputs.items()]),
+        "run": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.run.items()]),
+        "facts": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.facts.items()]),
+        "columns": _block("[]", [_json(_given(column)) for column in result.columns]),
+        "rows": _block("[]", [_json(row) for row in result.rows]),
+        "missing": _block("[]", [_json(asdict(missing)) for missing in result.missing]),
+        "image_streams": _block("[]", [_json(asdict(stream)) for stream in result.image_streams]),
+        "pictures": _block("[]", [_json(asdict(picture)) for picture in result.pictures]),
+    }
+    return "{\n" + ",\n".join(f"  {_json(k)}: {text}" for k, text in parts.items()) + "\n}\n"
+
+
+def loads(text: str) -> Result:
+    """Read the text of a ``result.json``; raises ResultError."""
+    try:
+        document = json.loads(text, parse_constant=_refuse_constant)
+    except json.JSONDecodeError as error:
+        whole = not text.strip() or error.pos >= len(text.rstrip()) - 1
+        hint = " It ends in the middle: was it cut off?" if whole else ""
+        raise ResultError(
+            f"not JSON at line {error.lineno}, column {error.colno}: {error.msg}.{hint}"
+        ) from None
+    except (ValueError, RecursionError) as error:
+        raise ResultError(f"not a result: {error}.") from None
+    if not isinstance(document, dict):
+        raise ResultError(f"not a result: expected an object, found {repr(document)[:60]}.")
+    found = document.pop("format", None)
+    if found != FORMAT:
+        raise ResultError(f"its format is {found!r}; this uwsim reads {FORMAT!r}.")
+    result = Result(
+        inputs=_take(document, "inputs", dict),
+        run=_take(document, "run", dict),
+        columns=tuple(_take_each(document, "columns", Column)),
+        rows=tuple(_take(document, "rows", list)),
+        missing=tuple(_take_each(document, "missing", Missing)),
+        facts=_take(document, "facts", dict, {}),
+        image_streams=tuple(_take_each(document, "image_streams", ImageStream, [])),
+        pictures=tuple(_take_each(document, "pictures", TakenPicture, [])),
+    )
+    for name in document:
+        known = [f.name for f in fields(Result)]
+        raise ResultError(f"unknown key {name!r}.{did_you_mean(name, known)}")
+    return result
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a text file so that a reader sees the old one or the new one, never half of it."""
+    draft = path.with_name(f".{path.name}.part")
+    with draft.open("w", encoding="utf-8", newline="\n") as stream:
+        stream.write(text)
+        stream.flush()
+        os.fsync(stream.fileno())
+    draft.replace(path)
+
+
+# ---------------------------------------------------------------------------- checking
+
+
+def _check_columns(result: Result) -> None:
+    names = [column.name for column in result.columns]
+    for i, column in enumerate(result.columns):
+        _expect(isinstance(column.name, str) and column.name != "", f"columns[{i}] has no name")
+        _expect(
+            column.kind in get_args(Kind),
+            f"columns[{i}] ({column.name}) is of kind {column.kind!r}; "
+            f"expected one of {', '.join(get_args(Kind))}",
+        )
+        _expect(names.index(column.name) == i, f"two columns are called {column.name!r}")
+
+
+def _check_rows(result: Result) -> None:
+    n = len(result.columns)
+    for i, row in enumerate(result.rows):
+        _expect(isinstance(row, tuple), f"rows[{i}] is no list of cells")
+        _expect(len(row) == n, f"rows[{i}] has {len(row)} cells, there are {n} columns")
+        for column, cell in zip(result.columns, row, strict=True):
+            fits = isinstance(cell, str) if column.kind == "status" else _is_number(cell)
+            _expect(
+                cell is None or fits,
+                f"rows[{i}], column {column.name!r}: {cell!r} cannot be a {column.kind}",
+            )
+
+
+def _check_notes(result: Result) -> None:
+    n, names = len(result.rows), [column.name for column in result.columns]
+    for i, note in enumerate(result.missing):
+        at = f"missing[{i}]"
+        _expect(_is_row(note.row, n), f"{at} is about row {note.row!r}, which is not there")
+        _expect(note.column in names, f"{at} is about {note.column!r}, which is no column")
+        cell = result.rows[note.row][names.index(note.column)]
+        _expect(cell is None, f"{at}: row {note.row} has a value for {note.column!r}: {cell!r}")
+        _expect(isinstance(note.why, str) and note.why != "", f"{at} gives no reason")
+    for i, stream in enumerate(result.image_streams):
+        whole = isinstance(stream.sha256, str) and isinstance(stream.frames, int)
+        _expect(whole, f"image_streams[{i}] has no hash or no number of frames")
+    for i, picture in enumerate(result.pictures):
+        at = f"pictures[{i}]"
+        _expect(_is_row(picture.row, n), f"{at} is of row {picture.row!r}, which is not there")
+        _expect(_is_inside(picture.file), f"{at} lies outside the result: {picture.file!r}")
+        for quad in (picture.truth, picture.estimate):
+            whole = quad is None or (len(quad) == 8 and all(_is_number(v) for v in quad))
+            _expect(whole, f"{at} has a quadrangle of other than 8 numbers: {quad!r}")
+
+
+def _is_number(cell: object) -> bool:
+    return isinstance(cell, int | float) and not isinstance(cell, bool) and math.isfinite(cell)
+
+
+def _is_row(row: object, n: int) -> bool:
+    return isinstance(row, int) and not isinstance(row, bool) and 0 <= row < n
+
+
+def _is_inside(file: object) -> bool:
+    return isinstance(file, str) and not Path(file).is_absolute() and ".." not in Path(file).parts
+
+
+def _expect(truth: bool, otherwise: str) -> None:
+    if not truth:
+        raise ResultError(otherwise + ".")
+
+
+def _plain(value: object, at: str) -> object:
+    """Return the value as dicts, tuples, str, bool, int, float or None; all numbers finite."""
+    if value is None or isinstance(value, str | bool):
+        return value
+    if isinstance(value, Mapping):
+        return {str(k): _plain(v, f"{at}.{k}") for k, v in value.items()}
+    if isinstance(value, Integral):
+        return int(value)
+    if isinstance(value, Real):
+        _expect(math.isfinite(value), f"{at} is {float(value)}: nothing to measure is null")
+        return float(value)
+    if isinstance(value, Sequence):
+        return tuple(_plain(v, f"{at}[{i}]") for i, v in enumerate(value))
+    raise ResultError(f"{at} is {value!r}; expected text, a number, a list or an object.")
+
+
+# ---------------------------------------------------------------------------- values -> text
+
+
+def _json(value: object) -> str:
+    return json.dumps(value, allow_nan=False, ensure_ascii=False)
+
+
+def _block(brackets: str, lines: Iterable[str]) -> str:
+    text = ",\n    ".join(lines)
+    return f"{brackets[0]}\n    {text}\n  {brackets[1]}" if text else brackets
+
+
+def _given(column: Column) -> dict[str, object]:
+    return {key: value for key, value in asdict(column).items() if value is not None}
+
+
+# ---------------------------------------------------------------------------- text -> values
+
+
+def _refuse_constant(text: str) -> object:
+    raise ResultError(f"it contains {text}; a missing value is null.")
+
+
+def _take(document: dict[str, object], name: str, kind: type[T], default: T | None = None) -> T:
+    value = document.pop(name, default)
+    if not isinstance(value, kind):
+        wanted = "an object" if kind is dict else "a list"
+        found = "nothing" if value is None else repr(value)[:60]
+        raise ResultError(f'"{name}" should be {wanted}, found {found}.')
+    return value
+
+
+def _take_each(
+    document: dict[str, object], name: str, kind: type[T], default: list[object] | None = None
+) -> Iterator[T]:
+    """Read a list of objects as dataclasses whose fields are its keys."""
+    known = [f.name for f in fields(cast("type[Column]", kind))]
+    for i, node in enumerate(_take(document, name, list, default)):
+        if not isinstance(node, dict):
+            raise ResultError(f"{name}[{i}] should be an object, found {repr(node)[:60]}.")
+        for key in node:
+            _expect(key in known, f"{name}[{i}]: unknown key {key!r}.{did_you_mean(key, known)}")
+        try:
+            yield kind(**{k: tuple(v) if isinstance(v, list) else v for k, v in node.items()})
+        except TypeError as error:
+            what = str(error).split("__init__() ")[-1]
+            raise ResultError(f"{name}[{i}] is incomplete: {what}.") from None
