@@ -1,0 +1,103 @@
+"""Who may import whom: the drawing in CONTRIBUTING.md, held against every import statement."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
+
+GROUND = {"errors", "geometry", "chance", "compatibility", "jit", "dialect", "clock"}
+BASE = GROUND | {"world", "messages", "bus"}
+PARTS = BASE | {"sensors", "devices", "scene", "assets"}
+ENGINES = PARTS | {"physics", "rendering"}
+
+MAY_IMPORT: dict[str, set[str]] = {
+    **{room: GROUND for room in GROUND},
+    "messages": BASE,
+    "bus": GROUND | {"bus"},
+    "world": BASE,
+    "sensors": BASE | {"sensors", "devices"},
+    "devices": BASE | {"sensors", "devices"},
+    "scene": BASE | {"sensors", "devices", "scene"},
+    "assets": BASE | {"assets"},
+    "physics": PARTS | {"physics"},
+    "rendering": PARTS | {"rendering"},
+    "simulation": ENGINES | {"simulation"},
+    "interfaces": ENGINES | {"simulation", "interfaces"},
+    "algorithms": {"messages", "bus", "geometry", "errors", "jit", "algorithms"},
+    "benchmark": PARTS | {"simulation", "benchmark"},
+    "viewer": ENGINES | {"simulation", "viewer"},
+    "cli": ENGINES | {"simulation", "interfaces", "algorithms", "benchmark", "viewer", "cli"},
+}
+"""Room -> rooms it may import from. The package itself (``__version__``) is open to all."""
+
+
+def modules() -> list[Path]:
+    return sorted(PACKAGE.rglob("*.py"))
+
+
+def room_of(path: Path) -> str:
+    first = path.relative_to(PACKAGE).parts[0]
+    return first.removesuffix(".py")
+
+
+def rooms_imported(path: Path) -> list[tuple[int, str]]:
+    """Return line and room of every import from inside the package."""
+    package = ["uwsim", *path.relative_to(PACKAGE).parent.parts]
+    found: list[tuple[int, str]] = []
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = package[: len(package) - node.level + 1]
+            names = [*base, *(node.module or "").split(".")] if node.module else base
+            whole = [names] if len(names) > 1 else [[*names, name.name] for name in node.names]
+            found += [(node.lineno, target[1]) for target in whole]
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "uwsim":
+            found.append((node.lineno, "uwsim, by its absolute name"))
+        elif isinstance(node, ast.Import):
+            found += [
+                (node.lineno, "uwsim, by its absolute name")
+                for name in node.names
+                if name.name.split(".")[0] == "uwsim"
+            ]
+    return sorted(found)
+
+
+@pytest.mark.parametrize("path", modules(), ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_a_module_imports_only_from_its_own_room_and_from_those_above_it(path: Path) -> None:
+    room = room_of(path)
+    allowed = MAY_IMPORT.get(room, set())
+    if room == "__init__":
+        allowed = set().union(*MAY_IMPORT)
+    wrong = [
+        f"{path.relative_to(PACKAGE)}:{line} imports {target}"
+        for line, target in rooms_imported(path)
+        if target not in allowed | {"__version__"}
+    ]
+    assert wrong == []
+
+
+def test_every_room_stands_in_the_drawing() -> None:
+    rooms = {room_of(path) for path in modules()} - {"__init__"}
+    assert rooms <= set(MAY_IMPORT)
+
+
+def test_the_walk_sees_a_forbidden_import(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(f"{__name__}.PACKAGE", tmp_path)
+    module = tmp_path / "scene" / "parts" / "wheel.py"
+    module.parent.mkdir(parents=True)
+    module.write_text(
+        "from ...physics.compile import x\n"
+        "def f():\n    from ... import rendering\n"
+        "import uwsim.cli\nfrom ..spec import y\nfrom . import z\n"
+    )
+    assert [room for _, room in rooms_imported(module)] == [
+        "physics",
+        "rendering",
+        "uwsim, by its absolute name",
+        "scene",
+        "scene",
+    ]
+    assert room_of(module) == "scene"
