@@ -1,0 +1,173 @@
+"""The frame of the command line."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from uwsim import errors
+from uwsim.cli import COMMANDS, app, faults, main
+
+
+def uwsim(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "uwsim.cli", *arguments],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def command_that(
+    monkeypatch: pytest.MonkeyPatch, raised: BaseException | None = None, returned: object = None
+) -> None:
+    """Put a command ``bench`` in place of the real one."""
+
+    def bench() -> object:
+        if raised is not None:
+            raise raised
+        return returned
+
+    monkeypatch.setattr(app.Command, "load", lambda self: bench)
+
+
+def test_help_names_every_command_with_its_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--help"]) == 0
+    text = capsys.readouterr().out
+    for name, command in COMMANDS.items():
+        assert f"  {name} " in text
+        assert command.summary in text
+
+
+def test_help_imports_no_heavy_library() -> None:
+    heavy = (
+        "numba",
+        "scipy",
+        "matplotlib",
+        "mujoco",
+        "moderngl",
+        "cv2",
+        "trimesh",
+        "lxml",
+        "numpy",
+    )
+    code = (
+        "import sys; from uwsim.cli import main; main(['--help']); "
+        f"sys.exit(','.join(name for name in {heavy} if name in sys.modules))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_help_of_a_command_says_what_it_does_and_shows_an_example(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([name, "--help"]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith(f"Usage: uwsim {name} ")
+    for example in COMMANDS[name].examples:
+        assert f"$ {example}" in text
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_an_example_of_a_command_is_a_call_of_that_command(name: str) -> None:
+    assert COMMANDS[name].examples
+    assert all(example.split()[:2] == ["uwsim", name] for example in COMMANDS[name].examples)
+
+
+def test_the_version_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out.startswith("uwsim 0.")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["bensh"], "uwsim: No such command 'bensh'. Did you mean 'bench'?\n"),
+        (["--sed", "1"], "uwsim: No such option: --sed\n"),
+    ],
+)
+def test_a_wrong_call_gets_one_line_and_exit_status_2(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(arguments) == 2
+    assert capsys.readouterr().err == said
+
+
+FAULT = errors.Fault(file="a.xml", line=3, message="<fog> is 'thick'; expected a number [1/m].")
+WHOLE = errors.Fault(file="a.xml", line=None, message="too deep.")
+
+
+@pytest.mark.parametrize(
+    ("error", "said", "status"),
+    [
+        (
+            errors.SceneError([FAULT, WHOLE]),
+            "a.xml:3: <fog> is 'thick'; expected a number [1/m].\na.xml: too deep.\n",
+            2,
+        ),
+        (errors.AssetNotFound("box.obj is nowhere."), "uwsim: box.obj is nowhere.\n", 2),
+        (errors.BadSetting("fog is not here."), "uwsim: fog is not here.\n", 2),
+        (errors.NoGraphics("no context."), "uwsim: no context.\n", 2),
+        (errors.ResultError("not a result."), "uwsim: not a result.\n", 2),
+        (errors.ReplayDiffers("row 3 differs."), "uwsim: row 3 differs.\n", 3),
+        (errors.NeverStarted("no call."), "uwsim: no call.\n", 3),
+        (
+            FileNotFoundError(2, "No such file or directory", "x.xml"),
+            "uwsim: No such file or directory: x.xml\n",
+            2,
+        ),
+        (OSError(28, "No space left on device", "r"), "uwsim: No space left on device: r\n", 3),
+        (ZeroDivisionError("oh"), "uwsim: ZeroDivisionError: oh (--traceback shows where)\n", 3),
+        (KeyboardInterrupt(), "uwsim: interrupted; what was finished is kept.\n", 130),
+        (errors.BadSetting("\x1b[2J"), "uwsim: \\x1b[2J\n", 2),
+    ],
+)
+def test_an_error_is_said_in_clean_lines_and_earns_its_exit_status(
+    error: BaseException,
+    said: str,
+    status: int,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    command_that(monkeypatch, raised=error)
+    assert main(["bench"]) == status
+    assert capsys.readouterr().err == said
+
+
+@pytest.mark.parametrize("arguments", [["--traceback", "bench"], ["bench", "--traceback"]])
+def test_traceback_shows_where_an_error_was_raised(
+    arguments: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    command_that(monkeypatch, raised=errors.BadSetting("no"))
+    with pytest.raises(errors.BadSetting):
+        main(arguments)
+
+
+def test_what_a_command_returns_is_the_exit_status(monkeypatch: pytest.MonkeyPatch) -> None:
+    command_that(monkeypatch, returned=3)
+    assert main(["bench"]) == 3
+    command_that(monkeypatch, returned=None)
+    assert main(["bench"]) == 0
+
+
+def test_every_error_of_the_tree_has_an_exit_status_of_wrong_input_or_failed_run() -> None:
+    def below(kind: type[BaseException]) -> set[type[BaseException]]:
+        return {kind}.union(*(below(child) for child in kind.__subclasses__()))
+
+    for kind in below(errors.UwsimError):
+        assert faults.exit_status(kind.__new__(kind)) in (2, 3), kind
+
+
+def test_a_reader_that_leaves_early_is_no_error() -> None:
+    done = subprocess.run(
+        ["bash", "-c", f"{sys.executable} -m uwsim.cli list | head -1; echo ${{PIPESTATUS[0]}}"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.stderr == ""
+    assert done.stdout.splitlines()[-1] == "0"
