@@ -1,0 +1,129 @@
+"""The table a benchmark ends with: a line a level, units on top, a reason for every gap.
+
+.. code-block:: text
+
+    fog [1/m]  corners [px]  total  time [s]  status
+         0.00          1.83   4.24       2.0  ok
+         1.20             -      -      50.0  lost    tracker lost at 48.6 s: ZNCC 0.43 on 5 frames
+
+With several repeats a measure is its mean and half of the 95 % interval, ``1.83 ± 0.12``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rich.markup import escape
+from rich.table import Table
+
+from .interval import Interval, per_level, rows_by_level
+from .result import Column, Result
+
+GAP = "-"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Line:
+    """One level, as text."""
+
+    level: tuple[float, ...]
+    """The updaters' references."""
+    cells: tuple[str, ...]
+    """Level, measures, total, time; ``-`` where there is nothing."""
+    status: str
+    """``ok``, ``lost``, ... or, over repeats, ``8 of 10 ok``."""
+    ok: bool
+    """Whether every repeat ended ``ok``."""
+    why: str
+    """The reasons, each once; over repeats: how many ended how."""
+
+
+def shown_columns(result: Result) -> tuple[Column, ...]:
+    """Return the columns of the table: levels, measures, total, time (not the details)."""
+    return result.of_kind("level") + result.of_kind("measure", "score") + result.of_kind("time")
+
+
+def lines(result: Result) -> tuple[Line, ...]:
+    """Return the table's lines, a line a level; repeats are gathered."""
+    levels = rows_by_level(result)
+    texts: list[list[str]] = []
+    for i, column in enumerate(shown_columns(result)):
+        if column.kind == "level":
+            numbers = [level[i] for level in levels]
+            decimals = exact_decimals(numbers)
+            texts.append([f"{value:.{decimals}f}" for value in numbers])
+        else:
+            intervals = [entry.interval for entry in per_level(result, column.name)]
+            decimals = sensible_decimals([i.mean for i in intervals if i.mean is not None])
+            texts.append([interval_text(interval, decimals) for interval in intervals])
+    return tuple(
+        Line(
+            level=level,
+            cells=tuple(text[n] for text in texts),
+            status=_status(result, rows),
+            ok=all(status == "ok" for status in _statuses(result, rows)),
+            why=_why(result, rows),
+        )
+        for n, (level, rows) in enumerate(levels.items())
+    )
+
+
+def table(result: Result) -> Table:
+    """Return the table for a terminal."""
+    drawn = Table(box=None, pad_edge=False, header_style="bold", show_edge=False)
+    for column in shown_columns(result):
+        label = "time [s]" if column.kind == "time" else column.label
+        drawn.add_column(escape(label), justify="right", no_wrap=True)
+    drawn.add_column("status", no_wrap=True)
+    drawn.add_column("", min_width=30, overflow="fold")
+    above = ""
+    for line in lines(result):
+        style = "" if line.ok else "yellow"
+        why = "as above" if line.why and line.why == above else line.why
+        drawn.add_row(*line.cells, escape(line.status), escape(why), style=style)
+        above = line.why
+    return drawn
+
+
+def interval_text(interval: Interval, decimals: int) -> str:
+    """Return ``1.83 ± 0.12``, ``1.83`` when there is one value, ``-`` when there is none."""
+    if interval.mean is None:
+        return GAP
+    text = f"{interval.mean:.{decimals}f}"
+    return text if not interval.half else f"{text} ± {interval.half:.{decimals}f}"
+
+
+def exact_decimals(values: Sequence[float]) -> int:
+    """Return how many decimals show a sweep's levels apart: 2 for steps of 0.05, at most 6."""
+    texts = [f"{value:.6f}".rstrip("0") for value in values]
+    return max((len(text.partition(".")[2]) for text in texts), default=0)
+
+
+def sensible_decimals(values: Sequence[float]) -> int:
+    """Return decimals for three digits of the middle value, 0 to 4."""
+    sizes = sorted(abs(value) for value in values if value != 0)
+    if not sizes:
+        return 2
+    return min(4, max(0, 2 - math.floor(math.log10(sizes[len(sizes) // 2]))))
+
+
+def _statuses(result: Result, rows: Sequence[int]) -> list[str]:
+    columns = result.of_kind("status")
+    return [str(result.values(columns[0].name)[row]) for row in rows] if columns else []
+
+
+def _status(result: Result, rows: Sequence[int]) -> str:
+    found = _statuses(result, rows)
+    if len(found) < 2:
+        return "".join(found)
+    return f"{found.count('ok')} of {len(found)} ok"
+
+
+def _why(result: Result, rows: Sequence[int]) -> str:
+    if len(rows) == 1:
+        return "; ".join(dict.fromkeys(m.why for m in result.missing if m.row in rows))
+    counts = Counter(status for status in _statuses(result, rows) if status != "ok")
+    return ", ".join(f"{n} {status}" for status, n in sorted(counts.items()))
