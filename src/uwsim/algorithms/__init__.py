@@ -1,1 +1,57 @@
-"""The algorithms room."""
+"""Algorithms under test: pure cores, each behind the door that a stranger's program uses."""
+
+from __future__ import annotations
+
+import importlib
+
+from ..bus import Algorithm
+from ..errors import BadSetting, did_you_mean
+from .direct import Esm, InverseCompositional, SsdEsm
+from .frozen import Frozen
+
+__all__ = ["ALGORITHMS", "load_algorithm", "summary"]
+
+ALGORITHMS: dict[str, type[Algorithm]] = {
+    "esm": Esm,
+    "frozen": Frozen,
+    "ic": InverseCompositional,
+    "ssd-esm": SsdEsm,
+}
+
+
+def summary(algorithm: type[Algorithm]) -> str:
+    """What an algorithm is, in one line: the first of its docstring."""
+    return (algorithm.__doc__ or "").strip().partition("\n")[0]
+
+
+def load_algorithm(name: str) -> type[Algorithm]:
+    """Find a bundled algorithm by its name, or a stranger's by ``module:Class``.
+
+    Raises:
+        BadSetting: there is no such algorithm; says what there is.
+    """
+    if ":" not in name:
+        if name not in ALGORITHMS:
+            raise BadSetting(
+                f"No algorithm is called {name!r}.{did_you_mean(name, ALGORITHMS)} "
+                f"Bundled: {', '.join(ALGORITHMS)}; your own: module:Class."
+            )
+        return ALGORITHMS[name]
+    module_name, _, class_name = name.partition(":")
+    try:
+        module = importlib.import_module(module_name)
+    except Exception as error:
+        raise BadSetting(
+            f"Algorithm {name!r}: the module {module_name!r} cannot be imported: "
+            f"{type(error).__name__}: {error}"
+        ) from error
+    found = getattr(module, class_name, None)
+    if not isinstance(found, type):
+        classes = [key for key, value in vars(module).items() if isinstance(value, type)]
+        raise BadSetting(
+            f"Algorithm {name!r}: the module {module_name!r} has no class {class_name!r}."
+            f"{did_you_mean(class_name, classes)}"
+        )
+    if not callable(getattr(found, "start", None)):
+        raise BadSetting(f"Algorithm {name!r}: the class has no method start(node).")
+    return found

@@ -1,0 +1,74 @@
+"""A tracker that aligns a template coarse to fine, beginning where the patch was last seen."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from .esm.alignment import Method, align
+from .esm.homography import unimodular, warp
+from .esm.pyramid import Grey, pyramid
+from .esm.template import Template, take_template
+from .tracker import Estimate, Tracker
+
+Array = npt.NDArray[np.float64]
+
+
+class DirectTracker(Tracker):
+    """Direct alignment of grey levels on a pyramid (`uwsim.algorithms.esm.alignment`).
+
+    Levels on which the patch has fewer than 8 rows or columns are left out. A level's result is
+    taken only as far as it raised the correlation, so a coarse level that fits nothing does no
+    harm.
+    """
+
+    def __init__(self, templates: list[Template], quad: Array, method: Method) -> None:
+        self._templates = templates
+        self._quad = quad
+        self._centre = crossing(quad)
+        self._method = method
+        self.homography = np.eye(3)
+        """Sends points of the template's picture to the last picture, (3, 3)."""
+
+    @staticmethod
+    def remember(image: Grey, quad: Array, *, levels: int, method: Method) -> DirectTracker | str:
+        """Take a template; or say why there is nothing to follow."""
+        templates: list[Template] = []
+        for level, picture in enumerate(pyramid(image, levels)):
+            template = take_template(picture, quad / 2.0**level)
+            if template is None:
+                break
+            templates.append(template)
+        if not templates:
+            return "the quad is smaller than 8 px or has no contrast"
+        return DirectTracker(templates, quad, method)
+
+    def step(self, image: Grey) -> Estimate:
+        """Find the patch in the next picture."""
+        images = pyramid(image, len(self._templates))
+        homography, iterations, zncc = self.homography, 0, -1.0
+        for level in range(min(len(images), len(self._templates)) - 1, -1, -1):
+            shrink = np.diag([0.5**level, 0.5**level, 1.0])
+            grow = np.diag([2.0**level, 2.0**level, 1.0])
+            guess = shrink @ homography @ grow
+            result = align(images[level], self._templates[level], guess, self._method)
+            homography = grow @ result.homography @ shrink
+            iterations, zncc = iterations + result.iterations, result.zncc
+        self.homography = unimodular(homography)
+        return Estimate(
+            corners=warp(self.homography, self._quad),
+            centroid=warp(self.homography, self._centre[None])[0],
+            zncc=zncc,
+            iterations=iterations,
+        )
+
+
+def crossing(quad: Array) -> Array:
+    """Where the diagonals of a convex quad (4, 2) cross, (2,)."""
+    along, across = quad[2] - quad[0], quad[3] - quad[1]
+    offset = quad[1] - quad[0]
+    share = (offset[0] * across[1] - offset[1] * across[0]) / (
+        along[0] * across[1] - along[1] * across[0]
+    )
+    point: Array = quad[0] + share * along
+    return point

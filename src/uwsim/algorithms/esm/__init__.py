@@ -1,0 +1,1 @@
+"""Efficient second-order minimisation (ESM) and its relatives: the pure core."""

@@ -1,0 +1,105 @@
+r"""Homographies as elements of SL(3), the group of 3x3 matrices of determinant 1.
+
+A step of a tracker is a point :math:`x` of the tangent space sl(3); it is applied as
+:math:`H \leftarrow H \exp(\sum_i x_i A_i)` (Benhimane and Malis, IROS 2004).
+Points are image coordinates [px] from the top left corner, unless they are called normalised.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from ...jit import njit
+
+Array = npt.NDArray[np.float64]
+
+
+@njit
+def exponential(x: Array) -> Array:
+    r"""Return :math:`\exp(\sum_i x_i A_i)`, (3, 3), determinant 1.
+
+    The generators, each of trace 0, move a point (u, v) of the plane by: 0 right, 1 down, 2 shear
+    along u, 3 shear along v, 4 stretch u and squeeze v, 5 scale, 6 and 7 perspective along u, v.
+    Scaling and squaring with a Taylor series of order 8: exact to 1e-15 for \|x\| < 1.
+    """
+    a = np.empty((3, 3))
+    a[0, 0], a[0, 1], a[0, 2] = x[4] + x[5] / 3.0, x[2], x[0]
+    a[1, 0], a[1, 1], a[1, 2] = x[3], -x[4] + x[5] / 3.0, x[1]
+    a[2, 0], a[2, 1], a[2, 2] = x[6], x[7], -2.0 * x[5] / 3.0
+    largest = np.abs(a).max()
+    halvings = 0
+    while largest > 0.1 and halvings < 30:
+        largest *= 0.5
+        halvings += 1
+    a *= 0.5**halvings
+    result = np.eye(3)
+    term = np.eye(3)
+    for order in range(1, 9):
+        term = multiply(term, a) / order
+        result += term
+    for _ in range(halvings):
+        result = multiply(result, result)
+    return result
+
+
+@njit
+def multiply(left: Array, right: Array) -> Array:
+    """Product of two (3, 3) matrices, in a fixed order of additions."""
+    product = np.empty((3, 3))
+    for i in range(3):
+        for j in range(3):
+            product[i, j] = (
+                left[i, 0] * right[0, j] + left[i, 1] * right[1, j] + left[i, 2] * right[2, j]
+            )
+    return product
+
+
+def generators() -> Array:
+    """The eight matrices A_i of sl(3), (8, 3, 3), as `exponential` orders them."""
+    a = np.zeros((8, 3, 3))
+    a[0, 0, 2] = a[1, 1, 2] = a[2, 0, 1] = a[3, 1, 0] = a[6, 2, 0] = a[7, 2, 1] = 1.0
+    a[4] = np.diag([1.0, -1.0, 0.0])
+    a[5] = np.diag([1.0, 1.0, -2.0]) / 3.0
+    return a
+
+
+def unimodular(homography: Array) -> Array:
+    """The same homography scaled to determinant 1."""
+    scaled: Array = homography / np.cbrt(np.linalg.det(homography))
+    return scaled
+
+
+def warp(homography: Array, points: Array) -> Array:
+    """Points (n, 2) sent through a homography, (n, 2)."""
+    sent = points @ homography[:, :2].T + homography[:, 2]
+    warped: Array = sent[:, :2] / sent[:, 2:]
+    return warped
+
+
+def between(source: Array, target: Array) -> Array:
+    """The homography of determinant 1 that sends four points (4, 2) to four others (4, 2).
+
+    Raises:
+        numpy.linalg.LinAlgError: three of the points are on a line.
+    """
+    rows = []
+    for (u, v), (x, y) in zip(source, target, strict=True):
+        rows.append([u, v, 1.0, 0.0, 0.0, 0.0, -x * u, -x * v])
+        rows.append([0.0, 0.0, 0.0, u, v, 1.0, -y * u, -y * v])
+    entries = np.linalg.solve(np.array(rows), target.reshape(8))
+    return unimodular(np.append(entries, 1.0).reshape(3, 3))
+
+
+def turns(quad: Array) -> Array:
+    """Twice the signed areas of the four corner triangles of a quad (4, 2) [px^2], (4,)."""
+    ahead = np.roll(quad, -1, axis=0) - quad
+    behind = quad - np.roll(quad, 1, axis=0)
+    areas: Array = behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0]
+    return areas
+
+
+def is_convex(quad: Array) -> bool:
+    """Whether a quad (4, 2) turns the same way at every corner."""
+    areas = turns(quad)
+    return bool(np.all(areas > 0.0) or np.all(areas < 0.0))

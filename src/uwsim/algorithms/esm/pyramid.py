@@ -1,0 +1,64 @@
+"""Grey pictures and their pyramid, in float32 grey levels 0..255.
+
+Coordinates are from the top left corner, so a point (u, v) of one level is (u/2, v/2) of the next.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from ...jit import njit
+
+Grey = npt.NDArray[np.float32]
+
+
+def grey(pixels: npt.NDArray[np.uint8]) -> Grey:
+    """Luma ``0.299 R + 0.587 G + 0.114 B`` of (h, w, 3), or (h, w) as it is; (h, w)."""
+    if pixels.ndim == 2:
+        return pixels.astype(np.float32)
+    return luma(pixels)
+
+
+@njit
+def luma(rgb: npt.NDArray[np.uint8]) -> Grey:
+    """Luma (h, w) of an RGB picture (h, w, 3)."""
+    height, width = rgb.shape[0], rgb.shape[1]
+    result = np.empty((height, width), np.float32)
+    for y in range(height):
+        for x in range(width):
+            result[y, x] = (
+                np.float32(0.299) * rgb[y, x, 0]
+                + np.float32(0.587) * rgb[y, x, 1]
+                + np.float32(0.114) * rgb[y, x, 2]
+            )
+    return result
+
+
+@njit
+def halved(image: Grey) -> Grey:
+    """Half the size, after the filter (1 3 3 1)/8 along rows and columns; edges repeat."""
+    height, width = image.shape[0] // 2, image.shape[1] // 2
+    last_x, last_y = image.shape[1] - 1, image.shape[0] - 1
+    near, far = np.float32(0.375), np.float32(0.125)
+    result = np.empty((height, width), np.float32)
+    column = np.empty(image.shape[1], np.float32)
+    for y in range(height):
+        above, below = max(2 * y - 1, 0), min(2 * y + 2, last_y)
+        for x in range(image.shape[1]):
+            column[x] = near * (image[2 * y, x] + image[2 * y + 1, x]) + far * (
+                image[above, x] + image[below, x]
+            )
+        for x in range(width):
+            result[y, x] = near * (column[2 * x] + column[2 * x + 1]) + far * (
+                column[max(2 * x - 1, 0)] + column[min(2 * x + 2, last_x)]
+            )
+    return result
+
+
+def pyramid(image: Grey, levels: int) -> list[Grey]:
+    """The image and its halves, finest first; ends early before a side falls below 2 px."""
+    images = [image]
+    while len(images) < levels and min(images[-1].shape) >= 4:
+        images.append(halved(images[-1]))
+    return images

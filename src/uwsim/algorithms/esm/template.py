@@ -1,0 +1,112 @@
+"""The patch a tracker remembers: the pixels of one picture inside a quad, at one pyramid level.
+
+The template is the picture's own pixels, never resampled, so that its noise stays what the camera
+made it. A quad cuts every row of pixels in one run, which is all that has to be remembered of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from .pyramid import Grey
+
+Array = npt.NDArray[np.float64]
+Runs = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Template:
+    """Pixels inside a quad, with what the alignment needs of them."""
+
+    left: int
+    """Column of the picture that is column 0 here."""
+    top: int
+    """Row of the picture that is row 0 here."""
+    runs: Runs
+    """First and one-past-last column inside the quad, for each row, (h, 2)."""
+    values: Grey
+    """Zero mean and unit variance inside the quad, (h, w)."""
+    slope_u: Grey
+    """d values / d normalised u, central differences, (h, w)."""
+    slope_v: Grey
+    """d values / d normalised v, (h, w)."""
+    mean: float
+    """Mean of the pixels [grey level]."""
+    contrast: float
+    """Standard deviation of the pixels [grey level]."""
+    picture_from_normalised: Array
+    """Sends the square [-1, 1]^2 onto the bounding box of the quad, (3, 3)."""
+
+    @property
+    def n(self) -> int:
+        """Number of pixels."""
+        return int((self.runs[:, 1] - self.runs[:, 0]).sum())
+
+
+def runs_inside(quad: Array, width: int, height: int) -> tuple[int, Runs]:
+    """First row, and for each row the run of pixels whose centres lie in a convex quad (4, 2).
+
+    Pixels on the rim of the picture are left out: they have no central difference.
+    """
+    top = max(int(np.ceil(quad[:, 1].min() - 0.5)), 1)
+    bottom = min(int(np.floor(quad[:, 1].max() - 0.5)), height - 2)
+    runs = np.zeros((max(bottom - top + 1, 0), 2), dtype=np.int64)
+    for row in range(runs.shape[0]):
+        v = top + row + 0.5
+        crossings = []
+        for (u0, v0), (u1, v1) in zip(quad, np.roll(quad, -1, axis=0), strict=True):
+            if min(v0, v1) <= v <= max(v0, v1) and v0 != v1:
+                crossings.append(u0 + (u1 - u0) * (v - v0) / (v1 - v0))
+        if crossings:
+            first = max(int(np.ceil(min(crossings) - 0.5)), 1)
+            runs[row] = first, max(min(int(np.floor(max(crossings) - 0.5)), width - 2) + 1, first)
+    return top, runs
+
+
+def take_template(image: Grey, quad: Array) -> Template | None:
+    """Remember the pixels of ``image`` inside the convex ``quad`` (4, 2) [px].
+
+    Returns None when there are fewer than 8 rows or columns, or no contrast at all.
+    """
+    top, runs = runs_inside(quad, image.shape[1], image.shape[0])
+    full = runs[:, 1] > runs[:, 0]
+    if np.count_nonzero(full) < 8:
+        return None
+    first_row = int(np.argmax(full))
+    runs = runs[first_row : len(full) - int(np.argmax(full[::-1]))]
+    top += first_row
+    left, right = int(runs[:, 0].min()), int(runs[:, 1].max())
+    if right - left < 8:
+        return None
+    runs = runs - left
+    height, width = runs.shape[0], right - left
+
+    box = image[top - 1 : top + height + 1, left - 1 : right + 1].astype(np.float64)
+    inside = (np.arange(width) >= runs[:, :1]) & (np.arange(width) < runs[:, 1:])
+    pixels = box[1:-1, 1:-1]
+    mean, contrast = float(pixels[inside].mean()), float(pixels[inside].std())
+    if contrast < 1e-3:
+        return None
+    matrix = np.array(
+        [
+            [width / 2.0, 0.0, left + width / 2.0],
+            [0.0, height / 2.0, top + height / 2.0],
+            [0.0, 0.0, 1.0],
+        ]
+    )
+    slope_u = (box[1:-1, 2:] - box[1:-1, :-2]) / 2.0 / contrast * matrix[0, 0]
+    slope_v = (box[2:, 1:-1] - box[:-2, 1:-1]) / 2.0 / contrast * matrix[1, 1]
+    return Template(
+        left=left,
+        top=top,
+        runs=runs,
+        values=((pixels - mean) / contrast * inside).astype(np.float32),
+        slope_u=(slope_u * inside).astype(np.float32),
+        slope_v=(slope_v * inside).astype(np.float32),
+        mean=mean,
+        contrast=contrast,
+        picture_from_normalised=matrix,
+    )

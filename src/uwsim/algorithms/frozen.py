@@ -1,0 +1,42 @@
+"""``frozen``: the control. It looks at nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from .direct_tracker import crossing
+from .esm.pyramid import Grey
+from .tracker import Estimate, Tracker
+from .tracker_node import TrackerNode
+
+Array = npt.NDArray[np.float64]
+
+
+class Frozen(TrackerNode):
+    """Echoes what autoInit gave it, at every picture: the control, never lost."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {
+        "image_topic": "/uwsim/camera1",
+    }
+
+    def follow(self, image: Grey, quad: Array) -> Tracker:
+        """Remember the quad alone."""
+        return Echo(quad)
+
+    def loss_test(self) -> None:
+        """Nothing: it never looks, so it never knows."""
+
+
+class Echo(Tracker):
+    """Gives the quad it was made with."""
+
+    def __init__(self, quad: Array) -> None:
+        self._estimate = Estimate(corners=quad, centroid=crossing(quad), zncc=1.0)
+
+    def step(self, image: Grey) -> Estimate:
+        """Give the quad again."""
+        return self._estimate

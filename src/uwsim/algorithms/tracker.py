@@ -1,0 +1,74 @@
+"""What every tracker gives for a picture, and the test that says it is lost."""
+
+from __future__ import annotations
+
+import abc
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from .esm.homography import is_convex
+from .esm.pyramid import Grey
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """Where a tracker believes the patch is in a picture."""
+
+    corners: Array
+    """The corners in the order they were handed in, (4, 2) [px] from the top left corner."""
+    centroid: Array
+    """Where the diagonals of the corners cross: the image of the patch's centre, (2,) [px]."""
+    zncc: float
+    """Zero-mean normalised cross-correlation of patch and template there, -1..1."""
+    found: bool = True
+    """False when the method itself gave up; corners and centroid are then the last ones."""
+    iterations: int = 0
+    """Steps taken, over all pyramid levels."""
+
+
+class Tracker(abc.ABC):
+    """A planar patch followed from picture to picture; knows nothing of the bus."""
+
+    @abc.abstractmethod
+    def step(self, image: Grey) -> Estimate:
+        """Find the patch in the next picture (h, w) [grey level]."""
+
+
+class LossTest:
+    """Says when a tracker is lost, instead of letting it wander.
+
+    Lost is: a ZNCC below the threshold (or nothing found) on so many pictures in a row; or a quad
+    that is not convex; or a corner outside the picture. Pictures in between may still be low.
+    """
+
+    def __init__(self, *, zncc_threshold: float, frames: int) -> None:
+        self._threshold = zncc_threshold
+        self._frames = frames
+        self._low = 0
+
+    def check(self, estimate: Estimate, width: int, height: int) -> str | None:
+        """Why the tracker is lost with this estimate; None when it is not."""
+        good = estimate.found and estimate.zncc >= self._threshold
+        self._low = 0 if good else self._low + 1
+        if self._low >= self._frames:
+            what = f"ZNCC {estimate.zncc:.2f}" if estimate.found else "nothing found"
+            return f"{what} on {self._frames} frames"
+        if not estimate.found:
+            return None
+        return quad_fault(estimate.corners, width, height)
+
+
+def quad_fault(quad: Array, width: int, height: int) -> str | None:
+    """What makes a quad (4, 2) [px] impossible to follow in a picture; None when nothing does."""
+    names = ("NW", "NE", "SE", "SW")
+    for name, (u, v) in zip(names, quad, strict=True):
+        if not (0.0 <= u <= width and 0.0 <= v <= height):
+            return f"corner {name} ({u:.1f}, {v:.1f}) is outside the {width}x{height} picture"
+    if not is_convex(quad):
+        corners = " ".join(f"({u:.1f}, {v:.1f})" for u, v in quad)
+        return f"the quad {corners} is not convex"
+    return None

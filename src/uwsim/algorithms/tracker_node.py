@@ -1,0 +1,161 @@
+"""The wiring that all trackers share: pictures in, corners, centroid and status out.
+
+It subscribes to the pictures, offers ``autoInit`` and, after the first picture, calls
+``startBench``. The template is the last picture inside the first quad that ``autoInit`` hands in.
+A tracker that is lost, or could not begin, says so once and stays silent: it has to be created
+anew. Estimates carry no stamp; they are published while the picture's callback runs.
+"""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from ..bus import Node
+from ..errors import BadSetting, UnknownName, did_you_mean
+from ..messages import (
+    Empty,
+    Float32MultiArray,
+    GTpublish,
+    GTpublishResponse,
+    Image,
+    String,
+    floats,
+    picture,
+)
+from .esm.pyramid import Grey, grey
+from .tracker import LossTest, Tracker, quad_fault
+
+Array = npt.NDArray[np.float64]
+
+LOSS = {"zncc_threshold": 0.5, "lost_frames": 5.0}
+"""Parameters of the loss test, the same in every tracker."""
+
+
+class TrackerNode(abc.ABC):
+    """An algorithm under test that follows a quad; a tracker adds `PARAMETERS` and `follow`."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]]
+    """Every parameter with its default; others are refused."""
+
+    def __init__(self) -> None:
+        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
+        self._image: Image | None = None
+        self._quad: Array | None = None
+        self._tracker: Tracker | None = None
+        self._loss: LossTest | None = None
+        self._over = False
+
+    @property
+    def parameters(self) -> Mapping[str, float | str]:
+        """The parameters in force, after `start`."""
+        return dict(self._parameters)
+
+    @abc.abstractmethod
+    def follow(self, image: Grey, quad: Array) -> Tracker | str:
+        """Remember ``quad`` (4, 2) [px] of ``image``; or say why it cannot be followed."""
+
+    def loss_test(self) -> LossTest | None:
+        """Make the test that says when it is lost; None for one that never is."""
+        return LossTest(
+            zncc_threshold=self.number("zncc_threshold"), frames=int(self.number("lost_frames"))
+        )
+
+    def start(self, node: Node) -> None:
+        """Take the parameters, go on the bus."""
+        self._parameters = chosen(self.PARAMETERS, node.parameters)
+        self._node = node
+        self._say_status = node.publisher("algorithmStatus", String)
+        self._say_corners = node.publisher("cornersTopic", Float32MultiArray)
+        self._say_centroid = node.publisher("centroidTopic", Float32MultiArray)
+        node.serve("autoInit", GTpublish, self._on_auto_init)
+        node.subscribe(self.text("image_topic"), Image, self._on_image)
+
+    def number(self, name: str) -> float:
+        """A parameter that is a number."""
+        return float(self._parameters[name])
+
+    def text(self, name: str) -> str:
+        """A parameter that is a text."""
+        return str(self._parameters[name])
+
+    def _on_image(self, message: Image) -> None:
+        first = self._image is None
+        self._image = message
+        if first:
+            self._call_start_bench()
+            if self._quad is not None and self._tracker is None and not self._over:
+                self._begin(message, self._quad)
+            return
+        if self._tracker is None:
+            return
+        estimate = self._tracker.step(grey(picture(message)))
+        if estimate.found:
+            self._say_corners(floats(estimate.corners.reshape(-1)))
+            self._say_centroid(floats(estimate.centroid))
+        why = self._loss and self._loss.check(estimate, message.width, message.height)
+        if why:
+            self._end(f"lost: {why}")
+
+    def _call_start_bench(self) -> None:
+        try:
+            self._node.call("startBench", Empty())
+        except UnknownName:
+            return  # the benchmark does not wait for us
+
+    def _on_auto_init(self, request: GTpublish) -> GTpublishResponse:
+        if self._tracker is None and not self._over:
+            truth = np.asarray(request.groundTruth, dtype=np.float64)
+            if truth.shape != (8,):
+                self._end(f"failed: autoInit gave {truth.size} numbers instead of 8")
+            elif self._image is None:
+                self._quad = truth.reshape(4, 2)
+            else:
+                self._begin(self._image, truth.reshape(4, 2))
+        return GTpublishResponse()
+
+    def _begin(self, message: Image, quad: Array) -> None:
+        why = quad_fault(quad, message.width, message.height)
+        tracker = why or self.follow(grey(picture(message)), quad)
+        if isinstance(tracker, str):
+            self._end(f"failed: autoInit: {tracker}")
+            return
+        self._tracker = tracker
+        self._loss = self.loss_test()
+        self._say_status(String(data="tracking"))
+
+    def _end(self, status: str) -> None:
+        self._over = True
+        self._tracker = None
+        self._say_status(String(data=status))
+
+
+def chosen(
+    defaults: Mapping[str, float | str], given: Mapping[str, float | str]
+) -> dict[str, float | str]:
+    """The defaults, overridden by what was given.
+
+    Raises:
+        BadSetting: a name that is not among the defaults, or text for a number.
+    """
+    result = dict(defaults)
+    for name, value in given.items():
+        if name not in defaults:
+            raise BadSetting(
+                f"The algorithm has no parameter {name!r}.{did_you_mean(name, defaults)} "
+                f"Known: {', '.join(sorted(defaults))}."
+            )
+        if isinstance(defaults[name], str):
+            result[name] = str(value)
+            continue
+        try:
+            result[name] = float(value)
+        except ValueError:
+            raise BadSetting(
+                f"Parameter {name!r} of the algorithm is {value!r}; expected a number."
+            ) from None
+    return result
