@@ -1,1 +1,94 @@
-"""The assets room."""
+"""Assets: models by the names that scene files use, from files or made by us.
+
+`load_model` looks for the file (`find.py`), then for a file of the same stem that it can read,
+then for our stand-in of that relative name (`STAND_INS`).
+"""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cache, lru_cache
+from pathlib import Path, PurePosixPath
+
+from ..errors import AssetNotFound
+from .find import candidates, find, folders_searched, plain_name
+from .loaders import READABLE, read_model
+from .mesh import Mesh, Model, Texture
+from .stand_ins import STAND_INS, StandIn
+
+__all__ = [
+    "READABLE",
+    "STAND_INS",
+    "Mesh",
+    "Model",
+    "StandIn",
+    "Texture",
+    "find",
+    "folders_searched",
+    "load_model",
+]
+
+
+def load_model(
+    name: str,
+    *,
+    beside: Path | None = None,
+    data_path: tuple[Path, ...] = (),
+    max_triangles: int | None = None,
+) -> Model:
+    """The model called ``name``, as a scene or robot file calls it.
+
+    Args:
+        name: Path, absolute or relative, of a mesh file.
+        beside: The file that names it, or that file's folder.
+        data_path: Further folders to search.
+        max_triangles: Meshes of files with more triangles than this are simplified.
+
+    Raises:
+        AssetNotFound: Neither a file nor a stand-in; names the folders searched.
+        AssetError: The file was found and cannot be read.
+    """
+    name = plain_name(name)
+    stem = name.rpartition(".")[0] or name
+    exact = list(candidates(name, beside=beside, data_path=data_path))
+    others = (
+        path
+        for suffix in READABLE
+        for path in candidates(stem + suffix, beside=beside, data_path=data_path)
+    )
+    path = next((p for p in (*exact, *others) if p.suffix.lower() in READABLE), None)
+    path = path or (exact[0] if exact else None)
+    if path is not None:
+        return read_model(path, name=name, max_triangles=max_triangles)
+    stand_in = _stand_in_name(stem)
+    if stand_in is not None:
+        return _made(stand_in)
+    folders = folders_searched(beside=beside, data_path=data_path)
+    raise AssetNotFound(
+        f"There is no file {name!r}, nor a stand-in of that name. Searched, in order: "
+        + ", ".join(str(folder) for folder in folders)
+    )
+
+
+def _stand_in_name(stem: str) -> str | None:
+    """The name in `STAND_INS` that ends ``stem`` (which may start with ``data/`` or a path)."""
+    parts = PurePosixPath(stem.replace("\\", "/")).parts
+    for k in range(len(parts)):
+        tail = "/".join(parts[k:])
+        if tail in STAND_INS:
+            return tail
+    return None
+
+
+@cache
+def _made(name: str) -> Model:
+    """Our model of that name, made once."""
+    stand_in = STAND_INS[name]
+    meshes = stand_in.make()
+    digest = hashlib.sha256()
+    for mesh in meshes:
+        for array in (mesh.vertices, mesh.normals, mesh.uvs, mesh.triangles):
+            digest.update(array.tobytes())
+        if mesh.texture is not None:
+            digest.update(mesh.texture.pixels.tobytes())
+    return Model(name=name, meshes=meshes, source=stand_in.source, sha256=digest.hexdigest())

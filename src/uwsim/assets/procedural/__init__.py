@@ -1,0 +1,1 @@
+"""Makers: models and textures that uwsim makes itself, from formulas and named chance."""

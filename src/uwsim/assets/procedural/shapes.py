@@ -1,0 +1,349 @@
+"""Shapes: triangles with texture coordinates, made from a few numbers.
+
+A shape is a heap of triangles; `mesh` turns it into vertices with normals. Angles below
+`CREASE` are smoothed over, sharper ones stay edges. Everything is right-handed, in metres,
+and wound counter-clockwise seen from outside.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..mesh import Mesh, Texture
+
+Array = npt.NDArray[np.float64]
+Point = tuple[float, float, float]
+
+CREASE = 0.85
+"""Faces that meet at less than this angle [rad] look like one curved surface."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """Triangles without sharing: simple to make, move and join."""
+
+    corners: Array
+    """(m, 3, 3) [m]: triangle, corner, coordinate."""
+    uvs: Array
+    """(m, 3, 2): texture coordinates of the corners."""
+
+    def moved(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Shape:
+        """The shape, shifted [m]."""
+        return Shape(self.corners + np.array([x, y, z]), self.uvs)
+
+    def turned(self, rotation: Array) -> Shape:
+        """The shape under a rotation (3, 3) about the origin."""
+        return Shape(self.corners @ rotation.T, self.uvs)
+
+    def scaled(self, x: float, y: float, z: float) -> Shape:
+        """The shape with its axes stretched; a mirrored shape is wound anew."""
+        corners = self.corners * np.array([x, y, z])
+        if x * y * z < 0.0:
+            return Shape(corners[:, ::-1], self.uvs[:, ::-1])
+        return Shape(corners, self.uvs)
+
+    def flipped(self) -> Shape:
+        """The shape seen from inside."""
+        return Shape(self.corners[:, ::-1], self.uvs[:, ::-1])
+
+    def with_uvs(self, scale_u: float, scale_v: float) -> Shape:
+        """The shape with its texture repeated this often."""
+        return Shape(self.corners, self.uvs * np.array([scale_u, scale_v]))
+
+    def projected(self, metres: float) -> Shape:
+        """Texture laid on by each triangle's main direction, one picture every ``metres``."""
+        normal = np.abs(_face_normals(self.corners))
+        axis = np.argmax(normal, axis=1)  # (m,)
+        keep = np.array([[1, 2], [0, 2], [0, 1]])[axis]  # (m, 2) coordinates that remain
+        uvs = np.take_along_axis(self.corners, keep[:, None, :].repeat(3, axis=1), axis=2)
+        return Shape(self.corners, uvs / metres)
+
+    @property
+    def volume(self) -> float:
+        """Signed volume [m^3]; positive for a closed shape wound outward."""
+        a, b, c = self.corners[:, 0], self.corners[:, 1], self.corners[:, 2]
+        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+
+
+def _face_normals(corners: Array) -> Array:
+    """Normals of triangles, (m, 3), as long as twice the area."""
+    normals: Array = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return normals
+
+
+def join(*shapes: Shape) -> Shape:
+    """Several shapes as one."""
+    return Shape(
+        np.concatenate([shape.corners for shape in shapes]),
+        np.concatenate([shape.uvs for shape in shapes]),
+    )
+
+
+def _groups(values: Array, grain: float) -> npt.NDArray[np.int64]:
+    """A number for every row, equal where the rows are equal to within ``grain``."""
+    cells = np.round(values / grain).astype(np.int64)
+    primes = np.array(
+        [73856093, 19349663, 83492791, 15485863, 32452843, 49979687, 67867967, 86028121],
+        dtype=np.int64,
+    )
+    keys = (cells * primes[: cells.shape[1]] * np.int64(2654435761)).sum(axis=1)
+    numbers: npt.NDArray[np.int64] = np.unique(keys, return_inverse=True)[1].ravel()
+    return numbers
+
+
+def _normals(corners: Array, crease: float) -> Array:
+    """Normals at the corners, (3m, 3): mean of the faces that meet there, split at creases."""
+    face = _face_normals(corners)
+    unit = face / np.linalg.norm(face, axis=1, keepdims=True)
+    point = _groups(corners.reshape(-1, 3), 1e-6)
+    order = np.argsort(point, kind="stable")
+    size = np.bincount(point)
+    start = np.concatenate([[0], np.cumsum(size)[:-1]])
+    # Pairs of corners that share a point: each corner beside every corner of its group.
+    n_beside = size[point[order]]
+    first = np.repeat(order, n_beside)
+    step = np.arange(len(first)) - np.repeat(np.cumsum(n_beside) - n_beside, n_beside)
+    second = order[np.repeat(start[point[order]], n_beside) + step]
+    alike = np.einsum("ij,ij->i", unit[first // 3], unit[second // 3]) > math.cos(crease)
+    first, second = first[alike], second[alike] // 3
+    total = np.stack(
+        [np.bincount(first, weights=face[second, k], minlength=len(point)) for k in range(3)],
+        axis=1,
+    )
+    normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True)
+    return normals
+
+
+def mesh(
+    *shapes: Shape,
+    colour: tuple[float, float, float] = (1.0, 1.0, 1.0),
+    texture: Texture | None = None,
+    crease: float = CREASE,
+    two_sided: bool = False,
+) -> Mesh:
+    """Shapes of one material as a mesh with shared vertices and unit normals."""
+    shape = join(*shapes)
+    big = np.linalg.norm(_face_normals(shape.corners), axis=1) > 1e-12
+    corners, uvs = shape.corners[big], shape.uvs[big].reshape(-1, 2)
+    normals = _normals(corners, crease)
+    points = corners.reshape(-1, 3)
+    grain = np.array([1e-6] * 3 + [1e-3] * 3 + [1e-5] * 2)
+    same = _groups(np.hstack([points, normals, uvs]) / grain, 1.0)
+    _, first = np.unique(same, return_index=True)
+    return Mesh(
+        vertices=points[first].astype(np.float32),
+        normals=normals[first].astype(np.float32),
+        uvs=uvs[first].astype(np.float32),
+        triangles=same.reshape(-1, 3).astype(np.uint32),
+        colour=colour,
+        texture=texture,
+        two_sided=two_sided,
+    )
+
+
+def surface(points: Array, uvs: Array | None = None) -> Shape:
+    """A grid of points (k, n, 3) as triangles facing ``d/dn x d/dk``."""
+    k, n = points.shape[:2]
+    if uvs is None:
+        v, u = np.meshgrid(np.linspace(0, 1, k), np.linspace(0, 1, n), indexing="ij")
+        uvs = np.stack([u, v], axis=2)
+    both = np.concatenate([points, uvs], axis=2)  # (k, n, 5)
+    a, b, c, d = both[:-1, :-1], both[:-1, 1:], both[1:, 1:], both[1:, :-1]
+    triangles = np.stack([np.stack([a, b, c], axis=2), np.stack([a, c, d], axis=2)], axis=2)
+    flat = triangles.reshape(-1, 3, 5)
+    real = np.linalg.norm(_face_normals(flat[:, :, :3]), axis=1) > 1e-12
+    return Shape(flat[real, :, :3], flat[real, :, 3:])
+
+
+def quad(
+    a: Point,
+    b: Point,
+    c: Point,
+    d: Point,
+    *,
+    uv: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0),
+    cuts: tuple[int, int] = (1, 1),
+) -> Shape:
+    """A four-cornered face, counter-clockwise from bottom left; ``uv`` is (u0, v0, u1, v1).
+
+    ``cuts`` says into how many pieces it is divided along a-b and along a-d.
+    """
+    s, t = np.linspace(0, 1, cuts[0] + 1), np.linspace(0, 1, cuts[1] + 1)
+    t_, s_ = (g[..., None] for g in np.meshgrid(t, s, indexing="ij"))
+    pa, pb, pc, pd = (np.array(p) for p in (a, b, c, d))
+    points = (1 - t_) * ((1 - s_) * pa + s_ * pb) + t_ * ((1 - s_) * pd + s_ * pc)
+    u0, v0, u1, v1 = uv
+    return surface(points, np.concatenate([u0 + s_ * (u1 - u0), v0 + t_ * (v1 - v0)], axis=2))
+
+
+def box(lower: Point, upper: Point) -> Shape:
+    """A box; every face shows the whole texture, upright on the sides."""
+    (x0, y0, z0), (x1, y1, z1) = lower, upper
+    return join(
+        quad((x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)),  # -y
+        quad((x1, y0, z0), (x1, y1, z0), (x1, y1, z1), (x1, y0, z1)),  # +x
+        quad((x1, y1, z0), (x0, y1, z0), (x0, y1, z1), (x1, y1, z1)),  # +y
+        quad((x0, y1, z0), (x0, y0, z0), (x0, y0, z1), (x0, y1, z1)),  # -x
+        quad((x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)),  # +z
+        quad((x0, y1, z0), (x1, y1, z0), (x1, y0, z0), (x0, y0, z0)),  # -z
+    )
+
+
+def rounded(width: float, height: float, radius: float, n: int = 3) -> Array:
+    """Outline of a rounded rectangle about the origin, counter-clockwise, (4(n+1), 2) [m]."""
+    corner = np.linspace(0, math.pi / 2, n + 1)
+    points = []
+    for k, (sx, sy) in enumerate([(1, 1), (-1, 1), (-1, -1), (1, -1)]):
+        cx, cy = sx * (width / 2 - radius), sy * (height / 2 - radius)
+        angle = corner + k * math.pi / 2
+        points.append(np.stack([cx + radius * np.cos(angle), cy + radius * np.sin(angle)], axis=1))
+    return np.concatenate(points)
+
+
+def circle(radius: float, n: int = 16) -> Array:
+    """Outline of a circle, counter-clockwise, (n, 2) [m]."""
+    angle = np.arange(n) * (2 * math.pi / n)
+    return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def loft(rings: Array, *, closed: bool = True) -> Shape:
+    """A skin over rings (k, n, 3) that go up, each counter-clockwise seen from above.
+
+    ``closed`` puts flat lids (fans round the middle) on both ends.
+    """
+    around = np.concatenate([rings, rings[:, :1]], axis=1)
+    shapes = [surface(around)]
+    if closed:
+        n = rings.shape[1]
+        for ring, way in ((rings[0], -1), (rings[-1], 1)):
+            middle = ring.mean(axis=0)
+            fan = np.stack([np.broadcast_to(middle, (n, 3)), ring, np.roll(ring, -1, axis=0)], 1)
+            flat = fan[:, ::way]
+            low, high = ring.min(axis=0), ring.max(axis=0)
+            size = np.where(high - low < 1e-9, 1.0, high - low)
+            shapes.append(Shape(flat, ((flat - low) / size)[:, :, :2]))
+    return join(*shapes)
+
+
+def extrusion(
+    outline: Array, z0: float, z1: float, *, bevel: float = 0.0, bevel_steps: int = 1
+) -> Shape:
+    """A star-shaped outline (n, 2) between two heights, its rims bevelled inwards by ``bevel``."""
+    if bevel == 0.0:
+        levels = [(z0, 0.0), (z1, 0.0)]
+    else:
+        turn = np.linspace(0, math.pi / 2, bevel_steps + 1)
+        low = [(z0 + bevel * (1 - math.sin(a)), bevel * (1 - math.cos(a))) for a in turn[::-1]]
+        high = [(z1 - bevel * (1 - math.sin(a)), bevel * (1 - math.cos(a))) for a in turn]
+        levels = [*low, *high]
+    half = np.abs(outline).max(axis=0)
+    rings = [
+        np.column_stack([outline * (1 - inset / half), np.full(len(outline), z)])
+        for z, inset in levels
+    ]
+    return loft(np.array(rings))
+
+
+def rounded_box(lower: Point, upper: Point, *, radius: float, n: int = 2) -> Shape:
+    """A box with rounded edges upright and bevelled rims."""
+    low, high = np.array(lower), np.array(upper)
+    size, middle = high - low, (low + high) / 2
+    outline = rounded(size[0], size[1], radius, n)
+    shape = extrusion(outline, -size[2] / 2, size[2] / 2, bevel=radius * 0.6, bevel_steps=n)
+    return shape.moved(*middle.tolist())
+
+
+def lathe(profile: Sequence[tuple[float, float]] | Array, *, n: int = 24) -> Shape:
+    """A profile of (radius, z) from bottom to top, turned about z."""
+    curve = np.asarray(profile, dtype=np.float64)
+    angle = np.linspace(0, 2 * math.pi, n + 1)
+    angle[-1] = 0.0
+    radius, z = curve[:, :1], curve[:, 1:]
+    points = np.stack(
+        [radius * np.cos(angle), radius * np.sin(angle), np.broadcast_to(z, (len(z), n + 1))],
+        axis=2,
+    )
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+    v, u = np.meshgrid(along / along[-1], np.linspace(0, 1, n + 1), indexing="ij")
+    return surface(points, np.stack([u, v], axis=2))
+
+
+def sphere(radius: float, *, n: int = 24) -> Shape:
+    """A sphere about the origin."""
+    a = np.linspace(-math.pi / 2, math.pi / 2, max(3, n // 2) + 1)
+    profile = radius * np.stack([np.cos(a), np.sin(a)], axis=1)
+    profile[[0, -1], 0] = 0.0
+    return lathe(profile, n=n)
+
+
+def capsule(radius: float, z0: float, z1: float, *, n: int = 20) -> Shape:
+    """A rod with round ends, z0 and z1 the tips."""
+    a = np.linspace(0, math.pi / 2, max(2, n // 4) + 1)
+    low = np.stack([radius * np.sin(a), z0 + radius - radius * np.cos(a)], axis=1)
+    high = np.stack([radius * np.cos(a), z1 - radius + radius * np.sin(a)], axis=1)
+    return lathe(np.concatenate([low, high]), n=n)
+
+
+def torus(ring: float, tube_radius: float, *, n: int = 32, m: int = 12) -> Shape:
+    """A ring about z: radius of the middle line, radius of the tube."""
+    a = np.linspace(-math.pi, math.pi, m + 1)
+    a[-1] = -math.pi
+    profile = np.stack([ring + tube_radius * np.cos(a), tube_radius * np.sin(a)], axis=1)
+    return lathe(profile, n=n)
+
+
+def facing(direction: Array) -> Array:
+    """A rotation (3, 3) that takes z into ``direction`` (3,)."""
+    z = np.asarray(direction, dtype=np.float64)
+    z = z / np.linalg.norm(z)
+    helper = np.array([1.0, 0.0, 0.0]) if abs(z[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
+    y = np.cross(z, helper)
+    y /= np.linalg.norm(y)
+    return np.stack([np.cross(y, z), y, z], axis=1)
+
+
+def cylinder(
+    start: Point, end: Point, radius: float, *, n: int = 20, bevel: float = 0.0, top: float = 1.0
+) -> Shape:
+    """A rod from ``start`` to ``end``; ``top`` times as thick at the end (0 is a cone)."""
+    a, b = np.array(start), np.array(end)
+    length, wide = float(np.linalg.norm(b - a)), radius * top
+    if bevel > 0.0:
+        sides = [
+            (radius - bevel, 0.0),
+            (radius, bevel),
+            (wide, length - bevel),
+            (wide - bevel, length),
+        ]
+    else:
+        sides = [(radius, 0.0), (wide, length)]
+    rod = lathe([(0.0, 0.0), *sides, (0.0, length)], n=n)
+    return rod.turned(facing(b - a)).moved(*start)
+
+
+def tube(path: Sequence[Point] | Array, radius: float, *, n: int = 10) -> Shape:
+    """A bent bar along a path of points, with flat ends."""
+    points = np.asarray(path, dtype=np.float64)
+    step = np.diff(points, axis=0)
+    step /= np.linalg.norm(step, axis=1, keepdims=True)
+    along = np.concatenate([step[:1], step[:-1] + step[1:], step[-1:]])
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    across = facing(along[0])[:, 0]
+    rings = []
+    for point, direction in zip(points, along, strict=True):
+        across = across - direction * (across @ direction)
+        across /= np.linalg.norm(across)
+        up = np.cross(direction, across)
+        disc = circle(radius, n)
+        rings.append(point + disc[:, :1] * across + disc[:, 1:] * up)
+    return loft(np.array(rings))
+
+
+def ring(outer: float, inner: float, z0: float, z1: float, *, n: int = 24) -> Shape:
+    """A pipe about z with both walls and both rims."""
+    return lathe([(inner, z0), (outer, z0), (outer, z1), (inner, z1), (inner, z0)], n=n)

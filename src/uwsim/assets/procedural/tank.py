@@ -1,0 +1,193 @@
+"""The test tank of the underwater robotics centre (CIRS) in Girona: ``terrain/CIRS``.
+
+Frame: z up, water level 0, x along the basin. Geometry as in UWSim's model: a basin with a
+shelf at each end, ramps down to a flat bottom, a picture of a sea floor laid on it, a window in
+one wall, and the facade of the laboratory behind.
+"""
+
+from __future__ import annotations
+
+from ..mesh import Mesh, Texture
+from .seabed_picture import mosaic
+from .shapes import Shape, box, join, mesh, quad
+from .textures import concrete, finished, noise, plain, step, worn, write
+
+WEST, EAST, SOUTH, NORTH = -8.01, 7.99, -4.0, 4.0
+"""Inner walls of the basin [m]."""
+RIM_X, RIM_Y, RIM_TOP = 8.3, 4.3, 0.25
+"""Outer edge and height of the deck round the basin [m]."""
+PROFILE = (
+    (WEST, -0.65),
+    (-6.01, -0.65),
+    (-2.01, -4.85),
+    (1.99, -4.85),
+    (5.99, -0.65),
+    (EAST, -0.65),
+)
+"""The bottom along x: shelf, ramp, flat, ramp, shelf; (x, z) [m]."""
+PICTURE_SIZE, PICTURE_TOP = (3.48, 7.0), -4.81
+"""The picture on the bottom: x, y and height [m]."""
+GRASS = 15.0
+"""The ground reaches this far from the middle [m]."""
+
+
+def _floor() -> Shape:
+    strips = []
+    for (xa, za), (xb, zb) in zip(PROFILE[:-1], PROFILE[1:], strict=True):
+        strips.append(
+            quad((xa, SOUTH, za), (xb, SOUTH, zb), (xb, NORTH, zb), (xa, NORTH, za), cuts=(4, 8))
+        )
+    return join(*strips)
+
+
+def _walls(low: float | None, high: float) -> Shape:
+    """The four inner walls from ``low`` (None: the bottom) to ``high``, facing inwards."""
+    parts = []
+    for (xa, za), (xb, zb) in zip(PROFILE[:-1], PROFILE[1:], strict=True):
+        a, b = (za, zb) if low is None else (low, low)
+        cuts = (4, 4) if low is None else (4, 1)
+        parts += [
+            quad((xb, SOUTH, b), (xa, SOUTH, a), (xa, SOUTH, high), (xb, SOUTH, high), cuts=cuts),
+            quad((xa, NORTH, a), (xb, NORTH, b), (xb, NORTH, high), (xa, NORTH, high), cuts=cuts),
+        ]
+    end = PROFILE[0][1] if low is None else low
+    cuts = (8, 1)
+    parts += [
+        quad((WEST, SOUTH, end), (WEST, NORTH, end), (WEST, NORTH, high), (WEST, SOUTH, high),
+             cuts=cuts),
+        quad((EAST, NORTH, end), (EAST, SOUTH, end), (EAST, SOUTH, high), (EAST, NORTH, high),
+             cuts=cuts),
+    ]  # fmt: skip
+    return join(*parts).flipped()
+
+
+def _deck() -> Shape:
+    """The rim: top face as a frame of four, outer sides down into the ground."""
+    x, y, z = RIM_X, RIM_Y, RIM_TOP
+    return join(
+        quad((-x, -y, z), (x, -y, z), (EAST, SOUTH, z), (WEST, SOUTH, z), cuts=(8, 1)),
+        quad((x, -y, z), (x, y, z), (EAST, NORTH, z), (EAST, SOUTH, z), cuts=(6, 1)),
+        quad((x, y, z), (-x, y, z), (WEST, NORTH, z), (EAST, NORTH, z), cuts=(8, 1)),
+        quad((-x, y, z), (-x, -y, z), (WEST, SOUTH, z), (WEST, NORTH, z), cuts=(6, 1)),
+        quad((-x, -y, 0.1), (x, -y, 0.1), (x, -y, z), (-x, -y, z)),
+        quad((x, -y, 0.1), (x, y, 0.1), (x, y, z), (x, -y, z)),
+        quad((x, y, 0.1), (-x, y, 0.1), (-x, y, z), (x, y, z)),
+        quad((-x, y, 0.1), (-x, -y, 0.1), (-x, -y, z), (-x, y, z)),
+    )
+
+
+def _ground() -> Shape:
+    x, y, g, low, high = RIM_X, RIM_Y, GRASS, 0.11, 0.15
+    return join(
+        quad((-g, -g, high), (g, -g, high), (x, -y, low), (-x, -y, low), cuts=(6, 3)),
+        quad((g, -g, high), (g, g, high), (x, y, low), (x, -y, low), cuts=(6, 3)),
+        quad((g, g, high), (-g, g, high), (-x, y, low), (x, y, low), cuts=(6, 3)),
+        quad((-g, g, high), (-g, -g, high), (-x, -y, low), (-x, y, low), cuts=(6, 3)),
+    )
+
+
+def _grass() -> Texture:
+    size = 512
+    clumps = noise("tank/grass", size, size, cells=8, octaves=7, gain=0.8)
+    bare = step(0.9, 2.0, noise("tank/grass/bare", size, size, cells=4, octaves=4))
+    picture = plain(size, size, (0.25, 0.38, 0.14)) * (1.0 + 0.22 * clumps)[:, :, None]
+    earth = plain(size, size, (0.42, 0.35, 0.22)) * (1.0 + 0.12 * clumps)[:, :, None]
+    return finished("tank/grass", picture + (earth - picture) * 0.7 * bare[:, :, None])
+
+
+def _facade() -> Texture:
+    """Rendered wall with two rows of windows and a door, for the whole front."""
+    height, width = 512, 1024
+    stain = noise("tank/facade", height, width, cells=4, octaves=7)
+    picture = plain(height, width, (0.80, 0.76, 0.68)) * (1.0 + 0.04 * stain)[:, :, None]
+    for row in (0.16, 0.55):
+        for column in range(7):
+            left, top = 0.05 + column * 0.133, row
+            if row > 0.5 and column == 3:
+                continue
+            a, b = round(left * width), round((left + 0.085) * width)
+            c, d = round(top * height), round((top + 0.26) * height)
+            picture[c - 5 : d + 5, a - 5 : b + 5] = (0.92, 0.92, 0.90)
+            sky = noise("tank/facade/glass", d - c, b - a, cells=2, octaves=3)
+            picture[c:d, a:b] = plain(d - c, b - a, (0.22, 0.30, 0.38)) * (
+                1.0 + 0.15 * sky[:, :, None]
+            )
+            picture[c:d, (a + b) // 2 - 2 : (a + b) // 2 + 2] = (0.92, 0.92, 0.90)
+    picture[round(0.52 * height) :, 460:560] = (0.30, 0.34, 0.40)
+    picture[round(0.52 * height) :, 508:512] = (0.70, 0.70, 0.70)
+    picture[round(0.94 * height) :] *= 0.6
+    return finished("tank/facade", picture, repeats=False)
+
+
+def _title() -> Texture:
+    """The board on the roof: our own words on wood."""
+    height, width = 128, 1024
+    grain = noise("tank/board", height, width, cells=8, octaves=4, gain=0.8)
+    picture = plain(height, width, (0.55, 0.38, 0.20)) * (1.0 + 0.06 * grain)[:, :, None]
+    picture[:6] = picture[-6:] = picture[:, :6] = picture[:, -6:] = (0.25, 0.16, 0.08)
+    cream = (0.96, 0.93, 0.84)
+    write(picture, "UNDERWATER ROBOTICS TEST TANK", (0.5, 0.38), height=0.36, colour=cream)
+    write(picture, "uwsim  -  16 x 8 x 5 m", (0.5, 0.77), height=0.17, colour=cream)
+    return finished("tank/title", picture, repeats=False)
+
+
+def _window() -> Texture:
+    """The observation window: panes, frames, and a dim room behind."""
+    height, width = 128, 576
+    dim = noise("tank/window", height, width, cells=2, octaves=5)
+    picture = plain(height, width, (0.10, 0.17, 0.21)) * (1.0 + 0.25 * dim)[:, :, None]
+    for k in range(4):
+        edge = round(k * (width - 10) / 3)
+        picture[:, edge : edge + 10] = (0.62, 0.66, 0.68)
+    picture[:8] = picture[-8:] = (0.62, 0.66, 0.68)
+    return finished("tank/window", picture, repeats=False)
+
+
+def _wall_under_water() -> Texture:
+    """Painted cement, bluish under water, with joints every half metre."""
+    return concrete("tank/under-water", (0.50, 0.66, 0.74), joints=4)
+
+
+def tank() -> tuple[Mesh, ...]:
+    """The basin, what lies in it, and what stands round it."""
+    wet, dry = _wall_under_water(), concrete("tank/cement", (0.66, 0.65, 0.62))
+    (px, py), pz = PICTURE_SIZE, PICTURE_TOP
+    floor_z = -4.85
+    slab = quad((-px / 2, -py / 2, pz), (px / 2, -py / 2, pz), (px / 2, py / 2, pz),
+                (-px / 2, py / 2, pz), cuts=(6, 12))  # fmt: skip
+    sides = [
+        quad((-px / 2, -py / 2, floor_z), (px / 2, -py / 2, floor_z), (px / 2, -py / 2, pz),
+             (-px / 2, -py / 2, pz)),
+        quad((px / 2, -py / 2, floor_z), (px / 2, py / 2, floor_z), (px / 2, py / 2, pz),
+             (px / 2, -py / 2, pz)),
+        quad((px / 2, py / 2, floor_z), (-px / 2, py / 2, floor_z), (-px / 2, py / 2, pz),
+             (px / 2, py / 2, pz)),
+        quad((-px / 2, py / 2, floor_z), (-px / 2, -py / 2, floor_z), (-px / 2, -py / 2, pz),
+             (-px / 2, py / 2, pz)),
+    ]  # fmt: skip
+    window = quad((2.7, 3.96, -1.95), (-2.7, 3.96, -1.95), (-2.7, 3.96, -0.75), (2.7, 3.96, -0.75))
+    frame = join(
+        box((-2.8, 3.95, -2.05), (2.8, 4.0, -1.95)),
+        box((-2.8, 3.95, -0.75), (2.8, 4.0, -0.65)),
+        box((-2.8, 3.95, -1.95), (-2.7, 4.0, -0.75)),
+        box((2.7, 3.95, -1.95), (2.8, 4.0, -0.75)),
+    )
+    house = box((-8.3, 4.32, 0.1), (8.3, 9.6, 4.67))
+    front = quad((8.3, 4.3, 0.1), (-8.3, 4.3, 0.1), (-8.3, 4.3, 4.67), (8.3, 4.3, 4.67)).flipped()
+    board = quad((-5.12, 4.22, 4.6), (5.12, 4.22, 4.6), (5.12, 4.22, 5.93), (-5.12, 4.22, 5.93))
+    steel = (0.62, 0.65, 0.67)
+    return (
+        mesh(slab, texture=mosaic()),
+        mesh(*sides, frame, colour=steel),
+        mesh(_floor().projected(2.0), _walls(None, 0.0).projected(2.0), texture=wet),
+        mesh(_walls(0.0, RIM_TOP).projected(2.0), _deck().projected(2.0), texture=dry),
+        mesh(window, texture=_window()),
+        mesh(front, texture=_facade()),
+        mesh(house.projected(3.0), texture=concrete("tank/render", (0.74, 0.70, 0.63))),
+        mesh(board, texture=_title()),
+        mesh(
+            box((-5.14, 4.24, 4.58), (5.14, 4.34, 5.92)),
+            texture=worn("tank/wood", (0.4, 0.27, 0.14)),
+        ),
+        mesh(_ground().projected(3.0), texture=_grass()),
+    )

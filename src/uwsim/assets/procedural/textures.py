@@ -1,0 +1,177 @@
+"""Pictures to wrap round shapes, painted from named chance: the same bytes in every run."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from ... import chance
+from ..mesh import Texture
+
+Grey = npt.NDArray[np.float32]
+"""(h, w), about 0..1."""
+Picture = npt.NDArray[np.float32]
+"""(h, w, 3), 0..1, red green blue, row 0 at the top."""
+Colour = tuple[float, float, float]
+
+
+def noise(
+    name: str,
+    height: int,
+    width: int,
+    *,
+    cells: int = 4,
+    octaves: int = 5,
+    gain: float = 0.55,
+    tiles: bool = True,
+) -> Grey:
+    """Smooth noise, zero mean and unit deviation: octaves of random grids, each finer and weaker.
+
+    Args:
+        name: Names the chance it is drawn from.
+        height: Rows.
+        width: Columns.
+        cells: Cells of the coarsest grid along the shorter side.
+        octaves: How many grids, each with cells half as large as the one before.
+        gain: Weight of each grid relative to the one before.
+        tiles: Whether opposite sides fit together.
+    """
+    draw = chance.stream(0, f"assets/{name}")
+    short = min(height, width)
+    total = np.zeros((height, width), dtype=np.float32)
+    weight = 1.0
+    for octave in range(octaves):
+        fine = cells << octave
+        if fine > short:
+            break
+        rows, columns = fine * height // short, fine * width // short
+        grid = draw.standard_normal((rows, columns), dtype=np.float32)
+        if fine == short:
+            total += np.float32(weight) * grid
+        elif tiles:
+            grid = np.pad(grid, 2, mode="wrap")
+            big = (round(height * (rows + 4) / rows), round(width * (columns + 4) / columns))
+            wide = cv2.resize(grid, big[::-1], interpolation=cv2.INTER_CUBIC)
+            top, left = (big[0] - height) // 2, (big[1] - width) // 2
+            total += np.float32(weight) * wide[top : top + height, left : left + width]
+        else:
+            total += np.float32(weight) * cv2.resize(
+                grid, (width, height), interpolation=cv2.INTER_CUBIC
+            )
+        weight *= gain
+    total -= total.mean()
+    total /= total.std()
+    return total
+
+
+def plain(height: int, width: int, colour: Colour) -> Picture:
+    """A picture of one colour."""
+    return np.broadcast_to(np.array(colour, dtype=np.float32), (height, width, 3)).copy()
+
+
+def mixed(first: Picture | Colour, second: Picture | Colour, amount: Grey) -> Picture:
+    """``first`` where ``amount`` is 0, ``second`` where it is 1."""
+    a, b = np.asarray(first, dtype=np.float32), np.asarray(second, dtype=np.float32)
+    blend: Picture = a + (b - a) * amount[:, :, None]
+    return blend
+
+
+def step(low: float, high: float, value: Grey) -> Grey:
+    """0 below ``low``, 1 above ``high``, smooth between."""
+    t = np.clip((value - np.float32(low)) / np.float32(high - low), 0.0, 1.0)
+    smooth: Grey = t * t * (3.0 - 2.0 * t)
+    return smooth
+
+
+def lit(height_map: Grey, strength: float, towards: tuple[float, float] = (-0.7, -0.7)) -> Grey:
+    """Shading of a relief, about 1: brighter on slopes that face ``towards`` (x, y)."""
+    padded = cv2.copyMakeBorder(height_map, 1, 1, 1, 1, cv2.BORDER_WRAP)
+    dx = padded[1:-1, 2:] - padded[1:-1, :-2]
+    dy = padded[2:, 1:-1] - padded[:-2, 1:-1]
+    shade: Grey = np.clip(1.0 - strength * (towards[0] * dx + towards[1] * dy), 0.3, 1.8)
+    return shade.astype(np.float32)
+
+
+def finished(name: str, picture: Picture, *, repeats: bool = True) -> Texture:
+    """The picture as a texture, clipped to 0..1 and rounded to 8 bit."""
+    pixels = cv2.convertScaleAbs(np.clip(picture, 0.0, 1.0), alpha=255.0)
+    return Texture(name=name, pixels=np.ascontiguousarray(pixels, dtype=np.uint8), repeats=repeats)
+
+
+@lru_cache(maxsize=64)
+def lettering(text: str, size: int) -> Grey:
+    """Words as a picture, 1 where there is ink, cropped to the ink; no system font is needed."""
+    from PIL import Image, ImageDraw, ImageFont
+
+    font = ImageFont.load_default(size=size)
+    box = ImageDraw.Draw(Image.new("L", (1, 1))).textbbox((0, 0), text, font=font, stroke_width=1)
+    width, height = int(box[2] - box[0]) + 2, int(box[3] - box[1]) + 2
+    canvas = Image.new("L", (width, height), 0)
+    ImageDraw.Draw(canvas).text(
+        (1 - box[0], 1 - box[1]), text, fill=255, font=font, stroke_width=max(1, size // 28)
+    )
+    ink: Grey = np.asarray(canvas, dtype=np.float32) / 255.0
+    return ink
+
+
+def write(
+    picture: Picture,
+    text: str,
+    centre: tuple[float, float],
+    *,
+    width: float | None = None,
+    height: float | None = None,
+    colour: Colour = (0.0, 0.0, 0.0),
+    quarter_turns: int = 0,
+) -> None:
+    """Paint words onto a picture; places and sizes are fractions of its width and height.
+
+    One of ``width`` and ``height`` of the (turned) words must be given; both stretch them.
+    """
+    ink = np.rot90(lettering(text, 96), quarter_turns)
+    h, w = picture.shape[:2]
+    if width is not None and height is not None:
+        size = (round(width * w), round(height * h))
+    elif width is not None:
+        size = (round(width * w), round(width * w * ink.shape[0] / ink.shape[1]))
+    else:
+        tall = (height or 0.1) * h
+        size = (round(tall * ink.shape[1] / ink.shape[0]), round(tall))
+    small = cv2.resize(np.ascontiguousarray(ink), size, interpolation=cv2.INTER_AREA)
+    left, top = round(centre[0] * w - size[0] / 2), round(centre[1] * h - size[1] / 2)
+    rows = slice(max(top, 0), min(top + size[1], h))
+    columns = slice(max(left, 0), min(left + size[0], w))
+    part = small[rows.start - top : rows.stop - top, columns.start - left : columns.stop - left]
+    patch = picture[rows, columns]
+    picture[rows, columns] = mixed(patch, colour, part.astype(np.float32))
+
+
+def worn(name: str, colour: Colour, *, size: int = 256, grain: float = 0.06) -> Texture:
+    """Paint or metal that has been used: cloudy, with fine scratches."""
+    clouds = noise(f"{name}/clouds", size, size, cells=3, octaves=6)
+    picture = plain(size, size, colour) * (1.0 + np.float32(grain) * clouds)[:, :, None]
+    streak = cv2.GaussianBlur(
+        noise(f"{name}/streaks", size, size, cells=size // 2, octaves=1), (25, 1), 0
+    )
+    picture *= (1.0 + np.float32(grain * 1.2) * streak / streak.std())[:, :, None]
+    return finished(name, picture)
+
+
+def concrete(name: str, colour: Colour, *, size: int = 512, joints: int = 0) -> Texture:
+    """Cement, with stains and pores; ``joints`` tiles along each side when not 0."""
+    clouds = noise(f"{name}/clouds", size, size, cells=2, octaves=7, gain=0.62)
+    pores = noise(f"{name}/pores", size, size, cells=size // 4, octaves=2)
+    picture = plain(size, size, colour) * (1.0 + 0.07 * clouds)[:, :, None]
+    picture *= (1.0 - 0.30 * step(1.9, 2.6, pores) + 0.02 * pores)[:, :, None]
+    if joints:
+        draw = chance.stream(0, f"assets/{name}/tiles")
+        shade = draw.normal(1.0, 0.035, (joints, joints)).astype(np.float32)
+        picture *= cv2.resize(shade, (size, size), interpolation=cv2.INTER_NEAREST)[:, :, None]
+        edge = (np.arange(size) * joints / size) % 1.0
+        near = np.minimum(edge, 1.0 - edge) * size / joints  # pixels to the nearest joint
+        gap = np.minimum(near[:, None], near[None, :]).astype(np.float32)
+        picture *= (1.0 - 0.45 * (1.0 - step(0.8, 2.4, gap)))[:, :, None]
+    return finished(name, picture)
