@@ -1,4 +1,4 @@
-"""Who may import whom: the drawing in CONTRIBUTING.md, held against every import statement."""
+"""Who may import whom: the drawing in docs/architecture.md, held against every import statement."""
 
 from __future__ import annotations
 

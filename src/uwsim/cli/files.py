@@ -37,10 +37,9 @@ def _file(name: str, kind: str, data_path: tuple[Path, ...]) -> Path:
     found = find(name, beside=None, data_path=data_path)
     if found is not None:
         return found
-    folders = ", ".join(
-        str(folder) for folder in folders_searched(beside=None, data_path=data_path)
-    )
+    folders = folders_searched(beside=None, data_path=data_path)
     raise AssetNotFound(
         f"{name!r} is neither a file nor one of the bundled {kind} ({', '.join(known)})."
-        f"{did_you_mean(name, known)} Folders searched: {folders}."
+        f"{did_you_mean(name, known)} "
+        f"Folders searched: {', '.join(str(folder) for folder in folders if folder.is_dir())}."
     )
