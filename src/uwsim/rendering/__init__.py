@@ -1,1 +1,5 @@
-"""The rendering room."""
+"""The rendering room: models in, pictures through water out.
+
+The modules are imported where they are used: `renderer` needs OpenGL, `noise` and `grey` numba,
+`water` only numpy.
+"""

@@ -1,0 +1,89 @@
+r"""Noise of a camera: independent Gaussian noise in every channel of every pixel, then 8 bit.
+
+One 64-bit key a frame is drawn from the camera's generator; pixel number i then gets the four
+16-bit words of splitmix64(key + i), of which three pick quantiles of the normal distribution.
+So a frame depends on its key alone, and no two frames share a table's stretch.
+
+Not modelled: shot noise (all grey levels are equally noisy), fixed-pattern noise.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from ..jit import njit
+
+_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
+_MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
+_MIX_2 = np.uint64(0x94D049BB133111EB)
+
+
+def gaussian_quantiles() -> npt.NDArray[np.float32]:
+    """65536 equally likely values of N(0, 1), ascending, scaled to a variance of exactly one."""
+    from scipy.special import ndtri
+
+    values = ndtri((np.arange(65536) + 0.5) / 65536.0)
+    scaled: npt.NDArray[np.float32] = (values / values.std()).astype(np.float32)
+    return scaled
+
+
+_QUANTILES = gaussian_quantiles()
+
+
+def frame_key(rng: np.random.Generator) -> int:
+    """Draw the key of one frame; a frame that nobody reads draws it too, and throws it away."""
+    return int(rng.integers(2**63))
+
+
+def add_noise(
+    colour16: npt.NDArray[np.uint16], std: float, rng: np.random.Generator
+) -> npt.NDArray[np.uint8]:
+    """Add N(0, std) to every channel and store 8 bits, rounded to nearest and clipped.
+
+    Args:
+        colour16: Colours as `Renderer.draw` gives them for ``linear16``, (h, w, 4), 0..65535.
+        std: Standard deviation, in units of full scale (0.02 is 5.1 grey levels).
+        rng: The camera's generator; exactly one number is drawn.
+
+    Returns:
+        The picture, (h, w, 3).
+    """
+    return _store(colour16, np.float32(255.0 * std), np.uint64(frame_key(rng)), _QUANTILES)
+
+
+@njit
+def _store(
+    colour16: npt.NDArray[np.uint16],
+    levels: np.float32,
+    key: np.uint64,
+    quantiles: npt.NDArray[np.float32],
+) -> npt.NDArray[np.uint8]:
+    height, width, _ = colour16.shape
+    picture = np.empty((height, width, 3), np.uint8)
+    scale = np.float32(1.0 / 257.0)
+    mask = np.uint64(0xFFFF)
+    counter = key
+    for row in range(height):
+        for column in range(width):
+            counter += _GOLDEN
+            z = counter
+            z = (z ^ (z >> np.uint64(30))) * _MIX_1
+            z = (z ^ (z >> np.uint64(27))) * _MIX_2
+            z = z ^ (z >> np.uint64(31))
+            for channel in range(3):
+                value = (
+                    np.float32(colour16[row, column, channel]) * scale
+                    + levels * quantiles[z & mask]
+                    + np.float32(0.5)
+                )
+                z = z >> np.uint64(16)
+                picture[row, column, channel] = np.uint8(
+                    max(min(value, np.float32(255.0)), np.float32(0.0))
+                )
+    return picture
+
+
+def warm_up() -> None:
+    """Compile (or load from numba's cache) before the first frame needs it."""
+    add_noise(np.zeros((1, 1, 4), np.uint16), 0.01, np.random.Generator(np.random.Philox(0)))

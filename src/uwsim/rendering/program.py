@@ -1,0 +1,90 @@
+"""Shader files into programs: includes, switches, and a check that nothing is missing."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+import moderngl
+import numpy as np
+
+SHADERS = Path(__file__).parent / "shaders"
+VERSION = "#version 330 core\n"
+
+_INCLUDE = re.compile(r'^#include "([\w.]+)"$', re.MULTILINE)
+_BLOCK = re.compile(r"uniform (\w+) \{(.*?)\n\};", re.DOTALL)
+_MEMBER = re.compile(r"^\s*(\w+) (\w+);", re.MULTILINE)
+
+
+class Block:
+    """A uniform block: its members declared once, here, in the order of the shader.
+
+    Members are ``vec4``, ``uvec4`` or ``mat4``, so that std140 needs no padding.
+    """
+
+    SIZES = {"vec4": (np.float32, (4,)), "uvec4": (np.uint32, (4,)), "mat4": (np.float32, (4, 4))}
+
+    def __init__(self, name: str, binding: int, members: Mapping[str, str]) -> None:
+        self.name, self.binding, self.members = name, binding, dict(members)
+        self.dtype = np.dtype([(member, *self.SIZES[kind]) for member, kind in members.items()])
+
+
+def source(name: str) -> str:
+    """The text of a shader file with its includes put in, each file at most once."""
+    seen: set[str] = set()
+
+    def put_in(match: re.Match[str]) -> str:
+        return expand(match[1])
+
+    def expand(file: str) -> str:
+        if file in seen:
+            return ""
+        seen.add(file)
+        return _INCLUDE.sub(put_in, (SHADERS / file).read_text(encoding="utf-8"))
+
+    return expand(name)
+
+
+def build(
+    context: moderngl.Context,
+    effect: str,
+    *,
+    defines: Mapping[str, int],
+    blocks: Iterable[Block],
+    samplers: Mapping[str, int],
+) -> moderngl.Program:
+    """Compile ``effect.vert.glsl`` and ``effect.frag.glsl`` and connect every uniform.
+
+    Args:
+        context: Where the program will live.
+        effect: Name of the pair of shader files.
+        defines: Preprocessor switches and their values.
+        blocks: The uniform blocks this effect is filled from; at least those it uses.
+        samplers: Texture unit of each sampler it may use.
+
+    Raises:
+        RuntimeError: the shader uses a uniform that nobody declared, or declares a block otherwise
+            than the program that fills it.
+    """
+    head = VERSION + "".join(f"#define {name} {value}\n" for name, value in defines.items())
+    vertex, fragment = source(f"{effect}.vert.glsl"), source(f"{effect}.frag.glsl")
+    program = context.program(vertex_shader=head + vertex, fragment_shader=head + fragment)
+    written = {name: dict(_members(body)) for name, body in _BLOCK.findall(vertex + fragment)}
+    known = {block.name: block for block in blocks}
+    for name in program:
+        part = program[name]
+        if isinstance(part, moderngl.UniformBlock):
+            block = known.get(name)
+            if block is None or written.get(name) != block.members:
+                raise RuntimeError(f"{effect}: block {name} is not what the program declares")
+            part.binding = block.binding
+        elif isinstance(part, moderngl.Uniform):
+            if name not in samplers:
+                raise RuntimeError(f"{effect}: nobody declares the uniform {name!r}")
+            part.value = samplers[name]
+    return program
+
+
+def _members(body: str) -> list[tuple[str, str]]:
+    return [(name, kind) for kind, name in _MEMBER.findall(body)]

@@ -1,0 +1,7 @@
+// Provides: one triangle over the whole picture, as far away as can be.
+// Needs: nothing; three vertices without attributes.
+// Depth 1 passes only where nothing has been drawn.
+void main() {
+    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(corner, 1.0, 1.0);
+}

@@ -1,0 +1,8 @@
+// Provides: the block Instance, where one model stands and what it is called in the id picture.
+// Needs: nothing. Filled by renderer.INSTANCE, in this order.
+// camera_normals is the inverse transpose of camera_from_model (scale may be uneven).
+layout(std140) uniform Instance {
+    mat4 camera_from_model;
+    mat4 camera_normals;
+    uvec4 identity;  // x: id, 1..65535
+};

@@ -1,0 +1,4 @@
+// Provides: nothing but the depth.
+// Needs: nothing.
+// The rasteriser writes it.
+void main() {}

@@ -1,0 +1,12 @@
+// Provides: the outputs asked for; COLOUR, RANGE and IDS are defined as their places, or not at all.
+// Needs: nothing.
+// Colour 0..1 stored value; range [m] along the ray, inf = nothing; id 0 = nothing.
+#ifdef COLOUR
+layout(location = COLOUR) out vec4 colour_out;
+#endif
+#ifdef RANGE
+layout(location = RANGE) out float range_out;
+#endif
+#ifdef IDS
+layout(location = IDS) out uint id_out;
+#endif

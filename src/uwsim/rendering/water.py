@@ -1,0 +1,125 @@
+r"""The water between a surface and the camera: attenuation, in-scattering, fog.
+
+For a surface of dry colour :math:`L_c` at range :math:`r` along the ray, :math:`h` below the
+surface of the water, in each channel and on stored values (no gamma):
+
+.. math::
+    E_c = e^{-2 a_c r}, \quad
+    C_c = L_c E_c + w_c (1 - E_c e^{-0.001 h}), \quad
+    t = e^{-(f s)^2}, \quad
+    F_c = t C_c + (1 - t) g_c
+
+with attenuation :math:`a`, water colour :math:`w`, fog density :math:`f` and fog colour :math:`g`
+(UWSim's image model). The fog's distance :math:`s` is the range, as in the paper. Not modelled:
+the way of the light from the surface down, absorption apart from scattering, caustics.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Intrinsics
+
+Colour = tuple[float, float, float]
+Sun = Literal["clear", "dusk", "cloudy"]
+
+SUN_DIRECTIONS: dict[Sun, Colour] = {
+    "clear": (326.573, 1212.99, 1275.19),
+    "dusk": (520.0, 1900.0, 550.0),
+    "cloudy": (-1056.89, -771.886, 1221.18),
+}
+"""Towards the sun, in W, not normalised."""
+
+SUN_COLOURS: dict[Sun, Colour] = {
+    "clear": (191 / 255, 191 / 255, 191 / 255),
+    "dusk": (251 / 255, 251 / 255, 161 / 255),
+    "cloudy": (191 / 255, 191 / 255, 191 / 255),
+}
+"""The sun's diffuse light, 0..1."""
+
+AMBIENT = 0.3
+SPECULAR = 0.1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Water:
+    """What stands between surfaces and cameras; the defaults are UWSim's."""
+
+    fog: float = 0.1
+    """Density of the fog [1/m]."""
+    fog_colour: Colour = (0.0, 0.05, 0.3)
+    """Colour of thick fog, 0..1."""
+    colour: Colour = (0.0, 0.05, 0.3)
+    """Light scattered into the ray, 0..1."""
+    attenuation: Colour = (0.015, 0.0075, 0.005)
+    """Attenuation of red, green and blue [1/m]."""
+    surface_height: float = 0.0
+    """z of the water's surface in W [m]."""
+    fog_distance: Literal["ray", "clip"] = "ray"
+    """Distance the fog law uses: along the ray, or the original's clip-space z."""
+
+    @property
+    def far_colour(self) -> Colour:
+        """Colour of what is infinitely far."""
+        return self.fog_colour if self.fog > 0.0 else self.colour
+
+
+@dataclass(frozen=True, kw_only=True)
+class Light:
+    """What lights the scene."""
+
+    rate: float = 1.0
+    """Scales all light; 1 is as usual."""
+    sun: Sun = "clear"
+    """Which sky: direction and colour of the sun."""
+    shadows: bool = True
+    """Whether vehicles and objects cast the sun's shadow."""
+
+
+def fog_distance(water: Water, intrinsics: Intrinsics | None) -> tuple[float, float, float]:
+    """``(x, y, z)`` with fog distance = x * range + y * planar depth + z [m].
+
+    ``clip`` is the original's clip-space z, ((far + near) d - 2 far near) / (far - near).
+    """
+    if water.fog_distance == "ray" or intrinsics is None:
+        return 1.0, 0.0, 0.0
+    near, far = intrinsics.near, intrinsics.far
+    return 0.0, (far + near) / (far - near), -2.0 * far * near / (far - near)
+
+
+def apply_water(
+    lit: npt.NDArray[np.float64],
+    range: npt.NDArray[np.float64],
+    world_z: npt.NDArray[np.float64],
+    water: Water,
+    *,
+    fog_range: npt.NDArray[np.float64] | None = None,
+) -> npt.NDArray[np.float64]:
+    """The law above in numpy: the reference for the shader, and for re-colouring recordings.
+
+    Args:
+        lit: Dry colours, (..., 3), 0..1.
+        range: Distance along the ray (...) [m]; inf gives the far colour.
+        world_z: z of the points in W (...) [m].
+        water: The water.
+        fog_range: Distance for the fog (...) [m] when it is not the range.
+
+    Returns:
+        Colours at the camera (..., 3).
+    """
+    nothing = np.isinf(range)
+    distance = np.where(nothing, 0.0, range)[..., None]
+    s = distance if fog_range is None else np.where(nothing, 0.0, fog_range)[..., None]
+    depth = np.maximum(water.surface_height - np.where(nothing, 0.0, world_z), 0.0)[..., None]
+    left = np.exp(-2.0 * np.asarray(water.attenuation) * distance)
+    seen = lit * left + np.asarray(water.colour) * (1.0 - left * np.exp(-0.001 * depth))
+    clear = np.exp(-((water.fog * s) ** 2))
+    fogged = clear * seen + (1.0 - clear) * np.asarray(water.fog_colour)
+    colours: npt.NDArray[np.float64] = np.where(
+        nothing[..., None], np.asarray(water.far_colour), fogged
+    )
+    return colours
