@@ -1,0 +1,96 @@
+"""Overlay: truth and estimate drawn on a camera's picture.
+
+Coordinates are those of `uwsim.geometry.Intrinsics`: pixels from the top left corner, the centre of
+the first pixel at (0.5, 0.5). Truth is green and solid, the estimate orange and dashed, so that
+they are told apart in print and by colour-blind readers; lines have a dark rim.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image, ImageDraw, ImageFont
+
+Quad = Sequence[float]
+
+TRUTH, ESTIMATE, RIM = (0, 200, 140), (255, 140, 0), (10, 20, 30)
+
+
+def overlay(
+    picture: npt.NDArray[np.uint8],
+    *,
+    truth: Quad | None = None,
+    estimate: Quad | None = None,
+    label: str = "",
+    scale: int = 2,
+) -> npt.NDArray[np.uint8]:
+    """Draw quadrangles and a label on a picture, enlarged so that half pixels show.
+
+    Args:
+        picture: (h, w, 3) or, grey, (h, w).
+        truth: corners x, y, x, y, ... [px]; None draws none.
+        estimate: corners alike.
+        label: text for the top left corner, such as ``fog 0.5 1/m``.
+        scale: how many times larger the drawing is; pixels are repeated, not blurred.
+
+    Returns:
+        The drawing, (h * scale, w * scale, 3).
+    """
+    grey_or_colour = Image.fromarray(picture).convert("RGB")
+    size = (grey_or_colour.width * scale, grey_or_colour.height * scale)
+    drawing = grey_or_colour.resize(size, Image.Resampling.NEAREST)
+    pen = ImageDraw.Draw(drawing)
+    if truth is not None:
+        _outline(pen, _points(truth, scale), TRUTH, scale, dashed=False)
+    if estimate is not None:
+        _outline(pen, _points(estimate, scale), ESTIMATE, scale, dashed=True)
+    if label:
+        _write(pen, label, scale)
+    drawn: npt.NDArray[np.uint8] = np.asarray(drawing).copy()
+    return drawn
+
+
+def _points(quad: Quad, scale: int) -> list[tuple[float, float]]:
+    """Corners in pixels of the drawing, whose first pixel's centre PIL calls 0."""
+    if len(quad) != 8:
+        raise ValueError(f"a quadrangle has 8 numbers, not {len(quad)}")
+    flat = [value * scale - 0.5 for value in quad]
+    return list(zip(flat[0::2], flat[1::2], strict=True))
+
+
+def _outline(
+    pen: ImageDraw.ImageDraw,
+    points: list[tuple[float, float]],
+    colour: tuple[int, int, int],
+    scale: int,
+    *,
+    dashed: bool,
+) -> None:
+    for begin, end in zip(points, points[1:] + points[:1], strict=True):
+        for a, b in _dashes(begin, end, 6.0 * scale if dashed else math.inf):
+            pen.line([a, b], fill=RIM, width=scale + 2)
+            pen.line([a, b], fill=colour, width=scale)
+
+
+def _dashes(
+    begin: tuple[float, float], end: tuple[float, float], dash: float
+) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
+    """Cut a line into dashes of that length with gaps of half of it; at most 1000."""
+    length = math.dist(begin, end)
+    if length <= dash:
+        yield begin, end
+        return
+    dash = max(dash, length / 1000)
+    for k in range(math.ceil(length / (1.5 * dash))):
+        cuts = (k * 1.5 * dash / length, min(1.0, (k * 1.5 + 1.0) * dash / length))
+        a, b = (tuple(p + t * (q - p) for p, q in zip(begin, end, strict=True)) for t in cuts)
+        yield (a[0], a[1]), (b[0], b[1])
+
+
+def _write(pen: ImageDraw.ImageDraw, label: str, scale: int) -> None:
+    font = ImageFont.load_default(size=8 * scale)
+    at = (3 * scale, 2 * scale)
+    pen.text(at, label, font=font, fill=(255, 255, 255), stroke_width=scale, stroke_fill=RIM)
