@@ -65,6 +65,7 @@ class Inbox(Generic[M]):
 
     def __init__(self) -> None:
         self._new: deque[M] = deque()
+        self._stop: Callable[[], None] | None = None
         self.last: M | None = None
         """The newest message ever received."""
         self.last_step: int | None = None
@@ -85,6 +86,16 @@ class Inbox(Generic[M]):
         """Forget everything."""
         self._new.clear()
         self.last, self.last_step = None, None
+
+    def close(self) -> None:
+        """Receive nothing more."""
+        if self._stop is not None:
+            self._stop()
+            self._stop = None
+
+    def stop_with(self, stop: Callable[[], None]) -> None:
+        """Have ``stop`` called by `close`; used by the bus."""
+        self._stop = stop
 
 
 @dataclasses.dataclass
@@ -120,7 +131,8 @@ class Bus:
     def inbox(self, topic: str, type: type[M]) -> Inbox[M]:
         """Return an inbox that collects the messages of ``topic`` from now on."""
         inbox: Inbox[M] = Inbox()
-        self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
+        stop = self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
+        inbox.stop_with(stop)
         return inbox
 
     def publisher(self, topic: str, type: type[M], *, delay_steps: int = 0) -> Callable[[M], None]:

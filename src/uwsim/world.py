@@ -106,6 +106,9 @@ class World(Protocol):
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service."""
 
+    def withdraw(self, name: str) -> None:
+        """Stop offering a service, if it is offered."""
+
     def serves(self, name: str) -> bool:
         """Whether somebody offers the service."""
 
@@ -146,12 +149,14 @@ class SensorWorld(World, Protocol):
         *,
         std: float,
         random: np.random.Generator,
+        grey: bool,
     ) -> npt.NDArray[np.uint8]:
-        """Draw what a camera would see now, with noise, (h, w, 3); row 0 is the top.
+        """Draw what a camera would see now, with noise; row 0 is the top.
 
         Args:
             world_from_camera: where the camera is; OpenGL axes.
             intrinsics: its pinhole.
             std: noise of each channel, 0..1.
             random: the camera's random stream.
+            grey: give (h, w), each term of the sum cut to a whole number; else (h, w, 3).
         """

@@ -1,0 +1,282 @@
+r"""Ground truth: what an estimate is compared with, evaluated in the live scene.
+
+.. code-block:: xml
+
+    <groundTruth type="constant"> <value>257.5</value> <value>162.5</value> </groundTruth>
+    <groundTruth type="cornersFromCamera">
+      <camera>bowtech1</camera> <target>blackbox</target> <publishOn>autoInit</publishOn>
+    </groundTruth>
+    <groundTruth type="centroidFromCamera">
+      <camera>bowtech1</camera> <target>blackbox</target>
+    </groundTruth>
+    <groundTruth type="relativeLocation">
+      <from>localizedWorld</from> <to>girona500</to>
+    </groundTruth>
+
+Image coordinates are in pixels from the top left corner of the image, v down.
+"""
+
+from __future__ import annotations
+
+import abc
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..dialect import element
+from ..geometry import Array
+from ..world import Body, Box, Camera, World
+from .rectangle import like_rectangle, rectangle
+
+CORNERS = ("nw_x", "nw_y", "ne_x", "ne_y", "se_x", "se_y", "sw_x", "sw_y")
+TRUTHS = ("original", "face")
+"""What ``u:truth`` may be."""
+
+
+class GroundTruthSpec(abc.ABC):
+    """A ``<groundTruth>`` element."""
+
+    unit: ClassVar[str]
+    """Unit of its numbers."""
+    camera: str | None = None
+    """Name of the virtual camera; None when there is none."""
+    publish_on: str | None = None
+    """Service that is given the truth when the measure starts; None: nobody is told."""
+
+    @abc.abstractmethod
+    def bind(self, world: World, truth: str = "original") -> GroundTruth:
+        """Find what it looks at; raises UnknownName if that is not there."""
+
+
+class GroundTruth(abc.ABC):
+    """A vector of numbers that is true now."""
+
+    components: tuple[str, ...]
+    """The names of its numbers."""
+    missing: ClassVar[str] = ""
+    """Why there may be none."""
+
+    @abc.abstractmethod
+    def read(self) -> Array | None:
+        """Return the truth now (k,); None where there is none (the target is behind the camera)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConstantSpec(GroundTruthSpec):
+    """A ``<groundTruth type="constant">`` element."""
+
+    unit: ClassVar[str] = "1"
+
+    values: tuple[float, ...] = element("value")
+    """The numbers."""
+
+    def bind(self, world: World, truth: str = "original") -> Constant:
+        """Needs nothing of the world."""
+        return Constant(self.values)
+
+
+class Constant(GroundTruth):
+    """Numbers that the file gives; called 1, 2, ... (corners and centroids by their names)."""
+
+    def __init__(self, values: tuple[float, ...]) -> None:
+        self._values = np.array(values, dtype=np.float64)
+        self.components = tuple(str(i + 1) for i in range(len(values)))
+
+    def read(self) -> Array:
+        """Return the numbers."""
+        return self._values
+
+
+@dataclass(frozen=True, kw_only=True)
+class CornersFromCameraSpec(GroundTruthSpec):
+    """A ``<groundTruth type="cornersFromCamera">`` element."""
+
+    unit: ClassVar[str] = "px"
+
+    camera: str = element()
+    """Name of the virtual camera."""
+    target: str
+    """Route of the body whose corners are meant."""
+    publish_on: str | None = element(default=None)
+    """Service that is given the corners when the measure starts; None: nobody is told."""
+
+    def bind(self, world: World, truth: str = "original") -> GroundTruth:
+        """Find camera and target; raises UnknownName if one is not there."""
+        camera, body = world.camera(self.camera), world.body(self.target)
+        if truth == "face":
+            return FaceCorners(camera, body)
+        return CornersFromCamera(camera, body)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CentroidFromCameraSpec(GroundTruthSpec):
+    """A ``<groundTruth type="centroidFromCamera">`` element."""
+
+    unit: ClassVar[str] = "px"
+
+    camera: str = element()
+    """Name of the virtual camera."""
+    target: str
+    """Route of the body whose origin is meant."""
+    publish_on: str | None = element(default=None)
+    """Service that is given the centroid when the measure starts; None: nobody is told."""
+
+    def bind(self, world: World, truth: str = "original") -> GroundTruth:
+        """Find camera and target; raises UnknownName if one is not there."""
+        camera, body = world.camera(self.camera), world.body(self.target)
+        if truth == "face":
+            return FaceCentre(camera, body)
+        return CentroidFromCamera(camera, body)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RelativeLocationSpec(GroundTruthSpec):
+    """A ``<groundTruth type="relativeLocation">`` element."""
+
+    unit: ClassVar[str] = "m"
+
+    from_: str = element("from")
+    """Route of the body in whose frame the location is given (``<from>``)."""
+    to: str
+    """Route of the body whose origin is meant."""
+
+    def bind(self, world: World, truth: str = "original") -> RelativeLocation:
+        """Find both bodies; raises UnknownName if one is not there."""
+        return RelativeLocation(world.body(self.from_), world.body(self.to))
+
+
+class RelativeLocation(GroundTruth):
+    """The origin of one body in the frame of another, x y z [m]."""
+
+    components = ("x", "y", "z")
+
+    def __init__(self, from_: Body, to: Body) -> None:
+        self._from, self._to = from_, to
+
+    def read(self) -> Array:
+        """Return the location now, (3,) [m]."""
+        frame = self._from.world_from_body
+        located: Array = frame.rotation.T @ (self._to.world_from_body.position - frame.position)
+        return located
+
+
+class _Seen(GroundTruth):
+    """Points of a body as a camera sees them; computed again only when one of the two moved."""
+
+    missing = "the target is behind the camera"
+
+    def __init__(self, camera: Camera, body: Body, points: Array) -> None:
+        self._camera, self._body = camera, body
+        self._points = points  # (n, 3) [m], body frame
+        self._seen_from: tuple[bytes, ...] = ()
+        self._seen: Array | None = None
+
+    def read(self) -> Array | None:
+        """Return the truth now [px]; None when a point is not in front of the camera."""
+        camera, body = self._camera.world_from_camera, self._body.world_from_body
+        key = (
+            camera.position.tobytes(),
+            camera.rotation.tobytes(),
+            body.position.tobytes(),
+            body.rotation.tobytes(),
+        )
+        if key != self._seen_from:
+            points = self._points @ body.rotation.T + (body.position - camera.position)
+            pixels = self._camera.intrinsics.project(points @ camera.rotation)  # (n, 2) [px]
+            self._seen = self._from_pixels(pixels) if np.isfinite(pixels).all() else None
+            self._seen_from = key
+        return self._seen
+
+    @abc.abstractmethod
+    def _from_pixels(self, pixels: Array) -> Array:
+        """Make the truth of the projected points (n, 2) [px]."""
+
+
+class CornersFromCamera(_Seen):
+    r"""The original's corners: those of the smallest rectangle round the projected bounding box.
+
+    The eight corners of the body's local bounding box are projected; of their convex hull the
+    rectangle of smallest area is taken (`uwsim.benchmark.rectangle`); x, y of NW, NE, SE, SW.
+    It is *not* where the corners of a face are: the box has depth, and perspective makes its near
+    face larger; ``u:truth="face"`` gives those.
+    """
+
+    components = CORNERS
+
+    def __init__(self, camera: Camera, body: Body) -> None:
+        super().__init__(camera, body, box_of(body).corners())
+
+    def _from_pixels(self, pixels: Array) -> Array:
+        return rectangle(pixels).reshape(8)
+
+
+class CentroidFromCamera(_Seen):
+    """The original's centroid: the projected *origin* of the body, not the centre of its box."""
+
+    components = ("x", "y")
+
+    def __init__(self, camera: Camera, body: Body) -> None:
+        super().__init__(camera, body, np.zeros((1, 3)))
+
+    def _from_pixels(self, pixels: Array) -> Array:
+        pixel: Array = pixels[0]
+        return pixel
+
+
+class FaceCorners(_Seen):
+    """The projected corners of the body's top face.
+
+    The top face is that of the local bounding box whose outward normal points most upwards in W
+    at the moment of binding (first of +z, -z, +y, -y, +x, -x where they tie); it stays the same
+    face however the body turns. Its corners are called NW, NE, SE, SW so that they lie nearest
+    to those of `CornersFromCamera` the first time they are seen; each keeps its name after that.
+    """
+
+    components = CORNERS
+
+    def __init__(self, camera: Camera, body: Body) -> None:
+        super().__init__(camera, body, top_face(body))
+        self._box = CornersFromCamera(camera, body)
+        self._order: list[int] | None = None
+
+    def _from_pixels(self, pixels: Array) -> Array:
+        if self._order is None:
+            around = self._box.read()
+            if around is None:
+                return like_rectangle(pixels, rectangle(pixels))[1].reshape(8)
+            self._order, _ = like_rectangle(pixels, around.reshape(4, 2))
+        ordered: Array = pixels[self._order].reshape(8)
+        return ordered
+
+
+class FaceCentre(_Seen):
+    """The projected centre of the body's top face (see `FaceCorners`)."""
+
+    components = ("x", "y")
+
+    def __init__(self, camera: Camera, body: Body) -> None:
+        super().__init__(camera, body, top_face(body).mean(axis=0, keepdims=True))
+
+    def _from_pixels(self, pixels: Array) -> Array:
+        pixel: Array = pixels[0]
+        return pixel
+
+
+def box_of(body: Body) -> Box:
+    """Return the local bounding box of a body; a point at its origin if it has no meshes."""
+    return body.box or Box((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+def top_face(body: Body) -> Array:
+    """Return the corners of the face that points upwards, once around, body frame (4, 3) [m]."""
+    up = body.world_from_body.rotation[2]  # z of W in the body frame, (3,)
+    axis = max((2, 1, 0), key=lambda i: (round(abs(float(up[i])), 9), i))
+    box = box_of(body)
+    low, high = np.array(box.lower), np.array(box.upper)
+    first, second = (axis + 1) % 3, (axis + 2) % 3
+    corners = np.empty((4, 3))  # [m]
+    corners[:, axis] = high[axis] if up[axis] >= 0.0 else low[axis]
+    corners[:, first] = [low[first], high[first], high[first], low[first]]
+    corners[:, second] = [low[second], low[second], high[second], high[second]]
+    return corners

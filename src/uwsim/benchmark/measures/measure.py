@@ -1,0 +1,96 @@
+"""What every measure is: a number that is read at the end of a level."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import ClassVar, Literal
+
+from ...dialect import element
+from ...world import World
+from ..triggers import NeverSpec, OnInitSpec, TriggerSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasureSpec(abc.ABC):
+    """An element of ``<measures>`` in a benchmark file."""
+
+    values: ClassVar[tuple[str, ...]] = ("last",)
+    """What ``u:value`` may be."""
+
+    name: str
+    """Name of its column, and of the value in the function; an identifier."""
+    start_on: TriggerSpec = field(default_factory=OnInitSpec)
+    """It is on from here ..."""
+    stop_on: TriggerSpec = field(default_factory=NeverSpec)
+    """... to here."""
+    log: float | None = element(default=None, above=0.0)
+    """Period of its log [s]; None: no log."""
+    value: Literal["last", "mean", "rms", "max"] = element(
+        default="last", attribute=True, namespaced=True
+    )
+    """Which statistic of a signal is its value (``u:value``)."""
+
+    @abc.abstractmethod
+    def bind(self, world: World) -> Measure:
+        """Find what it looks at; raises UnknownName if that is not there."""
+
+
+class Measure(abc.ABC):
+    """Something that is measured while its triggers say so.
+
+    It is bound afresh for every level. At the first step at which it is on it is started, at
+    every later one updated.
+    """
+
+    unit: ClassVar[str]
+    """Unit of its value."""
+    fed_by_algorithm: ClassVar[bool] = False
+    """Whether it scores what the algorithm under test publishes."""
+
+    @abc.abstractmethod
+    def start(self) -> None:
+        """Begin, at the first step at which it is on."""
+
+    @abc.abstractmethod
+    def update(self) -> None:
+        """Look at the world after one more step."""
+
+    @property
+    @abc.abstractmethod
+    def value(self) -> float | None:
+        """What was measured so far; None when there was nothing to measure."""
+
+    @property
+    def why(self) -> str | None:
+        """Why the value is None."""
+        return None if self.value is not None else "it was never on"
+
+    @property
+    def details(self) -> Mapping[str, float | None]:
+        """What else goes into the result: column suffix -> value."""
+        return {}
+
+    @property
+    def log_header(self) -> tuple[str, ...]:
+        """The columns of its log, after the time."""
+        return ("value",)
+
+    @property
+    def log_values(self) -> tuple[float | None, ...]:
+        """A line of its log, as of now."""
+        return (self.value,)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the reader of the result should know, besides the value."""
+        return ()
+
+    @property
+    def longest_silence(self) -> float:
+        """Longest time without an estimate while it was on [s]; 0 if it awaits none."""
+        return 0.0
+
+    def close(self) -> None:  # noqa: B027 - most measures hold nothing
+        """Give back what it held (a subscription)."""

@@ -1,0 +1,319 @@
+r"""The score: an expression over the measures of a level, in the language of muParser.
+
+.. code-block:: text
+
+    corners + centroid          done > 0 ? 100 - 2*taskTime : 0          max(a, b, 0)^2
+
+From the loosest binding to the tightest:
+
+=====================  ==========================================================
+``c ? a : b``          b may be another ``? :``; a comparison is 1 or 0
+``||``                 1 if one is not 0
+``&&``                 1 if both are not 0
+``< <= > >= == !=``    from left to right
+``+ -``                from left to right
+``* /``                from left to right
+``-a``  ``+a``         looser than ``^``, as in muParser: ``-2^2`` is -4
+``^``                  from right to left: ``2^3^2`` is 512; ``2^-1`` is 0.5
+=====================  ==========================================================
+
+Functions: those of `FUNCTIONS`; constants ``_pi`` and ``_e``. ``log`` is to base **10**, as in the
+muParser of UWSim's time (newer ones: natural); ``log10`` and ``ln`` say which is meant. ``rint``
+rounds halves up. Angles are in radians. Numbers are float64; both sides of ``? :`` are computed.
+
+Nothing is ever given to Python's ``eval``: a parsed expression is a list of the steps below. Not
+in the language: assignments, strings, muParser's words ``and``, ``or``, ``xor``.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import lark
+import numpy as np
+
+from ..errors import UwsimError, did_you_mean
+
+MAX_LENGTH = 4096
+MAX_DEPTH = 100
+CONSTANTS = {"_pi": math.pi, "_e": math.e}
+GRAMMAR = r"""
+    start: choice
+    ?choice: or_ | or_ "?" choice ":" choice
+    ?or_: and_ | or_ OR and_        -> binary
+    ?and_: compared | and_ AND compared  -> binary
+    ?compared: sum | compared COMPARE sum -> binary
+    ?sum: product | sum SIGN product -> binary
+    ?product: signed | product TIMES signed -> binary
+    ?signed: power | SIGN signed -> signed
+    ?power: atom | atom POWER exponent -> binary
+    ?exponent: power | SIGN exponent -> signed
+    ?atom: NUMBER -> number
+        | NAME -> name
+        | NAME "(" [choice ("," choice)*] ")" -> call
+        | "(" choice ")"
+    OR: "||"
+    AND: "&&"
+    COMPARE: "<=" | ">=" | "==" | "!=" | "<" | ">"
+    SIGN: "+" | "-"
+    TIMES: "*" | "/"
+    POWER: "^"
+    NAME: /[A-Za-z_][A-Za-z0-9_]*/
+    NUMBER: /(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?/
+    %ignore /[ \t\r\n]+/
+"""
+
+Function = Callable[..., Any]
+
+
+class ScoreFault(UwsimError):
+    """An expression that cannot be parsed; shows where."""
+
+    def __init__(self, text: str, column: int, message: str) -> None:
+        self.text, self.column, self.message = text, column, message
+        """Column from 0."""
+        super().__init__(f"{message}\n  {_one_line(text)}\n  {' ' * column}^")
+
+
+@dataclass(frozen=True)
+class Score:
+    """What an expression gave."""
+
+    value: float | None
+    """The number; None when there is none."""
+    why: str | None = None
+    """Why there is none."""
+
+
+@dataclass(frozen=True)
+class _Step:
+    """Take the topmost numbers off the stack, put one on it."""
+
+    column: int
+    takes: int
+    function: Function | None = None
+    constant: float | None = None
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Expression:
+    """A parsed expression."""
+
+    text: str
+    """As it was written."""
+    names: tuple[str, ...]
+    """The measures in it, in the order of appearance."""
+    steps: tuple[_Step, ...]
+    """What is done, in postfix order."""
+
+    def evaluate(self, values: Mapping[str, float | None]) -> float | None:
+        """Return the value; None where a measure in it has none, or it is not a finite number."""
+        return self.score(values).value
+
+    def score(self, values: Mapping[str, float | None]) -> Score:
+        """Return the value, or why there is none."""
+        absent = [name for name in self.names if values[name] is None]
+        if absent:
+            return Score(None, f"no value for {', '.join(absent)}")
+        stack: list[float] = []
+        blame: _Step | None = None
+        with np.errstate(all="ignore"):
+            for step in self.steps:
+                taken = [stack.pop() for _ in range(step.takes)][::-1]
+                result = self._result(step, taken, values)
+                if blame is None and not math.isfinite(result) and all(map(math.isfinite, taken)):
+                    blame = step
+                stack.append(result)
+        if math.isfinite(stack[0]):
+            return Score(stack[0])
+        place = f", from column {blame.column + 1} of {self.text!r} on" if blame else ""
+        return Score(None, f"the function gives {stack[0]}{place}")
+
+    @staticmethod
+    def _result(step: _Step, taken: list[float], values: Mapping[str, float | None]) -> float:
+        if step.function is not None:
+            return float(step.function(*(np.float64(number) for number in taken)))
+        if step.constant is not None:
+            return step.constant
+        value = values[step.name]
+        assert value is not None
+        return float(value)
+
+
+def parse(text: str, names: Collection[str]) -> Expression:
+    """Parse an expression over measures called ``names``.
+
+    Raises:
+        ScoreFault: a syntax error, an unknown name or function, a wrong number of arguments, or
+            an expression longer than 4096 characters or deeper than 100 levels.
+    """
+    text = _one_line(text).strip()
+    if not text:
+        raise ScoreFault(text, 0, "the function is empty; expected an expression")
+    if len(text) > MAX_LENGTH:
+        raise ScoreFault(text[:60] + " ...", 0, f"longer than {MAX_LENGTH} characters")
+    _check_depth(text)
+    try:
+        tree = _parser().parse(text)
+    except lark.exceptions.UnexpectedCharacters as fault:
+        column = fault.pos_in_stream or 0
+        raise ScoreFault(text, column, f"{text[column]!r} cannot stand here") from None
+    except lark.exceptions.UnexpectedToken as fault:
+        if fault.token.type == "$END":
+            raise ScoreFault(text, len(text), "the expression ends too early") from None
+        column = fault.token.start_pos or 0
+        raise ScoreFault(text, column, f"{str(fault.token)!r} cannot stand here") from None
+    steps, used = _compile(tree, text, tuple(names))
+    return Expression(text, tuple(used), tuple(steps))
+
+
+def _one_line(text: str) -> str:
+    return "".join(" " if letter.isspace() else letter for letter in text)
+
+
+def _check_depth(text: str) -> None:
+    """Refuse what would nest deeper than the language's limit."""
+    depth, signs = 0, 0
+    for column, letter in enumerate(text):
+        depth += (letter in "(?") - (letter == ")")
+        signs = 0 if letter.isalnum() or letter in "_.)" else signs + (letter in "+-^")
+        if depth > MAX_DEPTH or signs > MAX_DEPTH:
+            raise ScoreFault(text, column, f"nested deeper than {MAX_DEPTH} levels")
+
+
+@functools.cache
+def _parser() -> lark.Lark:
+    return lark.Lark(GRAMMAR, parser="lalr", propagate_positions=True)
+
+
+def _compile(
+    tree: lark.Tree[Any], text: str, names: tuple[str, ...]
+) -> tuple[list[_Step], dict[str, None]]:
+    """Turn a syntax tree into steps, without recursion: chains may be thousands long."""
+    steps: list[_Step] = []
+    used: dict[str, None] = {}
+    todo: list[lark.Tree[Any] | _Step] = [tree]
+    while todo:
+        node = todo.pop()
+        if isinstance(node, _Step):
+            steps.append(node)
+            continue
+        column = getattr(node.meta, "start_pos", 0)
+        parts = [part for part in node.children if part is not None]
+        if node.data == "number":
+            steps.append(_Step(column, 0, constant=float(str(parts[0]))))
+        elif node.data == "name":
+            steps.append(_name(str(parts[0]), column, text, names, used))
+        else:
+            operands = [part for part in parts if isinstance(part, lark.Tree)]
+            tokens = [part for part in parts if isinstance(part, lark.Token)]
+            if node.data != "start":
+                todo.append(_operation(node.data, tokens, len(operands), column, text))
+            todo.extend(reversed(operands))
+    return steps, used
+
+
+def _name(
+    name: str, column: int, text: str, names: tuple[str, ...], used: dict[str, None]
+) -> _Step:
+    if name in names:
+        used[name] = None
+        return _Step(column, 0, name=name)
+    if name in CONSTANTS:
+        return _Step(column, 0, constant=CONSTANTS[name])
+    if name in FUNCTIONS:
+        raise ScoreFault(text, column, f"{name} is a function; expected {name}(...)")
+    known = ", ".join(names) or "none"
+    near = did_you_mean(name, [*names, *CONSTANTS])
+    raise ScoreFault(text, column, f"no measure is called {name!r}.{near} Known: {known}")
+
+
+def _operation(kind: str, tokens: list[lark.Token], count: int, column: int, text: str) -> _Step:
+    if kind == "choice":
+        return _Step(column, 3, _if)
+    if kind == "signed":
+        return _Step(column, 1, np.negative if tokens[0] == "-" else np.positive)
+    if kind == "binary":
+        return _Step(tokens[0].start_pos or 0, 2, OPERATORS[str(tokens[0])])
+    name = str(tokens[0])
+    if name not in FUNCTIONS:
+        near = did_you_mean(name, FUNCTIONS)
+        raise ScoreFault(text, column, f"no function is called {name!r}.{near}")
+    wanted, function = FUNCTIONS[name]
+    if count != wanted if wanted is not None else count == 0:
+        expected = "at least 1 argument" if wanted is None else f"{wanted} argument(s)"
+        raise ScoreFault(text, column, f"{name} takes {expected}, not {count}")
+    return _Step(column, count, function)
+
+
+def _if(condition: float, then: float, otherwise: float) -> float:
+    return then if condition != 0.0 else otherwise
+
+
+def _sum(*values: float) -> float:
+    total = values[0]
+    for value in values[1:]:
+        total = total + value
+    return total
+
+
+def _mean(*values: float) -> float:
+    return _sum(*values) / len(values)
+
+
+def _rint(value: float) -> float:
+    return float(np.floor(value + 0.5))
+
+
+OPERATORS: dict[str, Function] = {
+    "||": lambda a, b: a != 0.0 or b != 0.0,
+    "&&": lambda a, b: a != 0.0 and b != 0.0,
+    "<": np.less,
+    "<=": np.less_equal,
+    ">": np.greater,
+    ">=": np.greater_equal,
+    "==": np.equal,
+    "!=": np.not_equal,
+    "+": np.add,
+    "-": np.subtract,
+    "*": np.multiply,
+    "/": np.divide,
+    "^": np.power,
+}
+"""What stands between two operands."""
+
+FUNCTIONS: dict[str, tuple[int | None, Function]] = {
+    "abs": (1, np.abs),
+    "acos": (1, np.arccos),
+    "acosh": (1, np.arccosh),
+    "asin": (1, np.arcsin),
+    "asinh": (1, np.arcsinh),
+    "atan": (1, np.arctan),
+    "atan2": (2, np.arctan2),
+    "atanh": (1, np.arctanh),
+    "avg": (None, _mean),
+    "cos": (1, np.cos),
+    "cosh": (1, np.cosh),
+    "exp": (1, np.exp),
+    "if": (3, _if),
+    "ln": (1, np.log),
+    "log": (1, np.log10),
+    "log10": (1, np.log10),
+    "log2": (1, np.log2),
+    "max": (None, lambda *values: max(values)),
+    "min": (None, lambda *values: min(values)),
+    "rint": (1, _rint),
+    "sign": (1, np.sign),
+    "sin": (1, np.sin),
+    "sinh": (1, np.sinh),
+    "sqrt": (1, np.sqrt),
+    "sum": (None, _sum),
+    "tan": (1, np.tan),
+    "tanh": (1, np.tanh),
+}
+"""Name -> number of arguments (None: one or more), and what it does."""

@@ -1,0 +1,43 @@
+"""What starts and stops a benchmark and its measures: one file a trigger."""
+
+from __future__ import annotations
+
+from .never import Never, NeverSpec
+from .on_init import OnInit, OnInitSpec
+from .on_move import OnMove, OnMoveSpec
+from .on_no_move import OnNoMove, OnNoMoveSpec
+from .position import Position, PositionSpec
+from .service import Service, ServiceSpec
+from .topic import Topic, TopicSpec
+from .trigger import Trigger, TriggerSpec
+
+TRIGGERS: dict[str, type[TriggerSpec]] = {
+    "never": NeverSpec,
+    "onInit": OnInitSpec,
+    "onMove": OnMoveSpec,
+    "onNoMove": OnNoMoveSpec,
+    "position": PositionSpec,
+    "service": ServiceSpec,
+    "topic": TopicSpec,
+}
+"""``<type>`` -> what a file says about it. In alphabetical order."""
+
+__all__ = [
+    "TRIGGERS",
+    "Never",
+    "NeverSpec",
+    "OnInit",
+    "OnInitSpec",
+    "OnMove",
+    "OnMoveSpec",
+    "OnNoMove",
+    "OnNoMoveSpec",
+    "Position",
+    "PositionSpec",
+    "Service",
+    "ServiceSpec",
+    "Topic",
+    "TopicSpec",
+    "Trigger",
+    "TriggerSpec",
+]

@@ -1,0 +1,30 @@
+"""never: always off.
+
+.. code-block:: xml
+
+    <stopOn> <type>never</type> </stopOn>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...world import World
+from .trigger import Trigger, TriggerSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class NeverSpec(TriggerSpec):
+    """A trigger of type ``never``."""
+
+    def bind(self, world: World) -> Never:
+        """Needs nothing of the world."""
+        return Never()
+
+
+class Never(Trigger):
+    """Always off."""
+
+    def is_on(self) -> bool:
+        """Return False."""
+        return False

@@ -1,0 +1,30 @@
+"""onInit: on from the beginning.
+
+.. code-block:: xml
+
+    <startOn> <type>onInit</type> </startOn>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...world import World
+from .trigger import Trigger, TriggerSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class OnInitSpec(TriggerSpec):
+    """A trigger of type ``onInit``."""
+
+    def bind(self, world: World) -> OnInit:
+        """Needs nothing of the world."""
+        return OnInit()
+
+
+class OnInit(Trigger):
+    """Always on."""
+
+    def is_on(self) -> bool:
+        """Return True."""
+        return True

@@ -1,0 +1,47 @@
+"""service: on as soon as somebody calls a service.
+
+.. code-block:: xml
+
+    <startOn> <type>service</type> <target>startBench</target> </startOn>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...messages import Empty, EmptyResponse
+from ...world import World
+from .trigger import Trigger, TriggerSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class ServiceSpec(TriggerSpec):
+    """A trigger of type ``service``."""
+
+    target: str
+    """Name of the service it offers (std_srvs/Empty)."""
+
+    def bind(self, world: World) -> Service:
+        """Offer the service."""
+        return Service(world, self.target)
+
+
+class Service(Trigger):
+    """On from the first call of its service, and for good."""
+
+    def __init__(self, world: World, name: str) -> None:
+        self._world, self._name = world, name
+        self._was_called = False
+        world.serve(name, Empty, self._call)
+
+    def is_on(self) -> bool:
+        """Whether the service has been called."""
+        return self._was_called
+
+    def close(self) -> None:
+        """Withdraw the service."""
+        self._world.withdraw(self._name)
+
+    def _call(self, request: Empty) -> EmptyResponse:
+        self._was_called = True
+        return EmptyResponse()

@@ -1,0 +1,31 @@
+"""What every trigger is: something that is on or off."""
+
+from __future__ import annotations
+
+import abc
+from dataclasses import dataclass
+
+from ...world import World
+
+
+@dataclass(frozen=True, kw_only=True)
+class TriggerSpec(abc.ABC):
+    """A ``<startOn>`` or ``<stopOn>`` element of a benchmark file."""
+
+    @abc.abstractmethod
+    def bind(self, world: World) -> Trigger:
+        """Watch ``world`` from now on; raises UnknownName for a target that is not there."""
+
+
+class Trigger(abc.ABC):
+    """Something in the world that is on or off.
+
+    It is bound afresh for every level, so it has seen nothing before; ask it once a step.
+    """
+
+    @abc.abstractmethod
+    def is_on(self) -> bool:
+        """Whether it is on, at the current step."""
+
+    def close(self) -> None:  # noqa: B027 - most triggers hold nothing
+        """Give back what it held (a service, a subscription)."""

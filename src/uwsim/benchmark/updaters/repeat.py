@@ -1,0 +1,50 @@
+"""repeat: the same level several times.
+
+.. code-block:: xml
+
+    <repeat> <iterations>10</iterations> <interval>60</interval> </repeat>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...world import Stage
+from .updater import SceneUpdater, SceneUpdaterSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class RepeatSpec(SceneUpdaterSpec):
+    """A ``<repeat>`` element."""
+
+    name: ClassVar[str] = "iteration"
+
+    iterations: int
+    """How many times."""
+    interval: float
+    """Length of a level [s]."""
+
+    def values(self) -> tuple[float, ...]:
+        """Return the numbers of the iterations, from 0."""
+        return tuple(float(i) for i in range(self.iterations))
+
+    @property
+    def seconds_per_level(self) -> float:
+        """The interval [s]."""
+        return self.interval
+
+    def blend(self, value: float, fraction: float) -> float:
+        """There is nothing between two iterations."""
+        return value
+
+    def bind(self, stage: Stage) -> Repeat:
+        """Needs nothing of the scene."""
+        return Repeat()
+
+
+class Repeat(SceneUpdater):
+    """Changes nothing."""
+
+    def apply(self, value: float) -> None:
+        """Leave the scene alone."""

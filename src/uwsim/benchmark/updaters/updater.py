@@ -1,0 +1,169 @@
+"""What every scene updater is, and how nested ones make a list of levels."""
+
+from __future__ import annotations
+
+import abc
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...errors import BadSetting
+from ...world import Stage
+
+MAX_LEVELS = 100_000
+
+
+@dataclass(frozen=True)
+class Level:
+    """One level of a sweep: what stands at which value, the outermost updater first."""
+
+    values: tuple[tuple[str, float], ...]
+    """(reference, value) of each updater, such as ``(("current", 0.1), ("fog", 0.05))``."""
+
+    def __str__(self) -> str:
+        return ", ".join(f"{name}={value:g}" for name, value in self.values)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SceneUpdaterSpec(abc.ABC):
+    """What ``<sceneUpdater>`` holds: how the scene changes from level to level."""
+
+    name: ClassVar[str]
+    """Its reference: the name of its column in the result."""
+    unit: ClassVar[str] = "1"
+    """Unit of its values."""
+
+    child: SceneUpdaterSpec | None = None
+    """The updater nested in it, which is stepped first."""
+
+    @abc.abstractmethod
+    def values(self) -> tuple[float, ...]:
+        """Return the value of each of its levels."""
+
+    @abc.abstractmethod
+    def bind(self, stage: Stage) -> SceneUpdater:
+        """Find what it changes; raises UnknownName or UwsimError if it cannot."""
+
+    @property
+    def seconds_per_level(self) -> float | None:
+        """How long a level lasts when it is the deepest [s]; None: until ``stopOn``."""
+        return None
+
+    @property
+    def initial(self) -> float:
+        """The value it starts from."""
+        return self.values()[0]
+
+    def blend(self, value: float, fraction: float) -> float:
+        """Return what lies ``fraction`` (0..1) of the way from `initial` to ``value``."""
+        start = self.initial
+        return value if fraction >= 1.0 else start + (value - start) * fraction
+
+    def apply(self, stage: Stage, value: float) -> None:
+        """Bring the scene to ``value``."""
+        self.bind(stage).apply(value)
+
+
+class SceneUpdater(abc.ABC):
+    """Something that turns one knob of the scene."""
+
+    @abc.abstractmethod
+    def apply(self, value: float) -> None:
+        """Bring the scene to ``value``."""
+
+
+def chain(spec: SceneUpdaterSpec) -> tuple[SceneUpdaterSpec, ...]:
+    """Return the updater and those nested in it, outermost first.
+
+    A ``<none/>`` nested in another updater changes nothing and is left out.
+    """
+    found: list[SceneUpdaterSpec] = []
+    updater: SceneUpdaterSpec | None = spec
+    while updater is not None:
+        if not found or updater.name != "none":
+            found.append(updater)
+        updater = updater.child
+    return tuple(found)
+
+
+def references(spec: SceneUpdaterSpec) -> tuple[str, ...]:
+    """Return the column name of each updater, outermost first; a second ``fog`` is ``fog_2``."""
+    names: list[str] = []
+    for updater in chain(spec):
+        n_before = sum(other.split("_")[0] == updater.name for other in names)
+        names.append(updater.name if n_before == 0 else f"{updater.name}_{n_before + 1}")
+    return tuple(names)
+
+
+def n_levels(spec: SceneUpdaterSpec) -> int:
+    """Return how many levels there are: the product over nested updaters."""
+    total = 1
+    for updater in chain(spec):
+        total *= len(updater.values())
+    return total
+
+
+def levels(spec: SceneUpdaterSpec) -> list[Level]:
+    """Return all levels in the order of playing: the deepest updater steps first."""
+    if n_levels(spec) > MAX_LEVELS:
+        raise BadSetting(f"The scene updater has {n_levels(spec)} levels; at most {MAX_LEVELS}.")
+    names = references(spec)
+    products = itertools.product(*(updater.values() for updater in chain(spec)))
+    return [Level(tuple(zip(names, values, strict=True))) for values in products]
+
+
+def initial_level(spec: SceneUpdaterSpec) -> Level:
+    """Return the level at which every updater stands at its initial value."""
+    values = (updater.initial for updater in chain(spec))
+    return Level(tuple(zip(references(spec), values, strict=True)))
+
+
+def blend(spec: SceneUpdaterSpec, level: Level, fraction: float) -> Level:
+    """Return what lies ``fraction`` (0..1) of the way from the initial level to ``level``."""
+    blended = (
+        (name, updater.blend(value, fraction))
+        for updater, (name, value) in zip(chain(spec), level.values, strict=True)
+    )
+    return Level(tuple(blended))
+
+
+def interval(spec: SceneUpdaterSpec) -> float | None:
+    """Return how long a level lasts [s]: the deepest updater decides; None: until ``stopOn``."""
+    return chain(spec)[-1].seconds_per_level
+
+
+def bind_updaters(spec: SceneUpdaterSpec, stage: Stage) -> tuple[SceneUpdater, ...]:
+    """Bind the updater and those nested in it, outermost first."""
+    return tuple(updater.bind(stage) for updater in chain(spec))
+
+
+def apply_level(updaters: Sequence[SceneUpdater], level: Level) -> None:
+    """Bring the scene to ``level``, the outermost updater first."""
+    for updater, (_, value) in zip(updaters, level.values, strict=True):
+        updater.apply(value)
+
+
+def sweep(initial: float, final: float, step: float, *, single: bool = False) -> tuple[float, ...]:
+    """Return ``initial + i * step`` for as many i as the original plays.
+
+    The original adds ``step`` until the sum *exceeds* ``final``, in float64 or (``single``, the
+    fog) in float32, so rounding decides whether the last value is played: fog 0..1.3 by 0.05 has
+    27 levels, current 0..0.2 by 0.01 only 20. The number is kept; the values are exact.
+
+    Raises:
+        BadSetting: it would never end, or has more than 100 000 levels.
+    """
+    kind = np.float32 if single else np.float64
+    value, last, increment = kind(initial), kind(final), kind(step)
+    count = 1
+    while (grown := value + increment) <= last:
+        if grown <= value or count >= MAX_LEVELS:
+            raise BadSetting(
+                f"From {initial:g} to {final:g} by steps of {step:g} "
+                f"there are more than {MAX_LEVELS} levels."
+            )
+        value, count = grown, count + 1
+    return tuple(initial + i * step for i in range(count))

@@ -1,0 +1,159 @@
+"""A world without engine, renderer or file: what law tests look at instead of a simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TypeVar
+
+import numpy as np
+
+from uwsim import chance
+from uwsim.bus import Bus, Inbox
+from uwsim.errors import UnknownName
+from uwsim.geometry import Intrinsics, Pose
+from uwsim.world import Body, Box, Camera
+
+M = TypeVar("M")
+
+
+class FakeBody:
+    """A body that stands where it is put."""
+
+    def __init__(
+        self,
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        *,
+        name: str = "body",
+        rotation: np.ndarray | None = None,
+        box: Box | None = None,
+    ) -> None:
+        self.name, self.box = name, box
+        self._pose = Pose(np.array(position, dtype=float), np.eye(3))
+        if rotation is not None:
+            self.turn(rotation)
+
+    @property
+    def world_from_body(self) -> Pose:
+        return Pose(self._pose.position.copy(), self._pose.rotation.copy())
+
+    def move(self, *position: float) -> None:
+        """Put its origin at ``position`` [m]."""
+        self._pose = Pose(np.array(position, dtype=float), self._pose.rotation)
+
+    def turn(self, rotation: np.ndarray) -> None:
+        """Give it the rotation matrix (3, 3)."""
+        self._pose = Pose(self._pose.position, np.array(rotation, dtype=float))
+
+
+class FakeCamera:
+    """A pinhole that looks down -z of W (x right, y up) unless it is turned."""
+
+    def __init__(
+        self,
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        *,
+        name: str = "bowtech1",
+        rotation: np.ndarray | None = None,
+        intrinsics: Intrinsics | None = None,
+        std: float = 0.0,
+    ) -> None:
+        self.name, self.std = name, std
+        self.intrinsics = intrinsics or Intrinsics.from_fovy(320, 240, np.radians(50.0))
+        turned = np.eye(3) if rotation is None else np.array(rotation, dtype=float)
+        self._pose = Pose(np.array(position, dtype=float), turned)
+
+    @property
+    def world_from_camera(self) -> Pose:
+        return Pose(self._pose.position.copy(), self._pose.rotation.copy())
+
+    def move(self, *position: float) -> None:
+        """Put its centre at ``position`` [m]."""
+        self._pose = Pose(np.array(position, dtype=float), self._pose.rotation)
+
+
+class FakeWorld:
+    """A `uwsim.world.Stage`: bodies, cameras and a bus; time moves only by `advance`.
+
+    What updaters do to it is kept in ``fog``, ``light_rate``, ``camera_noise`` and ``joints``.
+    """
+
+    def __init__(
+        self,
+        bodies: Mapping[str, Body] | None = None,
+        cameras: Mapping[str, Camera] | None = None,
+        *,
+        timestep: float = 0.002,
+        compatibility: frozenset[str] = frozenset(),
+        world_from_localized: Pose | None = None,
+        vehicles: tuple[str, ...] = (),
+        seed: int = 0,
+    ) -> None:
+        self.bodies, self.cameras = dict(bodies or {}), dict(cameras or {})
+        self.timestep, self.compatibility = timestep, compatibility
+        self.world_from_localized = world_from_localized or Pose.identity()
+        self.vehicles = vehicles
+        self.bus = Bus()
+        self.fog: float | None = None
+        self.light_rate: float | None = None
+        self.camera_noise: float | None = None
+        self.joints: dict[str, dict[int, float]] = {}
+        self._seed = seed
+
+    @property
+    def step(self) -> int:
+        return self.bus.step
+
+    @property
+    def time(self) -> float:
+        return self.step * self.timestep
+
+    def advance(self, steps: int = 1) -> None:
+        """Let time pass, and deliver what was published."""
+        for _ in range(steps):
+            self.bus.step += 1
+            self.bus.deliver()
+
+    def body(self, name: str) -> Body:
+        if name not in self.bodies:
+            raise UnknownName("body", name, self.bodies)
+        return self.bodies[name]
+
+    def camera(self, name: str) -> Camera:
+        if name not in self.cameras:
+            raise UnknownName("camera", name, self.cameras)
+        return self.cameras[name]
+
+    def inbox(self, topic: str, type: type[M]) -> Inbox[M]:
+        return self.bus.inbox(topic, type)
+
+    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
+        return self.bus.publisher(topic, type)
+
+    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
+        self.bus.serve(name, type, handler)
+
+    def withdraw(self, name: str) -> None:
+        self.bus.withdraw(name)
+
+    def serves(self, name: str) -> bool:
+        return self.bus.serves(name)
+
+    def call(self, name: str, request: object) -> object:
+        return self.bus.call(name, request)
+
+    def stream(self, name: str) -> np.random.Generator:
+        return chance.stream(self._seed, name)
+
+    def set_fog(self, density: float) -> None:
+        self.fog = density
+
+    def set_light_rate(self, rate: float) -> None:
+        self.light_rate = rate
+
+    def set_camera_noise(self, std: float) -> None:
+        self.camera_noise = std
+
+    def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
+        if vehicle not in self.vehicles:
+            raise UnknownName("vehicle", vehicle, self.vehicles)
+        self.joints.setdefault(vehicle, {}).update(values)
