@@ -1,0 +1,30 @@
+"""Publishes a fixed text: the original's example of a device.
+
+.. code-block:: xml
+
+    <echo> <name>g500_echo</name> <info>I am here</info> </echo>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..dialect import element
+
+
+@dataclass(frozen=True, kw_only=True)
+class EchoSpec:
+    """An ``<echo>``."""
+
+    name: str
+    """Its name."""
+    info: str = element(default="", required_by_dtd=True)
+    """The text; an empty one switches the device off."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SimulatedDevicesSpec:
+    """A ``<simulatedDevices>``: an optional wrapper around devices."""
+
+    echo: tuple[EchoSpec, ...] = ()
+    """Echo devices."""

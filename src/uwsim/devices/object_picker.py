@@ -1,0 +1,32 @@
+"""Picks up the first object that its ray along +x hits.
+
+.. code-block:: xml
+
+    <objectPicker>
+      <name>picker</name> <relativeTo>part4_base</relativeTo> <range>0.5</range>
+    </objectPicker>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..dialect import element
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObjectPickerSpec:
+    """An ``<objectPicker>``; it rides on the link's visual frame."""
+
+    name: str
+    """Its name."""
+    relative_to: str
+    """The link it rides on."""
+    range: float = element(minimum=0)
+    """Length of the ray [m]."""
+    visible: bool = False
+    """Read and not used: the ray is always drawn."""
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Of the device in the link's frame [m]."""
+    orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
+    """Of the device in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""

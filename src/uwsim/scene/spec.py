@@ -1,0 +1,376 @@
+"""What a scene file says: water, simulation, viewer, vehicles, objects.
+
+.. code-block:: xml
+
+    <UWSimScene>
+      <oceanState> <fog> <density>0.1</density> ... </fog> </oceanState>
+      <simParams> <offsetr> <x>M_PI</x> <y>0</y> <z>-M_PI_2</z> </offsetr> </simParams>
+      <vehicle> <name>girona500</name> <file>data/scenes/g500ARM5.urdf</file> ... </vehicle>
+      <object> <name>blackbox</name> <file>objects/blackbox_uib_trimesh.osg</file> ... </object>
+      <rosInterfaces> ... </rosInterfaces>
+    </UWSimScene>
+
+The fields stand in the order of the original grammar. Positions and angles keep the numbers and
+the frame of the file, L; the properties that return a `Pose` know which of UWSim's two Euler
+orders holds where. Where the original leaves a value uninitialised, the default is that of its
+own macro library.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+from ..devices.comms import (
+    AcousticCommsChannelSpec,
+    AcousticCommsDeviceSpec,
+    CustomCommsChannelSpec,
+    CustomCommsDeviceSpec,
+)
+from ..devices.dredge_tool import DredgeToolSpec
+from ..devices.echo import EchoSpec, SimulatedDevicesSpec
+from ..devices.force_sensor import ForceSensorSpec
+from ..devices.led_array import LedArraySpec
+from ..devices.object_picker import ObjectPickerSpec
+from ..dialect import element
+from ..geometry import Pose, rotation_from_xyz
+from ..sensors.dvl_sensor import DvlSensorSpec
+from ..sensors.gps_sensor import GpsSensorSpec
+from ..sensors.imu import ImuSpec
+from ..sensors.multibeam_sensor import MultibeamSensorSpec
+from ..sensors.pressure_sensor import PressureSensorSpec
+from ..sensors.profiling_sonar import ProfilingSonarSpec
+from ..sensors.range_sensor import RangeSensorSpec
+from ..sensors.structured_light_projector import StructuredLightProjectorSpec
+from ..sensors.virtual_camera import VirtualCameraSpec
+from ..sensors.virtual_range_image import VirtualRangeImageSpec
+from .ros_interfaces import INTERFACES, InterfaceSpec
+
+Triple = tuple[float, float, float]
+
+ZERO: Triple = (0.0, 0.0, 0.0)
+ONE: Triple = (1.0, 1.0, 1.0)
+NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FogSpec:
+    """A ``<fog>``: how visibility falls with distance."""
+
+    density: float = element(default=0.1, required_by_dtd=True)
+    """Visibility is ``1 - exp(-(density * distance)^2)`` lost [1/m]."""
+    color: Triple = element(default=NIGHT_BLUE, parts="rgb", required_by_dtd=True)
+    """What replaces what cannot be seen [0..1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OceanStateSpec:
+    """An ``<oceanState>``: the surface and the water."""
+
+    windx: float = 0.04
+    """Wind along x; not normalised, its length scales the waves [1]."""
+    windy: float = 0.04
+    """Wind along y; not normalised, its length scales the waves [1]."""
+    wind_speed: float = 12.0
+    """Wind speed of the wave spectrum [m/s]."""
+    depth: float = 1000.0
+    """Depth of the water, for the speed of waves only: it is no floor [m]."""
+    reflection_damping: float = 0.35
+    """Factor on waves that run against the wind [1]."""
+    wave_scale: float = 1e-7
+    """Amplitude of the wave spectrum [1]."""
+    is_not_choppy: bool = element(default=False, invalid=True)
+    """Whether waves move points only up and down."""
+    choppy_factor: float = 2.5
+    """How far waves move points sideways [1]."""
+    crest_foam_height: float = 2.2
+    """Height from which crests foam; read and not used, as in the original [m]."""
+    ocean_surface_height: float = 0.0
+    """Height of the water surface in the world, z up [m]."""
+    fog: FogSpec = element(default_factory=FogSpec)
+    """How visibility falls with distance."""
+    color: Triple = element(default=NIGHT_BLUE, parts="rgb")
+    """Light scattered into the view by the water [0..1]."""
+    attenuation: Triple = element(default=(0.015, 0.0075, 0.005), parts="rgb")
+    """Loss of red, green and blue light on its way [1/m]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShowTrajectorySpec:
+    """A ``<showTrajectory>``: the viewer draws where something went."""
+
+    target: str
+    """Route of the node to follow."""
+    color: Triple = element(default=(1.0, 0.0, 0.0), parts="rgb")
+    """Of the line [0..1]."""
+    line_style: int = 1
+    """1 solid, 2 to 4 dashed."""
+    time_window: float = -1.0
+    """How long points stay; not above 0: for ever [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SimParamsSpec:
+    """A ``<simParams>``: frames, window, physics, light."""
+
+    disable_shaders: bool = False
+    """Whether water and sky are drawn without effects."""
+    resw: int = element(default=800, minimum=1)
+    """Width of the window [px]."""
+    resh: int = element(default=600, minimum=1)
+    """Height of the window [px]."""
+    offsetp: Triple = ZERO
+    """Origin of the file's frame in the world [m]."""
+    offsetr: Triple = ZERO
+    """Turn of the file's frame in the world, about x, y, z: Rx Ry Rz [rad]."""
+    enable_physics: bool = False
+    """Whether contacts and gravity act on objects."""
+    gravity: Triple = ZERO
+    """In the world; all zero stands for (0, 0, -1) [m/s2]."""
+    physics_frequency: float = element(default=60.0, above=0)
+    """Steps of the original's physics [Hz]."""
+    physics_sub_steps: int = 0
+    """Most steps per frame; 0 is automatic."""
+    physics_solver: str = "Dantzig"
+    """Dantzig, SolveProjectedGauss or SequentialImpulse."""
+    show_trajectory: tuple[ShowTrajectorySpec, ...] = ()
+    """Trails to draw in the viewer."""
+    light_rate: float = element(default=1.0, minimum=0)
+    """Factor on the light of the scene [1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ViewerCameraSpec:
+    """A ``<camera>``: the viewer's, in the world (z up)."""
+
+    free_motion: bool = element(default=True, invalid=True)
+    """1: the mouse moves it; 0: it follows ``objectToTrack``."""
+    object_to_track: str = ""
+    """Route of the node to follow."""
+    fov: float = element(default=60.0, above=0, below=180)
+    """Vertical field of view [deg]."""
+    aspect_ratio: float = element(default=1.33, above=0)
+    """Width over height [1]."""
+    near: float = -1.0
+    """Near plane; automatic unless both planes are given [m]."""
+    far: float = -1.0
+    """Far plane; automatic unless both planes are given [m]."""
+    position: Triple = (-5.0, -5.0, 8.0)
+    """Of the viewer in the world [m]."""
+    look_at: Triple = ZERO
+    """Where it looks, in the world [m]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class NedOriginSpec:
+    """A ``<nedOrigin>``: where on Earth the pose inputs of ``<fdm>`` count from."""
+
+    lat: float = element(default=0.0, lenient=True, required_by_dtd=True)
+    """Latitude [deg]."""
+    lon: float = element(default=0.0, lenient=True, required_by_dtd=True)
+    """Longitude [deg]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class NetTracingScriptSpec:
+    """A ``<netTracingScript>``: a plug-in that watches the network simulation."""
+
+    class_name: str = element(default="", required_by_dtd=True)
+    """Name of the plug-in; empty or "default" is the built-in one."""
+    lib_path: str = ""
+    """Library that holds it."""
+    log_to_file: str = ""
+    """File to log to."""
+    log_to_console: bool = True
+    """Whether to log to the console."""
+    async_log: bool = True
+    """Whether to log in the background."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TfSpec:
+    """A ``<tf>``: the vehicle follows a ROS frame."""
+
+    tf_id: str
+    """The frame it follows."""
+    position: Triple = ZERO
+    """Of the vehicle in that frame [m]."""
+    orientation: Triple = element(default=ZERO, parts="rpy")
+    """Of the vehicle in that frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class VehicleSpec:
+    """A ``<vehicle>``: a robot and its sensors; dynamic if and only if ``dynamics`` is given."""
+
+    name: str
+    """Its name: node, topic target, prefix of its frames."""
+    file: str
+    """Its URDF file."""
+    fdm: int = -1
+    """UDP port on which a flight dynamics model sends poses; -1 is off."""
+    tf: TfSpec | None = None
+    """The ROS frame it follows."""
+    vr: bool = False
+    """Whether it is a ghost: drawn in the viewer, unseen by cameras."""
+    joint_values: tuple[float, ...] = element(item="joint", default=())
+    """Of the movable joints that mimic no other, in the order of the tree [rad or m]."""
+    position: Triple = ZERO
+    """Of its base in the file's frame [m]."""
+    orientation: Triple = element(default=ZERO, parts="rpy")
+    """Of its base in the file's frame, in UWSim's vehicle order: Rx Ry Rz [rad]."""
+    scale_factor: Triple = ONE
+    """Scale of the whole vehicle along x, y, z [1]."""
+    virtual_cameras: tuple[VirtualCameraSpec, ...] = element("virtualCamera", default=())
+    """Colour cameras."""
+    structured_light_projectors: tuple[StructuredLightProjectorSpec, ...] = element(
+        "structuredLightProjector", default=()
+    )
+    """Lasers and lamps."""
+    range_sensors: tuple[RangeSensorSpec, ...] = element("rangeSensor", default=())
+    """Single rays."""
+    object_pickers: tuple[ObjectPickerSpec, ...] = element("objectPicker", default=())
+    """Pickers."""
+    imus: tuple[ImuSpec, ...] = element("imu", default=())
+    """Attitude."""
+    pressure_sensors: tuple[PressureSensorSpec, ...] = element("pressureSensor", default=())
+    """Depth."""
+    gps_sensors: tuple[GpsSensorSpec, ...] = element("gpsSensor", default=())
+    """Position at the surface."""
+    dvl_sensors: tuple[DvlSensorSpec, ...] = element("dvlSensor", default=())
+    """Velocity over ground."""
+    virtual_range_images: tuple[VirtualRangeImageSpec, ...] = element(
+        "virtualRangeImage", default=()
+    )
+    """Depth cameras."""
+    multibeam_sensors: tuple[MultibeamSensorSpec, ...] = element("multibeamSensor", default=())
+    """Fans of beams."""
+    profiling_sonars: tuple[ProfilingSonarSpec, ...] = element("ProfilingSonar", default=())
+    """Stepping sonars; not in the original grammar, though in its users' files."""
+    simulated_devices: SimulatedDevicesSpec | None = None
+    """An optional wrapper around devices."""
+    echos: tuple[EchoSpec, ...] = element("echo", default=())
+    """Echo devices."""
+    force_sensors: tuple[ForceSensorSpec, ...] = element("ForceSensor", default=())
+    """Wrench of contacts."""
+    dredge_tools: tuple[DredgeToolSpec, ...] = element("DredgeTool", default=())
+    """Uncover buried objects."""
+    custom_comms_devices: tuple[CustomCommsDeviceSpec, ...] = element(
+        "CustomCommsDevice", default=()
+    )
+    """Links described by delays."""
+    acoustic_comms_devices: tuple[AcousticCommsDeviceSpec, ...] = element(
+        "AcousticCommsDevice", default=()
+    )
+    """Acoustic modems."""
+    led_array: LedArraySpec | None = element("LedArray", default=None)
+    """Signal lamps."""
+    dynamics: str | None = element(namespaced=True, default=None)
+    """Name of the hydrodynamic model, for example g500_physical; without it the vehicle is moved
+    by commands alone."""
+
+    @property
+    def localized_from_base(self) -> Pose:
+        """Where its base stands in L at the start, without its scale."""
+        return Pose.from_xyz(self.position, self.orientation)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhysicsSpec:
+    """A ``<physics>`` block of an object."""
+
+    mass: float = element(default=1.0, minimum=0)
+    """Its mass; 0 never moves [kg]."""
+    inertia: Triple = ZERO
+    """About its axes; all zero: from its shape [kg m2]."""
+    collision_shape_type: str = "box"
+    """box, sphere, compound box, compound cylinder, trimesh or compound trimesh."""
+    collision_shape: str = ""
+    """Another file to make the shape from."""
+    linear_damping: float = 0.0
+    """Of its velocity [1/s]."""
+    angular_damping: float = 0.0
+    """Of its turning [1/s]."""
+    is_kinematic: bool = False
+    """Whether it is moved by commands alone."""
+    min_linear_limit: Triple = ONE
+    """Where an axis may go from; min above max is free [m]."""
+    max_linear_limit: Triple = ZERO
+    """Where an axis may go to; min above max is free [m]."""
+    min_angular_limit: Triple = ONE
+    """Where a turn may go from; min above max is free [rad]."""
+    max_angular_limit: Triple = ZERO
+    """Where a turn may go to; min above max is free [rad]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObjectSpec:
+    """An ``<object>``: a thing in the water; the one called ``terrain`` cannot be picked up."""
+
+    name: str
+    """Its name; several may share one, searches find the first."""
+    file: str
+    """Its mesh."""
+    position: Triple = element(default=ZERO, required_by_dtd=True)
+    """In the file's frame [m]."""
+    orientation: Triple = element(default=ZERO, parts="rpy", required_by_dtd=True)
+    """In the file's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    scale_factor: Triple = ONE
+    """Scale along x, y, z [1]."""
+    offsetp: Triple = ZERO
+    """Point of the mesh that becomes the origin of the object [m]."""
+    offsetr: Triple = ZERO
+    """Turn of the mesh in the object, about x, y, z: Rx Ry Rz [rad]."""
+    physics: PhysicsSpec | None = None
+    """How it moves when physics is on."""
+    buried: float = element(attribute=True, default=0.0)
+    """How much of its height lies under sand [1]."""
+
+    @property
+    def localized_from_object(self) -> Pose:
+        """Where it stands in L, without its scale."""
+        return Pose.from_rpy(self.position, self.orientation)
+
+    @property
+    def object_from_mesh(self) -> Pose:
+        """``Rx Ry Rz(offsetr) T(-offsetp)``: the scale acts outside of it."""
+        rotation = rotation_from_xyz(*self.offsetr)
+        x, y, z = self.offsetp
+        return Pose(rotation @ [-x, -y, -z], rotation)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SceneSpec:
+    """A ``<UWSimScene>``."""
+
+    ocean_state: OceanStateSpec = element(default_factory=OceanStateSpec)
+    """The surface and the water."""
+    sim_params: SimParamsSpec = element(default_factory=SimParamsSpec)
+    """Frames, window, physics, light."""
+    camera: ViewerCameraSpec = element(default_factory=ViewerCameraSpec)
+    """The viewer's camera."""
+    ned_origin: NedOriginSpec | None = None
+    """Where on Earth the scene lies."""
+    net_tracing_script: NetTracingScriptSpec | None = None
+    """Watches the network simulation."""
+    custom_comms_channels: tuple[CustomCommsChannelSpec, ...] = element(
+        "CustomCommsChannel", default=()
+    )
+    """Channels described by delays."""
+    acoustic_comms_channels: tuple[AcousticCommsChannelSpec, ...] = element(
+        "AcousticCommsChannel", default=()
+    )
+    """Acoustic channels."""
+    vehicles: tuple[VehicleSpec, ...] = element("vehicle", default=())
+    """The robots."""
+    objects: tuple[ObjectSpec, ...] = element("object", default=())
+    """Everything else."""
+    ros_interfaces: tuple[InterfaceSpec, ...] = element(choice=INTERFACES, default=())
+    """Topics in and out."""
+    path: str = dataclasses.field(default="", compare=False, metadata={"path": True})
+    """The file it was read from."""
+
+    @property
+    def world_from_localized(self) -> Pose:
+        """W from L: what ``simParams`` says."""
+        return Pose.from_xyz(self.sim_params.offsetp, self.sim_params.offsetr)

@@ -1,0 +1,27 @@
+"""Attitude of the vehicle.
+
+.. code-block:: xml
+
+    <imu>
+      <name>imu</name> <relativeTo>base_link</relativeTo> <std>0.02</std>
+    </imu>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..dialect import element
+from .sensor import SensorSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImuSpec(SensorSpec):
+    """An ``<imu>``."""
+
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Of the sensor in the link's frame [m]."""
+    orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
+    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    std: float = element(default=0.0, minimum=0)
+    """Noise of each angle, standard deviation [rad]."""

@@ -1,0 +1,44 @@
+"""A fan of beams in the sensor's y-z plane.
+
+.. code-block:: xml
+
+    <multibeamSensor underwaterParticles="false">
+      <name>multibeam</name> <relativeTo>part0</relativeTo>
+      <initAngle>-60</initAngle> <finalAngle>60</finalAngle> <angleIncr>0.1</angleIncr>
+      <range>10</range>
+    </multibeamSensor>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..dialect import element
+from .sensor import SensorSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class MultibeamSensorSpec(SensorSpec):
+    """A ``<multibeamSensor>``."""
+
+    visible: bool = False
+    """Whether the viewer draws the beams."""
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Of the sensor in the link's frame [m]."""
+    orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
+    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    init_angle: float
+    """Angle of the first beam; 0 is -z, positive towards +y [deg]."""
+    final_angle: float
+    """Angle of the last beam [deg]."""
+    angle_incr: float = element(above=0)
+    """Angle between beams [deg]."""
+    range: float = element(above=0)
+    """Longest distance measured; the value of a beam that hits nothing [m]."""
+    underwater_particles: bool = element(attribute=True, default=False)
+    """Whether particles drifting in the water are seen."""
+
+    @property
+    def n_beams(self) -> int:
+        """Number of beams, as the original counts them."""
+        return int(abs(self.final_angle - self.init_angle) / self.angle_incr) + 1

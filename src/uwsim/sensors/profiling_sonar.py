@@ -1,0 +1,39 @@
+"""A sonar whose beam steps over a sector (from a branch of UWSim that users run).
+
+.. code-block:: xml
+
+    <ProfilingSonar>
+      <name>profiler</name> <relativeTo>base_link</relativeTo>
+      <initAngle>-60</initAngle> <finalAngle>60</finalAngle> <angleIncr>1</angleIncr>
+      <range>10</range> <fov>2</fov>
+    </ProfilingSonar>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..dialect import element
+from .sensor import SensorSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProfilingSonarSpec(SensorSpec):
+    """A ``<ProfilingSonar>``."""
+
+    visible: bool = False
+    """Whether the viewer draws the beams."""
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Of the sensor in the link's frame [m]."""
+    orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
+    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    init_angle: float
+    """Angle of the first beam; 0 is -z, positive towards +y [deg]."""
+    final_angle: float
+    """Angle of the last beam [deg]."""
+    angle_incr: float = element(above=0)
+    """Angle between beams [deg]."""
+    range: float = element(above=0)
+    """Longest distance measured; the value of a beam that hits nothing [m]."""
+    fov: float = element(above=0)
+    """Width of the beam [deg]."""

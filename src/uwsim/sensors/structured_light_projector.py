@@ -1,0 +1,32 @@
+"""A projector of a pattern of laser light, or a lamp.
+
+.. code-block:: xml
+
+    <structuredLightProjector>
+      <name>laser</name> <relativeTo>part0</relativeTo>
+      <fov>21</fov> <image_name>data/textures/laser_lines.png</image_name> <laser>1</laser>
+    </structuredLightProjector>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..dialect import element
+from .sensor import SensorSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class StructuredLightProjectorSpec(SensorSpec):
+    """A ``<structuredLightProjector>``: it shines an image along -z."""
+
+    fov: float = element(above=0, below=180)
+    """Vertical field of view [deg]; the aspect is the image's."""
+    image_name: str = element("image_name")
+    """The image: transparent and pure white pixels shine nothing."""
+    laser: bool = True
+    """1: laser, neither lit nor attenuated on its way; 0: lamp, falling off with distance."""
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Of the sensor in the link's frame [m]."""
+    orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
+    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""

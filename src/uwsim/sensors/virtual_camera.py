@@ -1,0 +1,178 @@
+"""A pinhole colour camera.
+
+.. code-block:: xml
+
+    <virtualCamera>
+      <name>bowtech1</name> <relativeTo>part0</relativeTo>
+      <resw>320</resw> <resh>240</resh>
+      <position> <x>-0.2</x> <y>-0.1</y> <z>0</z> </position>
+      <orientation> <r>0</r> <p>M_PI</p> <y>M_PI_2</y> </orientation>
+    </virtualCamera>
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..dialect import element
+from ..geometry import Intrinsics, Pose
+from ..messages import CameraInfo, RegionOfInterest, header
+from ..world import Body, SensorWorld
+from .sensor import SensorSpec, link_from_sensor
+
+
+@dataclass(frozen=True, kw_only=True)
+class CameraParametersSpec:
+    """The pinhole of a camera from a calibration; overrides ``fovy``."""
+
+    fx: float = element(above=0)
+    """Focal length along the columns [px]."""
+    fy: float = element(above=0)
+    """Focal length along the rows [px]."""
+    x0: float
+    """Principal point from the left edge [px]."""
+    y0: float
+    """Principal point from the top edge [px]; the original counts it from the bottom."""
+    f: float = element(above=0)
+    """Far plane [m]."""
+    n: float = element(above=0)
+    """Near plane [m]."""
+    k: float
+    """Skew [px]."""
+
+    def intrinsics(self, width: int, height: int, compatibility: frozenset[str]) -> Intrinsics:
+        """The pinhole for a picture of ``width`` by ``height`` pixels.
+
+        With the compatibility ``y0``, y0 counts from the bottom edge as in the original.
+        """
+        return Intrinsics(
+            width=width,
+            height=height,
+            fx=self.fx,
+            fy=self.fy,
+            cx=self.x0,
+            cy=height - self.y0 if "y0" in compatibility else self.y0,
+            skew=self.k,
+            near=self.n,
+            far=self.f,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class VirtualCameraSpec(SensorSpec):
+    """A ``<virtualCamera>``: axes as in OpenGL (x right, y up), it looks along -z.
+
+    Without ``parameters``: square pixels, a centred axis, near 0.18 m, far 2000 m.
+    """
+
+    resw: int = element(default=160, minimum=1, maximum=16384)
+    """Columns of the picture [px]."""
+    resh: int = element(default=120, minimum=1, maximum=16384)
+    """Rows of the picture [px]."""
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Of the sensor in the link's frame [m]."""
+    orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
+    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    baseline: float = 0.0
+    """Distance to the first camera of a stereo pair [m]; Tx = -fx * baseline in CameraInfo."""
+    frame_id: str = ""
+    """Name of the frame in the headers of image and info."""
+    fovy: float = element(default=50.0, above=0, below=180)
+    """Vertical field of view [deg]; ignored when there are parameters."""
+    parameters: CameraParametersSpec | None = None
+    """The pinhole from a calibration."""
+    showpath: float = 0.0
+    """Period at which the viewer marks the outline of what the camera sees [s]; 0 is off."""
+    grayscale: bool = False
+    """Whether it gives mono8 instead of rgb8."""
+    std: float = element(default=0.005, minimum=0)
+    """Noise of each channel of each pixel, standard deviation [1: full scale]."""
+
+    def intrinsics(self, compatibility: frozenset[str] = frozenset()) -> Intrinsics:
+        """Its pinhole; with the compatibility ``y0`` the parameter y0 counts from the bottom."""
+        if self.parameters is not None:
+            return self.parameters.intrinsics(self.resw, self.resh, compatibility)
+        return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
+
+    def bind(self, world: SensorWorld, vehicle: str) -> VirtualCamera:
+        """Mount it on its link; raises UnknownName if the vehicle has no such link.
+
+        With the compatibility ``visual-frames`` it hangs on the link's visual frame.
+        """
+        frame = "@visual" if "visual-frames" in world.compatibility else ""
+        link = world.body(f"{vehicle}/{self.relative_to}{frame}")
+        return VirtualCamera(self, link, world, world.stream(f"{vehicle}/{self.name}/noise"))
+
+
+class VirtualCamera:
+    """A camera on a link: where it is, what it sees, what it says of itself.
+
+    Not modelled: exposure, motion blur, rolling shutter, lens distortion, refraction.
+    """
+
+    def __init__(
+        self, spec: VirtualCameraSpec, link: Body, world: SensorWorld, random: np.random.Generator
+    ) -> None:
+        self._link, self._world, self._random = link, world, random
+        self._link_from_camera = link_from_sensor(spec)
+        self._baseline = spec.baseline
+        self._is_grey = spec.grayscale
+        self._intrinsics = spec.intrinsics(world.compatibility)
+        self._published_cy = self._intrinsics.cy
+        if "y0" in world.compatibility and spec.parameters is not None:
+            self._published_cy = spec.parameters.y0
+        self.name = spec.name
+        """Its name in the scene."""
+        self.frame_id = spec.frame_id
+        """The frame in the headers of its messages."""
+        self.std = spec.std
+        """Noise of each channel, 0..1; scene updaters may turn it."""
+
+    @property
+    def intrinsics(self) -> Intrinsics:
+        """Its pinhole."""
+        return self._intrinsics
+
+    @property
+    def world_from_camera(self) -> Pose:
+        """Where it is now; OpenGL axes."""
+        return self._link.world_from_body @ self._link_from_camera
+
+    def shoot(self) -> npt.NDArray[np.uint8]:
+        """Take a picture, (h, w, 3), or (h, w) when it is grey; row 0 is the top."""
+        return self._world.photograph(
+            self.world_from_camera,
+            self._intrinsics,
+            std=self.std,
+            random=self._random,
+            grey=self._is_grey,
+        )
+
+    def skip(self) -> None:
+        """Let a picture that nobody reads take its turn in the random stream."""
+        if self.std > 0.0:
+            self._random.integers(2**63)
+
+    def info(self, time: float) -> CameraInfo:
+        """Build its CameraInfo, stamped ``time`` [s]: no distortion, Tx = -fx * baseline."""
+        lens = self._intrinsics
+        fx, fy, cx, cy = lens.fx, lens.fy, lens.cx, self._published_cy
+        return CameraInfo(
+            header=header(time, self.frame_id),
+            height=lens.height,
+            width=lens.width,
+            distortion_model="",
+            d=np.zeros(4),
+            k=np.array([fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
+            r=np.eye(3).reshape(-1),
+            p=np.array([fx, 0.0, cx, -fx * self._baseline, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]),
+            binning_x=0,
+            binning_y=0,
+            roi=RegionOfInterest(
+                x_offset=0, y_offset=0, height=lens.height, width=lens.width, do_rectify=False
+            ),
+        )
