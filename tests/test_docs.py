@@ -1,4 +1,4 @@
-"""What the documentation says is so: commands exist, links lead somewhere, generated pages are fresh."""
+"""What the documentation says is so: commands exist, links lead somewhere, pages are fresh."""
 
 from __future__ import annotations
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 
 from .app import COMMANDS, main
 
@@ -12,12 +13,13 @@ HEAD = """\
 
 This page is what `uwsim --help` and `uwsim COMMAND --help` print; `scripts/docs` writes it.
 
-Exit status: 0 done; 2 wrong input, with one line on stderr for each fault; 3 the run failed, partial results kept;
-130 interrupted, what was finished kept.
+Exit status: 0 done; 2 wrong input, with one line on stderr for each fault; 3 the run failed,
+partial results kept; 130 interrupted, what was finished kept.
 
-A file is looked for as given; beside the file that names it and in each of its parent folders; in every `--data-path`; in
-`~/.uwsim/data`; in the package; each also under `data`, `data/scenes`, `objects`, `terrain`, `robot` and `textures`.
-Bundled scenes and benchmarks are called by their bare name.
+A file is looked for as given; beside the file that names it and in each of its parent folders; in
+every `--data-path`; in `~/.uwsim/data`; in the package; each also under `data`, `data/scenes`,
+`objects`, `terrain`, `robot` and `textures`. Bundled scenes and benchmarks are called by their bare
+name.
 
 A PATH in `--set PATH=VALUE` is element names joined by dots; `[name]` chooses among equals:
 `vehicle[girona500].virtualCamera[bowtech1].std=0.016`.
@@ -34,6 +36,7 @@ def page() -> str:
 def section(title: str, *arguments: str) -> str:
     """Return one section: the title and what ``uwsim ARGUMENTS`` prints."""
     printed = io.StringIO()
+    os.environ["COLUMNS"] = "80"
     with contextlib.redirect_stdout(printed):
         main(arguments)
     return f"## {title}\n\n```text\n{printed.getvalue().strip()}\n```\n"
