@@ -7,13 +7,14 @@ then for our stand-in of that relative name (`STAND_INS`).
 from __future__ import annotations
 
 import hashlib
-from functools import cache, lru_cache
+from functools import cache
 from pathlib import Path, PurePosixPath
 
 from ..errors import AssetNotFound
 from .find import candidates, find, folders_searched, plain_name
 from .loaders import READABLE, read_model
 from .mesh import Mesh, Model, Texture
+from .primitives import primitive
 from .stand_ins import STAND_INS, StandIn
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "find",
     "folders_searched",
     "load_model",
+    "primitive",
 ]
 
 

@@ -84,14 +84,20 @@ def join(*shapes: Shape) -> Shape:
     )
 
 
-def _groups(values: Array, grain: float) -> npt.NDArray[np.int64]:
-    """A number for every row, equal where the rows are equal to within ``grain``."""
-    cells = np.round(values / grain).astype(np.int64)
-    primes = np.array(
-        [73856093, 19349663, 83492791, 15485863, 32452843, 49979687, 67867967, 86028121],
-        dtype=np.int64,
-    )
-    keys = (cells * primes[: cells.shape[1]] * np.int64(2654435761)).sum(axis=1)
+_MIX = np.array(
+    [
+        0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB, 0xD6E8FEB86659FD93,
+        0xA0761D6478BD642F, 0xE7037ED1A0B428DB, 0x8EBC6AF09C88C6E3, 0x589965CC75374CC3,
+    ],
+    dtype=np.uint64,
+)  # fmt: skip
+"""Odd numbers without pattern: the weights of a hash."""
+
+
+def _groups(cells: Array) -> npt.NDArray[np.int64]:
+    """A number for every row, equal where the rounded rows are equal."""
+    whole = np.round(cells).astype(np.int64).view(np.uint64)
+    keys = (whole * _MIX[: whole.shape[1]]).sum(axis=1, dtype=np.uint64)
     numbers: npt.NDArray[np.int64] = np.unique(keys, return_inverse=True)[1].ravel()
     return numbers
 
@@ -100,23 +106,32 @@ def _normals(corners: Array, crease: float) -> Array:
     """Normals at the corners, (3m, 3): mean of the faces that meet there, split at creases."""
     face = _face_normals(corners)
     unit = face / np.linalg.norm(face, axis=1, keepdims=True)
-    point = _groups(corners.reshape(-1, 3), 1e-6)
-    order = np.argsort(point, kind="stable")
+    point = _groups(corners.reshape(-1, 3) / _grain(corners))
+    order = by_point = np.argsort(point, kind="stable")
     size = np.bincount(point)
     start = np.concatenate([[0], np.cumsum(size)[:-1]])
-    # Pairs of corners that share a point: each corner beside every corner of its group.
+    # Pairs of corners that share a point: each corner beside every corner of its group. Points
+    # where very many faces meet (fans of broken files) keep the faces' own normals.
+    order = order[size[point[order]] <= 128]
     n_beside = size[point[order]]
     first = np.repeat(order, n_beside)
     step = np.arange(len(first)) - np.repeat(np.cumsum(n_beside) - n_beside, n_beside)
-    second = order[np.repeat(start[point[order]], n_beside) + step]
+    second = by_point[np.repeat(start[point[order]], n_beside) + step]
     alike = np.einsum("ij,ij->i", unit[first // 3], unit[second // 3]) > math.cos(crease)
     first, second = first[alike], second[alike] // 3
     total = np.stack(
         [np.bincount(first, weights=face[second, k], minlength=len(point)) for k in range(3)],
         axis=1,
     )
-    normals: Array = total / np.linalg.norm(total, axis=1, keepdims=True)
+    length = np.linalg.norm(total, axis=1, keepdims=True)
+    normals: Array = np.where(length > 0.0, total / np.where(length > 0.0, length, 1.0),
+                              np.repeat(unit, 3, axis=0))  # fmt: skip
     return normals
+
+
+def _grain(corners: Array) -> float:
+    """Points nearer than this are one point [m]: a millionth of the shape, 1 um at most."""
+    return float(min(1e-6, max(np.ptp(corners.reshape(-1, 3), axis=0).max() * 1e-6, 1e-12)))
 
 
 def mesh(
@@ -128,12 +143,12 @@ def mesh(
 ) -> Mesh:
     """Shapes of one material as a mesh with shared vertices and unit normals."""
     shape = join(*shapes)
-    big = np.linalg.norm(_face_normals(shape.corners), axis=1) > 1e-12
+    big = np.linalg.norm(_face_normals(shape.corners), axis=1) > _grain(shape.corners) ** 2
     corners, uvs = shape.corners[big], shape.uvs[big].reshape(-1, 2)
     normals = _normals(corners, crease)
     points = corners.reshape(-1, 3)
-    grain = np.array([1e-6] * 3 + [1e-3] * 3 + [1e-5] * 2)
-    same = _groups(np.hstack([points, normals, uvs]) / grain, 1.0)
+    grain = np.array([_grain(corners)] * 3 + [1e-3] * 3 + [1e-5] * 2)
+    same = _groups(np.hstack([points, normals, uvs]) / grain)
     _, first = np.unique(same, return_index=True)
     return Mesh(
         vertices=points[first].astype(np.float32),

@@ -1,0 +1,167 @@
+"""GLB, OBJ, STL, PLY and DAE files, read by trimesh, with their pictures."""
+
+from __future__ import annotations
+
+import logging
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import AssetError
+from ..mesh import Mesh, Texture
+from ..procedural.shapes import Shape, mesh
+
+READABLE = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae")
+"""Formats that are read without help from outside."""
+
+LARGEST_MODEL = 4_000_000
+"""Models with more triangles are refused."""
+
+LARGEST_PICTURE = 2048
+"""Textures are reduced to this many pixels a side."""
+
+FARTHEST = 1e6
+"""Vertices farther out than this [m] are taken for a broken file."""
+
+
+def read_meshes(
+    path: Path, *, max_triangles: int | None = None, beside: Path | None = None
+) -> tuple[Mesh, ...]:
+    """The meshes of a file, in its own frame and units; axes are left as they are.
+
+    Normals are computed anew from the faces. Colours of vertices become one mean colour a mesh.
+
+    Args:
+        path: The file.
+        max_triangles: Simplified to about this many in all when there are more.
+        beside: A further folder that pictures are looked for in.
+
+    Raises:
+        AssetError: Broken, empty or too large.
+    """
+    if path.suffix.lower() == ".dae":
+        _refuse_entities(path)
+    try:
+        parts = _geometries(path, beside)
+    except AssetError:
+        raise
+    except (Exception, RecursionError) as error:  # trimesh raises whatever its parsers raise
+        said = str(error).strip().splitlines()
+        why = said[0][:200] if said else ""
+        raise AssetError(
+            f"{path}: not a {path.suffix.lower()} file that can be read "
+            f"({type(error).__name__}{': ' + why if why else ''})."
+        ) from error
+    total = sum(len(part.faces) for part in parts)
+    if total == 0:
+        raise AssetError(f"{path}: holds no triangles.")
+    if total > LARGEST_MODEL:
+        raise AssetError(f"{path}: {total} triangles; at most {LARGEST_MODEL} are read.")
+    keep = 1.0 if max_triangles is None else min(1.0, max_triangles / total)
+    meshes = [_mesh(part, path, keep) for part in parts if len(part.faces)]
+    return tuple(found for found in meshes if len(found.triangles))
+
+
+def _refuse_entities(path: Path) -> None:
+    """A Collada file needs no document type; one that has it may be a trap."""
+    with path.open("rb") as file:
+        while block := file.read(1 << 20):
+            if b"<!DOCTYPE" in block or b"<!ENTITY" in block:
+                raise AssetError(f"{path}: document types and entities are not read.")
+
+
+def _geometries(path: Path, beside: Path | None) -> list[Any]:
+    import trimesh
+
+    class Folders(trimesh.resolvers.FilePathResolver):
+        """Looks for a picture in the file's folder, then beside the original."""
+
+        def get(self, name: str) -> bytes:
+            wanted = Path(name.strip().replace("\\", "/"))
+            for folder in (path.parent, beside):
+                for place in (wanted, Path(wanted.name)):
+                    if folder is not None and (folder / place).is_file():
+                        return (folder / place).read_bytes()
+            raise FileNotFoundError(name)
+
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL)
+    with warnings.catch_warnings(), path.open("rb") as file:
+        warnings.simplefilter("ignore")
+        scene = trimesh.load_scene(
+            file,
+            file_type=path.suffix.lower().lstrip("."),
+            resolver=Folders(str(path)),
+            process=False,
+        )
+        dumped = scene.dump(concatenate=False)
+    return [part for part in dumped if isinstance(part, trimesh.Trimesh)]
+
+
+def _mesh(part: Any, path: Path, keep: float) -> Mesh:
+    vertices = np.asarray(part.vertices, dtype=np.float64)
+    faces = np.asarray(part.faces, dtype=np.int64)
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise AssetError(f"{path}: a triangle names a vertex that is not there.")
+    if not np.isfinite(vertices).all() or np.abs(vertices).max() > FARTHEST:
+        raise AssetError(f"{path}: vertices that are not finite or beyond {FARTHEST:g} m.")
+    uvs = np.zeros((len(vertices), 2))
+    colour, texture = _look(part, path)
+    given = getattr(part.visual, "uv", None)
+    if given is not None and np.shape(given) == (len(vertices), 2):
+        uvs = np.nan_to_num(np.asarray(given, dtype=np.float64))
+    if keep < 1.0:
+        vertices, faces, uvs = _simplified(vertices, faces, uvs, keep)
+    return mesh(Shape(vertices[faces], uvs[faces]), colour=colour, texture=texture, two_sided=True)
+
+
+def _simplified(
+    vertices: npt.NDArray[np.float64],
+    faces: npt.NDArray[np.int64],
+    uvs: npt.NDArray[np.float64],
+    keep: float,
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64], npt.NDArray[np.float64]]:
+    """Fewer triangles; texture coordinates are taken from the nearest old vertex."""
+    import fast_simplification
+    from scipy.spatial import cKDTree
+
+    _, first, number = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
+    welded = vertices[first]
+    points, triangles = fast_simplification.simplify(
+        welded.astype(np.float32), number.ravel()[faces].astype(np.int32), 1.0 - keep
+    )
+    if not len(triangles):
+        return vertices, faces, uvs
+    points = np.asarray(points, dtype=np.float64)
+    _, nearest = cKDTree(vertices).query(points)
+    return points, np.asarray(triangles, dtype=np.int64), uvs[nearest]
+
+
+def _look(part: Any, path: Path) -> tuple[tuple[float, float, float], Texture | None]:
+    """Colour and picture of a trimesh mesh."""
+    material = getattr(part.visual, "material", None)
+    if material is None:
+        if getattr(part.visual, "kind", None) not in ("face", "vertex"):
+            return (0.7, 0.7, 0.7), None
+        colours = np.asarray(part.visual.face_colors, dtype=np.float64)
+        red, green, blue = (colours[:, :3].mean(axis=0) / 255.0).tolist()
+        return (red, green, blue), None
+    image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
+    factor = getattr(material, "baseColorFactor", None)
+    if factor is None and hasattr(material, "diffuse"):
+        factor = material.diffuse
+    numbers = np.asarray(factor if factor is not None else (255, 255, 255), dtype=np.float64)
+    numbers = numbers[:3] / (255.0 if numbers.max() > 1.0 else 1.0)
+    if image is None:
+        red, green, blue = np.clip(numbers, 0.0, 1.0).tolist()
+        return (red, green, blue), None
+    try:
+        picture = image.convert("RGB")
+        picture.thumbnail((LARGEST_PICTURE, LARGEST_PICTURE))
+        pixels = np.array(picture, dtype=np.uint8)
+    except Exception as error:
+        raise AssetError(f"{path}: its picture cannot be read ({type(error).__name__}).") from error
+    # A file's diffuse factor beside a picture is usually an exporter's default: not used.
+    return (1.0, 1.0, 1.0), Texture(name=f"{path}#{id(part)}", pixels=pixels)

@@ -1,0 +1,60 @@
+"""OpenSceneGraph, VRML and 3DS files, by way of the program `osgconv`."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ...errors import AssetError
+
+BY_OSGCONV = (".osg", ".osgt", ".osgb", ".ive", ".wrl", ".3ds")
+"""Formats that need `osgconv`."""
+
+PATIENCE = 120.0
+"""Longest time one conversion may take [s]."""
+
+
+@contextmanager
+def converted(path: Path) -> Iterator[Path]:
+    """The file as OBJ, in a folder that is gone afterwards.
+
+    Pictures inside the file are written out first; pictures beside it are found by their name.
+
+    Raises:
+        AssetError: `osgconv` is not installed or cannot read the file.
+    """
+    program = shutil.which("osgconv")
+    if program is None:
+        raise AssetError(
+            f"{path}: {path.suffix} files are read through osgconv, which is not installed. "
+            "Install it with: sudo apt-get install openscenegraph"
+        )
+    with tempfile.TemporaryDirectory(prefix="uwsim-") as folder:
+        unpacked, obj = Path(folder) / "model.osgt", Path(folder) / "model.obj"
+        _run(
+            [program, "-O", "OutputTextureFiles", str(path.absolute()), str(unpacked)], path, folder
+        )
+        _run([program, str(unpacked), str(obj)], path, folder)
+        if not obj.is_file():
+            raise AssetError(f"{path}: osgconv made nothing of it.")
+        yield obj
+
+
+def _run(command: list[str], path: Path, folder: str) -> None:
+    environment = dict(os.environ, OSG_FILE_PATH=str(path.absolute().parent))
+    try:
+        done = subprocess.run(
+            command, cwd=folder, env=environment, timeout=PATIENCE, capture_output=True, check=False
+        )
+    except subprocess.TimeoutExpired as error:
+        raise AssetError(f"{path}: osgconv took longer than {PATIENCE:g} s.") from error
+    except OSError as error:
+        raise AssetError(f"{path}: osgconv could not be run ({error.strerror}).") from error
+    if done.returncode != 0:
+        said = done.stderr.decode(errors="replace").strip().splitlines()
+        raise AssetError(f"{path}: osgconv cannot read it{': ' + said[-1] if said else '.'}")

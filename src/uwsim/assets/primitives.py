@@ -1,0 +1,49 @@
+"""The shapes a robot file can name without a mesh: box, cylinder and sphere, as in URDF."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from ..errors import AssetError
+from .mesh import Model
+from .procedural.shapes import box, cylinder, mesh, sphere
+
+N_NUMBERS = {"box": 3, "cylinder": 2, "sphere": 1}
+"""How many sizes each kind has."""
+
+
+def primitive(
+    kind: str, size: tuple[float, ...], colour: tuple[float, ...] = (0.7, 0.7, 0.7)
+) -> Model:
+    """A box, cylinder (about z) or sphere, centred on the origin.
+
+    Args:
+        kind: ``box``, ``cylinder`` or ``sphere``.
+        size: Edges x, y, z; or radius and length; or radius [m].
+        colour: Red, green, blue, 0..1; a fourth number (opacity) is not used.
+
+    Raises:
+        AssetError: Another kind, another number of sizes, or a size that is not positive.
+    """
+    if kind not in N_NUMBERS:
+        raise AssetError(f"{kind!r} is not a shape; expected one of {', '.join(N_NUMBERS)}.")
+    numbers = tuple(float(number) for number in size[: N_NUMBERS[kind]])
+    if len(numbers) < N_NUMBERS[kind] or not all(0.0 < number < 1e6 for number in numbers):
+        raise AssetError(
+            f"A {kind} of size {size}: expected {N_NUMBERS[kind]} positive numbers [m]."
+        )
+    red, green, blue = (float(part) for part in colour[:3])
+    return _made(kind, numbers, (red, green, blue))
+
+
+@cache
+def _made(kind: str, size: tuple[float, ...], colour: tuple[float, float, float]) -> Model:
+    if kind == "box":
+        x, y, z = (edge / 2 for edge in size)
+        shape = box((-x, -y, -z), (x, y, z))
+    elif kind == "cylinder":
+        radius, length = size
+        shape = cylinder((0.0, 0.0, -length / 2), (0.0, 0.0, length / 2), radius, n=24)
+    else:
+        shape = sphere(size[0], n=24)
+    return Model(name=kind, meshes=(mesh(shape, colour=colour),), source="stand-in")
