@@ -7,14 +7,18 @@ import importlib
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean
 from .direct import Esm, InverseCompositional, SsdEsm
+from .ecc import Ecc
 from .frozen import Frozen
+from .orb import Orb
 
 __all__ = ["ALGORITHMS", "load_algorithm", "summary"]
 
 ALGORITHMS: dict[str, type[Algorithm]] = {
+    "ecc": Ecc,
     "esm": Esm,
     "frozen": Frozen,
     "ic": InverseCompositional,
+    "orb": Orb,
     "ssd-esm": SsdEsm,
 }
 

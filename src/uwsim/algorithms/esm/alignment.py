@@ -240,45 +240,34 @@ def normal_equations(
     """
     height, width = values.shape
     sums = np.zeros((60, width), np.float32)
-    row_j = np.zeros((11, width), np.float32)
-    from_u = np.float32(0.5 * a * gain * 0.5 * width)
-    from_v = np.float32(0.5 * a * gain * 0.5 * height)
-    share, gain_32, offset_32 = np.float32(b), np.float32(gain), np.float32(offset)
-    scale_u = np.float32(2.0 / width)
-    one = np.float32(1.0)
+    columns = np.empty((11, width), np.float32)
+    abscissa = np.empty(width, np.float32)
+    for c in range(width):
+        abscissa[c] = (2.0 * c + 1.0) / width - 1.0
+    from_u, from_v = np.float32(0.25 * a * gain * width), np.float32(0.25 * a * gain * height)
     for row in range(height):
         first, last = runs[row, 0], runs[row, 1]
         v = np.float32((2.0 * row + 1.0) / height - 1.0)
-        for c in range(first, last):
-            w = (
-                valid[row + 1, c + 1]
-                * valid[row, c + 1]
-                * valid[row + 2, c + 1]
-                * valid[row + 1, c]
-                * valid[row + 1, c + 2]
-            )
-            u = scale_u * (np.float32(c) + np.float32(0.5)) - one
-            gu = from_u * (warped[row + 1, c + 2] - warped[row + 1, c]) + share * slope_u[row, c]
-            gv = from_v * (warped[row + 2, c + 1] - warped[row, c + 1]) + share * slope_v[row, c]
-            gu *= w
-            gv *= w
-            outward = gu * u + gv * v
-            row_j[0, c] = gu
-            row_j[1, c] = gv
-            row_j[2, c] = gu * v
-            row_j[3, c] = gv * u
-            row_j[4, c] = gu * u - gv * v
-            row_j[5, c] = outward
-            row_j[6, c] = -u * outward
-            row_j[7, c] = -v * outward
-            row_j[8, c] = (warped[row + 1, c + 1] - offset_32) * gain_32
-            row_j[9, c] = values[row, c]
-            row_j[10, c] = one
+        fill_columns(
+            columns,
+            abscissa[first:last],
+            v,
+            warped[row : row + 3, first : last + 2],
+            valid[row : row + 3, first : last + 2],
+            values[row, first:last],
+            slope_u[row, first:last],
+            slope_v[row, first:last],
+            np.float32(offset),
+            np.float32(gain),
+            from_u,
+            from_v,
+            np.float32(b),
+        )
         index = 0
         for i in range(8):
             for k in range(i, 11):
-                for c in range(first, last):
-                    sums[index, c] += row_j[i, c] * row_j[k, c]
+                for c in range(last - first):
+                    sums[index, c] += columns[i, c] * columns[k, c]
                 index += 1
     result = np.empty((8, 11))
     index = 0
@@ -292,6 +281,45 @@ def normal_equations(
                 result[k, i] = total
             index += 1
     return result
+
+
+@njit
+def fill_columns(
+    columns: Grey,
+    abscissa: Grey,
+    v: np.float32,
+    warped: Grey,
+    valid: Grey,
+    values: Grey,
+    slope_u: Grey,
+    slope_v: Grey,
+    offset: np.float32,
+    gain: np.float32,
+    from_u: np.float32,
+    from_v: np.float32,
+    share: np.float32,
+) -> None:
+    """Write the eight columns of J, the picture, the template and 1 for one run of pixels."""
+    above, here, below = warped[0], warped[1], warped[2]
+    valid_above, valid_here, valid_below = valid[0], valid[1], valid[2]
+    for c in range(abscissa.size):
+        w = valid_above[c + 1] * valid_below[c + 1]
+        w *= valid_here[c] * valid_here[c + 1] * valid_here[c + 2]
+        u = abscissa[c]
+        gu = w * (from_u * (here[c + 2] - here[c]) + share * slope_u[c])
+        gv = w * (from_v * (below[c + 1] - above[c + 1]) + share * slope_v[c])
+        outward = gu * u + gv * v
+        columns[0, c] = gu
+        columns[1, c] = gv
+        columns[2, c] = gu * v
+        columns[3, c] = gv * u
+        columns[4, c] = gu * u - gv * v
+        columns[5, c] = outward
+        columns[6, c] = -u * outward
+        columns[7, c] = -v * outward
+        columns[8, c] = (here[c + 1] - offset) * gain
+        columns[9, c] = values[c]
+        columns[10, c] = np.float32(1.0)
 
 
 @njit
