@@ -10,54 +10,34 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any, TypeVar, cast
 
 from lxml import etree
 
-from . import dialect
-from .errors import BadSetting, UnknownName, did_you_mean
+from .. import dialect
+from ..errors import BadSetting, UnknownName, did_you_mean
 
 T = TypeVar("T")
 _PART = re.compile(r"([^\[\].=]+)(?:\[([^\]]*)\])?(?:\.|$)")
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Setting:
-    """One ``PATH=VALUE``."""
-
-    path: str
-    """Element names joined by dots."""
-    value: str
-    """What to write there, as text."""
-
-    @staticmethod
-    def from_text(text: str) -> Setting:
-        """Take ``PATH=VALUE`` apart; raises BadSetting when it is none."""
-        path, equals, value = text.partition("=")
-        if not path.strip() or not equals:
-            raise BadSetting(f"{text!r} is no setting; expected PATH=VALUE, as in a.b[name].c=0.5.")
-        return Setting(path=path.strip(), value=value.strip())
-
-
-def apply(spec: T, settings: Iterable[Setting]) -> T:
-    """Return ``spec`` with every setting applied, in order.
+def apply_setting(spec: T, path: str, value: str) -> T:
+    """Return a copy of ``spec`` in which the value that ``path`` leads to is ``value``.
 
     Raises:
         BadSetting: a path that leads nowhere or a value that cannot stand there; names what can.
     """
-    for setting in settings:
-        try:
-            spec = cast(T, _changed(spec, _parts(setting.path), setting.value))
-        except BadSetting as error:
-            raise BadSetting(f"{setting.path}={setting.value}: {error}") from None
-    return spec
+    try:
+        return cast(T, _changed(spec, _parts(path), value))
+    except BadSetting as error:
+        raise BadSetting(f"--set {path}={value}: {error}") from None
 
 
 def _parts(path: str) -> list[tuple[str, str | None]]:
     """``a.b[c].d`` as [("a", None), ("b", "c"), ("d", None)]."""
     parts, at = [], 0
-    while at < len(path):
+    while at < len(path) or not parts:
         match = _PART.match(path, at)
         if match is None or (match.end() == len(path) and path.endswith(".")):
             raise BadSetting("not a path; expected names joined by dots, as in a.b[name].c.")
