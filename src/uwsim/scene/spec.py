@@ -32,6 +32,7 @@ from ..devices.echo import EchoSpec, SimulatedDevicesSpec
 from ..devices.force_sensor import ForceSensorSpec
 from ..devices.led_array import LedArraySpec
 from ..devices.object_picker import ObjectPickerSpec
+from ..devices.sway import SwaySpec, swayed
 from ..dialect import element
 from ..geometry import Pose, rotation_from_xyz
 from ..sensors.dvl_sensor import DvlSensorSpec
@@ -268,11 +269,17 @@ class VehicleSpec:
     dynamics: str | None = element(namespaced=True, default=None)
     """Name of the hydrodynamic model, for example g500_physical; without it the vehicle is moved
     by commands alone."""
+    sways: tuple[SwaySpec, ...] = element("sway", namespaced=True, default=())
+    """Sinusoids about its place, for a vehicle that nobody steers."""
 
     @property
     def localized_from_base(self) -> Pose:
         """Where its base stands in L at the start, without its scale."""
         return Pose.from_xyz(self.position, self.orientation)
+
+    def localized_from_base_at(self, time: float) -> Pose:
+        """Where its base stands in L at ``time`` [s] if only its ``sways`` move it."""
+        return swayed(self.position, self.orientation, self.sways, time)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -52,7 +52,9 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
     for index, vehicle in enumerate(scene.vehicles):
         path = find(vehicle.file, beside=beside, data_path=data_path)
         if path is None:
-            folders = ", ".join(str(f) for f in folders_searched(beside, data_path))
+            folders = ", ".join(
+                str(f) for f in folders_searched(beside=beside, data_path=data_path)
+            )
             raise AssetNotFound(
                 f"The robot file {vehicle.file!r} of vehicle {vehicle.name!r} is in none of the "
                 f"folders searched: {folders}."

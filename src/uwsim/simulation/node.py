@@ -66,9 +66,11 @@ class InProcessNode:
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Have ``callback`` called with every message on ``topic``."""
-        self._close.append(
-            self._bus.subscribe(topic, type, lambda message: self._guard(callback, message))
-        )
+
+        def receive(message: M) -> None:
+            self._guard(callback, message)
+
+        self._close.append(self._bus.subscribe(topic, type, receive))
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``; delayed by the parameter ``latency_s``."""

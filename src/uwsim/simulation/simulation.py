@@ -25,6 +25,7 @@ from ..chance import stream
 from ..errors import UnknownName
 from ..geometry import Intrinsics, Pose
 from ..physics.state import State
+from ..rendering.grey import grey_truncated
 from ..rendering.noise import add_noise
 from ..rendering.renderer import Picture
 from ..rendering.water import Light, Water
@@ -138,7 +139,7 @@ class Simulation:
     def _move_vehicles(self) -> None:
         for index, vehicle in enumerate(self._scene.vehicles):
             if vehicle.sways:
-                localized_from_base = vehicle.swayed(self.time)
+                localized_from_base = vehicle.localized_from_base_at(self.time)
                 self._state.place_vehicle(index, self.world_from_localized @ localized_from_base)
 
     def attach(
@@ -226,20 +227,23 @@ class Simulation:
         *,
         std: float,
         random: np.random.Generator,
+        grey: bool,
     ) -> npt.NDArray[np.uint8]:
-        """Draw what a camera would see now, with noise, (h, w, 3); row 0 is the top."""
-        colour = "linear16" if std > 0.0 else "uint8"
+        """Draw what a camera would see now, with noise, (h, w, 3) or (h, w) when ``grey``."""
         picture = self._scenery.draw(
             world_from_camera,
             intrinsics,
             self._water,
             self._light,
             targets=frozenset({"colour"}),
-            colour=colour,
+            colour="linear16" if std > 0.0 else "uint8",
         )
-        if std > 0.0:
-            return add_noise(picture.colour, std, random)
-        return picture.colour
+        assert picture.colour is not None
+        if picture.colour.dtype == np.uint16:
+            pixels = add_noise(picture.colour.view(np.uint16), std, random)
+        else:
+            pixels = picture.colour.view(np.uint8)
+        return grey_truncated(pixels) if grey else pixels
 
     def picture(
         self, world_from_camera: Pose, intrinsics: Intrinsics, *, fog: float | None = None

@@ -1,0 +1,103 @@
+r"""What decides when a tracker that compares by ZNCC loses its patch in fog.
+
+With the contrast of the patch S (standard deviation in grey levels, no noise, fog 0), the noise of
+the grey image sigma, the threshold z and the mean distance d from camera to patch, fog of density f
+leaves the contrast :math:`S e^{-(fd)^2}`, and the ZNCC with a noise-free template is
+
+.. math:: \rho = \left(1 + \sigma^2 / (S e^{-(fd)^2})^2\right)^{-1/2}
+
+which falls below z at
+
+.. math:: f^* = \frac{1}{d} \sqrt{\ln\left(\frac{S}{\sigma}\sqrt{1/z^2 - 1}\right)}
+
+Not modelled: noise in the template, 8-bit quantisation, attenuation, the tracker's own error.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array
+from ..simulation import Simulation
+from .ground_truth import CornersFromCameraSpec
+from .measures import EuclideanNormSpec
+from .plan import Plan
+
+GREY = np.array([0.299, 0.587, 0.114])
+"""Weights of red, green and blue in grey (ITU-R BT.601)."""
+Fact = tuple[float, str]
+
+
+def visibility_facts(
+    simulation: Simulation, plan: Plan, parameters: Mapping[str, float | str]
+) -> dict[str, Fact]:
+    """Measure S, sigma, d and f* of the first target whose corners are tracked in a camera.
+
+    Returns:
+        ``S``, ``sigma_channel`` and ``sigma`` [grey level], ``d`` [m], ``z``, ``f_star`` and
+        ``f_star_channel`` [1/m]: with the noise of the grey image and with that of one channel.
+        Empty when no measure asks for corners, or the camera has no noise.
+    """
+    for spec in plan.benchmark.measures:
+        if not isinstance(spec, EuclideanNormSpec):
+            continue
+        truth = spec.ground_truth
+        if not isinstance(truth, CornersFromCameraSpec):
+            continue
+        corners = truth.bind(simulation).read()
+        if corners is None:
+            continue
+        camera = simulation.camera(truth.camera)
+        picture = simulation.picture(camera.world_from_camera, camera.intrinsics, fog=0.0)
+        assert picture.range is not None
+        assert picture.colour is not None
+        inside = quad_mask(corners.reshape(4, 2), picture.range.shape)
+        inside &= np.isfinite(picture.range)
+        if not inside.any():
+            continue
+        grey = picture.colour[..., :3].astype(np.float64) @ GREY
+        contrast = float(grey[inside].std())
+        distance = float(picture.range[inside].mean())
+        channel = 255.0 * camera.std
+        sigma = channel * float(np.linalg.norm(GREY))
+        given = parameters.get("zncc_threshold", 0.5)
+        threshold = float(given) if isinstance(given, float | int) else 0.5
+        facts: dict[str, Fact] = {
+            "S": (contrast, "grey level"),
+            "sigma": (sigma, "grey level"),
+            "sigma_channel": (channel, "grey level"),
+            "d": (distance, "m"),
+            "z": (threshold, "1"),
+        }
+        for name, noise in (("f_star", sigma), ("f_star_channel", channel)):
+            limit = fog_of_loss(contrast, noise, distance, threshold)
+            if limit is not None:
+                facts[name] = (limit, "1/m")
+        return facts
+    return {}
+
+
+def fog_of_loss(contrast: float, noise: float, distance: float, threshold: float) -> float | None:
+    """Fog density f* [1/m] at which the ZNCC falls to the threshold; None if it never does."""
+    if noise <= 0.0 or distance <= 0.0 or not 0.0 < threshold < 1.0 or contrast <= 0.0:
+        return None
+    ratio = contrast * math.sqrt(1.0 / threshold**2 - 1.0) / noise
+    return math.sqrt(math.log(ratio)) / distance if ratio > 1.0 else 0.0
+
+
+def quad_mask(corners: Array, shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
+    """Pixels whose centre lies inside a convex quadrangle (4, 2) [px], (h, w) bool."""
+    v, u = np.mgrid[0 : shape[0], 0 : shape[1]] + 0.5
+    sides = [
+        (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0])
+        for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)
+    ]
+    stacked = np.stack(sides)
+    inside: npt.NDArray[np.bool_] = np.logical_or(
+        (stacked >= 0.0).all(axis=0), (stacked <= 0.0).all(axis=0)
+    )
+    return inside

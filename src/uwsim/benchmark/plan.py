@@ -1,0 +1,130 @@
+"""What is to be played: a plan, cut into units of work.
+
+A unit is a sequence that must be played in one go: one seed's whole sweep when the benchmark is
+sequential, one seed's one level when it is independent (DESIGN 5).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from ..bus import Algorithm
+from ..errors import BadSetting
+from ..scene.spec import SceneSpec
+from .spec import BenchmarkSpec
+from .updaters import Level
+from .updaters import levels as levels_of
+
+Mode = Literal["sequential", "independent"]
+PATIENCE = 10.0
+"""How long a start is waited for, in simulation time, unless the file says otherwise [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unit:
+    """One sequence: its seed, and its levels."""
+
+    index: int
+    """Place in the plan, from 0."""
+    repeat: int
+    """Number of the repeat, from 0."""
+    seed: int
+    """Seed of every random stream."""
+    levels: tuple[Level, ...]
+    """Levels to play, in order."""
+    is_alone: bool
+    """Whether this is one level of an independent benchmark."""
+
+    @property
+    def stream_prefix(self) -> str:
+        """What stands in front of the name of every random stream."""
+        if not self.is_alone:
+            return ""
+        values = ",".join(f"{value:.12g}" for _, value in self.levels[0].values)
+        return f"level/{values}/"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """A benchmark with everything it is played with; a value, sent to workers as it is."""
+
+    benchmark: BenchmarkSpec
+    """The benchmark file."""
+    scene: SceneSpec
+    """The scene, with ``--set`` applied."""
+    algorithm: type[Algorithm]
+    """Class of the algorithm under test."""
+    algorithm_name: str
+    """The name it was asked for by."""
+    parameters: Mapping[str, float | str] = field(default_factory=dict)
+    """What ``--set algorithm.NAME=VALUE`` said."""
+    settings: tuple[tuple[str, str], ...] = ()
+    """Every ``--set``, as given; those of the scene are already in `scene`."""
+    mode: Mode = "sequential"
+    """How levels follow each other."""
+    seed: int = 0
+    """Seed of the first repeat."""
+    repeats: int = 1
+    """Number of repeats; they use seeds ``seed ... seed + repeats - 1``."""
+    chosen: tuple[tuple[str, float], ...] = ()
+    """``--level``: only levels whose reference has one of these values."""
+    compatibility: frozenset[str] = frozenset()
+    """The original's slips asked for."""
+    timestep: float = 0.002
+    """Length of a physics step [s]."""
+    data_path: tuple[Path, ...] = ()
+    """Folders in which files are looked for."""
+
+    @property
+    def patience(self) -> float:
+        """How long a start is waited for [s of simulation time]."""
+        return PATIENCE if self.benchmark.patience is None else self.benchmark.patience
+
+    def levels(self) -> tuple[Level, ...]:
+        """Return the levels to play.
+
+        Raises:
+            BadSetting: ``--level`` names no reference, or a value the sweep does not have.
+        """
+        levels = tuple(levels_of(self.benchmark.scene_updater))
+        for name in dict.fromkeys(name for name, _ in self.chosen):
+            wanted = [value for chosen, value in self.chosen if chosen == name]
+            has = {value for level in levels for n, value in level.values if n == name}
+            if not has:
+                known = ", ".join(n for n, _ in levels[0].values)
+                raise BadSetting(f"--level {name}: this benchmark sweeps {known}.")
+            for value in wanted:
+                if not any(_same(value, other) for other in has):
+                    nearest = min(has, key=lambda other: abs(other - value))
+                    raise BadSetting(
+                        f"--level {name}={value:g} is not a level; the nearest is {nearest:g}."
+                    )
+            levels = tuple(
+                level
+                for level in levels
+                if any(_same(dict(level.values)[name], value) for value in wanted)
+            )
+        return levels
+
+    def units(self) -> tuple[Unit, ...]:
+        """Cut the plan into its units, repeat by repeat, level by level."""
+        levels = self.levels()
+        groups = [levels] if self.mode == "sequential" else [(level,) for level in levels]
+        return tuple(
+            Unit(
+                index=repeat * len(groups) + i,
+                repeat=repeat,
+                seed=self.seed + repeat,
+                levels=group,
+                is_alone=self.mode == "independent",
+            )
+            for repeat in range(self.repeats)
+            for i, group in enumerate(groups)
+        )
+
+
+def _same(a: float, b: float) -> bool:
+    return abs(a - b) < 1e-9

@@ -1,0 +1,122 @@
+"""Rows on disk as they finish: one file a unit of work, one line a row.
+
+A line is written whole and flushed before the next level begins, so a killed run loses at most the
+level it was in. The first line says what the unit is, the last that it is done. A line that was
+cut off does not count.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import ReplayDiffers, ResultError
+
+FOLDER = "units"
+Record = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Stored:
+    """What a unit's file holds."""
+
+    rows: tuple[Record, ...]
+    """Rows finished, in order."""
+    end: Record | None
+    """What the unit knows when it is done; None while it is not."""
+
+
+def path_of(directory: Path, index: int) -> Path:
+    """Return where the unit number ``index`` is kept."""
+    return directory / FOLDER / f"{index:05d}.jsonl"
+
+
+def read(directory: Path, index: int, head: Record) -> Stored:
+    """Read a unit; nothing stored is nothing finished.
+
+    Raises:
+        ResultError: the file belongs to another run.
+    """
+    path = path_of(directory, index)
+    if not path.exists():
+        return Stored((), None)
+    lines = path.read_bytes().split(b"\n")[:-1]  # what follows the last newline was cut off
+    records: list[Record] = []
+    for line in lines:
+        try:
+            records.append(json.loads(line))
+        except ValueError:
+            break
+    if not records:
+        return Stored((), None)
+    if records[0] != {"unit": head}:
+        raise ResultError(
+            f"{path}: belongs to another run (other files, seed, settings or version). "
+            "Start anew with --overwrite, or choose another --out."
+        )
+    rows = tuple(r["row"] for r in records[1:] if isinstance(r.get("row"), dict))
+    ends = [r["end"] for r in records[1:] if isinstance(r.get("end"), dict)]
+    return Stored(rows, ends[0] if ends else None)
+
+
+class UnitFile:
+    """Writes a unit, checking what is already there row by row.
+
+    Raises:
+        ReplayDiffers: a row played again differs from the one stored.
+    """
+
+    def __init__(self, directory: Path, index: int, head: Record) -> None:
+        self._path = path_of(directory, index)
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        self._stored = read(directory, index, head)
+        self._n_rows = 0
+        self._stream = self._path.with_suffix(".part").open("w", encoding="utf-8", newline="\n")
+        self._write({"unit": head})
+        for row in self._stored.rows:
+            self._write({"row": row})
+        self._publish()
+
+    def add(self, row: Record) -> None:
+        """Add a row, or hold it against the stored one."""
+        row = json.loads(_text(row))
+        if self._n_rows < len(self._stored.rows):
+            before = self._stored.rows[self._n_rows]
+            if _text(before) != _text(row):
+                raise ReplayDiffers(
+                    f"{self._path}: row {self._n_rows}, played again, differs from the stored one "
+                    f"in {_difference(before, row)}. The run is not repeatable here: was it made "
+                    "on another machine or with other versions? Start anew with --overwrite."
+                )
+        else:
+            self._write({"row": row})
+        self._n_rows += 1
+
+    def finish(self, end: Record) -> None:
+        """Say that the unit is done."""
+        self._write({"end": end})
+        self.close()
+
+    def close(self) -> None:
+        """Close the file; what was added is on disk."""
+        self._stream.close()
+
+    def _write(self, record: Record) -> None:
+        self._stream.write(_text(record) + "\n")
+        self._stream.flush()
+        os.fsync(self._stream.fileno())
+
+    def _publish(self) -> None:
+        self._path.with_suffix(".part").replace(self._path)
+
+
+def _text(record: Record) -> str:
+    return json.dumps(record, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+
+
+def _difference(before: Record, after: Record) -> str:
+    names = [name for name in after if before.get(name) != after[name]]
+    return ", ".join(names) or "its layout"

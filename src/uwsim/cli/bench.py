@@ -1,0 +1,319 @@
+"""``uwsim bench``: play a benchmark and write its result."""
+
+from __future__ import annotations
+
+import datetime
+import os
+import platform
+import shutil
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from ..errors import BadSetting
+from .files import benchmark_file, scene_file
+
+if TYPE_CHECKING:
+    from ..benchmark.bench import Bench
+    from ..benchmark.plan import Plan
+    from ..benchmark.result import Result
+
+OURS = (
+    "result.json",
+    "result.dat",
+    "provenance.json",
+    "report.html",
+    "units",
+    "plots",
+    "pictures",
+)
+"""What a result directory holds, beside its logs."""
+
+
+def bench(
+    benchmark: Annotated[
+        str, typer.Argument(metavar="BENCHMARK", help="A benchmark file, or a bundled name.")
+    ],
+    scene: Annotated[
+        str | None,
+        typer.Option(help="The scene; without it the one that the benchmark names (u:scene)."),
+    ] = None,
+    algorithm: Annotated[
+        str | None,
+        typer.Option(
+            help="What is tested: a name of `uwsim list algorithms`, or module:Class of your own; "
+            "without it the one that the benchmark names (u:algorithm)."
+        ),
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of every random stream.")] = 0,
+    repeat: Annotated[
+        int, typer.Option(min=1, help="Play K times, with seeds SEED ... SEED+K-1.")
+    ] = 1,
+    mode: Annotated[
+        str | None,
+        typer.Option(
+            help="sequential or independent; without it what the benchmark says (u:mode)."
+        ),
+    ] = None,
+    level: Annotated[
+        list[str] | None,
+        typer.Option(help="Only this level of the sweep, as fog=0.5; may be repeated."),
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="PATH=VALUE",
+            help="Change the scene or the algorithm, as oceanState.fog.density=0.4, "
+            "vehicle[girona500].virtualCamera[bowtech1].std=0.016 or algorithm.kp=0.4; "
+            "may be repeated.",
+        ),
+    ] = None,
+    compat: Annotated[
+        list[str] | None,
+        typer.Option(help="Slips of the original to bring back, by name; uwsim is all of them."),
+    ] = None,
+    workers: Annotated[
+        int, typer.Option(min=1, help="Number of processes that units of work are spread over.")
+    ] = 1,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Result directory [./NAME.result].")
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with an interrupted run in --out.")
+    ] = False,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace an earlier result in --out.")
+    ] = False,
+    data_path: Annotated[
+        list[Path] | None,
+        typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
+    ] = None,
+) -> None:
+    """Play a benchmark: every level, scored; a table, logs, plots and a report come out."""
+    plan = make_plan(
+        benchmark,
+        scene=scene,
+        algorithm=algorithm,
+        seed=seed,
+        repeat=repeat,
+        mode=mode,
+        levels=level or [],
+        settings=settings or [],
+        compat=compat or [],
+        data_path=tuple(data_path or ()),
+    )
+    directory = out or Path(f"{Path(plan.benchmark.path).stem}.result")
+    prepare(directory, resume=resume, overwrite=overwrite)
+
+    from ..benchmark.bench import Bench, hash_inputs
+
+    run = Bench(plan=plan, out=directory, inputs=hash_inputs(plan))
+    began = time.time()
+    result = play_with_progress(run, workers)
+    finish(run, result, began=began, workers=workers)
+
+
+def make_plan(
+    benchmark: str,
+    *,
+    scene: str | None,
+    algorithm: str | None,
+    seed: int,
+    repeat: int,
+    mode: str | None,
+    levels: list[str],
+    settings: list[str],
+    compat: list[str],
+    data_path: tuple[Path, ...],
+) -> Plan:
+    """Read the files and put together what is to be played.
+
+    Raises:
+        UwsimError: a file, a name or a setting that is wrong.
+    """
+    from ..algorithms import load_algorithm
+    from ..benchmark.plan import Plan
+    from ..benchmark.reader import read_benchmark
+    from ..compatibility import compatibility
+    from ..scene.reader import read_scene
+    from ..scene.settings import apply_setting
+
+    path = benchmark_file(benchmark, data_path)
+    spec = read_benchmark(path)
+    if scene is None and spec.scene is None:
+        raise BadSetting(
+            f"{path}: the benchmark does not name its scene (u:scene); give it with --scene."
+        )
+    beside = (path.parent, *data_path)
+    scene_spec = read_scene(scene_file(scene or str(spec.scene), beside))
+    parameters: dict[str, float | str] = {}
+    pairs = [split(setting, "--set") for setting in settings]
+    for name, value in pairs:
+        if name.startswith("algorithm."):
+            parameters[name.removeprefix("algorithm.")] = number_or_text(value)
+        else:
+            scene_spec = apply_setting(scene_spec, name, value)
+    name = algorithm or spec.algorithm
+    if name is None:
+        raise BadSetting(
+            f"{path}: the benchmark does not name an algorithm (u:algorithm); "
+            "give one with --algorithm."
+        )
+    chosen_mode = mode or spec.mode or "sequential"
+    if chosen_mode not in ("sequential", "independent"):
+        raise BadSetting(f"--mode is {chosen_mode!r}; expected sequential or independent.")
+    asked = [word for words in compat for word in words.replace(",", " ").split()]
+    plan = Plan(
+        benchmark=spec,
+        scene=scene_spec,
+        algorithm=load_algorithm(name),
+        algorithm_name=name,
+        parameters=parameters,
+        settings=tuple(pairs),
+        mode="independent" if chosen_mode == "independent" else "sequential",
+        seed=seed,
+        repeats=repeat,
+        chosen=tuple(chosen_level(text) for text in levels),
+        compatibility=compatibility([*spec.compatibility, *asked]),
+        data_path=data_path,
+    )
+    plan.levels()
+    return plan
+
+
+def split(setting: str, option: str) -> tuple[str, str]:
+    """Cut ``NAME=VALUE``; raises BadSetting."""
+    name, equals, value = setting.partition("=")
+    if not equals or not name.strip():
+        raise BadSetting(f"{option} {setting!r}: expected NAME=VALUE.")
+    return name.strip(), value.strip()
+
+
+def chosen_level(text: str) -> tuple[str, float]:
+    """Read ``fog=0.5``; raises BadSetting."""
+    name, value = split(text, "--level")
+    number = number_or_text(value)
+    if isinstance(number, str):
+        raise BadSetting(f"--level {text!r}: expected a number behind {name!r}.")
+    return name, number
+
+
+def number_or_text(text: str) -> float | str:
+    """Return a finite number where the text is one, else the text."""
+    try:
+        number = float(text)
+    except ValueError:
+        return text
+    return number if abs(number) < float("inf") else text
+
+
+def prepare(directory: Path, *, resume: bool, overwrite: bool) -> None:
+    """See to it that a result may be written into ``directory``.
+
+    Raises:
+        BadSetting: it is not empty, and nothing was said; or it holds what is not ours.
+    """
+    if resume and overwrite:
+        raise BadSetting("--resume and --overwrite exclude each other.")
+    if directory.exists() and not directory.is_dir():
+        raise BadSetting(f"--out {directory}: is a file, not a directory.")
+    if not directory.is_dir() or not any(directory.iterdir()) or resume:
+        return
+    if not overwrite:
+        raise BadSetting(
+            f"--out {directory}: not empty. Use --resume to go on, or --overwrite to start anew."
+        )
+    found = sorted(path.name for path in directory.iterdir())
+    strange = [name for name in found if not is_ours(name)]
+    if strange:
+        raise BadSetting(
+            f"--out {directory}: holds {strange[0]!r}, which is no part of a result; "
+            "not overwritten."
+        )
+    for name in found:
+        path = directory / name
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+def is_ours(name: str) -> bool:
+    """Whether a name in a result directory is one that uwsim writes."""
+    is_log = name.startswith("measure-") and name.endswith(".csv")
+    return name in OURS or is_log or (name.startswith(".") and name.endswith(".part"))
+
+
+def play_with_progress(run: Bench, workers: int) -> Result:
+    """Play, with a bar that says how many levels are done and how long the rest will take."""
+    total = sum(len(unit.levels) for unit in run.plan.units())
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("levels"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
+        title = f"{Path(run.plan.benchmark.path).stem} ({run.plan.algorithm_name})"
+        task = progress.add_task(title, total=total, completed=run.n_finished())
+        return run.run(workers=workers, on_level=lambda: progress.advance(task))
+
+
+def finish(run: Bench, result: Result, *, began: float, workers: int) -> None:
+    """Write provenance, plots and report, and print the table."""
+    from ..benchmark.provenance import save_provenance
+    from ..benchmark.report import write_report
+    from ..benchmark.table import table
+
+    wall = time.time() - began
+    save_provenance(provenance(run, began, wall, workers), run.out)
+    report = write_report(run.out)
+    Console().print(table(result))
+    print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
+
+
+def provenance(run: Bench, began: float, wall: float, workers: int) -> dict[str, object]:
+    """Say where, when and how fast; nothing here is part of a score."""
+    from importlib.metadata import version
+
+    simulated = run.simulated_s
+    names = ("mujoco", "numpy", "numba", "moderngl", "opencv-python-headless", "rosbags")
+    return {
+        "began": datetime.datetime.fromtimestamp(began, datetime.UTC).isoformat(),
+        "wall_s": wall,
+        "simulated_s": simulated,
+        "real_time_factor": simulated / wall if wall > 0.0 else None,
+        "workers": workers,
+        "resumed": run.n_resumed,
+        "command": sys.argv[1:],
+        "host": platform.node(),
+        "system": platform.platform(),
+        "cpu": cpu_name(),
+        "cores": os.cpu_count(),
+        "load": os.getloadavg(),
+        "python": platform.python_version(),
+        "packages": {name: version(name) for name in names},
+    }
+
+
+def cpu_name() -> str:
+    """Return the processor's name as the system gives it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return platform.processor()
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return models[0] if models else platform.processor()

@@ -1,0 +1,58 @@
+r"""sway: a vehicle that swings about its place, as if in a swell; an extension of the dialect.
+
+.. code-block:: xml
+
+    <vehicle> ...
+      <u:sway> <u:axis>x</u:axis> <u:amplitude>0.1</u:amplitude> <u:period>7</u:period> </u:sway>
+    </vehicle>
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ..dialect import element
+from ..geometry import Pose, rotation_from_xyz
+
+AXES = ("x", "y", "z", "roll", "pitch", "yaw")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SwaySpec:
+    """A ``<u:sway>``: one sinusoid about the vehicle's place in its file; it has no ``bind``."""
+
+    axis: Literal["x", "y", "z", "roll", "pitch", "yaw"] = element(namespaced=True)
+    """Of L for x, y, z; of the vehicle's orientation for roll, pitch, yaw."""
+    amplitude: float = element(namespaced=True)
+    """How far it swings; of angles in radians [m or rad]."""
+    period: float = element(namespaced=True, above=0)
+    """Time of one swing [s]."""
+
+    def offset(self, time: float) -> float:
+        """Return ``amplitude * sin(2 pi time / period)`` [m or rad]."""
+        return self.amplitude * math.sin(2.0 * math.pi * time / self.period)
+
+
+def swayed(
+    position: Sequence[float],
+    orientation: Sequence[float],
+    sways: Sequence[SwaySpec],
+    time: float,
+) -> Pose:
+    """Return ``localized_from_base`` at ``time`` [s] of a vehicle that sways.
+
+    Args:
+        position: its place in the file, in L [m].
+        orientation: its angles in the file, Rx Ry Rz [rad].
+        sways: what swings; several on one axis add up.
+        time: simulation time [s].
+    """
+    values = [*position, *orientation]
+    for sway in sways:
+        values[AXES.index(sway.axis)] += sway.offset(time)
+    return Pose(np.array(values[:3]), rotation_from_xyz(*values[3:]))
