@@ -139,12 +139,12 @@ def _text(node: etree._Element | None) -> str:
 
 
 def _new(
-    parent: etree._Element, tag: str, text: str | None = None, *, line: int | None
+    parent: etree._Element, tag: str, text: str | None = None, *, line: object
 ) -> etree._Element:
     node = etree.SubElement(parent, tag)
     node.text = text
-    if line is not None:
-        node.sourceline = line
+    if isinstance(line, int):
+        node.sourceline = line  # type: ignore[assignment]  # the stubs type it as an ellipsis
     return node
 
 

@@ -36,7 +36,8 @@ def apply_setting(spec: T, path: str, value: str) -> T:
 
 def _parts(path: str) -> list[tuple[str, str | None]]:
     """``a.b[c].d`` as [("a", None), ("b", "c"), ("d", None)]."""
-    parts, at = [], 0
+    parts: list[tuple[str, str | None]] = []
+    at = 0
     while at < len(path) or not parts:
         match = _PART.match(path, at)
         if match is None or (match.end() == len(path) and path.endswith(".")):

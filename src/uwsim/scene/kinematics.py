@@ -1,0 +1,59 @@
+"""Where the links of a robot are, given its joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..geometry import Pose, rotation_about
+from .urdf import JointSpec, RobotSpec
+
+
+def joint_positions(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str, float]:
+    """The value of every joint that moves, mimicking ones included [rad or m].
+
+    Args:
+        robot: the robot.
+        joint_values: the joint vector, clamped to the limits here; what is missing is 0.
+    """
+    positions = {joint.name: 0.0 for joint in robot.joints if joint.moves}
+    for index, joint in enumerate(robot.movable):
+        value = joint_values[index] if index < len(joint_values) else 0.0
+        positions[joint.name] = min(max(float(value), joint.lower), joint.upper)
+    driven = {joint.name: positions[joint.name] for joint in robot.movable}
+    for joint in robot.joints:
+        if joint.moves and joint.mimic is not None:
+            positions[joint.name] = _follow(joint, driven.get(joint.mimic.joint, 0.0))
+    return positions
+
+
+def link_poses(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str, Pose]:
+    """``base_from_link`` of every link: its kinematic frame in the frame of the root link."""
+    positions = joint_positions(robot, joint_values)
+    poses = {robot.root: Pose.identity()}
+    for joint in robot.joints:  # parents come before their children
+        parent_from_joint = Pose.from_rpy(joint.position, joint.rpy)
+        motion = _motion(joint, positions.get(joint.name, 0.0))
+        poses[joint.child] = poses[joint.parent] @ parent_from_joint @ motion
+    return poses
+
+
+def _motion(joint: JointSpec, value: float) -> Pose:
+    """``joint_from_child``: a turn about the axis, or a slide along it."""
+    if not joint.moves:
+        return Pose.identity()
+    axis = np.array(joint.axis)  # (3,)
+    if joint.kind == "prismatic":
+        return Pose(axis / np.linalg.norm(axis) * value, np.eye(3))
+    return Pose(np.zeros(3), rotation_about(axis, value))
+
+
+def _follow(joint: JointSpec, source: float) -> float:
+    """What a mimicking joint makes of its source; chains are not followed, as in the original."""
+    assert joint.mimic is not None
+    if "slidercrank" in joint.name:
+        reach = joint.mimic.offset * math.sin(source)
+        return -(source + math.asin(min(max(reach, -1.0), 1.0)))
+    return source * joint.mimic.multiplier + joint.mimic.offset
