@@ -42,7 +42,7 @@ def test_a_file_cut_off_anywhere_goes_on_and_ends_with_the_same_bytes(
 
 def test_a_row_that_differs_when_played_again_stops_the_run(tmp_path: Path) -> None:
     play(tmp_path, [{"a": 1.0, "b": 2.0}], end=False)
-    with pytest.raises(ReplayDiffers, match="row 0.*differs.*in b"):
+    with pytest.raises(ReplayDiffers, match=r"row 0.*differs.*in b"):
         play(tmp_path, [{"a": 1.0, "b": 2.5}])
     assert read(tmp_path, 0, HEAD).rows == ({"a": 1.0, "b": 2.0},)
 

@@ -66,7 +66,7 @@ class ImagePublisher:
             self.camera.skip()
             return
         pixels = self.camera.shoot()
-        self._digest.update(pixels)
+        self._digest.update(pixels.tobytes())
         self.last = pixels
         self.n_frames += 1
         self._publish_image(image(pixels, time=time, frame_id=self.camera.frame_id))

@@ -156,4 +156,6 @@ def _parts(
 def _visual_model(visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]) -> Model:
     if visual.kind == "mesh":
         return load_model(visual.file, beside=beside, data_path=data_path)
+    if visual.colour is None:
+        return primitive(visual.kind, visual.size)
     return primitive(visual.kind, visual.size, visual.colour)
