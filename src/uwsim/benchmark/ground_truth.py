@@ -30,8 +30,6 @@ from ..world import Body, Box, Camera, World
 from .rectangle import like_rectangle, rectangle
 
 CORNERS = ("nw_x", "nw_y", "ne_x", "ne_y", "se_x", "se_y", "sw_x", "sw_y")
-TRUTHS = ("original", "face")
-"""What ``u:truth`` may be."""
 
 
 class GroundTruthSpec(abc.ABC):
@@ -280,3 +278,12 @@ def top_face(body: Body) -> Array:
     corners[:, first] = [low[first], high[first], high[first], low[first]]
     corners[:, second] = [low[second], low[second], high[second], high[second]]
     return corners
+
+
+GROUND_TRUTHS: dict[str, type[GroundTruthSpec]] = {
+    "centroidFromCamera": CentroidFromCameraSpec,
+    "constant": ConstantSpec,
+    "cornersFromCamera": CornersFromCameraSpec,
+    "relativeLocation": RelativeLocationSpec,
+}
+"""Type -> what a file says about it. In alphabetical order."""

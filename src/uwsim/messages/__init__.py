@@ -17,6 +17,9 @@ from rosbags.typesys.stores.ros2_jazzy import (
     geometry_msgs__msg__Pose as Pose,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__PoseStamped as PoseStamped,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
     geometry_msgs__msg__PoseWithCovariance as PoseWithCovariance,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
@@ -87,6 +90,7 @@ __all__ = [
     "Odometry",
     "Point",
     "Pose",
+    "PoseStamped",
     "PoseWithCovariance",
     "Quaternion",
     "RegionOfInterest",

@@ -2,20 +2,45 @@
 
 from __future__ import annotations
 
+from .collision import CollisionSpec
+from .distance import Distance, DistanceSpec
 from .euclidean_norm import EuclideanNorm, EuclideanNormSpec
 from .measure import Measure, MeasureSpec
+from .object_centered_on_cam import ObjectCenteredOnCam, ObjectCenteredOnCamSpec
+from .path_following import PathFollowingSpec
+from .position_error import PositionError, PositionErrorSpec
+from .reconstruction_3d import Reconstruction3DSpec
 from .signal import Signal
+from .time import Time, TimeSpec
 
 MEASURES: dict[str, type[MeasureSpec]] = {
+    "collision": CollisionSpec,
+    "distance": DistanceSpec,
     "euclideanNorm": EuclideanNormSpec,
+    "objectCenteredOnCam": ObjectCenteredOnCamSpec,
+    "pathFollowing": PathFollowingSpec,
+    "positionError": PositionErrorSpec,
+    "reconstruction3D": Reconstruction3DSpec,
+    "time": TimeSpec,
 }
 """Element -> what a file says about it. In alphabetical order."""
 
 __all__ = [
     "MEASURES",
+    "CollisionSpec",
+    "Distance",
+    "DistanceSpec",
     "EuclideanNorm",
     "EuclideanNormSpec",
     "Measure",
     "MeasureSpec",
+    "ObjectCenteredOnCam",
+    "ObjectCenteredOnCamSpec",
+    "PathFollowingSpec",
+    "PositionError",
+    "PositionErrorSpec",
+    "Reconstruction3DSpec",
     "Signal",
+    "Time",
+    "TimeSpec",
 ]

@@ -18,6 +18,8 @@ class MeasureSpec(abc.ABC):
 
     values: ClassVar[tuple[str, ...]] = ("last",)
     """What ``u:value`` may be."""
+    is_simulated: ClassVar[bool] = True
+    """False: a later version will play it."""
 
     name: str
     """Name of its column, and of the value in the function; an identifier."""

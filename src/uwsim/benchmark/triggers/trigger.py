@@ -12,6 +12,13 @@ from ...world import World
 class TriggerSpec(abc.ABC):
     """A ``<startOn>`` or ``<stopOn>`` element of a benchmark file."""
 
+    def __str__(self) -> str:
+        """How messages name it: ``service 'startBench'``."""
+        kind = type(self).__name__.removesuffix("Spec")
+        kind = kind[0].lower() + kind[1:]
+        target = getattr(self, "target", None)
+        return kind if target is None else f"{kind} {target!r}"
+
     @abc.abstractmethod
     def bind(self, world: World) -> Trigger:
         """Watch ``world`` from now on; raises UnknownName for a target that is not there."""

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from .arm_move_updater import ArmMoveUpdater, ArmMoveUpdaterSpec
+from .bag_fog_updater import BagFogUpdaterSpec
 from .camera_noise_updater import CameraNoiseUpdater, CameraNoiseUpdaterSpec
+from .current_force_updater import CurrentForceUpdaterSpec, SphericalSpec
 from .none import NoneSpec, NoneUpdater
 from .repeat import Repeat, RepeatSpec
 from .scene_fog_updater import SceneFogUpdater, SceneFogUpdaterSpec
 from .scene_light_updater import SceneLightUpdater, SceneLightUpdaterSpec
 from .updater import (
+    MAX_LEVELS,
     Level,
     SceneUpdater,
     SceneUpdaterSpec,
@@ -24,7 +28,10 @@ from .updater import (
 )
 
 UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
+    "armMoveUpdater": ArmMoveUpdaterSpec,
+    "bagFogUpdater": BagFogUpdaterSpec,
     "cameraNoiseUpdater": CameraNoiseUpdaterSpec,
+    "currentForceUpdater": CurrentForceUpdaterSpec,
     "none": NoneSpec,
     "repeat": RepeatSpec,
     "sceneFogUpdater": SceneFogUpdaterSpec,
@@ -33,9 +40,14 @@ UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
 """Element -> what a file says about it. In alphabetical order."""
 
 __all__ = [
+    "MAX_LEVELS",
     "UPDATERS",
+    "ArmMoveUpdater",
+    "ArmMoveUpdaterSpec",
+    "BagFogUpdaterSpec",
     "CameraNoiseUpdater",
     "CameraNoiseUpdaterSpec",
+    "CurrentForceUpdaterSpec",
     "Level",
     "NoneSpec",
     "NoneUpdater",
@@ -47,6 +59,7 @@ __all__ = [
     "SceneLightUpdaterSpec",
     "SceneUpdater",
     "SceneUpdaterSpec",
+    "SphericalSpec",
     "apply_level",
     "bind_updaters",
     "blend",

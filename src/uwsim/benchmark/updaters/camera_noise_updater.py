@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...dialect import element
 from ...world import Stage
 from .updater import SceneUpdater, SceneUpdaterSpec, sweep
 
@@ -23,13 +24,13 @@ class CameraNoiseUpdaterSpec(SceneUpdaterSpec):
 
     name: ClassVar[str] = "noise"
 
-    initial_value: float
+    initial_value: float = element(aliases=("initialNoise",), minimum=0.0)
     """Noise of the first level."""
-    final_value: float
+    final_value: float = element(aliases=("finalNoise",), minimum=0.0)
     """Noise that is not exceeded."""
-    step: float
+    step: float = element(above=0.0)
     """What each level adds."""
-    interval: float
+    interval: float = element(above=0.0)
     """Length of a level [s]."""
 
     def values(self) -> tuple[float, ...]:

@@ -10,8 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...dialect import element
 from ...world import Stage
-from .updater import SceneUpdater, SceneUpdaterSpec
+from .updater import MAX_LEVELS, SceneUpdater, SceneUpdaterSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,9 +21,9 @@ class RepeatSpec(SceneUpdaterSpec):
 
     name: ClassVar[str] = "iteration"
 
-    iterations: int
+    iterations: int = element(minimum=1, maximum=MAX_LEVELS)
     """How many times."""
-    interval: float
+    interval: float = element(above=0.0)
     """Length of a level [s]."""
 
     def values(self) -> tuple[float, ...]:

@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...dialect import element
 from ...world import Stage
 from .updater import SceneUpdater, SceneUpdaterSpec, sweep
 
@@ -24,13 +25,13 @@ class SceneFogUpdaterSpec(SceneUpdaterSpec):
     name: ClassVar[str] = "fog"
     unit: ClassVar[str] = "1/m"
 
-    initial_value: float
+    initial_value: float = element(aliases=("initialFog",), minimum=0.0)
     """Fog density of the first level [1/m]."""
-    final_value: float
+    final_value: float = element(aliases=("finalFog",), minimum=0.0)
     """Fog density that is not exceeded [1/m]."""
-    step: float
+    step: float = element(above=0.0)
     """What each level adds [1/m]."""
-    interval: float
+    interval: float = element(above=0.0)
     """Length of a level [s]."""
 
     def values(self) -> tuple[float, ...]:

@@ -10,6 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...dialect import element
 from ...errors import BadSetting
 from ...world import Stage
 
@@ -36,7 +37,10 @@ class SceneUpdaterSpec(abc.ABC):
     unit: ClassVar[str] = "1"
     """Unit of its values."""
 
-    child: SceneUpdaterSpec | None = None
+    is_simulated: ClassVar[bool] = True
+    """False: a later version will play it."""
+
+    child: SceneUpdaterSpec | None = element("sceneUpdater", default=None)
     """The updater nested in it, which is stepped first."""
 
     @abc.abstractmethod

@@ -1,0 +1,101 @@
+r"""Object centred on a camera: how far from the middle of the picture a body appears.
+
+.. code-block:: xml
+
+    <objectCenteredOnCam>
+      <name>objectCentered</name> <target>blackbox</target> <camera>bowtech1</camera>
+    </objectCenteredOnCam>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...world import World
+from ..ground_truth import CentroidFromCamera
+from .measure import Measure, MeasureSpec
+from .signal import VALUES, Signal
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObjectCenteredOnCamSpec(MeasureSpec):
+    """An ``<objectCenteredOnCam>`` element of a benchmark file."""
+
+    values: ClassVar[tuple[str, ...]] = VALUES
+
+    target: str
+    """Route of the body whose origin is looked at."""
+    camera: str
+    """Name of the virtual camera."""
+
+    def bind(self, world: World) -> ObjectCenteredOnCam:
+        """Find camera and target; raises UnknownName if one is not there."""
+        camera = world.camera(self.camera)
+        seen = CentroidFromCamera(camera, world.body(self.target))
+        size = (camera.intrinsics.width, camera.intrinsics.height)
+        return ObjectCenteredOnCam(seen, size, self.value)
+
+
+class ObjectCenteredOnCam(Measure):
+    r"""Distance :math:`\sqrt{d_x^2 + d_y^2}` of a body's projected origin from the image centre.
+
+    With the image coordinates u, v of the origin, :math:`d_x = w/2 - u` and, as the original counts
+    rows from the bottom, :math:`d_y = v - h/2`. One sample for each step at which the origin
+    projects into the image; no value when it does not at the last look. ``visible`` is the
+    fraction of looks at which it did. Not modelled: something in between that hides it.
+    """
+
+    unit = "px"
+
+    def __init__(self, seen: CentroidFromCamera, size: tuple[int, int], value: str) -> None:
+        self._seen, self._size, self._which = seen, size, value
+        self._signal = Signal(("x", "y"))
+        self._looks = 0
+        self._is_visible = False
+
+    def start(self) -> None:
+        """Take the first sample."""
+        self.update()
+
+    def update(self) -> None:
+        """Take a sample, if the body is in the picture."""
+        width, height = self._size
+        pixel = self._seen.read()
+        self._looks += 1
+        self._is_visible = (
+            pixel is not None and 0.0 <= pixel[0] <= width and 0.0 <= pixel[1] <= height
+        )
+        if pixel is not None and self._is_visible:
+            off = np.array([width / 2 - pixel[0], pixel[1] - height / 2])
+            self._signal.add(float(np.linalg.norm(off)), off)
+
+    @property
+    def value(self) -> float | None:
+        """The last distance, or the statistic that ``u:value`` asks for [px]."""
+        return self._signal.value(self._which) if self._is_visible else None
+
+    @property
+    def why(self) -> str | None:
+        """Why there is no value."""
+        if not self._looks:
+            return "it was never on"
+        return None if self._is_visible else "the target is not in the picture"
+
+    @property
+    def details(self) -> dict[str, float | None]:
+        """Statistics of distance and components, and how often the body was in the picture."""
+        visible = self._signal.n / self._looks if self._looks else None
+        return {**self._signal.details, "visible": visible}
+
+    @property
+    def log_header(self) -> tuple[str, ...]:
+        """The distance and its components."""
+        return ("total", "x", "y")
+
+    @property
+    def log_values(self) -> tuple[float | None, ...]:
+        """The newest sample; nothing while the body is not in the picture."""
+        return self._signal.last if self._is_visible else (None, None, None)

@@ -1,0 +1,129 @@
+r"""Position error: how far a body is from where it should be.
+
+.. code-block:: xml
+
+    <positionError u:value="mean">
+      <name>station</name> <target>girona500</target>
+      <position> <x>2</x> <y>0</y> <z>2.5</z> </position>
+      <topic>goal</topic>
+    </positionError>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...bus import Inbox
+from ...dialect import element
+from ...geometry import Array
+from ...messages import PoseStamped
+from ...world import Body, World
+from .measure import Measure, MeasureSpec
+from .signal import VALUES, Signal
+
+TURN = ("rx", "ry", "rz", "rw")
+
+
+@dataclass(frozen=True, kw_only=True)
+class PositionErrorSpec(MeasureSpec):
+    """A ``<positionError>`` element of a benchmark file."""
+
+    values: ClassVar[tuple[str, ...]] = VALUES
+
+    target: str
+    """Route of the body."""
+    position: tuple[float, float, float]
+    """Where it should be, in L [m]."""
+    topic: str | None = element(default=None)
+    """Topic that says where it should be instead (geometry_msgs/PoseStamped, in L); its first
+    message counts. None: ``position`` counts."""
+
+    def bind(self, world: World) -> PositionError:
+        """Find the target; raises UnknownName if it is not there."""
+        inbox = None if self.topic is None else world.inbox(self.topic, PoseStamped)
+        return PositionError(self, world, world.body(self.target), inbox)
+
+
+class PositionError(Measure):
+    r"""Distance :math:`\lVert p - q \rVert` of a body's origin from where it should be.
+
+    One sample a step. The components x, y, z are those of :math:`p - q` in L; rx, ry, rz, rw are
+    the body's attitude in L now, a quaternion xyzw, as in the original.
+    """
+
+    unit = "m"
+
+    def __init__(
+        self, spec: PositionErrorSpec, world: World, body: Body, inbox: Inbox[PoseStamped] | None
+    ) -> None:
+        self._body, self._inbox, self._topic = body, inbox, spec.topic
+        self._which = spec.value
+        self._localized_from_world = world.world_from_localized.inverse()
+        self._goal = None if inbox else np.array(spec.position)  # (3,) [m], in L
+        self._signal = Signal(("x", "y", "z"))
+        self._was_on = False
+
+    def start(self) -> None:
+        """Take the first sample."""
+        self._was_on = True
+        self.update()
+
+    def update(self) -> None:
+        """Take a sample, once it is known where the body should be."""
+        if self._goal is None:
+            self._goal = self._told()
+        if self._goal is not None:
+            error = self._pose_position() - self._goal
+            self._signal.add(float(np.linalg.norm(error)), error)
+
+    @property
+    def value(self) -> float | None:
+        """The last distance, or the statistic that ``u:value`` asks for [m]."""
+        return self._signal.value(self._which)
+
+    @property
+    def why(self) -> str | None:
+        """Why there is no value."""
+        if self._signal.n:
+            return None
+        return f"no position on {self._topic!r}" if self._was_on else "it was never on"
+
+    @property
+    def details(self) -> dict[str, float | None]:
+        """Statistics of distance and components, and the attitude now."""
+        return {**self._signal.details, **dict(zip(TURN, self._turn(), strict=True))}
+
+    @property
+    def log_header(self) -> tuple[str, ...]:
+        """The distance, its components, the attitude."""
+        return ("total", "x", "y", "z", *TURN)
+
+    @property
+    def log_values(self) -> tuple[float | None, ...]:
+        """The newest sample."""
+        return (*self._signal.last, *self._turn())
+
+    def close(self) -> None:
+        """Listen no more."""
+        if self._inbox is not None:
+            self._inbox.close()
+
+    def _pose_position(self) -> Array:
+        position: Array = self._localized_from_world.transform(
+            self._body.world_from_body.position[None]
+        )[0]
+        return position
+
+    def _turn(self) -> tuple[float, ...]:
+        w, x, y, z = (self._localized_from_world @ self._body.world_from_body).quaternion.tolist()
+        return (x, y, z, w)
+
+    def _told(self) -> Array | None:
+        messages = self._inbox.take() if self._inbox is not None else []
+        if not messages:
+            return None
+        point = messages[0].pose.position
+        return np.array([point.x, point.y, point.z])

@@ -1,0 +1,56 @@
+"""Time: how long the measure was on.
+
+.. code-block:: xml
+
+    <time>
+      <name>taskTime</name>
+      <startOn> <type>onMove</type> <target>girona500</target> </startOn>
+      <stopOn> <type>service</type> <target>stopBench</target> </stopOn>
+    </time>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...world import World
+from .measure import Measure, MeasureSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class TimeSpec(MeasureSpec):
+    """A ``<time>`` element of a benchmark file."""
+
+    def bind(self, world: World) -> Time:
+        """Watch the clock of ``world``."""
+        return Time(world)
+
+
+class Time(Measure):
+    """Simulation time from the first to the last step at which the measure was on.
+
+    It runs while the measure is on (the original shows 0 until it stops), and adds up when the
+    measure goes on again. Never wall time.
+    """
+
+    unit = "s"
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._last: int | None = None  # step
+        self._steps = 0
+
+    def start(self) -> None:
+        """Count from now."""
+        self._last = self._world.step
+
+    def update(self) -> None:
+        """Add what has passed since the last look."""
+        if self._last is not None:
+            self._steps += self._world.step - self._last
+        self._last = self._world.step
+
+    @property
+    def value(self) -> float | None:
+        """Time so far [s]; None when the measure was never on."""
+        return None if self._last is None else self._steps * self._world.timestep

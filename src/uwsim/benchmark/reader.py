@@ -1,0 +1,324 @@
+"""Reading a benchmark file: XML -> `BenchmarkSpec`, every fault at once.
+
+.. code-block:: xml
+
+    <benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="esm">
+      <measures> <euclideanNorm> ... </euclideanNorm> </measures>
+      <startOn> <type>service</type> <target>startBench</target> </startOn>
+      <stopOn> <type>never</type> </stopOn>
+      <function>corners+centroid</function>
+      <sceneUpdater> <sceneFogUpdater> ... </sceneFogUpdater> </sceneUpdater>
+    </benchmark>
+
+The tables of measures, triggers and updaters are arguments: a benchmark can be read with more of
+them than the package has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from lxml import etree
+
+from ..compatibility import COMPATIBILITY
+from ..dialect import NAMESPACE, Faults, check_head, parse, read, slots, text_of
+from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
+from . import score
+from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
+from .measures import MEASURES, EuclideanNormSpec, MeasureSpec
+from .original_grammar import check_order
+from .spec import BenchmarkSpec, FunctionSpec
+from .triggers import TRIGGERS, NeverSpec, TriggerSpec
+from .updaters import MAX_LEVELS, UPDATERS, NoneSpec, SceneUpdaterSpec, chain, references
+
+RESERVED = ("repeat", "seed", "total", "status", "ended_at")
+"""Columns of a result that no measure may be called by."""
+NOT_YET = "read, not simulated yet"
+
+T = TypeVar("T")
+
+
+def read_benchmark(
+    path: Path,
+    *,
+    measures: Mapping[str, type[MeasureSpec]] = MEASURES,
+    triggers: Mapping[str, type[TriggerSpec]] = TRIGGERS,
+    updaters: Mapping[str, type[SceneUpdaterSpec]] = UPDATERS,
+) -> BenchmarkSpec:
+    """Read a benchmark file.
+
+    Raises:
+        BenchmarkError: with everything that is wrong about it.
+    """
+    faults = Faults(path)
+    spec = _Reader(faults, measures, triggers, updaters).benchmark(path)
+    faults.check(BenchmarkError)
+    assert spec is not None
+    return spec
+
+
+def check_benchmark(
+    path: Path,
+    *,
+    strict: bool = False,
+    measures: Mapping[str, type[MeasureSpec]] = MEASURES,
+    triggers: Mapping[str, type[TriggerSpec]] = TRIGGERS,
+    updaters: Mapping[str, type[SceneUpdaterSpec]] = UPDATERS,
+) -> list[Fault]:
+    """Return everything that is wrong or worth knowing about a benchmark file, line by line.
+
+    Args:
+        path: the file.
+        strict: also hold it against the order of the original's grammar.
+        measures: element -> spec.
+        triggers: type -> spec.
+        updaters: element -> spec.
+    """
+    faults = Faults(path)
+    try:
+        _Reader(faults, measures, triggers, updaters).benchmark(path, strict=strict)
+    except BenchmarkError as error:
+        return list(error.faults)
+    return faults.all()
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """One file, and what may stand in it."""
+
+    faults: Faults
+    measures: Mapping[str, type[MeasureSpec]]
+    triggers: Mapping[str, type[TriggerSpec]]
+    updaters: Mapping[str, type[SceneUpdaterSpec]]
+
+    def benchmark(self, path: Path, *, strict: bool = False) -> BenchmarkSpec | None:
+        document = parse(path, error=BenchmarkError)
+        root = document.root
+        check_head(document, "benchmark", self.faults)
+        if root.tag != "benchmark":
+            return None
+        if strict:
+            check_order(root, self.faults)
+        given: dict[str, object] = {"path": str(path)}
+        for tag, field in (("startOn", "start_on"), ("stopOn", "stop_on")):
+            if (node := root.find(tag)) is not None:
+                given[field] = self.trigger(node)
+        found: list[MeasureSpec] = []
+        if (node := root.find("measures")) is not None:
+            found = self.all_measures(node)
+            given["measures"] = tuple(found)
+        updater: SceneUpdaterSpec | None = None
+        if (node := root.find("sceneUpdater")) is not None:
+            updater = self.updater(node)
+            given["scene_updater"] = updater or NoneSpec()
+        given["compatibility"] = self.compatibility(root)
+        spec = read(BenchmarkSpec, root, self.faults, given=given)
+        self.check_names(found, updater)
+        function = None if spec is None else spec.function
+        if function is not None:
+            self.check_function(root.find("function"), function, found)
+        if spec is not None and updater is not None:
+            self.notice_endless(root, spec)
+        return spec
+
+    def all_measures(self, box: etree._Element) -> list[MeasureSpec]:
+        """Read what stands in ``<measures>``, in the file's order."""
+        found = []
+        for node in self.children(box):
+            cls = self.measures.get(str(node.tag))
+            if cls is None:
+                self.unknown(node, box, self.measures)
+            elif (spec := self.measure(cls, node)) is not None:
+                found.append(spec)
+        return found
+
+    def measure(self, cls: type[MeasureSpec], node: etree._Element) -> MeasureSpec | None:
+        spec = read(cls, node, self.faults, given=self.by_hand(cls, node))
+        if not cls.is_simulated:
+            self.faults.notice(node, f"<{node.tag}>: {NOT_YET}")
+        if spec is None:
+            return None
+        if spec.value not in cls.values:
+            self.faults.add(
+                node,
+                f"u:value is {spec.value!r}; the value of <{node.tag}> is always its last",
+            )
+        if (
+            isinstance(spec, EuclideanNormSpec)
+            and spec.truth != "original"
+            and spec.ground_truth.camera is None
+        ):
+            self.faults.add(
+                node,
+                "u:truth='face' needs a ground truth of type cornersFromCamera "
+                "or centroidFromCamera",
+            )
+        return spec
+
+    def by_hand(self, cls: type, node: etree._Element) -> dict[str, Any]:
+        """Read the fields of a spec whose class depends on what the file says."""
+        given: dict[str, Any] = {}
+        for slot in slots(cls):
+            child = node.find(slot.tag)
+            if slot.kind != "hand" or child is None:
+                continue
+            if slot.type is TriggerSpec:
+                given[slot.field] = self.trigger(child)
+            elif slot.type is GroundTruthSpec:
+                given[slot.field] = self.ground_truth(child)
+            elif slot.type is SceneUpdaterSpec:
+                given[slot.field] = self.updater(child)
+        return given
+
+    def trigger(self, node: etree._Element) -> TriggerSpec:
+        """Read ``<startOn>`` or ``<stopOn>``; what a type has no use for is ignored."""
+        kinds = node.findall("type")
+        kind = text_of(kinds[0], self.faults) if kinds else ""
+        if not kind:
+            self.faults.add(node, f"<{node.tag}> lacks <type>: one of {', '.join(self.triggers)}")
+        elif kind not in self.triggers:
+            near = did_you_mean(kind, self.triggers) if len(kind) < 80 else ""
+            self.faults.add(
+                kinds[0],
+                f"<type> is {kind[:60]!r}; expected one of {', '.join(self.triggers)}.{near}",
+            )
+        cls = self.triggers.get(kind)
+        if len(kinds) > 1:
+            self.faults.add(kinds[1], f"<type> stands twice in <{node.tag}>; only one may")
+        for child in kinds:
+            _take_out(child)
+        if cls is None:
+            return NeverSpec()
+        known = {slot.tag for slot in slots(cls)}
+        for child in list(node.iterchildren("target", "position")):
+            if child.tag not in known:
+                self.faults.notice(child, f"<{child.tag}> means nothing to {kind!r}: ignored")
+                _take_out(child)
+        return read(cls, node, self.faults) or NeverSpec()
+
+    def ground_truth(self, node: etree._Element) -> GroundTruthSpec:
+        """Read ``<groundTruth>``, by its type."""
+        placeholder = ConstantSpec(values=())
+        kind = str(node.attrib.pop("type", "")).strip()
+        cls = GROUND_TRUTHS.get(kind)
+        if cls is None:
+            near = did_you_mean(kind, GROUND_TRUTHS) if len(kind) < 80 else ""
+            said = f"type is {kind[:60]!r}" if kind else "<groundTruth> lacks the attribute type"
+            self.faults.add(node, f"{said}; expected one of {', '.join(GROUND_TRUTHS)}.{near}")
+            return placeholder
+        return read(cls, node, self.faults) or placeholder
+
+    def updater(self, box: etree._Element) -> SceneUpdaterSpec | None:
+        """Read what stands in ``<sceneUpdater>``, and what is nested in it."""
+        nodes = self.children(box)
+        if not nodes:
+            self.faults.add(
+                box, f"<sceneUpdater> is empty; expected one of <{'>, <'.join(UPDATERS)}>"
+            )
+        for extra in nodes[1:]:
+            self.faults.add(
+                extra,
+                f"<{extra.tag}> stands beside <{nodes[0].tag}> in <sceneUpdater>; only one may: "
+                "nest it in a <sceneUpdater> of its own",
+            )
+        if not nodes:
+            return None
+        node = nodes[0]
+        cls = self.updaters.get(str(node.tag))
+        if cls is None:
+            self.unknown(node, box, self.updaters)
+            return None
+        spec = read(cls, node, self.faults, given=self.by_hand(cls, node))
+        if not cls.is_simulated:
+            self.faults.notice(node, f"<{node.tag}>: {NOT_YET}")
+        if spec is not None:
+            self.check_levels(node, spec)
+        return spec
+
+    def check_levels(self, node: etree._Element, spec: SceneUpdaterSpec) -> None:
+        """Refuse a sweep that ends before it begins, or that never ends."""
+        initial, final = getattr(spec, "initial_value", None), getattr(spec, "final_value", None)
+        if initial is not None and final is not None and final < initial:
+            self.faults.add(
+                node, f"<finalValue> {final:g} is below <initialValue> {initial:g}: nothing to play"
+            )
+            return
+        try:
+            count = 1
+            for updater in chain(spec):
+                count *= len(updater.values())
+                if count > MAX_LEVELS:
+                    raise BadSetting(f"{count} levels are more than {MAX_LEVELS}")
+        except BadSetting as fault:
+            self.faults.add(node, str(fault))
+        vectors = getattr(spec, "arm_position", ())
+        if len({len(vector) for vector in vectors}) > 1:
+            self.faults.add(node, "every <armPosition> must have as many <joint> as the first")
+
+    def compatibility(self, root: etree._Element) -> tuple[str, ...]:
+        names = tuple(str(root.get(f"{{{NAMESPACE}}}compatibility", "")).replace(",", " ").split())
+        known = [*COMPATIBILITY, "uwsim"]
+        for name in names:
+            if name not in known:
+                self.faults.unknown(root, f"u:compatibility names {name[:60]!r}", name, known)
+        return names
+
+    def check_names(self, measures: list[MeasureSpec], updater: SceneUpdaterSpec | None) -> None:
+        """Names of measures are names in the function and columns of the result."""
+        columns = () if updater is None else references(updater)
+        seen: dict[str, MeasureSpec] = {}
+        for spec in measures:
+            node = self.faults.node_of(spec)
+            name = spec.name[:60]
+            if not (spec.name.isascii() and spec.name.isidentifier()):
+                self.faults.add(
+                    node,
+                    f"the name {name!r} cannot stand in the function; "
+                    "expected letters, digits and _, no digit first",
+                )
+            elif spec.name in seen:
+                first = self.faults.node_of(seen[spec.name])
+                line = "" if first is None else f" (line {first.sourceline})"
+                self.faults.add(node, f"another measure{line} is called {name!r}")
+            elif spec.name in RESERVED or spec.name in columns:
+                self.faults.add(
+                    node, f"{name!r} is another column of the result; call it otherwise"
+                )
+            seen.setdefault(spec.name, spec)
+
+    def check_function(
+        self, node: etree._Element | None, function: FunctionSpec, measures: list[MeasureSpec]
+    ) -> None:
+        try:
+            score.parse(function.text, [spec.name for spec in measures])
+        except score.ScoreFault as fault:
+            self.faults.add(node, f"<function>: {fault}")
+
+    def notice_endless(self, root: etree._Element, spec: BenchmarkSpec) -> None:
+        deepest = chain(spec.scene_updater)[-1]
+        if deepest.seconds_per_level is None and isinstance(spec.stop_on, NeverSpec):
+            self.faults.notice(root.find("stopOn"), "no interval and no <stopOn>: it never ends")
+
+    def children(self, box: etree._Element) -> list[etree._Element]:
+        """The elements in a box that has nothing else in it."""
+        for piece in (box.text, *(child.tail for child in box)):
+            if (stray := (piece or "").strip()) != "":
+                self.faults.add(box, f"stray text {stray[:60]!r} in <{box.tag}>")
+                break
+        for name in box.attrib:
+            self.faults.add(box, f"{str(name)[:60]} is not an attribute of <{box.tag}>")
+        return list(box.iterchildren("*"))
+
+    def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
+        tag = str(node.tag)
+        self.faults.unknown(node, f"<{tag[:60]}> is not an element of <{box.tag}>", tag, known)
+
+
+def _take_out(node: etree._Element) -> None:
+    """Remove an element that has been dealt with, so that it is not found unknown."""
+    parent = node.getparent()
+    if parent is not None:
+        parent.remove(node)

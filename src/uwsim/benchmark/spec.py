@@ -1,0 +1,53 @@
+"""What a benchmark file says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from ..dialect import element
+from .measures import MeasureSpec
+from .triggers import TriggerSpec
+from .updaters import SceneUpdaterSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class FunctionSpec:
+    """The ``<function>`` element: how the measures make a score."""
+
+    text: str = element(text=True)
+    """An expression over the measures' names (`uwsim.benchmark.score`)."""
+    publish_result: bool = element(default=False, attribute=True)
+    """Whether results are published while it runs."""
+    publish_rate: float = element(default=0.1, attribute=True, minimum=0.0)
+    """Shortest time between two such messages [s]; not a rate, in spite of its name."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BenchmarkSpec:
+    """A benchmark file: equal files give equal specs."""
+
+    measures: tuple[MeasureSpec, ...]
+    """What is measured, in the file's order, which is that of the columns."""
+    start_on: TriggerSpec
+    """When the first level begins."""
+    stop_on: TriggerSpec
+    """When a level ends before its interval is over."""
+    function: FunctionSpec
+    """The score."""
+    scene_updater: SceneUpdaterSpec
+    """How the scene changes from level to level."""
+    scene: str | None = element(default=None, attribute=True, namespaced=True)
+    """Scene file to play in, found from this file's folder; None: it is given with ``--scene``."""
+    algorithm: str | None = element(default=None, attribute=True, namespaced=True)
+    """Algorithm under test, unless another is asked for."""
+    mode: Literal["sequential", "independent"] | None = element(
+        default=None, attribute=True, namespaced=True
+    )
+    """How levels follow each other; None: sequential."""
+    compatibility: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
+    """Slips of the original to play with (`uwsim.compatibility`), separated by blanks."""
+    patience: float | None = element(default=None, attribute=True, namespaced=True, above=0.0)
+    """How long the start is waited for, in simulation time [s]; None: 10 s."""
+    path: str = field(default="", compare=False, metadata={"path": True})
+    """The file as the user named it."""

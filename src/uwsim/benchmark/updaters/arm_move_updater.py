@@ -1,0 +1,77 @@
+"""armMoveUpdater: an arm that stands otherwise from level to level.
+
+.. code-block:: xml
+
+    <armMoveUpdater>
+      <armPosition> <joint>0</joint> <joint>0.5</joint> </armPosition>
+      <armPosition> <joint>1</joint> <joint>0.7</joint> </armPosition>
+      <step>4</step> <interval>10</interval> <target>girona500</target>
+    </armMoveUpdater>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from ...dialect import element
+from ...errors import UnknownName
+from ...world import Stage
+from .updater import MAX_LEVELS, SceneUpdater, SceneUpdaterSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class ArmMoveUpdaterSpec(SceneUpdaterSpec):
+    """An ``<armMoveUpdater>`` element.
+
+    Its levels are the arm positions with ``step`` more, evenly spaced, between each and the next.
+    The value of a level is its number from 0. (The original calls every level 1.)
+    """
+
+    name: ClassVar[str] = "armPosition"
+
+    arm_position: tuple[tuple[float, ...], ...] = element("armPosition", item="joint")
+    """Joint vectors, in the order of the vehicle's joints [rad or m]."""
+    step: int = element(minimum=0, maximum=MAX_LEVELS)
+    """Levels between two arm positions."""
+    interval: float = element(above=0.0)
+    """Length of a level [s]."""
+    target: str
+    """Name of the vehicle."""
+
+    def values(self) -> tuple[float, ...]:
+        """Return the number of each level, from 0."""
+        count = len(self.arm_position) + (len(self.arm_position) - 1) * self.step
+        return tuple(float(i) for i in range(count))
+
+    def joints(self, value: float) -> npt.NDArray[np.float64]:
+        """Return the joint vector of a level, or of what lies between two (n,) [rad or m]."""
+        given = np.array(self.arm_position)  # (k, n)
+        at = np.arange(len(given)) * (self.step + 1.0)
+        return np.array([np.interp(value, at, column) for column in given.T])
+
+    @property
+    def seconds_per_level(self) -> float:
+        """The interval [s]."""
+        return self.interval
+
+    def bind(self, stage: Stage) -> ArmMoveUpdater:
+        """Find the vehicle; raises UnknownName if it is not there."""
+        if self.target not in stage.vehicles:
+            raise UnknownName("vehicle", self.target, stage.vehicles)
+        return ArmMoveUpdater(stage, self)
+
+
+class ArmMoveUpdater(SceneUpdater):
+    """Sets the joints of a vehicle."""
+
+    def __init__(self, stage: Stage, spec: ArmMoveUpdaterSpec) -> None:
+        self._stage, self._spec = stage, spec
+
+    def apply(self, value: float) -> None:
+        """Bring the arm to the position of level ``value``."""
+        joints = self._spec.joints(value).tolist()
+        self._stage.set_joints(self._spec.target, dict(enumerate(joints)))
