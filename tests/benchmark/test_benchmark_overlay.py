@@ -19,7 +19,7 @@ def test_a_quad_lies_on_its_corners_counted_from_the_pictures_corner() -> None:
     drawn = overlay(np.zeros((40, 60, 3), np.uint8), truth=QUAD, scale=4)
     assert drawn.shape == (160, 240, 3)
     middle = np.array(box_of(drawn, TRUTH)) / 4
-    assert middle == pytest.approx([9.5, 9.5, 30.5, 20.5], abs=0.26)
+    assert middle == pytest.approx([9.25, 9.25, 30.75, 20.75], abs=0.3)
 
 
 def test_truth_and_estimate_have_their_own_colours() -> None:

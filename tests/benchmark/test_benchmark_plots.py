@@ -51,7 +51,7 @@ def test_a_loss_and_its_prediction_are_vertical_lines_with_labels() -> None:
     figure = value_plot(visibility(lost_at=1.2), "corners")
     assert vertical_lines(figure) == pytest.approx([F_STAR, 1.2])
     assert "lost at 1.2" in words(figure)
-    assert f"$f^*$ = {F_STAR:.2f} 1/m" in words(figure)
+    assert f"$f^*$ = {F_STAR:.2f} m⁻¹" in words(figure)
 
 
 def test_without_a_loss_and_without_facts_there_is_no_such_line() -> None:

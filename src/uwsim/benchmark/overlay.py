@@ -69,10 +69,11 @@ def _outline(
     *,
     dashed: bool,
 ) -> None:
+    width = max(2, round(1.5 * scale))
     for begin, end in zip(points, points[1:] + points[:1], strict=True):
         for a, b in _dashes(begin, end, 6.0 * scale if dashed else math.inf):
-            pen.line([a, b], fill=RIM, width=scale + 2)
-            pen.line([a, b], fill=colour, width=scale)
+            pen.line([a, b], fill=RIM, width=width + 2)
+            pen.line([a, b], fill=colour, width=width)
 
 
 def _dashes(

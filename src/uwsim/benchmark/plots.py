@@ -36,6 +36,7 @@ PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 INK, FAINT = "#222222", "#777777"
 DPI = 200
+OVERVIEW = "overview"
 SIZE = (5.0, 3.1)  # [inch]
 
 LEVEL_WORDS = {
@@ -162,7 +163,7 @@ def draw_plots(
         files.append(directory / f"{_slug(column.name)}.png")
         save_plot(value_plot(result, column.name, control=control), files[-1])
     if len(files) > 1:
-        files.append(directory / "overview.png")
+        files.append(directory / f"{OVERVIEW}.png")
         save_plot(small_multiples(result, control=control), files[-1])
     return tuple(files)
 
@@ -194,6 +195,11 @@ def curves_of(result: Result, column: str) -> list[Curve]:
         )
         for key, entries in found.items()
     ]
+
+
+def written_unit(unit: str) -> str:
+    """Return a unit as it is written behind a number: 1/m as m⁻¹."""
+    return re.sub(r"^1/(\w+)$", r"\1⁻¹", unit)
 
 
 def algorithm_of(result: Result) -> str:
@@ -284,7 +290,7 @@ def _draw_prediction(axes: Axes, result: Result, label: bool = True) -> None:
         return
     axes.axvline(fact[0], color=FAINT, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
     if label:
-        text = f"loss predicted at $f^*$ = {fact[0]:.2f} {_text(fact[1])}"
+        text = f"loss predicted at $f^*$ = {fact[0]:.2f} {_text(written_unit(fact[1]))}"
         _write_above(axes, fact[0], text, FAINT, line=0)
 
 
@@ -331,8 +337,8 @@ def _scale(axes: Axes, curves: Sequence[Curve]) -> None:
         axes.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
     elif values.min() >= 0:
         limits = [v for curve in curves for v in curve.high if not np.isnan(v)]
-        top = min(max([values.max(), *limits]), 1.6 * values.max())
-        axes.set_ylim(0, float(top) * 1.12 or 1.0)
+        top = float(min(max([values.max(), *limits]), 1.6 * values.max())) * 1.12 or 1.0
+        axes.set_ylim(-0.03 * top if values.min() == 0 else 0, top)
 
 
 def _say_no_data(axes: Axes, why: str | None) -> None:

@@ -1,0 +1,226 @@
+"""What the report promises: it says everything, loads nothing and runs nothing."""
+
+from __future__ import annotations
+
+import html
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from synthetic_results import (
+    F_STAR,
+    WHY,
+    frozen,
+    nested,
+    nothing_measured,
+    one_level,
+    visibility,
+)
+
+from uwsim.benchmark.logs import Log, save_log
+from uwsim.benchmark.provenance import save_provenance
+from uwsim.benchmark.report import render, write_report
+from uwsim.benchmark.result import Column, Missing, Result, TakenPicture, save
+from uwsim.cli import main
+from uwsim.errors import ResultError
+
+QUAD = (10.0, 10.0, 30.0, 10.0, 30.0, 20.0, 10.0, 20.0)
+EVIL = "<script>alert('x')</script>\"><img src=http://e.org/x onerror=alert(1)>"
+
+
+class Page(HTMLParser):
+    """Tags and text of a page."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.text = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def page_of(result: Result, directory: Path) -> Page:
+    """The page without plots, which take most of the time."""
+    text = render(result, directory, plots=())
+    (directory / "report.html").write_text(text)
+    return Page(text)
+
+
+def whole_page_of(result: Result, directory: Path) -> Page:
+    """The page as ``uwsim report`` draws it."""
+    save(result, directory)
+    return Page(write_report(directory).read_text())
+
+
+def with_picture(result: Result, directory: Path, *rows: int) -> Result:
+    (directory / "pictures").mkdir()
+    Image.fromarray(np.full((24, 32, 3), 80, np.uint8)).save(directory / "pictures" / "a.png")
+    pictures = [
+        TakenPicture(row=row, camera="bowtech1", file="pictures/a.png", truth=QUAD, estimate=QUAD)
+        for row in rows
+    ]
+    return replace(result, pictures=tuple(pictures))
+
+
+def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
+    save_provenance({"host": "reef", "load": [0.25, 0.5, 1.0], "packages": {"x": "1.2"}}, tmp_path)
+    save_log(Log(measure="corners", header=("time [s]",)), tmp_path)
+    result = visibility()
+    text = page_of(result, tmp_path).text
+    for said in (
+        "visibility played by esm",
+        "27 levels, fog density 0 to 1.3 m⁻¹",
+        "24 of 27",
+        WHY,
+        "threshold",
+        "sha256:" + "3f" * 32,
+        "c4" * 32,
+        f"{F_STAR:.3f} m⁻¹",
+        "30.8 grey level",
+        "measure-corners.csv",
+        "reef",
+        "packages.x",
+        "0.25 0.5 1.0",
+        "about 1 px",
+        "This scene cannot tell trackers apart",
+        "gives 0.893, not 0.86, which needs fog 1.031",
+    ):
+        assert said in text, said
+    assert "frozen, which never looks at a picture" not in text
+
+
+def test_every_level_stands_in_the_table(tmp_path: Path) -> None:
+    page = page_of(visibility(), tmp_path)
+    rows = re.findall(r"<tr( class=\"bad\")?><td>\d", (tmp_path / "report.html").read_text())
+    assert len(rows) >= 27
+    assert page.text.count("0.85") >= 1
+    assert rows.count(' class="bad"') == 3
+
+
+def test_the_report_loads_nothing_and_runs_nothing(tmp_path: Path) -> None:
+    page = whole_page_of(with_picture(visibility(), tmp_path, 0, 5), tmp_path)
+    sources = [v for _, attrs in page.tags for k, v in attrs.items() if k in ("src", "href")]
+    assert len(sources) == 3 + 2
+    assert all(source is not None and source.startswith("data:image/") for source in sources)
+    assert not {"script", "iframe", "link", "object"} & {tag for tag, _ in page.tags}
+    policy = [attrs for tag, attrs in page.tags if attrs.get("http-equiv")]
+    assert "default-src 'none'" in str(policy[0]["content"])
+
+
+def test_names_from_files_are_text_wherever_they_stand(tmp_path: Path) -> None:
+    base = visibility()
+    columns = [replace(c, name=EVIL) if c.name == "corners" else c for c in base.columns]
+    columns = [replace(c, unit=EVIL) if c.name == "centroid" else c for c in columns]
+    rows = [(*row[:-2], EVIL if row[-2] == "lost" else row[-2], row[-1]) for row in base.rows]
+    evil = Result(
+        inputs={"benchmark": (EVIL, EVIL), "assets": {EVIL: EVIL}},
+        run={EVIL: EVIL, "algorithm": EVIL, "mode": EVIL, "parameters": {EVIL: [EVIL]}},
+        columns=tuple(columns),
+        rows=tuple(rows),
+        missing=tuple(Missing(row=m.row, column="total", why=EVIL) for m in base.missing),
+        facts={EVIL: (1.0, EVIL), "f_star": (1.1, EVIL), "d": (1.3, "m")},
+        image_streams=tuple(replace(s, topic=EVIL, sha256=EVIL) for s in base.image_streams),
+    )
+    save_provenance({EVIL: EVIL}, tmp_path)
+    evil = with_picture(evil, tmp_path, 0)
+    page = whole_page_of(
+        replace(evil, pictures=(replace(evil.pictures[0], camera=EVIL),)), tmp_path
+    )
+    tags = [tag for tag, _ in page.tags]
+    assert "script" not in tags
+    assert all(not key.startswith("on") for _, attrs in page.tags for key in attrs)
+    images = [attrs["src"] for tag, attrs in page.tags if tag == "img"]
+    assert all(str(source).startswith("data:image/") for source in images)
+    assert page.text.count("<script>") > 10
+    assert html.escape("<script>") in (tmp_path / "report.html").read_text()
+
+
+def test_the_paragraph_about_the_static_scene_stands_only_where_nothing_moves(
+    tmp_path: Path,
+) -> None:
+    still = with_picture(visibility(), tmp_path, 0, 5)
+    moved = replace(still.pictures[1], truth=tuple(v + 3 for v in QUAD))
+    sentence = "This scene cannot tell trackers apart"
+    assert sentence in page_of(still, tmp_path).text
+    assert (
+        sentence not in page_of(replace(still, pictures=(still.pictures[0], moved)), tmp_path).text
+    )
+
+
+def test_the_control_beside_the_result_is_drawn_into_the_plots(tmp_path: Path) -> None:
+    save(frozen(), tmp_path / "control")
+    page = whole_page_of(visibility(), tmp_path)
+    assert "frozen, which never looks at a picture" in page.text
+
+
+def test_losses_over_repeats_are_given_from_first_to_last(tmp_path: Path) -> None:
+    page = page_of(visibility(seeds=tuple(range(1, 11))), tmp_path)
+    assert "fog 1.15 m⁻¹ to fog 1.25 m⁻¹" in page.text
+    assert "exact 95 % interval" in page.text
+
+
+def test_a_picture_that_is_gone_or_broken_is_said_and_does_not_stop_the_report(
+    tmp_path: Path,
+) -> None:
+    result = with_picture(visibility(), tmp_path, 0, 1)
+    (tmp_path / "pictures" / "b.png").write_bytes(b"\x89PNG broken")
+    gone = replace(result.pictures[0], file="pictures/gone.png")
+    broken = replace(result.pictures[1], file="pictures/b.png")
+    page = page_of(replace(result, pictures=(gone, broken)), tmp_path)
+    assert page.text.count("picture cannot be read") == 2
+
+
+def test_a_link_out_of_the_directory_is_not_followed(tmp_path: Path) -> None:
+    secret = tmp_path / "secret.png"
+    Image.fromarray(np.zeros((8, 8, 3), np.uint8)).save(secret)
+    directory = tmp_path / "result"
+    directory.mkdir()
+    (directory / "a.png").symlink_to(secret)
+    picture = TakenPicture(row=0, camera="c", file="a.png")
+    page = page_of(replace(visibility(), pictures=(picture,)), directory)
+    assert "picture cannot be read" in page.text
+
+
+@pytest.mark.parametrize("make", [nothing_measured, one_level, nested, frozen])
+def test_any_result_has_a_report(make: Callable[[], Result], tmp_path: Path) -> None:
+    assert "Results by level" in page_of(make(), tmp_path).text
+
+
+def test_a_result_with_no_rows_has_a_report(tmp_path: Path) -> None:
+    empty = replace(visibility(), rows=(), missing=())
+    assert "No level was played" in page_of(empty, tmp_path).text
+
+
+def test_without_measures_there_is_still_a_report(tmp_path: Path) -> None:
+    bare = Result(inputs={}, run={}, columns=(Column(name="none", kind="level"),), rows=((1.0,),))
+    assert "1 level, one scene" in page_of(bare, tmp_path).text
+
+
+def test_uwsim_report_draws_it_again_from_the_directory_or_the_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    save(visibility(), tmp_path)
+    assert main(["report", str(tmp_path)]) == 0
+    first = (tmp_path / "report.html").read_bytes()
+    assert main(["report", str(tmp_path / "result.json")]) == 0
+    assert (tmp_path / "report.html").read_bytes() == first
+    assert "report.html" in capsys.readouterr().out
+
+
+def test_uwsim_report_of_nothing_is_one_clean_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["report", str(tmp_path)]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    with pytest.raises(ResultError, match="no result here"):
+        write_report(tmp_path)
