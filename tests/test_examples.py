@@ -1,0 +1,31 @@
+"""Every numbered example runs as it stands and prints what the file beside it says."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+NUMBERED = sorted(EXAMPLES.glob("[0-9][0-9]_*.py"))
+
+
+def test_there_are_examples_numbered_from_one() -> None:
+    assert [int(path.name[:2]) for path in NUMBERED] == list(range(1, len(NUMBERED) + 1))
+    assert NUMBERED
+
+
+@pytest.mark.parametrize("example", NUMBERED, ids=lambda path: path.stem)
+def test_an_example_prints_what_the_file_beside_it_says(example: Path, tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, str(example)], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == example.with_suffix(".txt").read_text()
+
+
+@pytest.mark.parametrize("example", NUMBERED, ids=lambda path: path.stem)
+def test_an_example_fits_on_a_page(example: Path) -> None:
+    assert len(example.read_text().splitlines()) <= 60
