@@ -132,6 +132,9 @@ class FakeWorld:
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         self.bus.serve(name, type, handler)
 
+    def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
+        return self.bus.offer(name, type, handler)
+
     def withdraw(self, name: str) -> None:
         self.bus.withdraw(name)
 

@@ -114,6 +114,7 @@ class Bus:
     def __init__(self) -> None:
         self._topics: dict[str, _Topic] = {}
         self._services: dict[str, tuple[type, Callable[[Any], object]]] = {}
+        self._offers: dict[str, list[Callable[[Any], object]]] = {}
         self._due_now: deque[tuple[str, object]] = deque()
         self._due_later: list[tuple[int, int, str, object]] = []
         self._posted = 0
@@ -165,6 +166,23 @@ class Bus:
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service whose request class is ``type``; a later offer takes its place."""
         self._services[_plain(name)] = (type, handler)
+
+    def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
+        """Offer a service together with others: a call reaches all, the newest answers.
+
+        Returns the way to take part no more; the last to leave withdraws the service.
+        """
+        handlers = self._offers.setdefault(_plain(name), [])
+        handlers.append(handler)
+        self.serve(name, type, lambda request: [answer(request) for answer in list(handlers)][-1])
+
+        def leave() -> None:
+            if handler in handlers:
+                handlers.remove(handler)
+                if not handlers:
+                    self.withdraw(name)
+
+        return leave
 
     def withdraw(self, name: str) -> None:
         """Stop offering a service, if it is offered."""

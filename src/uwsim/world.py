@@ -106,6 +106,9 @@ class World(Protocol):
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service."""
 
+    def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
+        """Offer a service together with others: a call reaches all; returns how to leave."""
+
     def withdraw(self, name: str) -> None:
         """Stop offering a service, if it is offered."""
 

@@ -75,7 +75,7 @@ class ConstantSpec(GroundTruthSpec):
 
 
 class Constant(GroundTruth):
-    """Numbers that the file gives; called 1, 2, ... (corners and centroids by their names)."""
+    """Numbers that the file gives, called 1, 2, ...; what they mean it does not say."""
 
     def __init__(self, values: tuple[float, ...]) -> None:
         self._values = np.array(values, dtype=np.float64)

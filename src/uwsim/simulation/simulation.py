@@ -202,6 +202,10 @@ class Simulation:
         """Offer a service."""
         self.bus.serve(name, type, handler)
 
+    def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
+        """Offer a service together with others: a call reaches all; returns how to leave."""
+        return self.bus.offer(name, type, handler)
+
     def withdraw(self, name: str) -> None:
         """Stop offering a service."""
         self.bus.withdraw(name)

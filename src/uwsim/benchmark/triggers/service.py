@@ -27,20 +27,22 @@ class ServiceSpec(TriggerSpec):
 
 
 class Service(Trigger):
-    """On from the first call of its service, and for good."""
+    """On from the first call of its service, and for good.
+
+    Several triggers may wait for one service: a call reaches all of them.
+    """
 
     def __init__(self, world: World, name: str) -> None:
-        self._world, self._name = world, name
         self._was_called = False
-        world.serve(name, Empty, self._call)
+        self._leave = world.offer(name, Empty, self._call)
 
     def is_on(self) -> bool:
         """Whether the service has been called."""
         return self._was_called
 
     def close(self) -> None:
-        """Withdraw the service."""
-        self._world.withdraw(self._name)
+        """Wait for the service no more; it is withdrawn when nobody does."""
+        self._leave()
 
     def _call(self, request: Empty) -> EmptyResponse:
         self._was_called = True
