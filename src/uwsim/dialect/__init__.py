@@ -1,0 +1,61 @@
+r"""How a spec stands in XML: safe parsing, reading and writing of dataclasses, every fault at once.
+
+.. code-block:: xml
+
+    <rangeSensor> <name>sonar</name> <relativeTo>part0</relativeTo> <range>10</range> </rangeSensor>
+
+A frozen dataclass is the grammar. Each field is an element (``relative_to`` is ``<relativeTo>``;
+`element` says where it differs), its annotation says what may stand there, its documentation
+string says what it means and, in brackets, its unit:
+
+=========================  ====================================================================
+annotation                 in the file
+=========================  ====================================================================
+``str``                    text, trimmed
+``float``                  a number, or ``M_PI``, ``-M_PI_2`` ...; never NaN nor infinite
+``int``                    a whole number; ``320.5`` is read as 320 with a notice, as atoi did
+``bool``                   0 or 1 (attributes: true or false); else the default, with a notice
+``Literal["a", "b"]``      one of these words
+``tuple[float, x3]``       three elements, ``parts="xyz"`` (or ``rpy``, ``rgb``)
+a dataclass                an element that is filled from its own fields
+``tuple[T, ...]``          the element any number of times, or with ``item=`` one list of items
+``tuple[Base, ...]``       with ``choice=TABLE``: an element whose children the table names
+``T | None``               may be absent
+=========================  ====================================================================
+
+Elements stand in any order. Names without a namespace are the original's and nothing else;
+extensions live in ``urn:uwsim:1``. A DTD is never loaded, an entity never expanded, the network
+never asked. `Faults` in strict mode also holds a file against the order of the fields.
+"""
+
+from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
+from .faults import MAX_FAULTS, Faults
+from .grammar import Slot, camel, element, field_docs, slots
+from .names import NAMESPACE
+from .reading import read, read_choice, text_of
+from .values import TOKENS, number
+from .writing import uses_extensions, write
+
+__all__ = [
+    "MAX_BYTES",
+    "MAX_DEPTH",
+    "MAX_FAULTS",
+    "MAX_NODES",
+    "NAMESPACE",
+    "TOKENS",
+    "Document",
+    "Faults",
+    "Slot",
+    "camel",
+    "check_head",
+    "element",
+    "field_docs",
+    "number",
+    "parse",
+    "read",
+    "read_choice",
+    "slots",
+    "text_of",
+    "uses_extensions",
+    "write",
+]

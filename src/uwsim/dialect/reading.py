@@ -1,0 +1,285 @@
+"""Elements to specs."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from dataclasses import MISSING
+from typing import Any, TypeVar
+
+from lxml import etree
+
+from .faults import Faults
+from .grammar import Slot, slots
+from .names import cut, local, shown, shown_tag
+from .values import BAD, BLANKS, Bad, scalar
+
+T = TypeVar("T")
+
+
+def read(
+    cls: type[T],
+    node: etree._Element,
+    faults: Faults,
+    *,
+    given: Mapping[str, object] | None = None,
+) -> T | None:
+    """Fill a spec from an element; every fault goes into ``faults``.
+
+    Args:
+        cls: a dataclass.
+        node: the element.
+        faults: where to say what is wrong.
+        given: fields that the caller has read by hand; their elements are not looked at.
+
+    Returns:
+        The spec, with defaults where optional values were faulty; None when it cannot be made.
+    """
+    table = slots(cls)
+    values: dict[str, Any] = dict(given or {})
+    found = _children(cls, node, faults)
+    _read_attributes(table, node, values, faults)
+    for slot in table:
+        if slot.field in values or slot.xml.attribute:
+            continue
+        value = _read_slot(slot, node, found.get(slot.field, []), faults)
+        if value is not BAD:
+            values[slot.field] = value
+    for slot in table:
+        if slot.field not in values:
+            if slot.default is MISSING:
+                return None
+            values[slot.field] = slot.default
+    spec = cls(**values)
+    faults.remember(spec, node)
+    return spec
+
+
+def read_choice(
+    table: Mapping[str, type[T]],
+    node: etree._Element,
+    faults: Faults,
+    *,
+    read_one: Callable[[type[T], etree._Element, Faults], T | None] = read,
+) -> tuple[T, ...]:
+    """Read the children of an element, each by the spec that the table has under its name."""
+    read_specs = []
+    order = {tag: index for index, tag in enumerate(table)}
+    last: tuple[int, str] = (-1, "")
+    _refuse_text(node, faults)
+    for attribute in node.attrib:
+        _unknown_attribute(node, str(attribute), (), faults)
+    for child in _elements(node, faults):
+        tag = str(child.tag)
+        if tag not in table:
+            _unknown_element(child, node, table, faults)
+            continue
+        if faults.strict and order[tag] < last[0]:
+            _misplaced(child, last[1], faults)
+        last = max(last, (order[tag], tag))
+        if (spec := read_one(table[tag], child, faults)) is not None:
+            read_specs.append(spec)
+    return tuple(read_specs)
+
+
+def text_of(node: etree._Element, faults: Faults) -> str:
+    """The text of a leaf, trimmed; of several pieces split by comments the last that says some."""
+    said = ""
+    for piece in (node.text, *(child.tail for child in node)):
+        said = (piece or "").strip(BLANKS) or said
+    for child in _elements(node, faults):
+        faults.add(child, f"{shown(child)} inside {shown(node)}, where only text may stand")
+    return said
+
+
+@functools.cache
+def _by_tag(
+    cls: Hashable,
+) -> tuple[dict[str, tuple[int, Slot]], dict[str, tuple[int, Slot]]]:
+    """Position and slot of every element of a spec by its name, and by its old names."""
+    assert isinstance(cls, type)
+    table = slots(cls)
+    new = {slot.tag: (index, slot) for index, slot in enumerate(table) if not slot.xml.attribute}
+    old = {alias: entry for entry in new.values() for alias in entry[1].xml.aliases}
+    return new, old
+
+
+def _children(cls: type, node: etree._Element, faults: Faults) -> dict[str, list[etree._Element]]:
+    """The child elements by field; unknown, repeated and misplaced ones are faults."""
+    if any(slot.xml.text for slot in slots(cls)):
+        return {}
+    by_tag, old = _by_tag(cls)
+    found: dict[str, list[etree._Element]] = {}
+    last: tuple[int, str] = (-1, "")
+    _refuse_text(node, faults)
+    for child in _elements(node, faults):
+        tag = str(child.tag)
+        entry = by_tag.get(tag) or old.get(tag)
+        if entry is None:
+            _unknown_element(child, node, by_tag, faults)
+            continue
+        index, slot = entry
+        if tag not in by_tag:
+            faults.notice(child, f"{shown(child)} is an old name of <{slot.shown}>")
+        if faults.strict and index < last[0] and not slot.xml.namespaced:
+            _misplaced(child, last[1], faults)
+        if not slot.xml.namespaced:
+            last = max(last, (index, slot.shown))
+        here = found.setdefault(slot.field, [])
+        if here and not (slot.repeated and slot.kind != "choice" and _repeats(slot)):
+            faults.add(
+                child,
+                f"{shown(child)} stands twice in {shown(node)} (first in line "
+                f"{here[0].sourceline}); only one may",
+            )
+            continue
+        here.append(child)
+    return found
+
+
+def _repeats(slot: Slot) -> bool:
+    """Whether the element itself is repeated, rather than the items in it."""
+    return slot.kind == "list" or slot.xml.item is None
+
+
+def _read_attributes(
+    table: tuple[Slot, ...], node: etree._Element, values: dict[str, Any], faults: Faults
+) -> None:
+    known = {slot.tag: slot for slot in table if slot.xml.attribute}
+    for name, text in node.attrib.items():
+        slot = known.get(str(name))
+        if slot is None:
+            _unknown_attribute(node, str(name), known, faults)
+        elif slot.field not in values:
+            value = scalar(slot, str(text).strip(BLANKS), node, faults, local(slot.tag) + "=")
+            if value is not BAD:
+                values[slot.field] = value
+    for slot in known.values():
+        if slot.default is MISSING and slot.tag not in node.attrib and slot.field not in values:
+            faults.add(node, f"{shown(node)} lacks the attribute {slot.shown}")
+
+
+def _read_slot(
+    slot: Slot, parent: etree._Element, nodes: list[etree._Element], faults: Faults
+) -> Any:
+    """The value of a field that is not an attribute; BAD when it is absent or faulty."""
+    if slot.xml.text:
+        return _leaf(slot, parent, faults)
+    if not nodes:
+        if slot.default is MISSING and slot.repeated and slot.kind != "hand" and _repeats(slot):
+            faults.add(parent, f"{shown(parent)} lacks <{slot.shown}>: at least one must stand")
+        elif slot.default is MISSING or (faults.strict and slot.xml.required_by_dtd):
+            faults.add(parent, f"{shown(parent)} lacks <{slot.shown}>: {_purpose(slot)}")
+        return BAD
+    if slot.kind == "choice":
+        return read_choice(slot.type, nodes[0], faults)
+    if slot.repeated and slot.kind == "list":
+        return tuple(_read_list(slot, node, faults) for node in nodes)
+    if slot.repeated and slot.xml.item:
+        return _read_list(slot, nodes[0], faults)
+    if slot.repeated:
+        many = [_read_one(slot, node, faults) for node in nodes]
+        return tuple(value for value in many if value is not BAD)
+    return _read_one(slot, nodes[0], faults)
+
+
+def _read_one(slot: Slot, node: etree._Element, faults: Faults) -> Any:
+    if slot.kind == "spec":
+        spec = read(slot.type, node, faults)
+        return BAD if spec is None else spec
+    for name in node.attrib:
+        _unknown_attribute(node, str(name), (), faults)
+    if slot.kind == "triple":
+        return _read_triple(slot, node, faults)
+    return _leaf(slot, node, faults)
+
+
+def _leaf(slot: Slot, node: etree._Element, faults: Faults) -> Any:
+    text = text_of(node, faults)
+    if not text:
+        if slot.default is MISSING:
+            faults.add(node, f"{shown(node)} is empty; expected {slot.expected}")
+        return BAD
+    return scalar(slot, text, node, faults, shown(node))
+
+
+def _read_triple(slot: Slot, node: etree._Element, faults: Faults) -> Any:
+    values: dict[str, float] = {}
+    seen: set[str] = set()
+    _refuse_text(node, faults)
+    for child in _elements(node, faults):
+        tag = str(child.tag)
+        if tag not in tuple(slot.xml.parts):
+            _unknown_element(child, node, tuple(slot.xml.parts), faults)
+        elif tag in seen:
+            faults.add(child, f"<{tag}> stands twice in {shown(node)}; only one may")
+        else:
+            seen.add(tag)
+            text = text_of(child, faults)
+            named = f"<{tag}> of {shown(node)}"
+            value = scalar(slot, text, child, faults, named) if text else 0.0
+            if not isinstance(value, Bad):
+                values[tag] = value
+    if lacking := [f"<{part}>" for part in slot.xml.parts if part not in seen]:
+        faults.add(node, f"{shown(node)} lacks {', '.join(lacking)}")
+    if len(values) < len(slot.xml.parts):
+        return BAD
+    return tuple(values[part] for part in slot.xml.parts)
+
+
+def _read_list(slot: Slot, node: etree._Element, faults: Faults) -> tuple[Any, ...]:
+    values = []
+    assert slot.xml.item is not None
+    _refuse_text(node, faults)
+    kind, type_ = ("float", float) if slot.kind == "list" else (slot.kind, slot.type)
+    entry = dataclasses.replace(slot, kind=kind, type=type_, default=MISSING)
+    for child in _elements(node, faults):
+        if child.tag != slot.xml.item:
+            _unknown_element(child, node, (slot.xml.item,), faults)
+        elif (value := _read_one(entry, child, faults)) is not BAD:
+            values.append(value)
+    return tuple(values)
+
+
+def _elements(node: etree._Element, faults: Faults) -> Iterator[etree._Element]:
+    """The child elements; comments and instructions are skipped, entities are faults."""
+    for child in node:
+        if isinstance(child.tag, str):
+            yield child
+        elif isinstance(child, etree._Entity):
+            faults.add(node, f"{cut(child.text or '')} in {shown(node)}: entities are not read")
+
+
+def _refuse_text(node: etree._Element, faults: Faults) -> None:
+    for piece in (node.text, *(child.tail for child in node)):
+        if stray := (piece or "").strip(BLANKS):
+            faults.add(node, f"stray text {cut(stray)} in {shown(node)}")
+            return
+
+
+def _unknown_element(
+    child: etree._Element, parent: etree._Element, known: Iterable[str], faults: Faults
+) -> None:
+    names = [local(name) for name in known]
+    faults.unknown(
+        child, f"{shown(child)} is not an element of {shown(parent)}", local(str(child.tag)),
+        names,
+    )  # fmt: skip
+
+
+def _unknown_attribute(
+    node: etree._Element, name: str, known: Iterable[str], faults: Faults
+) -> None:
+    names = [local(each) for each in known]
+    said = shown_tag(name)[1:-1]
+    faults.unknown(node, f"{said} is not an attribute of {shown(node)}", local(name), names)
+
+
+def _misplaced(child: etree._Element, after: str, faults: Faults) -> None:
+    faults.add(child, f"{shown(child)} stands behind <{after}>; the original wants it before")
+
+
+def _purpose(slot: Slot) -> str:
+    """What a missing element would say: the first sentence of its documentation."""
+    return slot.doc.split(". ")[0].replace("\n", " ").rstrip(".").lower() or slot.expected

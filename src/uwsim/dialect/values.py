@@ -1,0 +1,94 @@
+"""Scalars: a number, a flag, a word from its text."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+from lxml import etree
+
+from ..errors import did_you_mean
+from .faults import Faults
+from .grammar import Slot
+from .names import cut
+
+TOKENS = {
+    "M_PI": math.pi,
+    "M_PI_2": math.pi / 2,
+    "M_PI_4": math.pi / 4,
+    "-M_PI": -math.pi,
+    "-M_PI_2": -math.pi / 2,
+    "-M_PI_4": -math.pi / 4,
+}
+"""What may stand in the place of a number."""
+
+BLANKS = " \t\n\r"
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_LEADING_INT = re.compile(r"[+-]?\d+", re.ASCII)
+
+
+class Bad:
+    """What a value that cannot be read is read as."""
+
+
+BAD = Bad()
+
+
+def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: str) -> Any:
+    """A scalar from its text."""
+    value: Any = BAD
+    if slot.kind == "str":
+        value = text
+    elif slot.kind in ("float", "triple"):
+        value = number(text)
+        if value is None and slot.xml.lenient and (leading := _NUMBER.match(text)):
+            value = number(leading[0])
+            faults.notice(node, f"{shown} is {cut(text)}; read as {value:g}, as the original does")
+        value = BAD if value is None else value
+    elif slot.kind == "int":
+        leading = _LEADING_INT.match(text)
+        if leading and len(leading[0]) < 12 and abs(int(leading[0])) < 2**31:
+            value = int(leading[0])
+            if leading[0] != text:
+                faults.notice(
+                    node, f"{shown} is {cut(text)}; read as {value}, as the original does"
+                )
+    elif slot.kind == "bool":
+        value = {"0": False, "1": True}.get(text, BAD)
+        if slot.xml.attribute and value is BAD:
+            value = {"false": False, "true": True}.get(text, BAD)
+        if value is BAD and not slot.xml.attribute:
+            value = slot.default if slot.xml.invalid is None else slot.xml.invalid
+            faults.notice(
+                node,
+                f"{shown} is {cut(text)}; expected 0 or 1; read as {value:d}, as the original does",
+            )
+    elif slot.kind == "word" and text in slot.type:
+        value = text
+    if value is not BAD and slot.kind in ("float", "int", "triple") and not _within(slot, value):
+        value = BAD
+    if value is BAD:
+        near = did_you_mean(text, slot.type) if slot.kind == "word" and len(text) < 80 else ""
+        faults.add(node, f"{shown} is {cut(text)}; expected {slot.expected}.{near}".rstrip("."))
+    return value
+
+
+def number(text: str) -> float | None:
+    """A number or an ``M_PI`` token; None when it is neither, or not finite."""
+    if text in TOKENS:
+        return TOKENS[text]
+    if len(text) > 400 or not _NUMBER.fullmatch(text):
+        return None
+    value = float(text)
+    return value if math.isfinite(value) else None
+
+
+def _within(slot: Slot, value: float) -> bool:
+    xml = slot.xml
+    return not (
+        (xml.minimum is not None and value < xml.minimum)
+        or (xml.maximum is not None and value > xml.maximum)
+        or (xml.above is not None and value <= xml.above)
+        or (xml.below is not None and value >= xml.below)
+    )
