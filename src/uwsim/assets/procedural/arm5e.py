@@ -16,6 +16,7 @@ from ..mesh import Mesh
 from .shapes import (
     Point,
     Shape,
+    box,
     cylinder,
     join,
     loft,
@@ -45,13 +46,10 @@ def fitted(parts: list[Shape], lower: Point, upper: Point) -> list[Shape]:
 
 
 def _metal(bright: list[Shape], dark: list[Shape], accent: list[Shape]) -> tuple[Mesh, ...]:
-    groups = ((bright, "silver", SILVER), (dark, "black", BLACK), (accent, "bronze", BRASS))
+    metal = worn("arm5e/metal", (0.92, 0.92, 0.92), size=128)
     return tuple(
-        mesh(
-            *(part.projected(0.25) for part in parts),
-            texture=worn(f"arm5e/{name}", colour, size=128),
-        )
-        for parts, name, colour in groups
+        mesh(*(part.projected(0.25) for part in parts), colour=colour, texture=metal)
+        for parts, colour in ((bright, SILVER), (dark, BLACK), (accent, BRASS))
         if parts
     )
 
@@ -65,94 +63,31 @@ def _link(
     return _metal(whole[:b], whole[b:d], whole[d:])
 
 
-def _ram(start: Point, end: Point, radius: float, rod: float) -> tuple[list[Shape], list[Shape]]:
+def _ram(start: Point, end: Point, radius: float, rod: float) -> tuple[Shape, Shape]:
     """An electric linear actuator: its body, and the rod that leaves it for ``rod`` metres."""
     a, b = np.array(start), np.array(end)
-    way = (b - a) / np.linalg.norm(b - a)
-    split = tuple((b - rod * way).tolist())
-    ring_at = tuple((b - (rod + 0.03) * way).tolist())
-    body = [
-        cylinder(start, split, radius, n=16, bevel=radius * 0.2),
-        cylinder(ring_at, split, radius * 1.0, n=16, bevel=0.002),
-    ]
-    return body, [cylinder(split, end, radius * 0.4, n=10)]
+    split = b - rod * (b - a) / np.linalg.norm(b - a)
+    x, y, z = split.tolist()
+    body = cylinder(start, (x, y, z), radius, n=12, bevel=radius * 0.25)
+    return body, cylinder((x, y, z), end, radius * 0.4, n=8)
 
 
-def part0() -> tuple[Mesh, ...]:
-    """The base: a beam under the hull, the slew bearing, and the slew actuator beside it."""
-    beam = rounded_box((-0.336, -0.024, 0.008), (0.0, 0.024, 0.061), radius=0.006)
-    foot = rounded_box((-0.33, -0.029, 0.045), (-0.24, 0.06, 0.058), radius=0.004)
-    foot2 = rounded_box((-0.10, -0.029, 0.045), (-0.02, 0.06, 0.058), radius=0.004)
-    bearing = cylinder((0.0, 0.0, -0.054), (0.0, 0.0, 0.061), 0.0295, n=24, bevel=0.004)
-    body, rod = _ram((-0.32, 0.062, 0.028), (-0.005, 0.062, 0.028), 0.028, 0.12)
-    lug = cylinder((-0.02, 0.055, 0.028), (0.006, 0.055, 0.028), 0.014, n=12)
-    return _link(
-        [beam, *rod, lug],
-        [bearing, *body, foot, foot2],
-        [],
-        (-0.336, -0.029, -0.054),
-        (0.031, 0.090, 0.061),
-    )
+def _block(lower: Point, upper: Point, radius: float) -> Shape:
+    """A block with chamfered edges."""
+    return rounded_box(lower, upper, radius=radius, n=1)
 
 
-def part1() -> tuple[Mesh, ...]:
-    """The slew body: a sleeve round the bearing, and the fork that holds the shoulder."""
-    sleeve = ring(0.034, 0.0297, -0.05, 0.03, n=24)
-    cap = cylinder((0.0, 0.0, -0.095), (0.0, 0.0, -0.048), 0.034, n=24, bevel=0.004)
-    ear = rounded_box((-0.016, 0.026, 0.014), (0.02, 0.047, 0.044), radius=0.006)
-    neck = rounded_box((-0.02, -0.034, -0.135), (0.075, 0.034, -0.062), radius=0.012)
-    forks, pins = [], []
-    for side in (-1.0, 1.0):
-        y0, y1 = sorted((side * 0.026, side * 0.040))
-        forks.append(rounded_box((0.02, y0, -0.150), (0.100, y1, -0.075), radius=0.006))
-        forks.append(cylinder((0.0805, y0, -0.13), (0.0805, y1, -0.13), 0.022, n=18))
-        pins.append(cylinder((0.0805, y0 - 0.003, -0.13), (0.0805, y1 + 0.003, -0.13), 0.010, n=12))
-    horn = rounded_box((0.06, -0.02, -0.09), (0.161, 0.02, -0.055), radius=0.008)
-    return _link(
-        [*forks, sleeve],
-        [cap, neck, ear, horn],
-        pins,
-        (-0.034, -0.043, -0.152),
-        (0.161, 0.047, 0.044),
-    )
-
-
-def part2() -> tuple[Mesh, ...]:
-    """The upper arm: two side plates on a beam from shoulder to elbow, an actuator each side."""
-    ex, _, ez = ELBOW_IN_PART2
-    beam = []
-    for y in (-0.019, 0.011):
-        beam.append(_plate((0.0, ez * 0.0), (ex, ez), 0.022, y, y + 0.008))
-    core = cylinder(
-        (0.03, 0.0, ez * 0.03 / ex), (ex - 0.05, 0.0, ez * (ex - 0.05) / ex), 0.011, n=12
-    )
-    body1, rod1 = _ram((-0.06, -0.060, -0.004), (0.33, -0.060, -0.062), 0.028, 0.14)
-    body2, rod2 = _ram((0.552, 0.066, -0.094), (0.06, 0.066, -0.020), 0.027, 0.16)
-    motor = cylinder((-0.078, -0.060, -0.002), (-0.02, -0.060, -0.010), 0.0285, n=16, bevel=0.006)
-    cross = [
-        cylinder((0.27, -0.06, -0.055), (0.27, 0.066, -0.055), 0.010, n=10),
-        cylinder((0.10, -0.06, -0.027), (0.10, 0.066, -0.027), 0.010, n=10),
-        cylinder((0.0, -0.024, 0.0), (0.0, 0.024, 0.0), 0.0215, n=18),
-    ]
-    elbow = []
-    for side in (-1.0, 1.0):
-        y0, y1 = sorted((side * 0.019, side * 0.036))
-        elbow.append(cylinder((ex, y0, ez), (ex, y1, ez), 0.022, n=18))
-    return _link(
-        [*beam, core, *rod1, *rod2, *elbow],
-        [*body1, *body2, motor],
-        cross,
-        (-0.078, -0.088, -0.122),
-        (0.559, 0.094, 0.022),
-    )
+def _pin(x: float, z: float, half: float, radius: float, *, n: int = 8) -> Shape:
+    """A rod along y through (x, z), from ``-half`` to ``half``."""
+    return cylinder((x, -half, z), (x, half, z), radius, n=n)
 
 
 def _plate(a: tuple[float, float], b: tuple[float, float], r: float, y0: float, y1: float) -> Shape:
     """A flat bar with round ends in the x-z plane from ``a`` to ``b``, between two y."""
     start, end = np.array(a), np.array(b)
-    along = math.atan2(*(end - start)[::-1])
-    first = along + math.pi / 2 + np.linspace(0.0, math.pi, 9)
-    second = along - math.pi / 2 + np.linspace(0.0, math.pi, 9)
+    along = math.atan2(end[1] - start[1], end[0] - start[0])
+    half = np.linspace(0.0, math.pi, 7)
+    first, second = along + math.pi / 2 + half, along - math.pi / 2 + half
     outline = np.concatenate(
         [
             start + r * np.stack([np.cos(first), np.sin(first)], axis=1),
@@ -160,44 +95,98 @@ def _plate(a: tuple[float, float], b: tuple[float, float], r: float, y0: float, 
         ]
     )
     x, z = outline[:, 0], outline[:, 1]
-    rings = np.array([np.stack([x, np.full_like(x, y), z], axis=1) for y in (y1, y0)])
-    return loft(rings)
+    return loft(np.array([np.stack([x, np.full_like(x, y), z], axis=1) for y in (y1, y0)]))
+
+
+def part0() -> tuple[Mesh, ...]:
+    """The base: a beam under the hull, the slew bearing, and the slew actuator beside it."""
+    beam = _block((-0.336, -0.024, 0.008), (0.0, 0.024, 0.061), 0.006)
+    feet = [
+        box((-0.33, -0.029, 0.045), (-0.24, 0.06, 0.058)),
+        box((-0.10, -0.029, 0.045), (-0.02, 0.06, 0.058)),
+    ]
+    bearing = cylinder((0.0, 0.0, -0.054), (0.0, 0.0, 0.061), 0.0295, n=16, bevel=0.004)
+    body, rod = _ram((-0.32, 0.062, 0.028), (-0.005, 0.062, 0.028), 0.028, 0.12)
+    lug = cylinder((-0.02, 0.055, 0.028), (0.006, 0.055, 0.028), 0.014, n=8)
+    box_of_part0 = (-0.336, -0.029, -0.054), (0.031, 0.090, 0.061)
+    return _link([beam, rod, lug], [bearing, body, *feet], [], *box_of_part0)
+
+
+def part1() -> tuple[Mesh, ...]:
+    """The slew body: a sleeve round the bearing, and the fork that holds the shoulder."""
+    sleeve = ring(0.034, 0.0297, -0.05, 0.03, n=16)
+    cap = cylinder((0.0, 0.0, -0.095), (0.0, 0.0, -0.048), 0.034, n=16, bevel=0.004)
+    ear = box((-0.016, 0.026, 0.014), (0.02, 0.047, 0.044))
+    neck = _block((-0.02, -0.034, -0.120), (0.050, 0.034, -0.062), 0.012)
+    cheeks = [_plate((0.02, -0.10), (0.0805, -0.13), 0.022, y, y + 0.014) for y in (-0.040, 0.026)]
+    horn = _block((0.02, -0.02, -0.085), (0.161, 0.02, -0.058), 0.008)
+    return _link(
+        [*cheeks, sleeve],
+        [cap, neck, ear, horn],
+        [_pin(0.0805, -0.13, 0.043, 0.010)],
+        (-0.034, -0.043, -0.152),
+        (0.161, 0.047, 0.044),
+    )
+
+
+def part2() -> tuple[Mesh, ...]:
+    """The upper arm: two plates from shoulder to elbow, an actuator on each side."""
+    elbow_x, _, elbow_z = ELBOW_IN_PART2
+    elbow = (elbow_x, elbow_z)
+    plates = [_plate((0.0, 0.0), elbow, 0.022, y, y + 0.009) for y in (-0.024, 0.015)]
+    near, near_rod = _ram((-0.060, -0.060, -0.004), (0.330, -0.060, -0.062), 0.028, 0.14)
+    far, far_rod = _ram((0.552, 0.066, -0.094), (0.060, 0.066, -0.020), 0.027, 0.16)
+    motor = cylinder((-0.078, -0.060, -0.002), (-0.020, -0.060, -0.010), 0.0285, n=12)
+    yokes = [
+        cylinder((0.320, -0.066, -0.060), (0.320, 0.02, -0.060), 0.010, n=8),
+        cylinder((0.065, -0.02, -0.021), (0.065, 0.072, -0.021), 0.010, n=8),
+        cylinder((0.400, -0.02, -0.076), (0.400, 0.06, -0.076), 0.012, n=8),
+        _block((0.12, -0.045, -0.045), (0.17, 0.0, -0.018), 0.006),
+    ]
+    hubs = [_pin(0.0, 0.0, 0.026, 0.014, n=12), _pin(*elbow, 0.036, 0.018, n=12)]
+    return _link(
+        [*plates, near_rod, far_rod, *hubs],
+        [near, far, motor],
+        yokes,
+        (-0.078, -0.088, -0.122),
+        (0.559, 0.094, 0.022),
+    )
 
 
 def part3() -> tuple[Mesh, ...]:
     """The forearm: elbow lug, the wrist's motor housing along x, the jaw's actuator above it."""
     w = WRIST_HEIGHT
-    lug = cylinder((0.0, -0.018, 0.0), (0.0, 0.018, 0.0), 0.022, n=18)
-    web = [_plate((0.0, 0.0), (0.13, w), 0.022, y, y + 0.010) for y in (-0.017, 0.007)]
-    housing = cylinder((0.045, 0.0, w), (0.30, 0.0, w), 0.050, n=24, bevel=0.008)
+    lug = _pin(0.0, 0.0, 0.013, 0.022, n=14)
+    webs = [_plate((0.0, 0.0), (0.13, w), 0.022, y, y + 0.010) for y in (-0.014, 0.004)]
+    housing = cylinder((0.045, 0.0, w), (0.30, 0.0, w), 0.050, n=16, bevel=0.008)
     collars = [
-        cylinder((x, 0.0, w), (x + 0.022, 0.0, w), 0.0645 - 0.004 * (x < 0.2), n=24, bevel=0.003)
-        for x in (0.085, 0.298)
+        cylinder((0.085, 0.0, w), (0.107, 0.0, w), 0.058, n=16),
+        cylinder((0.298, 0.0, w), (0.320, 0.0, w), 0.0645, n=16),
     ]
-    saddle = rounded_box((0.09, -0.02, w + 0.04), (0.24, 0.02, 0.19), radius=0.008)
-    body, rod = _ram((-0.015, 0.0, 0.185), (0.29, 0.0, 0.185), 0.042, 0.06)
-    bracket = rounded_box((0.255, -0.015, w + 0.05), (0.30, 0.015, 0.21), radius=0.008)
+    saddle = box((0.09, -0.02, w + 0.04), (0.24, 0.02, 0.19))
+    body, rod = _ram((-0.015, 0.0, 0.185), (0.295, 0.0, 0.185), 0.042, 0.06)
+    bracket = box((0.275, -0.015, w + 0.05), (0.305, 0.015, 0.205))
     return _link(
-        [lug, *web, *collars, *rod, bracket], [housing, *body], [saddle],
-        (-0.022, -0.065, -0.022), (0.320, 0.064, 0.227),
-    )  # fmt: skip
+        [lug, *webs, *collars, rod, bracket],
+        [housing, body],
+        [saddle],
+        (-0.022, -0.065, -0.022),
+        (0.320, 0.064, 0.227),
+    )
 
 
 def part4_base() -> tuple[Mesh, ...]:
     """The wrist's flange and the two pairs of prongs that carry the jaws."""
-    hx, _, hz = HINGE_IN_PART4
-    flange = cylinder((0.0, 0.0, 0.0), (0.018, 0.0, 0.0), 0.050, n=24, bevel=0.003)
-    body = rounded_box((0.012, -0.040, -0.034), (0.060, 0.040, 0.034), radius=0.010)
-    nose = cylinder((0.055, 0.0, 0.0), (0.085, 0.0, 0.0), 0.018, n=16, bevel=0.004)
+    hinge_x, _, hinge_z = HINGE_IN_PART4
+    flange = cylinder((0.0, 0.0, 0.0), (0.018, 0.0, 0.0), 0.050, n=16)
+    body = _block((0.012, -0.040, -0.034), (0.060, 0.040, 0.034), 0.010)
+    nose = cylinder((0.055, 0.0, 0.0), (0.085, 0.0, 0.0), 0.018, n=10)
     prongs, pins = [], []
-    for side in (-1.0, 1.0):
-        for y in (-0.050, 0.042):
-            z0, z1 = sorted((side * 0.022, side * 0.052))
-            prongs.append(rounded_box((0.03, y, z0), (0.105, y + 0.008, z1), radius=0.003, n=1))
-        pins.append(cylinder((hx, -0.055, side * hz), (hx, 0.055, side * hz), 0.008, n=12))
-    return _link(
-        [flange, *prongs], [body, nose], pins, (0.0, -0.055, -0.052), (0.105, 0.055, 0.052)
-    )
+    for low, high in ((-0.052, -0.022), (0.022, 0.052)):
+        prongs += [box((0.03, y, low), (0.105, y + 0.008, high)) for y in (-0.050, 0.042)]
+    pins = [_pin(hinge_x, side * hinge_z, 0.055, 0.008) for side in (-1.0, 1.0)]
+    box_of_part4 = (0.0, -0.055, -0.052), (0.105, 0.055, 0.052)
+    return _link([flange, *prongs], [body, nose], pins, *box_of_part4)
 
 
 def jaw1() -> tuple[Mesh, ...]:
@@ -211,23 +200,24 @@ def jaw2() -> tuple[Mesh, ...]:
 
 
 def _jaw(side: float) -> tuple[Mesh, ...]:
-    x = np.array([0.014, 0.025, 0.04, 0.055, 0.07, 0.085, 0.097, 0.106])
-    outer = np.array([0.006, 0.007, 0.007, 0.005, 0.001, -0.008, -0.020, -0.031])
-    inner = np.array([-0.006, -0.007, -0.006, -0.006, -0.010, -0.020, -0.029, -0.035])
-    wide = np.array([0.034, 0.037, 0.040, 0.043, 0.046, 0.046, 0.044, 0.040])
-    rings = [
-        [(x[k], -wide[k], inner[k]), (x[k], wide[k], inner[k]),
-         (x[k], wide[k], outer[k]), (x[k], -wide[k], outer[k])]
-        for k in range(len(x))
-    ]  # fmt: skip
-    scoop = loft(np.array(rings))
+    x = np.array([0.014, 0.025, 0.045, 0.065, 0.080, 0.094, 0.106])
+    outer = np.array([0.006, 0.007, 0.007, 0.003, -0.005, -0.017, -0.031])
+    inner = np.array([-0.006, -0.007, -0.005, -0.008, -0.017, -0.027, -0.035])
+    wide = np.array([0.034, 0.037, 0.041, 0.046, 0.046, 0.044, 0.040])
+    rings = np.stack(
+        [
+            np.stack([x, -wide, inner], axis=1),
+            np.stack([x, wide, inner], axis=1),
+            np.stack([x, wide, outer], axis=1),
+            np.stack([x, -wide, outer], axis=1),
+        ],
+        axis=1,
+    )
     teeth = [
-        rounded_box((0.088, y - 0.006, -0.035), (0.104, y + 0.006, -0.018), radius=0.002, n=1)
+        box((0.088, y - 0.006, -0.035), (0.104, y + 0.006, -0.018))
         for y in (-0.030, -0.010, 0.010, 0.030)
     ]
-    ribs = [rounded_box((0.016, y, -0.020), (0.066, y + 0.006, -0.002), radius=0.002, n=1)
-            for y in (-0.030, 0.024)]  # fmt: skip
-    parts = [scoop, *teeth, *ribs]
-    whole = fitted(parts, (0.014, -0.046, -0.035), (0.106, 0.046, 0.007))
+    ribs = [box((0.016, y, -0.020), (0.066, y + 0.006, -0.002)) for y in (-0.030, 0.024)]
+    whole = fitted([loft(rings), *teeth, *ribs], (0.014, -0.046, -0.035), (0.106, 0.046, 0.007))
     whole = [part.scaled(1.0, 1.0, side) for part in whole]
     return _metal(whole[:1], whole[1:], [])

@@ -8,20 +8,50 @@ from __future__ import annotations
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 
 from ... import chance
 from ..mesh import Texture
-from .textures import Grey, Picture, finished, lit, mixed, noise, plain, step
+from .textures import Grey, lit, noise, step
 
-SIZE = (2048, 1024)
-"""Rows and columns: 3.4 mm a pixel."""
+SIZE = (1632, 816)
+"""Rows and columns: 4.3 mm a pixel."""
+
+PALETTE = np.array(
+    [
+        (0.60, 0.60, 0.50),  # sand
+        (0.27, 0.30, 0.31),  # dark cobbles
+        (0.68, 0.67, 0.59),  # light cobbles
+        (0.22, 0.25, 0.25),  # dark rock
+        (0.49, 0.45, 0.39),  # light rock
+        (0.30, 0.37, 0.20),  # crust on rocks
+        (0.07, 0.14, 0.08),  # weed in shadow
+        (0.28, 0.38, 0.16),  # weed in light
+    ],
+    dtype=np.float32,
+)
+"""Colours that every pixel is mixed of, in the order of the layers in `mosaic`."""
+
+BAND = 24
+"""Rows that are painted at once."""
+
+Pixels = npt.NDArray[np.uint8]
 
 
-def stones(name: str, height: int, width: int, *, count: int, gap: float) -> tuple[Grey, Grey]:
+def stones(
+    name: str, height: int, width: int, *, count: int, gap: float, bend: float = 0.05
+) -> tuple[Grey, Grey]:
     """Rounded stones laid side by side: their height 0..1 and a shade 0..1 for each.
 
-    Voronoi cells of random points, their borders bent by noise; ``gap`` is the width of the
-    joints [pixels].
+    Voronoi cells of random points, their borders bent by noise.
+
+    Args:
+        name: Names the chance.
+        height: Rows.
+        width: Columns.
+        count: How many stones.
+        gap: Half the width of the joints [pixels].
+        bend: How far borders are bent, in typical sizes of a stone.
     """
     draw = chance.stream(0, f"assets/{name}/stones")
     seeds = np.ones((height, width), dtype=np.uint8)
@@ -29,94 +59,145 @@ def stones(name: str, height: int, width: int, *, count: int, gap: float) -> tup
     _, labels = cv2.distanceTransformWithLabels(
         seeds, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
     )
-    bend = float(np.sqrt(height * width / count)) * 0.10
-    grid_x, grid_y = np.meshgrid(
-        np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32)
-    )
-    cells = max(8, round(2 * np.sqrt(count)))
-    grid_x += np.float32(bend) * noise(f"{name}/bend-x", height, width, cells=cells, octaves=2)
-    grid_y += np.float32(bend) * noise(f"{name}/bend-y", height, width, cells=cells, octaves=2)
-    bent = cv2.remap(
-        labels.astype(np.float32), grid_x, grid_y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REFLECT
+    size = float(np.sqrt(height * width / count))
+    cells = max(4, round(1.3 * min(height, width) / size))
+    columns = np.arange(width, dtype=np.float32)[None, :]
+    rows = np.arange(height, dtype=np.float32)[:, None]
+    shift = np.float32(bend * size)
+    map_x = shift * noise(f"{name}/bend-x", height, width, cells=cells, octaves=2, tiles=False)
+    map_y = shift * noise(f"{name}/bend-y", height, width, cells=cells, octaves=2, tiles=False)
+    map_x += columns
+    map_y += rows
+    shades = draw.random(count + 1, dtype=np.float32)
+    shade: Grey = cv2.remap(
+        shades[labels], map_x, map_y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REFLECT
     )
     inside = np.ones((height, width), dtype=np.uint8)
-    inside[:, 1:] &= bent[:, 1:] == bent[:, :-1]
-    inside[1:] &= bent[1:] == bent[:-1]
-    depth = cv2.distanceTransform(inside, cv2.DIST_L2, 3) - np.float32(gap)
-    radius = 0.35 * float(np.sqrt(height * width / count))
-    rise = np.clip(depth / np.float32(radius), 0.0, 1.0)
-    shade = draw.random(count + 2, dtype=np.float32)[bent.astype(np.int64) % (count + 2)]
-    return np.sqrt(rise).astype(np.float32), shade
+    inside[:, 1:] = shade[:, 1:] == shade[:, :-1]
+    inside[1:] &= shade[1:] == shade[:-1]
+    rise = cv2.distanceTransform(inside, cv2.DIST_L2, 3)
+    rise -= np.float32(gap)
+    rise *= np.float32(1.0 / (0.30 * size))
+    np.clip(rise, 0.0, 1.0, out=rise)
+    # A dome: steep at the rim, flat on top.
+    high: Grey = rise * (np.float32(2.0) - rise)
+    return high, shade
 
 
 def mosaic() -> Texture:
     """The whole picture."""
     h, w = SIZE
     name = "tank/mosaic"
-    grain = noise(f"{name}/grain", h, w, cells=64, octaves=5, gain=0.9, tiles=False)
-    broad = noise(f"{name}/broad", h, w, cells=3, octaves=5, tiles=False)
-    sand: Picture = plain(h, w, (0.66, 0.62, 0.50)) * (1.0 + 0.07 * grain + 0.06 * broad)[..., None]
-    y, x = np.mgrid[0:h, 0:w].astype(np.float32)
-    wave = np.sin(x * 0.035 + y * 0.11 + 1.6 * broad)
-    sand *= lit(wave, 0.9)[..., None]
 
-    high, shade = stones(f"{name}/cobble", h, w, count=4200, gap=1.0)
-    tint = mixed((0.30, 0.31, 0.30), (0.74, 0.68, 0.58), shade)
-    cobble = tint * (1.0 + 0.10 * grain)[..., None] * lit(high, 1.6)[..., None]
-    cobble *= (0.25 + 0.75 * step(0.0, 0.35, high))[..., None]
-    where = step(-0.15, 0.25, broad + 0.25 * grain)
-    picture = mixed(sand, cobble, where)
+    def field(what: str, cells: int, octaves: int, gain: float = 0.55) -> Grey:
+        return noise(f"{name}/{what}", h, w, cells=cells, octaves=octaves, gain=gain, tiles=False)
 
-    high, shade = stones(f"{name}/rock", h, w, count=170, gap=6.0)
-    crust = noise(f"{name}/crust", h, w, cells=24, octaves=6, gain=0.7, tiles=False)
-    rock = mixed((0.24, 0.25, 0.24), (0.55, 0.47, 0.40), shade)
-    rock = mixed(rock, (0.36, 0.40, 0.20), step(0.3, 1.6, crust))
-    rock = rock * (lit(high + 0.05 * crust, 5.0) * (0.85 + 0.12 * grain))[..., None]
-    chosen = ((shade * 97.0) % 1.0 < 0.30) & (high > 0.0)
-    shadow = cv2.GaussianBlur(np.roll(chosen.astype(np.float32), (10, 10), (0, 1)), (0, 0), 6)
-    picture *= (1.0 - 0.55 * shadow)[..., None]
-    picture = mixed(picture, rock, cv2.GaussianBlur(chosen.astype(np.float32), (0, 0), 1.2))
-
-    fronds = noise(f"{name}/weed", h, w, cells=40, octaves=5, gain=0.85, tiles=False)
-    beds = step(1.0, 1.7, noise(f"{name}/beds", h, w, cells=5, octaves=4, tiles=False))
-    weed = mixed((0.07, 0.13, 0.06), (0.32, 0.40, 0.14), step(-1.2, 1.8, fronds))
-    picture = mixed(picture, weed * lit(fronds, 0.35)[..., None], beds * step(-0.9, 0.1, fronds))
-    _scatter_shells(picture)
-    _seams(picture)
-    return finished(name, picture * np.array([0.90, 1.0, 1.04], dtype=np.float32), repeats=False)
+    cobble, cobble_shade = stones(f"{name}/cobble", h, w, count=3000, gap=0.6, bend=0.07)
+    rock, rock_shade = stones(f"{name}/rock", h, w, count=150, gap=5.0, bend=0.07)
+    chosen = ((rock_shade * 97.0) % 1.0 < 0.30) & (rock > 0.02)
+    on_rock = cv2.blur(chosen.astype(np.float32), (3, 3))
+    small = cv2.resize(on_rock, (w // 4, h // 4), interpolation=cv2.INTER_AREA)
+    shadow = cv2.resize(cv2.GaussianBlur(np.roll(small, (3, 3), (0, 1)), (0, 0), 2.0), (w, h))
+    fields = (
+        field("grain", 57, 5, 0.9), field("broad", 3, 6), cobble, cobble_shade,
+        rock, rock_shade, on_rock, shadow, field("crust", 24, 6, 0.7),
+        field("weed", 40, 5, 0.85), field("beds", 5, 4), _exposures(h, w),
+    )  # fmt: skip
+    pixels = np.empty((h, w, 3), dtype=np.uint8)
+    for top in range(0, h, BAND):
+        # Band by band, so that the layers stay in the processor's cache; a row more each side.
+        first, last = max(top - 1, 0), min(top + BAND + 1, h)
+        band = _painted(first, *(whole[first:last] for whole in fields))
+        pixels[top : top + BAND] = band[top - first : top - first + BAND]
+    _scatter_shells(pixels)
+    return Texture(name=name, pixels=pixels, repeats=False)
 
 
-def _scatter_shells(picture: Picture) -> None:
+def _painted(
+    first: int,
+    grain: Grey,
+    broad: Grey,
+    cobble: Grey,
+    cobble_shade: Grey,
+    rock: Grey,
+    rock_shade: Grey,
+    on_rock: Grey,
+    shadow: Grey,
+    crust: Grey,
+    fronds: Grey,
+    beds: Grey,
+    exposure: Grey,
+) -> Pixels:
+    """Some rows of the picture, of which the first has number ``first``, from their fields."""
+    h, w = grain.shape
+    down = np.arange(first, first + h, dtype=np.float32)[:, None] * np.float32(0.123)
+    right = np.arange(w, dtype=np.float32)[None, :] * np.float32(0.039)
+    ripples = np.sin(down + right + 1.6 * broad)
+    fine = 1.0 + 0.09 * grain
+
+    on_cobble = step(-0.2, 0.2, broad + 0.30 * grain + 0.25 * (cobble - 0.6))
+    on_weed = step(1.0, 1.7, beds) * step(-0.9, 0.1, fronds)
+    bare = exposure * (1.0 - on_weed)
+    beneath = (1.0 - 0.55 * shadow) * (1.0 - on_rock) * bare
+
+    sand = (fine + 0.05 * broad) * lit(ripples + 0.25 * grain, 0.32)
+    sand *= (1.0 - on_cobble) * beneath
+    pebbles = fine * lit(cobble, 1.0) * (0.42 + 0.58 * step(0.0, 0.6, cobble))
+    pebbles *= on_cobble * beneath
+    boulders = (0.95 + 0.10 * grain) * lit(rock + 0.05 * crust, 2.6) * on_rock * bare
+    crusted = step(0.3, 1.6, crust)
+    weed = lit(fronds, 0.30) * on_weed
+    lightness = step(-1.2, 1.8, fronds)
+
+    layers = np.empty((len(PALETTE), h * w), dtype=np.float32)
+    for row, layer in enumerate(
+        (
+            sand,
+            pebbles * (1.0 - cobble_shade),
+            pebbles * cobble_shade,
+            boulders * (1.0 - crusted) * (1.0 - rock_shade),
+            boulders * (1.0 - crusted) * rock_shade,
+            boulders * crusted,
+            weed * (1.0 - lightness),
+            weed * lightness,
+        )
+    ):
+        layers[row] = layer.ravel()
+    planes = (PALETTE.T * np.float32(255.0)) @ layers  # (3, h*w)
+    merged: Pixels = cv2.merge([cv2.convertScaleAbs(plane.reshape(h, w)) for plane in planes])
+    return merged
+
+
+def _scatter_shells(picture: Pixels) -> None:
     """Shells and pebbles: small bright or dark ellipses with a shadow."""
     h, w = picture.shape[:2]
     draw = chance.stream(0, "assets/tank/mosaic/shells")
-    for _ in range(420):
+    for _ in range(380):
         centre = (int(draw.integers(0, w)), int(draw.integers(0, h)))
-        axes = (int(draw.integers(2, 9)), int(draw.integers(2, 6)))
+        axes = (int(draw.integers(2, 8)), int(draw.integers(2, 5)))
         angle = float(draw.uniform(0, 180))
-        light = float(draw.choice([0.88, 0.80, 0.20, 0.45]))
-        below = (centre[0] + 2, centre[1] + 2)
-        cv2.ellipse(picture, below, axes, angle, 0, 360, (0.12, 0.11, 0.10), -1, cv2.LINE_8)
-        tone = (light, light * 0.95, light * 0.84)
-        cv2.ellipse(picture, centre, axes, angle, 0, 360, tone, -1, cv2.LINE_8)
+        light = 255.0 * float(draw.choice([0.86, 0.76, 0.22, 0.48]))
+        tone = (light * 0.97, light * 0.96, light * 0.86)
+        cv2.ellipse(picture, (centre[0] + 2, centre[1] + 2), axes, angle, 0, 360, (30, 32, 32), -1)
+        cv2.ellipse(picture, centre, axes, angle, 0, 360, tone, -1, cv2.LINE_AA)
         ridge = (max(1, axes[0] // 2), max(1, axes[1] // 2))
-        cv2.ellipse(picture, centre, ridge, angle, 180, 360, tuple(0.75 * t for t in tone), 1)
+        dim = (0.72 * tone[0], 0.72 * tone[1], 0.72 * tone[2])
+        cv2.ellipse(picture, centre, ridge, angle, 180, 360, dim, 1, cv2.LINE_AA)
 
 
-def _seams(picture: Picture) -> None:
+def _exposures(h: int, w: int) -> Grey:
     """Each photograph of the mosaic was a little brighter or darker, and dimmer at its rim."""
-    h, w = picture.shape[:2]
     draw = chance.stream(0, "assets/tank/mosaic/seams")
     rows, columns = 6, 3
-    gain = np.ones((h, w), dtype=np.float32)
+    gain = np.ones((h // 2, w // 2), dtype=np.float32)
     for r in range(rows):
         for c in range(columns):
-            top, left = (int(v) for v in draw.integers(-30, 30, 2))
-            y0, x0 = max(0, r * h // rows + top), max(0, c * w // columns + left)
-            y1, x1 = (r + 1) * h // rows + 40, (c + 1) * w // columns + 40
+            top, left = (int(v) for v in draw.integers(-20, 20, 2))
+            y0, x0 = max(0, r * h // 2 // rows + top), max(0, c * w // 2 // columns + left)
+            y1, x1 = (r + 1) * h // 2 // rows + 24, (c + 1) * w // 2 // columns + 24
             part = gain[y0:y1, x0:x1]
-            v, u = np.meshgrid(
-                np.linspace(-1, 1, part.shape[0]), np.linspace(-1, 1, part.shape[1]), indexing="ij"
-            )
-            part[:] = draw.uniform(0.95, 1.06) * (1.04 - 0.09 * (u * u + v * v))
-    picture *= cv2.GaussianBlur(gain, (0, 0), 2.0)[..., None]
+            v = np.linspace(-1, 1, part.shape[0], dtype=np.float32)[:, None]
+            u = np.linspace(-1, 1, part.shape[1], dtype=np.float32)[None, :]
+            part[:] = draw.uniform(0.95, 1.06) * (1.04 - 0.08 * (u * u + v * v))
+    whole: Grey = cv2.resize(gain, (w, h), interpolation=cv2.INTER_LINEAR)
+    return whole

@@ -341,8 +341,10 @@ def cylinder(
     return rod.turned(facing(b - a)).moved(*start)
 
 
-def tube(path: Sequence[Point] | Array, radius: float, *, n: int = 10) -> Shape:
-    """A bent bar along a path of points, with flat ends."""
+def tube(
+    path: Sequence[Point] | Array, radius: float, *, n: int = 10, closed: bool = True
+) -> Shape:
+    """A bent bar along a path of points; ``closed`` gives it flat ends."""
     points = np.asarray(path, dtype=np.float64)
     step = np.diff(points, axis=0)
     step /= np.linalg.norm(step, axis=1, keepdims=True)
@@ -356,7 +358,7 @@ def tube(path: Sequence[Point] | Array, radius: float, *, n: int = 10) -> Shape:
         up = np.cross(direction, across)
         disc = circle(radius, n)
         rings.append(point + disc[:, :1] * across + disc[:, 1:] * up)
-    return loft(np.array(rings))
+    return loft(np.array(rings), closed=closed)
 
 
 def ring(outer: float, inner: float, z0: float, z1: float, *, n: int = 24) -> Shape:

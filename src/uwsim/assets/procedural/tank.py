@@ -7,6 +7,8 @@ one wall, and the facade of the laboratory behind.
 
 from __future__ import annotations
 
+import itertools
+
 from ..mesh import Mesh, Texture
 from .seabed_picture import mosaic
 from .shapes import Shape, box, join, mesh, quad
@@ -33,7 +35,7 @@ GRASS = 15.0
 
 def _floor() -> Shape:
     strips = []
-    for (xa, za), (xb, zb) in zip(PROFILE[:-1], PROFILE[1:], strict=True):
+    for (xa, za), (xb, zb) in itertools.pairwise(PROFILE):
         strips.append(
             quad((xa, SOUTH, za), (xb, SOUTH, zb), (xb, NORTH, zb), (xa, NORTH, za), cuts=(4, 8))
         )
@@ -43,7 +45,7 @@ def _floor() -> Shape:
 def _walls(low: float | None, high: float) -> Shape:
     """The four inner walls from ``low`` (None: the bottom) to ``high``, facing inwards."""
     parts = []
-    for (xa, za), (xb, zb) in zip(PROFILE[:-1], PROFILE[1:], strict=True):
+    for (xa, za), (xb, zb) in itertools.pairwise(PROFILE):
         a, b = (za, zb) if low is None else (low, low)
         cuts = (4, 4) if low is None else (4, 1)
         parts += [

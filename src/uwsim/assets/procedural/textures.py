@@ -28,7 +28,7 @@ def noise(
     gain: float = 0.55,
     tiles: bool = True,
 ) -> Grey:
-    """Smooth noise, zero mean and unit deviation: octaves of random grids, each finer and weaker.
+    """Smooth noise, about zero mean and unit deviation: octaves of random grids, each finer and weaker.
 
     Args:
         name: Names the chance it is drawn from.
@@ -41,30 +41,33 @@ def noise(
     """
     draw = chance.stream(0, f"assets/{name}")
     short = min(height, width)
-    total = np.zeros((height, width), dtype=np.float32)
+    rows, columns = round(cells * height / short), round(cells * width / short)
+    total = draw.standard_normal((rows, columns), dtype=np.float32)
     weight = 1.0
-    for octave in range(octaves):
-        fine = cells << octave
-        if fine > short:
+    for _ in range(octaves - 1):
+        if 2 * rows > height or 2 * columns > width:
             break
-        rows, columns = fine * height // short, fine * width // short
-        grid = draw.standard_normal((rows, columns), dtype=np.float32)
-        if fine == short:
-            total += np.float32(weight) * grid
-        elif tiles:
-            grid = np.pad(grid, 2, mode="wrap")
-            big = (round(height * (rows + 4) / rows), round(width * (columns + 4) / columns))
-            wide = cv2.resize(grid, big[::-1], interpolation=cv2.INTER_CUBIC)
-            top, left = (big[0] - height) // 2, (big[1] - width) // 2
-            total += np.float32(weight) * wide[top : top + height, left : left + width]
-        else:
-            total += np.float32(weight) * cv2.resize(
-                grid, (width, height), interpolation=cv2.INTER_CUBIC
-            )
-        weight *= gain
+        rows, columns, weight = 2 * rows, 2 * columns, weight * gain
+        total = _stretched(total, rows, columns, tiles)
+        total += np.float32(weight) * draw.standard_normal((rows, columns), dtype=np.float32)
     total -= total.mean()
     total /= total.std()
-    return total
+    return _stretched(total, height, width, tiles)
+
+
+def _stretched(grid: Grey, height: int, width: int, tiles: bool) -> Grey:
+    """A grid at a higher resolution, bicubic; across the borders too when it tiles."""
+    rows, columns = grid.shape
+    if (rows, columns) == (height, width):
+        return grid
+    if not tiles:
+        whole: Grey = cv2.resize(grid, (width, height), interpolation=cv2.INTER_CUBIC)
+        return whole
+    wrapped = cv2.copyMakeBorder(grid, 2, 2, 2, 2, cv2.BORDER_WRAP)
+    tall, wide = round(height * (rows + 4) / rows), round(width * (columns + 4) / columns)
+    big = cv2.resize(wrapped, (wide, tall), interpolation=cv2.INTER_CUBIC)
+    top, left = (tall - height) // 2, (wide - width) // 2
+    return np.ascontiguousarray(big[top : top + height, left : left + width])
 
 
 def plain(height: int, width: int, colour: Colour) -> Picture:
@@ -86,13 +89,15 @@ def step(low: float, high: float, value: Grey) -> Grey:
     return smooth
 
 
-def lit(height_map: Grey, strength: float, towards: tuple[float, float] = (-0.7, -0.7)) -> Grey:
-    """Shading of a relief, about 1: brighter on slopes that face ``towards`` (x, y)."""
-    padded = cv2.copyMakeBorder(height_map, 1, 1, 1, 1, cv2.BORDER_WRAP)
-    dx = padded[1:-1, 2:] - padded[1:-1, :-2]
-    dy = padded[2:, 1:-1] - padded[:-2, 1:-1]
-    shade: Grey = np.clip(1.0 - strength * (towards[0] * dx + towards[1] * dy), 0.3, 1.8)
-    return shade.astype(np.float32)
+def lit(height_map: Grey, strength: float, *, tiles: bool = False) -> Grey:
+    """Shading of a relief, about 1: brighter on the slopes that face the top left."""
+    border = cv2.BORDER_WRAP if tiles else cv2.BORDER_REFLECT
+    padded = cv2.copyMakeBorder(height_map, 1, 1, 1, 1, border)
+    slope = padded[2:, 2:] - padded[:-2, :-2]
+    slope *= np.float32(strength)
+    slope += np.float32(1.0)
+    shade: Grey = np.clip(slope, 0.35, 1.7, out=slope)
+    return shade
 
 
 def finished(name: str, picture: Picture, *, repeats: bool = True) -> Texture:
