@@ -15,6 +15,9 @@ from rich.table import Table
 from ..errors import UnknownName
 from .files import bundled
 
+UNWRAPPED = 200
+"""Columns for a reader that is a program: wide enough to leave every line whole."""
+
 
 def list_names(
     kind: Annotated[
@@ -28,7 +31,7 @@ def list_names(
     """List what can be named on the command line and in files, with a line about each."""
     if kind is not None and kind not in KINDS:
         raise UnknownName("kind of thing to list", kind, KINDS)
-    console = Console(highlight=False)
+    console = Console(highlight=False, width=None if sys.stdout.isatty() else UNWRAPPED)
     for name in KINDS if kind is None else (kind,):
         table = Table(box=None, show_header=False, padding=(0, 2, 0, 0), pad_edge=False)
         table.add_column(no_wrap=True, style="bold")
@@ -68,21 +71,21 @@ def measures() -> dict[str, str]:
     """Measures that a benchmark file may use."""
     from ..benchmark.measures import MEASURES
 
-    return family(MEASURES)
+    return {name: without_title(line) for name, line in family(MEASURES).items()}
 
 
 def triggers() -> dict[str, str]:
     """Triggers that a benchmark file may use."""
     from ..benchmark.triggers import TRIGGERS
 
-    return family(TRIGGERS)
+    return {name: without_title(line) for name, line in family(TRIGGERS).items()}
 
 
 def updaters() -> dict[str, str]:
     """Scene updaters that a benchmark file may use."""
     from ..benchmark.updaters import UPDATERS
 
-    return family(UPDATERS)
+    return {name: without_title(line) for name, line in family(UPDATERS).items()}
 
 
 def sensors() -> dict[str, str]:
@@ -107,6 +110,12 @@ KINDS: dict[str, Callable[[], dict[str, str]]] = {
 def family(table: Mapping[str, type]) -> dict[str, str]:
     """Describe a family by the first line of each member's module: there it says what it is."""
     return {name: first_line(sys.modules[spec.__module__].__doc__) for name, spec in table.items()}
+
+
+def without_title(line: str) -> str:
+    """``Distance: how far a body went.`` -> ``How far a body went.``"""
+    told = line.partition(": ")[2] or line
+    return told[:1].upper() + told[1:]
 
 
 def first_line(doc: str | None) -> str:

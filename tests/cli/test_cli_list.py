@@ -1,0 +1,56 @@
+"""``uwsim list``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from uwsim.algorithms import ALGORITHMS
+from uwsim.benchmark.measures import MEASURES
+from uwsim.cli import main
+from uwsim.cli.files import bundled
+from uwsim.cli.list import KINDS, first_line, head_comment, without_title
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_everything_that_has_a_name_has_a_sentence_about_it(kind: str) -> None:
+    entries = KINDS[kind]()
+    assert entries
+    assert [name for name, said in entries.items() if not said.endswith(".")] == []
+
+
+def test_a_kind_lists_its_own_names_and_no_others(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list", "algorithms"]) == 0
+    listed = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
+    assert listed == sorted(ALGORITHMS)
+
+
+def test_without_a_kind_everything_is_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list"]) == 0
+    printed = capsys.readouterr().out
+    words = printed.split()
+    assert {*KINDS, *MEASURES, *bundled("scenes"), *bundled("benchmarks")} <= set(words)
+
+
+def test_a_misspelt_kind_is_told_the_right_one(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list", "sensor"]) == 2
+    assert "Did you mean 'sensors'?" in capsys.readouterr().err
+
+
+def test_a_sentence_is_the_first_line_without_marks_of_code() -> None:
+    assert first_line("``never``: always off.\n\nMore.") == "never: always off."
+    assert first_line(None) == ""
+
+
+def test_a_sentence_goes_without_the_title_that_its_name_is() -> None:
+    assert without_title("Distance: how far a body went.") == "How far a body went."
+    assert without_title("A fan of beams.") == "A fan of beams."
+
+
+def test_the_sentence_of_a_file_is_the_first_of_its_comment(tmp_path: Path) -> None:
+    file = tmp_path / "a.xml"
+    file.write_text("<?xml version='1.0'?>\n<!-- A tank,\n  1.3 m deep. And a box. -->\n<a/>")
+    assert head_comment(file) == "A tank, 1.3 m deep."
+    file.write_text("<a/>")
+    assert head_comment(file) == ""
