@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from .esm.alignment import Method, align
+from .esm.alignment import Method, align, zncc
 from .esm.homography import unimodular, warp
 from .esm.pyramid import Grey, pyramid
 from .esm.template import Template, take_template
@@ -46,19 +46,19 @@ class DirectTracker(Tracker):
     def step(self, image: Grey) -> Estimate:
         """Find the patch in the next picture."""
         images = pyramid(image, len(self._templates))
-        homography, iterations, zncc = self.homography, 0, -1.0
+        homography, iterations = self.homography, 0
         for level in range(min(len(images), len(self._templates)) - 1, -1, -1):
             shrink = np.diag([0.5**level, 0.5**level, 1.0])
             grow = np.diag([2.0**level, 2.0**level, 1.0])
             guess = shrink @ homography @ grow
             result = align(images[level], self._templates[level], guess, self._method)
             homography = grow @ result.homography @ shrink
-            iterations, zncc = iterations + result.iterations, result.zncc
+            iterations += result.iterations
         self.homography = unimodular(homography)
         return Estimate(
             corners=warp(self.homography, self._quad),
             centroid=warp(self.homography, self._centre[None])[0],
-            zncc=zncc,
+            zncc=zncc(image, self._templates[0], self.homography),
             iterations=iterations,
         )
 

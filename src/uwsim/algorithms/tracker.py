@@ -23,7 +23,7 @@ class Estimate:
     centroid: Array
     """Where the diagonals of the corners cross: the image of the patch's centre, (2,) [px]."""
     zncc: float
-    """Zero-mean normalised cross-correlation of patch and template there, -1..1."""
+    """Correlation of template and picture there, -1..1 (`esm.alignment.zncc`)."""
     found: bool = True
     """False when the method itself gave up; corners and centroid are then the last ones."""
     iterations: int = 0

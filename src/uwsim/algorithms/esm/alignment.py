@@ -53,8 +53,8 @@ class Alignment:
 
     homography: Array
     """Sends template points to the picture, (3, 3); the best seen on the way."""
-    zncc: float
-    """Zero-mean normalised cross-correlation there, -1..1; -1 when too little is in the picture."""
+    correlation: float
+    """Correlation with the interpolated picture, -1..1; -1 when too little is in the picture."""
     iterations: int
     """Steps taken."""
 
@@ -62,7 +62,7 @@ class Alignment:
 def align(image: Grey, template: Template, guess: Array, method: Method) -> Alignment:
     """Refine ``guess`` (3, 3), which sends template points to ``image`` points [px]."""
     a, b = BLENDS[method.blend]
-    homography, zncc, iterations = _align(
+    homography, correlation, iterations = _align(
         image,
         template.runs,
         template.values,
@@ -78,12 +78,23 @@ def align(image: Grey, template: Template, guess: Array, method: Method) -> Alig
         method.precision,
     )
     back = np.linalg.inv(template.picture_from_normalised)
-    return Alignment(homography @ back, zncc, iterations)
+    return Alignment(homography @ back, correlation, iterations)
 
 
 def zncc(image: Grey, template: Template, homography: Array) -> float:
-    """ZNCC of the template with the picture under ``homography``; -1 when too little is in it."""
-    return align(image, template, homography, Method(max_iterations=0)).zncc
+    """Zero-mean normalised cross-correlation of the template with the picture's nearest pixels.
+
+    Pixels are taken as they are, not interpolated: bilinear interpolation averages the noise of
+    four pixels, so that a correlation of it stays high where nothing can be seen any more. With
+    noise sigma in the picture and contrast S T left of the template, the result is
+    ``S T / sqrt((S T)^2 + sigma^2)``. -1 when less than a quarter of the patch is in the picture.
+    """
+    return _nearest_zncc(
+        image,
+        template.runs,
+        template.values,
+        np.ascontiguousarray(homography @ template.picture_from_normalised),
+    )
 
 
 @njit
@@ -108,7 +119,7 @@ def _align(
     valid = np.zeros((height + 2, width + 2), np.float32)
     current = guess.copy()
     best = guess.copy()
-    best_score, best_zncc = -np.inf, -1.0
+    best_score, best_correlation = -np.inf, -1.0
     iterations = 0
     total = 0
     for row in range(height):
@@ -128,7 +139,7 @@ def _align(
             spread = deviation_i / contrast
             score = -(spread**2 - 2.0 * cross / n / contrast + square_t / n + shift**2)
         if score > best_score:
-            best_score, best_zncc = score, correlation
+            best_score, best_correlation = score, correlation
             best[:] = current
         if iterations >= max_iterations or deviation_i <= 1e-6:
             break
@@ -154,7 +165,37 @@ def _align(
         iterations += 1
         if length < precision:
             max_iterations = iterations
-    return best, best_zncc, iterations
+    return best, best_correlation, iterations
+
+
+@njit
+def _nearest_zncc(image: Grey, runs: Runs, values: Grey, homography: Array) -> float:
+    height, width = values.shape
+    total = n = sum_i = sum_ii = sum_t = sum_tt = sum_it = 0.0
+    for row in range(height):
+        v = (2.0 * row + 1.0) / height - 1.0
+        for column in range(runs[row, 0], runs[row, 1]):
+            u = (2.0 * column + 1.0) / width - 1.0
+            total += 1.0
+            w = homography[2, 0] * u + homography[2, 1] * v + homography[2, 2]
+            if w <= 0.0:
+                continue
+            x = (homography[0, 0] * u + homography[0, 1] * v + homography[0, 2]) / w
+            y = (homography[1, 0] * u + homography[1, 1] * v + homography[1, 2]) / w
+            if 0.0 <= x < image.shape[1] and 0.0 <= y < image.shape[0]:
+                i, t = float(image[int(y), int(x)]), float(values[row, column])
+                n += 1.0
+                sum_i += i
+                sum_ii += i * i
+                sum_t += t
+                sum_tt += t * t
+                sum_it += i * t
+    if n < 0.25 * total or n == 0.0:
+        return -1.0
+    square_i, square_t = sum_ii - sum_i * sum_i / n, sum_tt - sum_t * sum_t / n
+    if square_i <= 1e-6 * n or square_t <= 1e-6 * n:
+        return -1.0
+    return float((sum_it - sum_i * sum_t / n) / np.sqrt(square_i * square_t))
 
 
 @njit
