@@ -113,7 +113,7 @@ def family(table: Mapping[str, type]) -> dict[str, str]:
 
 
 def without_title(line: str) -> str:
-    """``Distance: how far a body went.`` -> ``How far a body went.``"""
+    """``Distance: how far a body went.`` becomes ``How far a body went.``."""
     told = line.partition(": ")[2] or line
     return told[:1].upper() + told[1:]
 
