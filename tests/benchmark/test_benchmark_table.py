@@ -12,22 +12,30 @@ from uwsim.benchmark.result import Column, Result
 from uwsim.benchmark.table import exact_decimals, lines, sensible_decimals, table
 
 
-def text(result: Result) -> list[str]:
-    console = Console(width=160, file=io.StringIO())
-    console.print(table(result))
+def text(result: Result, width: int = 160) -> list[str]:
+    console = Console(width=width, file=io.StringIO())
+    console.print(table(result, width=width))
     assert isinstance(console.file, io.StringIO)
     return [line.rstrip() for line in console.file.getvalue().splitlines()]
 
 
 def test_every_level_is_a_line_and_a_gap_has_its_reason() -> None:
     drawn = text(visibility())
-    assert len(drawn) == 28
-    assert drawn[0] == "fog [1/m]  corners [px]  centroid [px]  total  time [s]  status"
-    assert drawn[2].split()[0] == "0.05"
-    assert drawn[2].split()[-1] == "ok"
-    assert drawn[25].split()[:5] == ["1.20", "-", "-", "-", "50.0"]
-    assert drawn[25].endswith(WHY)
-    assert drawn[26].endswith("as above")
+    assert len(drawn) == 29
+    assert drawn[0].split() == ["fog", "corners", "centroid", "total", "time"]
+    assert drawn[1].split() == ["[1/m]", "[px]", "[px]", "[s]", "status"]
+    assert drawn[3].split()[0] == "0.05"
+    assert drawn[3].split()[-1] == "ok"
+    assert drawn[26].split()[:5] == ["1.20", "-", "-", "-", "50.0"]
+    assert drawn[26].endswith(WHY)
+    assert drawn[27].endswith("as above")
+
+
+def test_on_a_narrow_terminal_reasons_stand_below_and_nothing_is_cut() -> None:
+    drawn = text(visibility(), width=60)
+    assert len(drawn) == 29 + 2
+    assert "…" not in "".join(drawn)
+    assert " ".join(drawn[29:]) == f"1.20 to 1.30: {WHY}"
 
 
 def test_repeats_are_gathered_into_mean_and_interval() -> None:

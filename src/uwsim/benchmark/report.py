@@ -176,9 +176,9 @@ def _cards(result: Result) -> list[Card]:
         if not entries:
             continue
         first, last = entries[0], entries[-1]
-        value = _number(first.interval.mean)
+        value = f"{first.interval.mean:.3g}"
         if len(entries) > 1:
-            value += f" to {_number(last.interval.mean)}"
+            value += f" to {last.interval.mean:.3g}"
         at = (
             ""
             if len(entries) < 2

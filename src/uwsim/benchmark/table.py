@@ -2,27 +2,31 @@
 
 .. code-block:: text
 
-    fog [1/m]  corners [px]  total  time [s]  status
-         0.00          1.83   4.24       2.0  ok
-         1.20             -      -      50.0  lost    tracker lost at 48.6 s: ZNCC 0.43 on 5 frames
+      fog  corners  total  time  status
+    [1/m]     [px]          [s]
+     0.00     1.83   4.24   2.0  ok
+     1.20        -      -  50.0  lost    tracker lost at 48.6 s: ZNCC 0.43 on 5 frames
 
 With several repeats a measure is its mean and half of the 95 % interval, ``1.83 ± 0.12``.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from .interval import Interval, per_level, rows_by_level
 from .result import Column, Result
 
 GAP = "-"
+ROOM_FOR_REASONS = 30
+"""Columns of a terminal below which reasons stand under the table."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,20 +75,35 @@ def lines(result: Result) -> tuple[Line, ...]:
     )
 
 
-def table(result: Result) -> Table:
-    """Return the table for a terminal."""
-    drawn = Table(box=None, pad_edge=False, header_style="bold", show_edge=False)
-    for column in shown_columns(result):
-        label = "time [s]" if column.kind == "time" else column.label
-        drawn.add_column(escape(label), justify="right", no_wrap=True)
-    drawn.add_column("status", no_wrap=True)
-    drawn.add_column("", min_width=30, overflow="fold")
+def table(result: Result, *, width: int = 80) -> Table:
+    """Return the table for a terminal of ``width`` columns.
+
+    Reasons stand behind their line where there is room, else below the table.
+    """
+    shown = lines(result)
+    heads = [_head(column) for column in shown_columns(result)]
+    drawn = Table(box=None, pad_edge=False, header_style="bold", caption_justify="left")
+    taken = 0
+    for i, (name, unit) in enumerate(heads):
+        wide = max([len(name), len(unit), *(len(line.cells[i]) for line in shown)])
+        head = Text(f"{name}\n{unit}", justify="right")
+        drawn.add_column(head, justify="right", no_wrap=True, min_width=wide)
+        taken += wide + 2
+    wide = max([len("status"), *(len(line.status) for line in shown)])
+    drawn.add_column(Text("status"), no_wrap=True, min_width=wide)
+    is_roomy = width - taken - wide - 2 >= ROOM_FOR_REASONS
+    if is_roomy and any(line.why for line in shown):
+        drawn.add_column(Text(""), overflow="fold")
     above = ""
-    for line in lines(result):
-        style = "" if line.ok else "yellow"
-        why = "as above" if line.why and line.why == above else line.why
-        drawn.add_row(*line.cells, escape(line.status), escape(why), style=style)
-        above = line.why
+    for line in shown:
+        cells = [*line.cells, line.status]
+        if len(drawn.columns) > len(cells):
+            cells.append("as above" if line.why and line.why == above else line.why)
+            above = line.why
+        drawn.add_row(*map(Text, cells), style="" if line.ok else "yellow")
+    if not is_roomy:
+        notes = _notes(shown, len(result.of_kind("level")))
+        drawn.caption = Text("\n".join(notes), style="yellow") if notes else None
     return drawn
 
 
@@ -108,6 +127,21 @@ def sensible_decimals(values: Sequence[float]) -> int:
     if not sizes:
         return 2
     return min(4, max(0, 2 - math.floor(math.log10(sizes[len(sizes) // 2]))))
+
+
+def _head(column: Column) -> tuple[str, str]:
+    name = "time" if column.kind == "time" else column.name
+    return name, f"[{column.unit}]" if column.unit else ""
+
+
+def _notes(shown: Sequence[Line], n_levels: int) -> list[str]:
+    """One note for each run of lines with the same reason: ``1.20 to 1.30: tracker lost ...``."""
+    notes = []
+    for why, run in itertools.groupby(shown, key=lambda line: line.why):
+        at = [" ".join(line.cells[:n_levels]) for line in run]
+        if why:
+            notes.append(f"{at[0]} to {at[-1]}: {why}" if len(at) > 1 else f"{at[0]}: {why}")
+    return notes
 
 
 def _statuses(result: Result, rows: Sequence[int]) -> list[str]:
