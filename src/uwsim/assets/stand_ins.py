@@ -1,4 +1,4 @@
-"""The models that uwsim makes itself, by the relative names (without extension) of UWSim's files."""
+"""The models that uwsim makes itself, by the names of UWSim's files without extension."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ LOWER_HULL = (-0.049, 0.0, 0.745)
 UPPER_HULL = (-0.049, 0.35, 0.045)
 """Centre of the starboard flotation hull in base_link; port is its mirror image [m]."""
 HULLS = (UPPER_HULL, (UPPER_HULL[0], -UPPER_HULL[1], UPPER_HULL[2]), LOWER_HULL)
-RIBS = (-0.50, -0.05, 0.38)
+RIBS = (-0.42, -0.05, 0.38)
 """Where along x the frame's ribs stand in base_link [m]."""
 YELLOW, DARK, ALUMINIUM = (0.97, 0.70, 0.06), (0.16, 0.17, 0.19), (0.78, 0.80, 0.82)
 

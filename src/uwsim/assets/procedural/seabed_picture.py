@@ -69,13 +69,12 @@ def stones(
     map_x += columns
     map_y += rows
     shades = draw.random(count + 1, dtype=np.float32)
-    shade: Grey = cv2.remap(
-        shades[labels], map_x, map_y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REFLECT
-    )
+    bent = cv2.remap(shades[labels], map_x, map_y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REFLECT)
+    shade = np.asarray(bent, dtype=np.float32)
     inside = np.ones((height, width), dtype=np.uint8)
     inside[:, 1:] = shade[:, 1:] == shade[:, :-1]
     inside[1:] &= shade[1:] == shade[:-1]
-    rise = cv2.distanceTransform(inside, cv2.DIST_L2, 3)
+    rise: Grey = np.asarray(cv2.distanceTransform(inside, cv2.DIST_L2, 3), dtype=np.float32)
     rise -= np.float32(gap)
     rise *= np.float32(1.0 / (0.30 * size))
     np.clip(rise, 0.0, 1.0, out=rise)
@@ -98,11 +97,11 @@ def mosaic() -> Texture:
     on_rock = cv2.blur(chosen.astype(np.float32), (3, 3))
     small = cv2.resize(on_rock, (w // 4, h // 4), interpolation=cv2.INTER_AREA)
     shadow = cv2.resize(cv2.GaussianBlur(np.roll(small, (3, 3), (0, 1)), (0, 0), 2.0), (w, h))
-    fields = (
+    fields: tuple[Grey, ...] = tuple(np.asarray(whole, dtype=np.float32) for whole in (
         field("grain", 57, 5, 0.9), field("broad", 3, 6), cobble, cobble_shade,
         rock, rock_shade, on_rock, shadow, field("crust", 24, 6, 0.7),
         field("weed", 40, 5, 0.85), field("beds", 5, 4), _exposures(h, w),
-    )  # fmt: skip
+    ))  # fmt: skip
     pixels = np.empty((h, w, 3), dtype=np.uint8)
     for top in range(0, h, BAND):
         # Band by band, so that the layers stay in the processor's cache; a row more each side.
@@ -199,5 +198,4 @@ def _exposures(h: int, w: int) -> Grey:
             v = np.linspace(-1, 1, part.shape[0], dtype=np.float32)[:, None]
             u = np.linspace(-1, 1, part.shape[1], dtype=np.float32)[None, :]
             part[:] = draw.uniform(0.95, 1.06) * (1.04 - 0.08 * (u * u + v * v))
-    whole: Grey = cv2.resize(gain, (w, h), interpolation=cv2.INTER_LINEAR)
-    return whole
+    return np.asarray(cv2.resize(gain, (w, h)), dtype=np.float32)

@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import itertools
 
+import numpy as np
+
 from ..mesh import Mesh, Texture
 from .seabed_picture import mosaic
 from .shapes import Shape, box, join, mesh, quad
-from .textures import concrete, finished, noise, plain, step, worn, write
+from .textures import concrete, finished, mixed, noise, plain, step, worn, write
 
 WEST, EAST, SOUTH, NORTH = -8.01, 7.99, -4.0, 4.0
 """Inner walls of the basin [m]."""
@@ -94,7 +96,7 @@ def _grass() -> Texture:
     bare = step(0.9, 2.0, noise("tank/grass/bare", size, size, cells=4, octaves=4))
     picture = plain(size, size, (0.25, 0.38, 0.14)) * (1.0 + 0.22 * clumps)[:, :, None]
     earth = plain(size, size, (0.42, 0.35, 0.22)) * (1.0 + 0.12 * clumps)[:, :, None]
-    return finished("tank/grass", picture + (earth - picture) * 0.7 * bare[:, :, None])
+    return finished("tank/grass", mixed(picture, earth, np.float32(0.7) * bare))
 
 
 def _facade() -> Texture:

@@ -28,7 +28,9 @@ def noise(
     gain: float = 0.55,
     tiles: bool = True,
 ) -> Grey:
-    """Smooth noise, about zero mean and unit deviation: octaves of random grids, each finer and weaker.
+    """Smooth noise, about zero mean and unit deviation.
+
+    The sum of random grids, each finer and weaker than the one before.
 
     Args:
         name: Names the chance it is drawn from.
@@ -61,8 +63,8 @@ def _stretched(grid: Grey, height: int, width: int, tiles: bool) -> Grey:
     if (rows, columns) == (height, width):
         return grid
     if not tiles:
-        whole: Grey = cv2.resize(grid, (width, height), interpolation=cv2.INTER_CUBIC)
-        return whole
+        whole = cv2.resize(grid, (width, height), interpolation=cv2.INTER_CUBIC)
+        return np.asarray(whole, dtype=np.float32)
     wrapped = cv2.copyMakeBorder(grid, 2, 2, 2, 2, cv2.BORDER_WRAP)
     tall, wide = round(height * (rows + 4) / rows), round(width * (columns + 4) / columns)
     big = cv2.resize(wrapped, (wide, tall), interpolation=cv2.INTER_CUBIC)
