@@ -44,7 +44,9 @@ class Bench:
     out: Path
     """The result directory."""
     inputs: Json
-    """Names and hashes of the files read (`hash_inputs`)."""
+    """Names and hashes of the files read (`open_once`)."""
+    renderer: str
+    """What draws the pictures (`open_once`)."""
     n_resumed: int = 0
     """Levels that were on disk already when `run` began."""
     simulated_s: float = 0.0
@@ -82,7 +84,7 @@ class Bench:
         """Say what a unit is: equal heads mean that its rows must be equal."""
         return {
             "inputs": _plain(self.inputs),
-            "run": _plain(_run(self.plan)),
+            "run": _plain(_run(self.plan, self.renderer)),
             "seed": unit.seed,
             "levels": [[value for _, value in level.values] for level in unit.levels],
         }
@@ -220,7 +222,7 @@ def collect(bench: Bench) -> tuple[Result, list[Log]]:
     ends = [(unit, found.end) for unit, found in stored if found.end is not None]
     first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.parameters)}
     run = {
-        **_run(plan),
+        **_run(plan, bench.renderer),
         "parameters": first["parameters"],
         "units": [len(ends), len(units)],
         "notes": list(dict.fromkeys(note for _, end in ends for note in end["notes"])),
@@ -286,7 +288,7 @@ def _unit(unit: str) -> str | None:
     return None if unit == "1" else unit
 
 
-def _run(plan: Plan) -> dict[str, object]:
+def _run(plan: Plan, renderer: str) -> dict[str, object]:
     """Say what is played, as far as it is known before it is."""
     return {
         "seed": plan.seed,
@@ -300,14 +302,18 @@ def _run(plan: Plan) -> dict[str, object]:
         "timestep": [plan.timestep, "s"],
         "version": __version__,
         "physics": f"mujoco {mujoco.__version__}",
+        "renderer": renderer,
         "numpy": np.__version__,
     }
 
 
-def hash_inputs(plan: Plan) -> dict[str, object]:
-    """Open the scene once: hash every file and model it needs.
+def open_once(plan: Plan) -> tuple[dict[str, object], str]:
+    """Open the scene once: hash every file and model it needs, and name the renderer.
 
     Every name of the benchmark is looked up on the way, so that no name can fail later.
+
+    Returns:
+        The ``inputs`` of the result, and what draws the pictures.
 
     Raises:
         UwsimError: a file, a body, a camera or a service that is not there.
@@ -325,6 +331,7 @@ def hash_inputs(plan: Plan) -> dict[str, object]:
             for i, vehicle in enumerate(plan.scene.vehicles)
         }
         assets = {name: f"sha256:{digest}" for name, digest in simulation.asset_hashes.items()}
+        renderer = simulation.renderer_name
     finally:
         simulation.close()
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
@@ -332,7 +339,7 @@ def hash_inputs(plan: Plan) -> dict[str, object]:
         "benchmark": [benchmark.name, _file_hash(benchmark)],
         "scene": [scene.name, _file_hash(scene)],
         "assets": {**robots, **assets},
-    }
+    }, renderer
 
 
 def _file_hash(path: Path) -> str:

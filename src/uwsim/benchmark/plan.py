@@ -14,8 +14,9 @@ from typing import Literal
 from ..bus import Algorithm
 from ..errors import BadSetting
 from ..scene.spec import SceneSpec
+from .measures import EuclideanNormSpec
 from .spec import BenchmarkSpec
-from .updaters import Level
+from .updaters import Level, chain
 from .updaters import levels as levels_of
 
 Mode = Literal["sequential", "independent"]
@@ -77,6 +78,20 @@ class Plan:
     """Length of a physics step [s]."""
     data_path: tuple[Path, ...] = ()
     """Folders in which files are looked for."""
+    is_blind: bool = False
+    """Whether images are black: for a control that does not look at them."""
+
+    @property
+    def wants_control(self) -> bool:
+        """Whether `frozen` is worth playing beside it: a tracker is told where its target is.
+
+        Where a current drives the vehicle the algorithm steers, and `frozen` is no control.
+        """
+        drifts = any(updater.name == "current" for updater in chain(self.benchmark.scene_updater))
+        return not drifts and any(
+            isinstance(spec, EuclideanNormSpec) and spec.ground_truth.publish_on is not None
+            for spec in self.benchmark.measures
+        )
 
     @property
     def patience(self) -> float:

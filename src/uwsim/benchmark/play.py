@@ -164,6 +164,7 @@ def play(plan: Plan, unit: Unit) -> Iterator[Row | UnitEnd]:
         timestep=plan.timestep,
         data_path=plan.data_path,
         compatibility=plan.compatibility,
+        is_blind=plan.is_blind,
     )
     try:
         yield from _play(plan, unit, simulation)
@@ -196,7 +197,9 @@ def _play(plan: Plan, unit: Unit, simulation: Simulation) -> Iterator[Row | Unit
     node = simulation.attach(algorithm, name=plan.algorithm_name, parameters=plan.parameters)
     verdict = Verdict(node, status, plan.timestep)
     simulation.open()
-    facts = visibility_facts(simulation, plan, getattr(algorithm, "parameters", {}))
+    facts: dict[str, Fact] = {}
+    if not plan.is_blind:
+        facts = visibility_facts(simulation, plan, getattr(algorithm, "parameters", {}))
     while not start.is_on():
         if simulation.time >= plan.patience or node.error is not None:
             raise NeverStarted(_never(benchmark.start_on, plan, node, simulation.time))
@@ -264,7 +267,7 @@ def _play_level(
     status, why = _status(measures, verdict, LONGEST_TASK if overran else None)
     for gated in measures:
         notes.update((f"{gated.spec.name}: {note}", None) for note in gated.measure.notes)
-    row = _row(level, simulation, measures, expression, status, why, began)
+    row = _row(level, simulation, measures, expression, status, why, began, is_blind=plan.is_blind)
     for gated in measures:
         gated.close()
     stop.close()
@@ -304,6 +307,8 @@ def _row(
     status: str,
     why: str | None,
     began: int,
+    *,
+    is_blind: bool,
 ) -> Row:
     values: dict[str, float | None] = {}
     units: dict[str, str] = {}
@@ -337,7 +342,9 @@ def _row(
         duration=(simulation.step - began) * simulation.timestep,
         logs={gated.spec.name: gated.log for gated in logged},
         log_headers={gated.spec.name: gated.measure.log_header for gated in logged},
-        shots=shoot(
+        shots=()
+        if is_blind
+        else shoot(
             simulation,
             [(gated.spec, gated.measure) for gated in measures],
             is_tracking=status == "ok",

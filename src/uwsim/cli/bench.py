@@ -8,6 +8,7 @@ import platform
 import shutil
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -30,7 +31,10 @@ if TYPE_CHECKING:
     from ..benchmark.plan import Plan
     from ..benchmark.result import Result
 
+CONTROL = "frozen"
+CONTROL_FOLDER = "control"
 OURS = (
+    "control",
     "result.json",
     "result.dat",
     "provenance.json",
@@ -118,11 +122,14 @@ def bench(
     directory = out or Path(f"{Path(plan.benchmark.path).stem}.result")
     prepare(directory, resume=resume, overwrite=overwrite)
 
-    from ..benchmark.bench import Bench, hash_inputs
+    from ..benchmark.bench import Bench, open_once
 
-    run = Bench(plan=plan, out=directory, inputs=hash_inputs(plan))
     began = time.time()
+    inputs, renderer = open_once(plan)
+    run = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
     result = play_with_progress(run, workers)
+    if plan.wants_control and plan.algorithm_name != CONTROL:
+        play_control(run)
     finish(run, result, began=began, workers=workers)
 
 
@@ -166,8 +173,8 @@ def make_plan(
             parameters[name.removeprefix("algorithm.")] = number_or_text(value)
         else:
             scene_spec = apply_setting(scene_spec, name, value)
-    name = algorithm or spec.algorithm
-    if name is None:
+    wanted = algorithm or spec.algorithm
+    if wanted is None:
         raise BadSetting(
             f"{path}: the benchmark does not name an algorithm (u:algorithm); "
             "give one with --algorithm."
@@ -179,8 +186,8 @@ def make_plan(
     plan = Plan(
         benchmark=spec,
         scene=scene_spec,
-        algorithm=load_algorithm(name),
-        algorithm_name=name,
+        algorithm=load_algorithm(wanted),
+        algorithm_name=wanted,
         parameters=parameters,
         settings=tuple(pairs),
         mode="independent" if chosen_mode == "independent" else "sequential",
@@ -270,6 +277,22 @@ def play_with_progress(run: Bench, workers: int) -> Result:
         title = f"{Path(run.plan.benchmark.path).stem} ({run.plan.algorithm_name})"
         task = progress.add_task(title, total=total, completed=run.n_finished())
         return run.run(workers=workers, on_level=lambda: progress.advance(task))
+
+
+def play_control(run: Bench) -> None:
+    """Play the same with `frozen`, which looks at no image, into ``control/``."""
+    from ..algorithms import load_algorithm
+    from ..benchmark.bench import Bench
+
+    plan = replace(
+        run.plan,
+        algorithm=load_algorithm(CONTROL),
+        algorithm_name=CONTROL,
+        parameters={},
+        is_blind=True,
+    )
+    control = Bench(plan=plan, out=run.out / CONTROL_FOLDER, inputs=run.inputs, renderer="none")
+    control.run()
 
 
 def finish(run: Bench, result: Result, *, began: float, workers: int) -> None:

@@ -120,7 +120,6 @@ class VirtualCamera:
         self._link, self._world, self._random = link, world, random
         self._link_from_camera = link_from_sensor(spec)
         self._baseline = spec.baseline
-        self._is_grey = spec.grayscale
         self._intrinsics = spec.intrinsics(world.compatibility)
         self._published_cy = self._intrinsics.cy
         if "y0" in world.compatibility and spec.parameters is not None:
@@ -129,6 +128,8 @@ class VirtualCamera:
         """Its name in the scene."""
         self.frame_id = spec.frame_id
         """The frame in the headers of its messages."""
+        self.is_grey = spec.grayscale
+        """Whether it gives mono8 instead of rgb8."""
         self.std = spec.std
         """Noise of each channel, 0..1; scene updaters may turn it."""
 
@@ -149,7 +150,7 @@ class VirtualCamera:
             self._intrinsics,
             std=self.std,
             random=self._random,
-            grey=self._is_grey,
+            grey=self.is_grey,
         )
 
     def skip(self) -> None:

@@ -23,7 +23,8 @@ class ImagePublisher:
     """One ``<VirtualCameraToROSImage>`` at work.
 
     A sample that nobody reads is not drawn, but takes its turn in the camera's random stream: the
-    pictures do not depend on who is listening.
+    pictures do not depend on who is listening. A blind one publishes black images, for algorithms
+    that do not look at them.
     """
 
     def __init__(
@@ -32,6 +33,8 @@ class ImagePublisher:
         camera: VirtualCamera,
         bus: Bus,
         timestep: float,
+        *,
+        is_blind: bool = False,
     ) -> None:
         self.camera = camera
         """The camera whose images these are."""
@@ -43,6 +46,9 @@ class ImagePublisher:
         self._timestep = timestep
         self._rate = float(spec.rate)
         self._image_topic, self._info_topic = spec.image_topic, spec.info_topic
+        shape = (camera.intrinsics.height, camera.intrinsics.width)
+        black = np.zeros(shape if camera.is_grey else (*shape, 3), dtype=np.uint8)
+        self._blank = black if is_blind else None
         self._publish_image = bus.publisher(spec.image_topic, Image)
         self._publish_info = bus.publisher(spec.info_topic, CameraInfo)
         self._next_sample = 0
@@ -65,7 +71,7 @@ class ImagePublisher:
         if not self._bus.has_readers(self._image_topic):
             self.camera.skip()
             return
-        pixels = self.camera.shoot()
+        pixels = self.camera.shoot() if self._blank is None else self._blank
         self._digest.update(pixels.tobytes())
         self.last = pixels
         self.n_frames += 1

@@ -87,15 +87,12 @@ class Scenery:
         colour: str,
     ) -> Picture:
         """Draw what a camera sees."""
-        if self._renderer is None:
-            self._renderer = Renderer()
-            for part in self.parts:
-                self._handles[part.id] = self._renderer.add(part.model, part.id)
+        renderer = self._open()
         if self._drawn_version != self._state.version:
             for part in self.parts:
-                self._renderer.place(self._handles[part.id], self.world_from_mesh(part))
+                renderer.place(self._handles[part.id], self.world_from_mesh(part))
             self._drawn_version = self._state.version
-        return self._renderer.draw(
+        return renderer.draw(
             world_from_camera,
             intrinsics,
             water,
@@ -104,6 +101,18 @@ class Scenery:
             colour=colour,
             hidden=self._hidden,
         )
+
+    @property
+    def renderer_name(self) -> str:
+        """What draws the pictures."""
+        return self._open().description
+
+    def _open(self) -> Renderer:
+        if self._renderer is None:
+            self._renderer = Renderer()
+            for part in self.parts:
+                self._handles[part.id] = self._renderer.add(part.model, part.id)
+        return self._renderer
 
     def close(self) -> None:
         """Give the graphics context back."""

@@ -53,6 +53,7 @@ class Simulation:
         timestep: length of a step [s].
         data_path: folders in which files are looked for.
         compatibility: the original's slips asked for.
+        is_blind: publish black images, drawing nothing.
     """
 
     def __init__(
@@ -64,6 +65,7 @@ class Simulation:
         timestep: float = 0.002,
         data_path: tuple[Path, ...] = (),
         compatibility: frozenset[str] = frozenset(),
+        is_blind: bool = False,
     ) -> None:
         self._scene = scene
         self._seed = seed
@@ -98,7 +100,7 @@ class Simulation:
                 camera = self._cameras.get(interface.camera_name)
                 if camera is not None and not interface.depth:
                     self.images[interface.image_topic] = ImagePublisher(
-                        interface, camera, self.bus, timestep
+                        interface, camera, self.bus, timestep, is_blind=is_blind
                     )
 
     # -- the clock and the step ---------------------------------------------------------------
@@ -257,6 +259,11 @@ class Simulation:
         return self._scenery.draw(
             world_from_camera, intrinsics, water, self._light, targets=ALL_TARGETS, colour="uint8"
         )
+
+    @property
+    def renderer_name(self) -> str:
+        """What draws the pictures; makes the graphics context if there is none yet."""
+        return self._scenery.renderer_name
 
     @property
     def part_names(self) -> dict[int, str]:
