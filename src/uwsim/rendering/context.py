@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from typing import Any
 
 import moderngl
 
@@ -12,6 +13,8 @@ ENVIRONMENT = {
     "EGL_PLATFORM": "surfaceless",
 }
 """Switches of Mesa, set where the user has not: no window system is asked for."""
+
+_HEADLESS: dict[str, Any] = {"standalone": True, "backend": "egl"}
 
 
 def create_context() -> moderngl.Context:
@@ -23,7 +26,7 @@ def create_context() -> moderngl.Context:
     for name, value in ENVIRONMENT.items():
         os.environ.setdefault(name, value)
     try:
-        context = moderngl.create_standalone_context(backend="egl", require=330)
+        context = moderngl.create_context(require=330, **_HEADLESS)
     except Exception as error:  # glcontext raises bare Exceptions
         raise NoGraphics(
             "No OpenGL context could be made. Install Mesa's software renderer with: "

@@ -13,7 +13,7 @@ from ..assets.mesh import Mesh, Model, Texture
 VERTEX = np.dtype(
     [
         ("vertex", np.float32, (3,)),
-        ("normal", np.float32, (3,)),
+        ("vertex_normal", np.float32, (3,)),
         ("uv", np.float32, (2,)),
         ("tint", np.float32, (3,)),
     ]
@@ -40,7 +40,9 @@ class Batch:
         array = self.arrays.get(program.glo)
         if array is None:
             context = program.ctx
-            present = [name for name in ("vertex", "normal", "uv", "tint") if name in program]
+            present = [
+                name for name in ("vertex", "vertex_normal", "uv", "tint") if name in program
+            ]
             array = context.vertex_array(
                 program, [(self.vertices, _layout(present), *present)], self.indices
             )
@@ -49,8 +51,8 @@ class Batch:
 
 
 def _layout(present: list[str]) -> str:
-    """moderngl's format of VERTEX with the members that the program does not read skipped."""
-    sizes = {"vertex": 3, "normal": 3, "uv": 2, "tint": 3}
+    """The format of VERTEX with the members that the program does not read skipped."""
+    sizes = {"vertex": 3, "vertex_normal": 3, "uv": 2, "tint": 3}
     return " ".join(f"{n}f" if name in present else f"{4 * n}x" for name, n in sizes.items())
 
 
@@ -79,7 +81,7 @@ class GpuModels:
         triangles, first = [], 0
         for mesh in meshes:
             part = vertices[first : first + len(mesh.vertices)]
-            part["vertex"], part["normal"] = mesh.vertices, mesh.normals
+            part["vertex"], part["vertex_normal"] = mesh.vertices, mesh.normals
             part["uv"], part["tint"] = mesh.uvs, mesh.colour
             triangles.append(mesh.triangles.astype(np.uint32) + np.uint32(first))
             first += len(mesh.vertices)

@@ -12,6 +12,8 @@ import numpy as np
 SHADERS = Path(__file__).parent / "shaders"
 VERSION = "#version 330 core\n"
 
+_SIZES = {"vec4": (np.float32, (4,)), "uvec4": (np.uint32, (4,)), "mat4": (np.float32, (4, 4))}
+
 _INCLUDE = re.compile(r'^#include "([\w.]+)"$', re.MULTILINE)
 _BLOCK = re.compile(r"uniform (\w+) \{(.*?)\n\};", re.DOTALL)
 _MEMBER = re.compile(r"^\s*(\w+) (\w+);", re.MULTILINE)
@@ -23,11 +25,9 @@ class Block:
     Members are ``vec4``, ``uvec4`` or ``mat4``, so that std140 needs no padding.
     """
 
-    SIZES = {"vec4": (np.float32, (4,)), "uvec4": (np.uint32, (4,)), "mat4": (np.float32, (4, 4))}
-
     def __init__(self, name: str, binding: int, members: Mapping[str, str]) -> None:
         self.name, self.binding, self.members = name, binding, dict(members)
-        self.dtype = np.dtype([(member, *self.SIZES[kind]) for member, kind in members.items()])
+        self.dtype = np.dtype([(member, *_SIZES[kind]) for member, kind in members.items()])
 
 
 def source(name: str) -> str:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
 
 import moderngl
 import numpy as np
 
 from ..geometry import Array
-from .gpu_model import Batch
-from .program import Block, build
+from .instance import INSTANCE, Instance
+from .program import build
 
 SIZE = 1024
 LARGEST_CASTER = 5.0
@@ -21,15 +20,6 @@ _TO_TEXTURE = np.array(
 )
 
 
-class Caster(Protocol):
-    """What the shadow map needs to know of an instance."""
-
-    batches: tuple[Batch, ...]
-    world_from_model: Array
-    centre: Array
-    radius: float
-
-
 class SunShadow:
     """Which points the sun reaches, for the vehicles and objects of the scene.
 
@@ -38,23 +28,22 @@ class SunShadow:
     casters than their shadows reach are lit. Not modelled: refraction at the surface.
     """
 
-    def __init__(self, context: moderngl.Context, instance: Block) -> None:
+    def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self.texture = context.depth_texture((SIZE, SIZE))
         self.texture.compare_func = "<="
         self.texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         self.texture.repeat_x = self.texture.repeat_y = False
         self._framebuffer = context.framebuffer(depth_attachment=self.texture)
-        self._program = build(context, "shadow", defines={}, blocks=[instance], samplers={})
-        self._instance = instance
-        self._slot = context.buffer(reserve=instance.dtype.itemsize, dynamic=True)
+        self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
+        self._slot = context.buffer(reserve=INSTANCE.dtype.itemsize, dynamic=True)
         self._drawn: object = None
         self.texture_from_world = np.eye(4)
         """W to texture coordinates and depth of the map, 0..1."""
         self.lift = 0.0
         """How far a receiver is pushed off along its normal [m]."""
 
-    def update(self, casters: Sequence[Caster], sun: Array, version: object) -> None:
+    def update(self, casters: Sequence[Instance], sun: Array, version: object) -> None:
         """Draw the map, unless ``version`` and ``sun`` are those of the last drawing.
 
         Args:
@@ -75,8 +64,8 @@ class SunShadow:
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
         self._framebuffer.clear(depth=1.0)
-        self._slot.bind_to_uniform_block(self._instance.binding)
-        values = np.zeros((), dtype=self._instance.dtype)
+        self._slot.bind_to_uniform_block(INSTANCE.binding)
+        values = np.zeros((), dtype=INSTANCE.dtype)
         for caster in casters:
             values["camera_from_model"] = (clip_from_world @ caster.world_from_model).T
             self._slot.write(values.tobytes())
@@ -85,14 +74,14 @@ class SunShadow:
         context.polygon_offset = 0.0, 0.0
 
 
-def _fit(casters: Sequence[Caster], sun: Array) -> tuple[Array, float]:
+def _fit(casters: Sequence[Instance], sun: Array) -> tuple[Array, float]:
     """An orthographic camera of the sun around all casters: (4, 4), and its texel [m]."""
     forward = -sun
     aside = np.cross(forward, [0.0, 0.0, 1.0] if abs(sun[2]) < 0.9 else [1.0, 0.0, 0.0])
     aside /= np.linalg.norm(aside)
     axes = np.stack([aside, np.cross(aside, forward), forward])  # (3, 3)
-    centres = np.array([caster.centre for caster in casters]) @ axes.T  # (n, 3) [m]
-    radii = np.array([caster.radius for caster in casters])[:, None]
+    spheres = np.concatenate([caster.spheres for caster in casters])
+    centres, radii = spheres[:, :3] @ axes.T, spheres[:, 3:]  # (n, 3), (n, 1) [m]
     low, high = (centres - radii).min(axis=0), (centres + radii).max(axis=0)
     half = max(high[0] - low[0], high[1] - low[1]) / 2.0
     reach = 20.0  # [m] below the casters where shadows still fall

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import moderngl
 import numpy as np
 import numpy.typing as npt
 
+from ..geometry import Intrinsics
 from ..jit import njit
+from .picture import Picture
 
 TARGETS = ("colour", "range", "ids")
 """All targets, in the order of their attachments."""
@@ -14,62 +18,57 @@ TARGETS = ("colour", "range", "ids")
 STORES = ("uint8", "linear16")
 """How colour may be stored: 8 bit, or 16 bit for noise to be added first."""
 
+T = TypeVar("T", bound=np.generic)
+
 
 class Targets:
-    """A framebuffer of one size with some of colour, range and ids, and its read-back buffers."""
+    """A framebuffer of one size with some of colour, range and ids."""
 
     def __init__(
-        self,
-        context: moderngl.Context,
-        size: tuple[int, int],
-        wanted: frozenset[str],
-        store: str,
+        self, context: moderngl.Context, size: tuple[int, int], wanted: frozenset[str], store: str
     ) -> None:
-        width, height = size
-        self.places = {name: i for i, name in enumerate(n for n in TARGETS if n in wanted)}
+        names = [name for name in TARGETS if name in wanted]
+        self.places = {name: i for i, name in enumerate(names)}
         """Which attachment each target is."""
-        self._kinds: dict[str, str] = {
+        self._formats = {
             "colour": "f1" if store == "uint8" else "nu2",
             "range": "f4",
             "ids": "u2",
         }
-        self._textures = [
-            context.texture(size, 4 if name == "colour" else 1, dtype=self._kinds[name])
-            for name in self.places
-        ]
-        self._depth = context.depth_renderbuffer(size)
-        self.framebuffer = context.framebuffer(self._textures, self._depth)
-        self._store = store
-        self._size = size
-        self._scratch = np.empty((height, width, 4), np.uint8)
+        self.framebuffer: moderngl.Framebuffer = context.framebuffer(
+            [
+                context.texture(size, 4 if name == "colour" else 1, dtype=self._formats[name])
+                for name in names
+            ],
+            context.depth_renderbuffer(size),
+        )
+        """Where to draw."""
+        self._shape = size[1], size[0]
 
-    def read(self, name: str) -> npt.NDArray[np.generic]:
-        """The pixels of one target, row 0 at the top, as an array of their own."""
-        width, height = self._size
-        if name == "colour" and self._store == "uint8":
-            # RGBA is read several times faster than RGB; the alpha goes in the packing.
-            self._read_into(self._scratch, name)
-            return without_alpha(self._scratch)
-        shape = (height, width, 4) if name == "colour" else (height, width)
-        pixels = np.empty(shape, np.float32 if name == "range" else np.uint16)
-        self._read_into(pixels, name)
-        return pixels
+    def picture(self, intrinsics: Intrinsics) -> Picture:
+        """Read everything back, into arrays of the picture's own."""
+        colour: npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | None = None
+        if "colour" in self.places and self._formats["colour"] == "f1":
+            # RGBA is read several times faster than RGB; the alpha goes afterwards.
+            colour = without_alpha(self._read("colour", np.empty((*self._shape, 4), np.uint8)))
+        elif "colour" in self.places:
+            colour = self._read("colour", np.empty((*self._shape, 4), np.uint16))
+        range = ids = None
+        if "range" in self.places:
+            range = self._read("range", np.empty(self._shape, np.float32))
+        if "ids" in self.places:
+            ids = self._read("ids", np.empty(self._shape, np.uint16))
+        return Picture(intrinsics=intrinsics, colour=colour, range=range, ids=ids)
 
-    def _read_into(self, pixels: npt.NDArray[np.generic], name: str) -> None:
+    def _read(self, name: str, pixels: npt.NDArray[T]) -> npt.NDArray[T]:
         self.framebuffer.read_into(
             pixels,
             components=4 if name == "colour" else 1,
             attachment=self.places[name],
             alignment=1,
-            dtype=self._kinds[name],
+            dtype=self._formats[name],
         )
-
-    def release(self) -> None:
-        """Give the graphics memory back."""
-        self.framebuffer.release()
-        self._depth.release()
-        for texture in self._textures:
-            texture.release()
+        return pixels
 
 
 @njit

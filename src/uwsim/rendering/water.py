@@ -42,7 +42,10 @@ SUN_COLOURS: dict[Sun, Colour] = {
 """The sun's diffuse light, 0..1."""
 
 AMBIENT = 0.3
+"""Share of a surface's colour that is seen without the sun."""
+
 SPECULAR = 0.1
+"""Brightness of the sun's mirror image, added in all channels."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,15 +83,22 @@ class Light:
     """Whether vehicles and objects cast the sun's shadow."""
 
 
-def fog_distance(water: Water, intrinsics: Intrinsics | None) -> tuple[float, float, float]:
-    """``(x, y, z)`` with fog distance = x * range + y * planar depth + z [m].
+def sun_direction(sun: Sun) -> npt.NDArray[np.float64]:
+    """Unit vector towards the sun in W, (3,)."""
+    direction = np.array(SUN_DIRECTIONS[sun])
+    unit: npt.NDArray[np.float64] = direction / np.linalg.norm(direction)
+    return unit
 
-    ``clip`` is the original's clip-space z, ((far + near) d - 2 far near) / (far - near).
+
+def clip_distance(
+    depth: npt.NDArray[np.float64], intrinsics: Intrinsics
+) -> npt.NDArray[np.float64]:
+    """The original's fog distance: clip-space z of a planar depth, any shape [m].
+
+    ``((far + near) d - 2 far near) / (far - near)``, which is about ``d - 2 near``.
     """
-    if water.fog_distance == "ray" or intrinsics is None:
-        return 1.0, 0.0, 0.0
     near, far = intrinsics.near, intrinsics.far
-    return 0.0, (far + near) / (far - near), -2.0 * far * near / (far - near)
+    return ((far + near) * depth - 2.0 * far * near) / (far - near)
 
 
 def apply_water(
@@ -106,7 +116,7 @@ def apply_water(
         range: Distance along the ray (...) [m]; inf gives the far colour.
         world_z: z of the points in W (...) [m].
         water: The water.
-        fog_range: Distance for the fog (...) [m] when it is not the range.
+        fog_range: Distance for the fog (...) [m] when it is not the range (`clip_distance`).
 
     Returns:
         Colours at the camera (..., 3).

@@ -1,23 +1,20 @@
 // Provides: colour, range and id of a surface seen through water, whichever are asked for.
-// Needs: frame.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, targets.glsl.
+// Needs: between.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, targets.glsl.
 // lit -> attenuation -> fog, on stored values; noise and 8 bit come later (noise.py).
-#include "frame.glsl"
-#include "instance.glsl"
+#define BETWEEN in
+#include "between.glsl"
 #include "targets.glsl"
-
-in vec3 position;
+#ifdef IDS
+#include "instance.glsl"
+#endif
 #ifdef COLOUR
 #include "sun.glsl"
 #include "water.glsl"
-in vec3 surface_normal;
-flat in vec3 surface_tint;
 #ifdef TEXTURED
 uniform sampler2D base_map;
-in vec2 surface_uv;
 #endif
 #ifdef SHADOWS
 #include "shadow.glsl"
-in vec3 shadow_place;
 #endif
 #endif
 
@@ -26,18 +23,25 @@ void main() {
     float range = length(position);
 #endif
 #ifdef COLOUR
-    vec3 base = surface_tint;
+    vec3 colour = base;
 #ifdef TEXTURED
-    base *= texture(base_map, surface_uv).rgb;
+    colour *= texture(base_map, place).rgb;
 #endif
-    vec3 outward = normalize(gl_FrontFacing ? surface_normal : -surface_normal);
-#ifdef SHADOWS
-    float lit = sun_share(shadow_place);
-#else
+    float unit = inversesqrt(dot(normal, normal));
+    unit = gl_FrontFacing ? unit : -unit;
+    float facing = along.x * unit;
+    float mirrored = (along.y - 2.0 * facing * unit * dot(normal, position)) / range;
     float lit = 1.0;
+#ifdef SHADOWS
+    lit = sun_share(shadow_place);
 #endif
-    vec3 dry = sunlit(base, outward, position / -range, lit);
-    colour_out = vec4(through_water(dry, range, position), 1.0);
+#ifdef FOG_CLIP
+    float fog_range = along.w;
+#else
+    float fog_range = range;
+#endif
+    vec3 dry = sunlit(colour, facing, mirrored, lit);
+    colour_out = vec4(through_water(dry, range, fog_range, along.z), 1.0);
 #endif
 #ifdef RANGE
     range_out = range;

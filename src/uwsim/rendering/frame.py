@@ -1,0 +1,64 @@
+"""What is the same for everything in one picture, as the shaders read it."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from ..geometry import Array, Intrinsics, Pose
+from .program import Block
+from .sun_shadow import SunShadow
+from .water import AMBIENT, SPECULAR, SUN_COLOURS, Light, Water, sun_direction
+
+FRAME = Block(
+    "Frame",
+    0,
+    {
+        "clip_from_camera": "mat4",
+        "shadow_from_camera": "mat4",
+        "up": "vec4",
+        "sun": "vec4",
+        "sunlight": "vec4",
+        "sky": "vec4",
+        "water_colour": "vec4",
+        "attenuation": "vec4",
+        "fog": "vec4",
+        "clip_fog": "vec4",
+        "background": "vec4",
+    },
+)
+
+
+class Frame:
+    """The buffer behind the block."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._values = np.zeros((), dtype=FRAME.dtype)
+        self._buffer = context.buffer(reserve=FRAME.dtype.itemsize, dynamic=True)
+
+    def fill(
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        clip_from_camera: Array,
+        water: Water,
+        light: Light,
+        shadow: SunShadow,
+    ) -> None:
+        """Write everything and bind it."""
+        values, rotation = self._values, world_from_camera.rotation
+        near, far = intrinsics.near, intrinsics.far
+        height = world_from_camera.position[2] - water.surface_height
+        values["clip_from_camera"] = clip_from_camera.T  # OpenGL counts columns first
+        values["shadow_from_camera"] = (shadow.texture_from_world @ world_from_camera.matrix).T
+        values["up"] = *rotation[2], height
+        values["sun"] = *(sun_direction(light.sun) @ rotation), shadow.lift
+        values["sunlight"][:3] = [light.rate * colour for colour in SUN_COLOURS[light.sun]]
+        values["sky"][:2] = light.rate * AMBIENT, light.rate * SPECULAR
+        values["water_colour"][:3] = water.colour
+        values["attenuation"][:3] = water.attenuation
+        values["fog"] = *water.fog_colour, water.fog**2
+        values["clip_fog"][:2] = (far + near) / (far - near), -2.0 * far * near / (far - near)
+        values["background"][:3] = water.far_colour
+        self._buffer.write(values.tobytes())
+        self._buffer.bind_to_uniform_block(FRAME.binding)
