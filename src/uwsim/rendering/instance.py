@@ -40,8 +40,7 @@ class Instance:
         """Stand it somewhere else."""
         self.world_from_model = np.array(world_from_model, dtype=np.float64)
         linear, origin = self.world_from_model[:3, :3], self.world_from_model[:3, 3]
-        inverse: Array = np.linalg.inv(linear)
-        self.normals = inverse.T
+        self.normals = np.linalg.inv(linear).T.astype(np.float64)
         self.is_mirrored = bool(np.linalg.det(linear) < 0.0)
         # The largest row sum of A'A bounds the square of the largest stretch; exact without shear.
         stretch = float(np.sqrt(np.abs(linear.T @ linear).sum(axis=1).max()))

@@ -70,13 +70,13 @@ def build(
     head = VERSION + "".join(f"#define {name} {value}\n" for name, value in defines.items())
     vertex, fragment = source(f"{effect}.vert.glsl"), source(f"{effect}.frag.glsl")
     program = context.program(vertex_shader=head + vertex, fragment_shader=head + fragment)
-    written = {name: dict(_members(body)) for name, body in _BLOCK.findall(vertex + fragment)}
+    written = {name: _members(body) for name, body in _BLOCK.findall(vertex + fragment)}
     known = {block.name: block for block in blocks}
     for name in program:
         part = program[name]
         if isinstance(part, moderngl.UniformBlock):
             block = known.get(name)
-            if block is None or written.get(name) != block.members:
+            if block is None or written.get(name) != list(block.members.items()):
                 raise RuntimeError(f"{effect}: block {name} is not what the program declares")
             part.binding = block.binding
         elif isinstance(part, moderngl.Uniform):
