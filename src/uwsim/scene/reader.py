@@ -2,16 +2,34 @@
 
 from __future__ import annotations
 
-import dataclasses
+from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
+from typing import Protocol
 
 from ..dialect import Document, Faults, check_head, parse, read
 from ..errors import Fault, SceneError
+from .checks import check_names
 from .legacy import upgrade
+from .not_yet import not_simulated
 from .spec import SceneSpec
+from .urdf import RobotSpec, read_robot, read_urdf
 
 ROOT = "UWSimScene"
 """Name of the root element."""
+
+
+class Library(Protocol):
+    """Where the files are that a scene names; ``uwsim.assets`` knows."""
+
+    def find(self, name: str, beside: Path) -> Path | None:
+        """The file ``name``, which the file ``beside`` names; None when it is nowhere."""
+
+    def has_model(self, name: str, beside: Path) -> bool:
+        """Whether there is a model of that name, or a stand-in."""
+
+    def searched(self, beside: Path) -> str:
+        """The folders that were searched."""
 
 
 def read_scene(path: Path) -> SceneSpec:
@@ -33,18 +51,80 @@ def read_document(document: Document, faults: Faults) -> SceneSpec | None:
     if document.root.tag != ROOT:
         return None
     upgrade(document.root, faults)
-    scene = read(SceneSpec, document.root, faults)
-    return scene and dataclasses.replace(scene, path=str(document.path))
+    return read(SceneSpec, document.root, faults, given={"path": str(document.path)})
 
 
-def check_scene(
-    path: Path, *, strict: bool = False, data_path: tuple[Path, ...] = ()
-) -> list[Fault]:
-    """Everything wrong or worth knowing about a scene file, in the order of the file."""
+def check_scene(path: Path, *, strict: bool = False, library: Library | None = None) -> list[Fault]:
+    """Everything wrong or worth knowing about a scene file and the robots it names.
+
+    Args:
+        path: the scene file.
+        strict: also hold it against the order of the original grammar.
+        library: finds robots and models; without it they are not looked at.
+    """
     faults = Faults(path, strict=strict)
     try:
         document = parse(path, error=SceneError)
     except SceneError as error:
         return list(error.faults)
-    read_document(document, faults)
+    scene = read_document(document, faults)
+    others: list[Fault] = []
+    if scene is not None:
+        robots, others = _robots(scene, document, library, faults)
+        check_names(scene, robots, faults)
+        if library is not None:
+            for thing in scene.objects:
+                if not library.has_model(thing.file, path):
+                    _lost(f"model {thing.file!r}", thing, document, library, faults)
+        not_simulated(document.root, faults)
+    return [*faults.all(), *others]
+
+
+def check_robot(path: Path, *, library: Library | None = None) -> list[Fault]:
+    """Everything wrong or worth knowing about a robot file."""
+    faults = Faults(path)
+    try:
+        robot = read_robot(path, faults)
+    except SceneError as error:
+        return list(error.faults)
+    if robot is not None and library is not None:
+        for name in dict.fromkeys(_meshes(robot)):
+            if not library.has_model(name, path):
+                faults.notice(None, f"there is no model {name!r}, nor a stand-in of that name")
     return faults.all()
+
+
+def _robots(
+    scene: SceneSpec, document: Document, library: Library | None, faults: Faults
+) -> tuple[dict[int, RobotSpec], list[Fault]]:
+    """The robot of each vehicle by its number, and what is to be said about their files."""
+    robots: dict[int, RobotSpec] = {}
+    said: list[Fault] = []
+    for index, vehicle in enumerate(scene.vehicles if library is not None else ()):
+        assert library is not None
+        path = library.find(vehicle.file, document.path)
+        if path is None:
+            _lost(f"robot file {vehicle.file!r}", vehicle, document, library, faults)
+            continue
+        said += [fault for fault in check_robot(path, library=library) if fault not in said]
+        with suppress(SceneError):
+            robots[index] = read_urdf(path)
+    return robots, said
+
+
+def _meshes(robot: RobotSpec) -> Iterator[str]:
+    for link in robot.links:
+        for shape in (link.visual, link.collision):
+            if shape is not None and shape.kind == "mesh":
+                yield shape.file
+
+
+def _lost(what: str, spec: object, document: Document, library: Library, faults: Faults) -> None:
+    """A file that is nowhere: a fault, but in a file of the original's a notice.
+
+    The archive with the original's models is no longer to be had, so that a scene with the
+    original's DOCTYPE is not at fault for naming what lay in it.
+    """
+    say = faults.notice if document.has_doctype else faults.add
+    searched = library.searched(document.path)
+    say(faults.node_of(spec), f"{what} is nowhere and has no stand-in; searched: {searched}")

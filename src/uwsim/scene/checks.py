@@ -1,0 +1,200 @@
+"""Names in a scene that must lead somewhere: links, sensors, vehicles.
+
+A fault where the original, too, would stop or crash; a notice where it warns and goes on.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+
+from ..devices.force_sensor import ForceSensorSpec
+from ..dialect import Faults, slots
+from ..errors import did_you_mean
+from .ros_interfaces import (
+    INTERFACES,
+    ContactSensorToROSSpec,
+    InterfaceSpec,
+    SimulatedDeviceROSSpec,
+    VirtualCameraToROSImageSpec,
+)
+from .spec import ObjectSpec, SceneSpec, VehicleSpec
+from .urdf import RobotSpec
+
+SOLVERS = ("dantzig", "solveprojectedgauss", "sequentialimpulse")
+SHAPES = ("box", "sphere", "compound box", "compound cylinder", "trimesh", "compound trimesh")
+
+SOURCES: dict[str, tuple[str, ...]] = {
+    "VirtualCameraToROSImage": ("virtualCamera", "virtualRangeImage"),
+    "RangeSensorToROSRange": ("rangeSensor", "objectPicker"),
+    "ImuToROSImu": ("imu",),
+    "PressureSensorToROS": ("pressureSensor",),
+    "GPSSensorToROS": ("gpsSensor",),
+    "DVLSensorToROS": ("dvlSensor",),
+    "RangeImageSensorToROSImage": ("virtualRangeImage", "virtualCamera"),
+    "multibeamSensorToLaserScan": ("multibeamSensor",),
+    "ProfilingSonarROS": ("ProfilingSonar",),
+    "contactSensorToROS": ("vehicle", "object"),
+    "echoROS": ("echo",),
+    "ForceSensorROS": ("ForceSensor",),
+    "RangeCameraToPCL": ("virtualRangeImage",),
+    "CustomCommsDeviceROS": ("CustomCommsDevice",),
+    "AcousticCommsDeviceROS": ("AcousticCommsDevice",),
+}
+"""Interface -> elements that it can publish; those with a vehicleName move or publish vehicles."""
+
+
+def check_names(scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Faults) -> None:
+    """Follow every name of a scene.
+
+    Args:
+        scene: the scene.
+        robots: the robot of each vehicle that has one, by its number in the scene.
+        faults: where to say what leads nowhere; it remembers the elements of the specs.
+    """
+    for index, vehicle in enumerate(scene.vehicles):
+        if index in robots:
+            _check_links(vehicle, robots[index], scene, faults)
+            _check_joints(vehicle, robots[index], faults)
+    known = _names(scene)
+    for interface in _interfaces(scene):
+        _check_interface(interface, known, scene, faults)
+    _check_sources(scene, faults)
+    for thing in scene.objects:
+        _check_physics(thing, faults)
+    if scene.sim_params.physics_solver.lower() not in SOLVERS:
+        faults.notice(
+            faults.node_of(scene.sim_params),
+            f"<physicsSolver> is {scene.sim_params.physics_solver!r}; read as Dantzig",
+        )
+
+
+def mounted(vehicle: VehicleSpec) -> Iterator[tuple[str, object]]:
+    """Element name and spec of everything a vehicle carries."""
+    for slot in slots(VehicleSpec):
+        held = getattr(vehicle, slot.field)
+        if slot.kind == "spec" and held is not None:
+            yield from ((slot.shown, part) for part in (held if slot.repeated else (held,)))
+    if vehicle.simulated_devices is not None:
+        yield from (("echo", part) for part in vehicle.simulated_devices.echo)
+
+
+def _check_links(vehicle: VehicleSpec, robot: RobotSpec, scene: SceneSpec, faults: Faults) -> None:
+    links = [link.name for link in robot.links]
+    for element, part in mounted(vehicle):
+        link = getattr(part, "relative_to", None) or getattr(part, "target", None)
+        if link is None:
+            continue
+        if link not in links:
+            said = f"<{element}>: {link!r} is no link of {vehicle.file}.{did_you_mean(link, links)}"
+            if isinstance(part, ForceSensorSpec):
+                faults.add(faults.node_of(part), said)
+            else:
+                faults.notice(faults.node_of(part), f"{said} It is left out, as in the original")
+        elif isinstance(part, ForceSensorSpec) and scene.sim_params.enable_physics:
+            mass = next(each.mass for each in robot.links if each.name == link)
+            if mass <= 0:
+                faults.add(faults.node_of(part), f"<{element}>: its link {link!r} has no mass")
+
+
+def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, faults: Faults) -> None:
+    node = faults.node_of(vehicle)
+    place = None if node is None else node.find("jointValues")
+    if len(vehicle.joint_values) > len(robot.movable):
+        faults.notice(
+            place,
+            f"<jointValues> has {len(vehicle.joint_values)} values for {len(robot.movable)} "
+            f"joints ({', '.join(joint.name for joint in robot.movable)}); the rest is not used",
+        )
+    for joint, value in zip(robot.movable, vehicle.joint_values, strict=False):
+        held = min(max(value, joint.lower), joint.upper)
+        if held != value:
+            faults.notice(place, f"joint {joint.name!r} at {value:g} is held at its limit {held:g}")
+
+
+def _names(scene: SceneSpec) -> dict[str, list[str]]:
+    """Element -> the names that elements of that kind have."""
+    known: dict[str, list[str]] = {
+        "vehicle": [vehicle.name for vehicle in scene.vehicles],
+        "object": [thing.name for thing in scene.objects],
+    }
+    for vehicle in scene.vehicles:
+        for element, part in mounted(vehicle):
+            name = str(getattr(part, "name", None) or getattr(part, "dccomms_id", ""))
+            known.setdefault(element, []).append(name)
+    return known
+
+
+def _interfaces(scene: SceneSpec) -> Iterator[InterfaceSpec]:
+    for interface in scene.ros_interfaces:
+        if isinstance(interface, SimulatedDeviceROSSpec):
+            if interface.echo_ros is not None:
+                yield interface.echo_ros
+        else:
+            yield interface
+
+
+def _check_interface(
+    interface: InterfaceSpec, known: Mapping[str, list[str]], scene: SceneSpec, faults: Faults
+) -> None:
+    node = faults.node_of(interface)
+    element = next(name for name, cls in INTERFACES.items() if cls is type(interface))
+    wanted = next(
+        (
+            getattr(interface, name)
+            for name in ("vehicle_name", "camera_name", "name")
+            if hasattr(interface, name)
+        ),
+        None,
+    )
+    if wanted is None:
+        return
+    kinds = SOURCES.get(element, ("vehicle",))
+    names = [name for kind in kinds for name in known.get(kind, ())]
+    if wanted not in names:
+        faults.notice(
+            node,
+            f"<{element}>: no {_or(kinds)} is called {wanted!r}.{did_you_mean(wanted, names)} "
+            "The interface is left out, as in the original",
+        )
+    elif isinstance(interface, VirtualCameraToROSImageSpec) and interface.depth:
+        if wanted not in known.get("virtualRangeImage", ()):
+            faults.add(
+                node, f"<{element}>: <depth> 1 wants a virtualRangeImage; {wanted!r} is none"
+            )
+    elif isinstance(interface, ContactSensorToROSSpec) and not scene.sim_params.enable_physics:
+        faults.notice(node, f"<{element}> says nothing without <enablePhysics> 1")
+
+
+def _check_sources(scene: SceneSpec, faults: Faults) -> None:
+    """Of several interfaces on one camera the original keeps the last."""
+    cameras = [
+        interface
+        for interface in scene.ros_interfaces
+        if isinstance(interface, VirtualCameraToROSImageSpec)
+    ]
+    for name in _repeated(interface.camera_name for interface in cameras):
+        last = [interface for interface in cameras if interface.camera_name == name][-1]
+        faults.notice(
+            faults.node_of(last),
+            f"camera {name!r} has several interfaces; the original serves this last one only",
+        )
+    for name in _repeated(vehicle.name for vehicle in scene.vehicles):
+        faults.notice(None, f"several vehicles are called {name!r}; searches find the first")
+
+
+def _check_physics(thing: ObjectSpec, faults: Faults) -> None:
+    if thing.physics is not None and thing.physics.collision_shape_type not in SHAPES:
+        said = thing.physics.collision_shape_type
+        faults.notice(
+            faults.node_of(thing.physics),
+            f"<collisionShapeType> is {said[:60]!r}; read as box; known: {', '.join(SHAPES)}",
+        )
+
+
+def _repeated(names: Iterable[str]) -> list[str]:
+    return [name for name, count in Counter(names).items() if count > 1]
+
+
+def _or(kinds: Iterable[str]) -> str:
+    return " or ".join(kinds)

@@ -1,0 +1,98 @@
+"""What a scene may say that uwsim reads and does not act on yet: a notice for each kind."""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from ..dialect import NAMESPACE, Faults
+from .ros_interfaces import INTERFACES
+
+WAVES = (
+    "windx",
+    "windy",
+    "windSpeed",
+    "depth",
+    "reflectionDamping",
+    "waveScale",
+    "isNotChoppy",
+    "choppyFactor",
+    "crestFoamHeight",
+)
+
+NOT_YET: dict[tuple[str, str], str] = {
+    **{("oceanState", name): "waves" for name in WAVES},
+    ("simParams", "disableShaders"): "the window",
+    ("simParams", "resw"): "the window",
+    ("simParams", "resh"): "the window",
+    ("simParams", "enablePhysics"): "physics of contacts",
+    ("simParams", "gravity"): "physics of contacts",
+    ("simParams", "physicsFrequency"): "physics of contacts",
+    ("simParams", "physicsSubSteps"): "physics of contacts",
+    ("simParams", "physicsSolver"): "physics of contacts",
+    ("object", "physics"): "physics of contacts",
+    ("simParams", "showTrajectory"): "trajectories",
+    ("UWSimScene", "camera"): "the viewer's camera",
+    ("UWSimScene", "nedOrigin"): "nedOrigin",
+    ("UWSimScene", "netTracingScript"): "communication",
+    ("UWSimScene", "CustomCommsChannel"): "communication",
+    ("UWSimScene", "AcousticCommsChannel"): "communication",
+    ("vehicle", "CustomCommsDevice"): "communication",
+    ("vehicle", "AcousticCommsDevice"): "communication",
+    ("vehicle", f"{{{NAMESPACE}}}dynamics"): "u:dynamics",
+    ("virtualCamera", "showpath"): "showpath",
+    **{
+        ("vehicle", name): name
+        for name in (
+            "fdm",
+            "tf",
+            "structuredLightProjector",
+            "rangeSensor",
+            "objectPicker",
+            "imu",
+            "pressureSensor",
+            "gpsSensor",
+            "dvlSensor",
+            "virtualRangeImage",
+            "multibeamSensor",
+            "ProfilingSonar",
+            "echo",
+            "ForceSensor",
+            "DredgeTool",
+            "LedArray",
+        )
+    },
+    ("simulatedDevices", "echo"): "echo",
+    ("SimulatedDeviceROS", "echoROS"): "echoROS",
+    **{
+        ("rosInterfaces", name): name
+        for name in INTERFACES
+        if name not in ("VirtualCameraToROSImage", "SimulatedDeviceROS")
+    },
+}
+"""(parent, element) -> what it belongs to."""
+
+OFF = {"disableShaders": "0", "enablePhysics": "0", "fdm": "-1", "showpath": "0"}
+"""An element with this text asks for nothing."""
+
+
+def not_simulated(root: etree._Element, faults: Faults) -> None:
+    """Name every kind of thing that is read and not simulated yet, with its lines."""
+    lines: dict[str, list[int]] = {}
+    for node in root.iter("*"):
+        parent = node.getparent()
+        if parent is None:
+            continue
+        kind = NOT_YET.get((str(parent.tag), str(node.tag)))
+        if kind is not None and OFF.get(str(node.tag)) != (node.text or "").strip():
+            lines.setdefault(kind, []).append(_line(node))
+        if node.tag == "object" and node.get("buried", "0").strip() not in ("0", "0.0"):
+            lines.setdefault("buried objects", []).append(_line(node))
+    for kind, where in sorted(lines.items(), key=lambda entry: entry[1][0]):
+        shown = sorted(set(where))
+        listed = ", ".join(map(str, shown[:8])) + (", ..." if len(shown) > 8 else "")
+        many = "line" if len(shown) == 1 else "lines"
+        faults.notice(shown[0], f"read, not simulated yet: {kind} ({many} {listed})")
+
+
+def _line(node: etree._Element) -> int:
+    return int(str(node.sourceline or 0))
