@@ -6,84 +6,116 @@ either way up.
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 
 from ..mesh import Mesh, Texture
-from .shapes import Shape, cylinder, join, mesh, quad, tube
+from .shapes import Shape, box, cylinder, join, mesh, quad, tube
 from .textures import Picture, finished, mixed, noise, plain, step, worn, write
 
-ORANGE = (0.98, 0.42, 0.06)
+ORANGE = (0.97, 0.42, 0.07)
 """International orange, as stored value."""
-BAND = (0.93, 0.94, 0.92)
-"""Reflective bands."""
-INK = (0.05, 0.05, 0.05)
-"""Lettering."""
-WEAR = 0.30
-"""How far scuffs and dirt take the paint away, 0..1. Raise WEAR for more contrast at small scale;
-BAND and INK set the contrast of the large marks (DESIGN 6a asks for a deviation of 25 to 35)."""
+BAND = (0.72, 0.73, 0.71)
+"""Reflective bands, dull in diffuse light."""
+INK = (0.24, 0.22, 0.21)
+"""Lettering and hazard bars."""
+WEAR = 0.55
+"""How far scuffs, dirt and rubbed paint show, 0..1.
+
+Contrast is tuned with these four: BAND and INK set that of the large marks, WEAR that of the small
+ones. DESIGN 6a asks for a deviation of 25 to 35 grey levels of the top face at fog 0.
+"""
 
 
 def _paint(name: str, height: int, width: int) -> Picture:
-    """Orange paint, clouded, scratched to the metal in places."""
-    clouds = noise(f"{name}/clouds", height, width, cells=4, octaves=5)
-    scuffs = noise(f"{name}/scuffs", height, width, cells=10, octaves=4, gain=0.7)
-    picture = plain(height, width, ORANGE) * (1.0 + 0.05 * clouds)[..., None]
-    picture = mixed(picture, (0.45, 0.24, 0.12), WEAR * step(0.8, 1.8, clouds))
-    return mixed(picture, (0.72, 0.70, 0.66), 2.0 * WEAR * step(1.7, 2.3, scuffs))
+    """Orange paint: clouded, faded, rubbed to the primer in places."""
+    clouds = noise(f"{name}/clouds", height, width, cells=3, octaves=6, tiles=False)
+    scuffs = noise(f"{name}/scuffs", height, width, cells=7, octaves=5, gain=0.7, tiles=False)
+    picture = plain(height, width, ORANGE) * (1.0 + np.float32(0.14 * WEAR) * clouds)[..., None]
+    picture = mixed(picture, (0.42, 0.20, 0.10), np.float32(0.8 * WEAR) * step(0.9, 2.0, clouds))
+    return mixed(picture, (0.75, 0.66, 0.55), np.float32(WEAR) * step(1.2, 2.2, scuffs))
 
 
-@lru_cache(maxsize=1)
+def _bars(picture: Picture, left: float, right: float, period: float) -> None:
+    """Slanted hazard bars between two fractions of the width."""
+    height, width = picture.shape[:2]
+    x, y = np.arange(width)[None, :], np.arange(height)[:, None]
+    inked = ((x + y) % (period * height) < 0.5 * period * height) & (x >= left * width)
+    picture[inked & (x < right * width)] = INK
+
+
+@cache
 def face() -> Texture:
     """The large faces, seen with the box's +y end to the right."""
-    height, width = 208, 640
+    height, width = 192, 640
     picture = _paint("blackbox/face", height, width)
-    for left, right in ((0.045, 0.10), (0.80, 0.86)):
+    for left, right in ((0.060, 0.115), (0.835, 0.890)):
         picture[:, round(left * width) : round(right * width)] = BAND
-    for k in range(9):  # hazard bars across one end
-        a = np.arange(height)[:, None] + np.arange(width)[None, :] * 1.0
-        bar = (a % 44 < 22) & (np.arange(width)[None, :] > 0.905 * width)
-        picture[bar] = INK if k == 0 else picture[bar]
-    write(picture, "FLIGHT RECORDER", (0.45, 0.27), width=0.62, height=0.24, colour=INK)
-    write(picture, "DO NOT OPEN", (0.36, 0.66), width=0.42, height=0.22, colour=INK)
-    picture[round(0.52 * height) : round(0.90 * height), 410:500] = BAND
-    write(picture, "37.5 kHz", (0.71, 0.62), width=0.12, height=0.09, colour=INK)
-    write(picture, "S/N 0427", (0.71, 0.78), width=0.12, height=0.09, colour=INK)
-    write(picture, "ENREGISTREUR DE VOL", (0.36, 0.88), width=0.40, height=0.09, colour=INK)
-    return finished("blackbox/face", picture, repeats=False)
+    _bars(picture, 0.925, 1.0, 0.28)
+    _bars(picture, 0.0, 0.035, 0.28)
+    write(picture, "FLIGHT RECORDER", (0.47, 0.25), width=0.63, height=0.24, colour=INK)
+    write(picture, "DO NOT OPEN", (0.365, 0.63), width=0.42, height=0.22, colour=INK)
+    write(picture, "ENREGISTREUR DE VOL", (0.365, 0.88), width=0.42, height=0.09, colour=INK)
+    picture[round(0.48 * height) : round(0.92 * height), 405:502] = BAND
+    write(picture, "37.5 kHz", (0.708, 0.60), width=0.12, height=0.12, colour=INK)
+    write(picture, "S/N 0427", (0.708, 0.80), width=0.12, height=0.12, colour=INK)
+    dirt = noise("blackbox/dirt", height, width, cells=5, octaves=5, gain=0.7, tiles=False)
+    return finished("blackbox/face", picture * (1.0 + 0.05 * dirt)[..., None], repeats=False)
 
 
-@lru_cache(maxsize=1)
+@cache
 def side() -> Texture:
     """The narrow faces."""
-    height, width = 128, 512
+    height, width = 128, 480
     picture = _paint("blackbox/side", height, width)
-    for left, right in ((0.045, 0.10), (0.80, 0.86)):
+    for left, right in ((0.060, 0.115), (0.835, 0.890)):
         picture[:, round(left * width) : round(right * width)] = BAND
-    write(picture, "FLIGHT RECORDER DO NOT OPEN", (0.45, 0.45), width=0.64, height=0.3, colour=INK)
+    write(picture, "FLIGHT RECORDER", (0.475, 0.35), width=0.50, height=0.24, colour=INK)
+    write(picture, "DO NOT OPEN", (0.475, 0.68), width=0.36, height=0.20, colour=INK)
     return finished("blackbox/side", picture, repeats=False)
 
 
-def _body(lower: tuple[float, float, float], upper: tuple[float, float, float]) -> list[Mesh]:
-    """A box along y with markings on all four long faces."""
-    (x0, y0, z0), (x1, y1, z1) = lower, upper
-    large = join(
-        quad((x1, y0, z1), (x1, y1, z1), (x0, y1, z1), (x0, y0, z1)),
-        quad((x0, y0, z0), (x0, y1, z0), (x1, y1, z0), (x1, y0, z0)),
+def _large(x: float, y0: float, y1: float, z: float) -> Shape:
+    """The faces that look up and down, their writing along y."""
+    return join(
+        quad((x, y0, z), (x, y1, z), (-x, y1, z), (-x, y0, z)),
+        quad((-x, y0, -z), (-x, y1, -z), (x, y1, -z), (x, y0, -z)),
     )
-    narrow = join(
-        quad((x1, y0, z0), (x1, y1, z0), (x1, y1, z1), (x1, y0, z1)),
-        quad((x0, y1, z0), (x0, y0, z0), (x0, y0, z1), (x0, y1, z1)),
+
+
+def _narrow(
+    x: float, y: tuple[float, float], z: tuple[float, float], whole: tuple[float, float, float]
+) -> Shape:
+    """Both side faces between two y and two z; ``whole`` is where the picture ends: y, y and z."""
+    (y0, y1), (z0, z1), (start, end, half) = y, z, whole
+    u0, u1 = (y0 - start) / (end - start), (y1 - start) / (end - start)
+    v0, v1 = (z0 + half) / (2 * half), (z1 + half) / (2 * half)
+    return join(
+        quad((x, y0, z0), (x, y1, z0), (x, y1, z1), (x, y0, z1), uv=(u0, v0, u1, v1)),
+        quad((-x, y1, z0), (-x, y0, z0), (-x, y0, z1), (-x, y1, z1),
+             uv=(1 - u1, v0, 1 - u0, v1)),
+    )  # fmt: skip
+
+
+def _ends(x: float, y0: float, y1: float, z0: float, z1: float) -> Shape:
+    """The end faces between two z."""
+    return join(
+        quad((-x, y0, z0), (x, y0, z0), (x, y0, z1), (-x, y0, z1)),
+        quad((x, y1, z0), (-x, y1, z0), (-x, y1, z1), (x, y1, z1)),
     )
-    ends = join(
-        quad((x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)),
-        quad((x1, y1, z0), (x0, y1, z0), (x0, y1, z1), (x1, y1, z1)),
-    )
+
+
+def _metal() -> Texture:
+    return worn("blackbox/metal", (0.92, 0.92, 0.92), size=128)
+
+
+def _body(x: float, y: float, z: float) -> list[Mesh]:
+    """A plain box with markings on its four long faces; half its edges."""
     return [
-        mesh(large, texture=face()),
-        mesh(narrow, texture=side()),
-        mesh(ends, texture=worn("blackbox/paint", ORANGE)),
+        mesh(_large(x, -y, y, z), texture=face()),
+        mesh(_narrow(x, (-y, y), (-z, z), (-y, y, z)), texture=side()),
+        mesh(_ends(x, -y, y, -z, z), colour=BAND, texture=_metal()),
     ]
 
 
@@ -106,19 +138,53 @@ def _bar(x: float, y0: float, y1: float, z: float, foot: float, radius: float) -
 
 
 def blackbox_uib() -> tuple[Mesh, ...]:
-    """The recorder of UWSim's tank scenes: 0.13 x 0.433 x 0.15 m, body, pinger and handle."""
-    body = _body((-0.065, -0.205, -0.075), (0.065, 0.200, 0.075))
-    pinger = cylinder((0.0, -0.233, 0.03), (0.0, -0.2, 0.03), 0.035, n=20, bevel=0.004)
-    return (*body, mesh(pinger, texture=worn("blackbox/steel", (0.75, 0.76, 0.77))))
+    """The recorder of UWSim's tank scenes: 0.13 x 0.433 x 0.15 m.
+
+    Two plates of the full size hold the case between them. In the recess at the -y end lies the
+    pinger (33 x 100 mm, as beacons are), in the one at the +y end the handle.
+    """
+    x, y0, y1, z, inner = 0.065, -0.233, 0.200, 0.075, 0.045
+    case = (-0.195, 0.165)
+    whole = (y0, y1, z)
+    sides = join(
+        _narrow(x, (y0, y1), (inner, z), whole),
+        _narrow(x, (y0, y1), (-z, -inner), whole),
+        _narrow(x, case, (-inner, inner), whole),
+    )
+    plates = join(_ends(x, y0, y1, inner, z), _ends(x, y0, y1, -z, -inner))
+    shelves = [
+        part
+        for a, b in ((y0, case[0]), (case[1], y1))
+        for part in (
+            quad((-x, b, inner), (x, b, inner), (x, a, inner), (-x, a, inner)),
+            quad((-x, a, -inner), (x, a, -inner), (x, b, -inner), (-x, b, -inner)),
+        )
+    ]
+    pinger_y = case[0] - 0.018
+    pinger = cylinder((-0.05, pinger_y, 0.0), (0.05, pinger_y, 0.0), 0.0165, n=14, bevel=0.003)
+    clamps = [box((a - 0.006, pinger_y - 0.0175, -0.019), (a + 0.006, case[0], 0.019))
+              for a in (-0.028, 0.028)]  # fmt: skip
+    handle = tube(
+        [(-0.045, case[1], 0.0), (-0.045, 0.186, 0.0), (-0.040, 0.191, 0.0),
+         (0.040, 0.191, 0.0), (0.045, 0.186, 0.0), (0.045, case[1], 0.0)], 0.006, n=8)  # fmt: skip
+    return (
+        mesh(_large(x, y0, y1, z), texture=face()),
+        mesh(sides, texture=side()),
+        mesh(plates, colour=BAND, texture=_metal()),
+        mesh(_ends(x, *case, -inner, inner), *shelves, *clamps, colour=ORANGE, texture=_metal()),
+        mesh(pinger, handle, colour=(0.70, 0.71, 0.72), texture=_metal()),
+    )
 
 
 def blackbox() -> tuple[Mesh, ...]:
     """The plain version: a box of 0.20 x 0.35 x 0.15 m with the markings."""
-    return tuple(_body((-0.10, -0.175, -0.075), (0.10, 0.175, 0.075)))
+    return tuple(_body(0.10, 0.175, 0.075))
 
 
 def blackbox_standard() -> tuple[Mesh, ...]:
     """The recorder that `grasp` uses: 0.15 x 0.32 x 0.14 m, a 16 mm bar 50 mm above it."""
-    body = _body((-0.075, -0.16, -0.07), (0.075, 0.16, 0.07))
     handle = _bar(0.0, -0.06, 0.06, 0.07 + 0.05 + 0.008, 0.069, 0.008)
-    return (*body, mesh(handle, texture=worn("blackbox/steel", (0.75, 0.76, 0.77))))
+    return (
+        *_body(0.075, 0.16, 0.07),
+        mesh(handle, colour=(0.70, 0.71, 0.72), texture=_metal()),
+    )
