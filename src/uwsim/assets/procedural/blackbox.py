@@ -18,7 +18,9 @@ ORANGE = (0.97, 0.42, 0.07)
 """International orange, as stored value."""
 BAND = (0.72, 0.73, 0.71)
 """Reflective bands, dull in diffuse light."""
-INK = (0.24, 0.22, 0.21)
+WHITE = (0.96, 0.96, 0.94)
+"""The ends, which are seldom in the sun."""
+INK = (0.25, 0.23, 0.22)
 """Lettering and hazard bars."""
 WEAR = 0.55
 """How far scuffs, dirt and rubbed paint show, 0..1.
@@ -170,8 +172,8 @@ def blackbox_uib() -> tuple[Mesh, ...]:
     return (
         mesh(_large(x, y0, y1, z), texture=face()),
         mesh(sides, texture=side()),
-        mesh(plates, colour=BAND, texture=_metal()),
-        mesh(_ends(x, *case, -inner, inner), *shelves, *clamps, colour=ORANGE, texture=_metal()),
+        mesh(plates, _ends(x, *case, -inner, inner), *shelves, colour=WHITE, texture=_metal()),
+        mesh(*clamps, colour=ORANGE, texture=_metal()),
         mesh(pinger, handle, colour=(0.70, 0.71, 0.72), texture=_metal()),
     )
 

@@ -62,7 +62,7 @@ def _walls(low: float | None, high: float) -> Shape:
         quad((EAST, NORTH, end), (EAST, SOUTH, end), (EAST, SOUTH, high), (EAST, NORTH, high),
              cuts=cuts),
     ]  # fmt: skip
-    return join(*parts).flipped()
+    return join(*parts)
 
 
 def _deck() -> Shape:
@@ -169,7 +169,7 @@ def tank() -> tuple[Mesh, ...]:
         quad((-px / 2, py / 2, floor_z), (-px / 2, -py / 2, floor_z), (-px / 2, -py / 2, pz),
              (-px / 2, py / 2, pz)),
     ]  # fmt: skip
-    window = quad((2.7, 3.96, -1.95), (-2.7, 3.96, -1.95), (-2.7, 3.96, -0.75), (2.7, 3.96, -0.75))
+    window = quad((-2.7, 3.96, -1.95), (2.7, 3.96, -1.95), (2.7, 3.96, -0.75), (-2.7, 3.96, -0.75))
     frame = join(
         box((-2.8, 3.95, -2.05), (2.8, 4.0, -1.95)),
         box((-2.8, 3.95, -0.75), (2.8, 4.0, -0.65)),
@@ -177,7 +177,7 @@ def tank() -> tuple[Mesh, ...]:
         box((2.7, 3.95, -1.95), (2.8, 4.0, -0.75)),
     )
     house = box((-8.3, 4.32, 0.1), (8.3, 9.6, 4.67))
-    front = quad((8.3, 4.3, 0.1), (-8.3, 4.3, 0.1), (-8.3, 4.3, 4.67), (8.3, 4.3, 4.67)).flipped()
+    front = quad((-8.3, 4.3, 0.1), (8.3, 4.3, 0.1), (8.3, 4.3, 4.67), (-8.3, 4.3, 4.67))
     board = quad((-5.12, 4.22, 4.6), (5.12, 4.22, 4.6), (5.12, 4.22, 5.93), (-5.12, 4.22, 5.93))
     steel = (0.62, 0.65, 0.67)
     return (
