@@ -79,6 +79,8 @@ COMMANDS: dict[str, Command] = {
 }
 
 TRACEBACK = "--traceback"
+READER_LEFT = 1
+"""Exit status when whoever read our output has closed it, as in ``uwsim list | head -1``."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -90,7 +92,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
     except BrokenPipeError:
         sys.stdout = None  # whoever read us has left; say no more
-        return 0
+        return READER_LEFT
+    except SystemExit:  # so says rich, for the same reason
+        return READER_LEFT
     except (Exception, KeyboardInterrupt) as error:
         if TRACEBACK in given:
             raise
