@@ -103,7 +103,7 @@ class Curve:
 
 def value_plot(result: Result, column: str, *, control: Result | None = None) -> Figure:
     """Draw one column over the levels; ``control`` is the same benchmark played by `frozen`."""
-    with _figure() as figure:
+    with styled_figure() as figure:
         axes = figure.subplots()
         _draw_column(axes, result, result.columns[result.index(column)], control)
         _note(figure, _origin(result))
@@ -114,7 +114,7 @@ def small_multiples(result: Result, *, control: Result | None = None) -> Figure:
     """Draw every measure and the total, one below the other, over the same levels."""
     columns = result.of_kind("measure", "score")
     rows = max(1, len(columns))
-    with _figure((SIZE[0], 0.6 + 1.9 * rows)) as figure:
+    with styled_figure((SIZE[0], 0.6 + 1.9 * rows)) as figure:
         grid = figure.subplots(rows, 1, sharex=True, squeeze=False)
         for axes, column in zip(grid[:, 0], columns, strict=False):
             _draw_column(axes, result, column, control, labels=axes is grid[0, 0])
@@ -130,7 +130,7 @@ def compare_plot(results: Sequence[Result], column: str) -> Figure:
         ResultError: they sweep different levels, or the column has different units.
     """
     _same_axes(results, column)
-    with _figure((SIZE[0] + 1.6, SIZE[1])) as figure:
+    with styled_figure((SIZE[0] + 1.6, SIZE[1])) as figure:
         axes = figure.subplots()
         shown = results[0].columns[results[0].index(column)]
         drawn = [
@@ -211,7 +211,8 @@ def algorithm_of(result: Result) -> str:
 
 
 @contextmanager
-def _figure(size: tuple[float, float] = SIZE) -> Iterator[Figure]:
+def styled_figure(size: tuple[float, float] = SIZE) -> Iterator[Figure]:
+    """Give an empty figure of ``size`` [inch] in the house style."""
     with mpl.rc_context(STYLE):
         yield Figure(figsize=size, layout=ConstrainedLayoutEngine(rect=(0, 0.03, 1, 0.97)))
 
@@ -233,7 +234,7 @@ def _draw_column(
         _draw_losses(axes, curves[0], labels)
     _draw_prediction(axes, result, labels)
     if len(curves) + len(compared) > 1 and labels:
-        axes.legend(loc="upper left")
+        axes.legend(loc="best")
 
 
 def _draw_curve(axes: Axes, curve: Curve, i: int, name: str, is_control: bool) -> None:
@@ -288,10 +289,14 @@ def _draw_prediction(axes: Axes, result: Result, label: bool = True) -> None:
     fact, levels = result.fact("f_star"), result.of_kind("level")
     if fact is None or not levels or levels[-1].name != "fog":
         return
-    axes.axvline(fact[0], color=FAINT, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
-    if label:
-        text = f"loss predicted at $f^*$ = {fact[0]:.2f} {_text(written_unit(fact[1]))}"
-        _write_above(axes, fact[0], text, FAINT, line=0)
+    low, high = axes.get_xlim()
+    text = f"$f^*$ = {fact[0]:.2f} {_text(written_unit(fact[1]))}"
+    if low <= fact[0] <= high:
+        axes.axvline(fact[0], color=FAINT, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
+        if label:
+            _write_above(axes, fact[0], f"loss predicted at {text}", FAINT, line=0)
+    elif label:
+        _write_above(axes, high, f"loss predicted beyond these levels, {text}", FAINT, line=0)
 
 
 def _write_above(axes: Axes, x: float, text: str, colour: str, *, line: int) -> None:

@@ -1,0 +1,205 @@
+"""The figures of the UWSim benchmarking paper, drawn from what is simulated here.
+
+    python examples/paper_figures.py FOLDER            all of them, about a minute
+    python examples/paper_figures.py FOLDER --quick    few levels and points, for CI
+
+3: the scene, with the camera's picture as an inset. 4: the tracker while visibility falls.
+5-7: total, centroid and corner error over fog. 8, 9: scene and camera at fog 0 and 1.1.
+10, 11: visibility over distance and over fog, measured from pictures of two plates.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+from uwsim.assets.find import find
+from uwsim.assets.mesh import Mesh, Model
+from uwsim.benchmark.figures import (
+    picture_grid,
+    picture_with_inset,
+    visibility_over_distance,
+    visibility_over_fog,
+)
+from uwsim.benchmark.overlay import overlay
+from uwsim.benchmark.plots import save_plot, value_plot
+from uwsim.benchmark.result import Result, load
+from uwsim.cli import main as uwsim
+from uwsim.geometry import Intrinsics, Pose
+from uwsim.rendering.renderer import Renderer
+from uwsim.rendering.water import Light, Water
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
+
+SCENE, CAMERA, SEED = "visibility-scene.xml", "bowtech1", 1
+EYE, TARGET = (-1.8, 3.8, -2.0), (0.1, 1.9, -3.3)  # of the viewer, in W [m]
+PAPER_FOG, PAPER_DISTANCE = 1.1, 1.36  # [1/m], [m]
+FOGS_OF_DISTANCE = (0.1, 0.25, 0.5, 0.75, 1.05, 2.0)  # [1/m]
+DISTANCES = (0.2, 0.4, 0.6, 0.8, 1.0, 1.36, 1.7, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0)  # [m]
+FOGS = tuple(0.1 * i for i in range(21))  # [1/m]
+OVERLAY_FOGS = (0.0, 0.4, 0.7, 0.9, 1.1, 1.3)  # [1/m]
+QUICK_FOGS = (0.0, 0.4, 1.1)  # [1/m]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Draw the figures of the paper.")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--quick", action="store_true", help="few levels and points, for CI")
+    asked = parser.parse_args()
+    folder: Path = asked.folder
+    folder.mkdir(parents=True, exist_ok=True)
+    scene_figures(folder)
+    visibility_figures(folder, quick=asked.quick)
+    benchmark_figures(folder, quick=asked.quick)
+
+
+# ------------------------------------------------------------------ 3, 8, 9: the scene
+
+
+def scene_figures(folder: Path) -> None:
+    path = find(SCENE)
+    assert path is not None
+    simulation = Simulation(read_scene(path), seed=SEED)
+    viewer = Intrinsics.from_fovy(1320, 990, math.radians(60.0), near=0.1)
+    try:
+        camera = simulation.camera(CAMERA)
+        views = {}
+        for fog in (0.0, PAPER_FOG):
+            simulation.set_fog(fog)
+            outside = simulation.picture(looking(EYE, TARGET), viewer).colour
+            inside = simulation.picture(camera.world_from_camera, camera.intrinsics).colour
+            views[fog] = outside[..., :3], inside[..., :3]
+    finally:
+        simulation.close()
+    save_plot(picture_with_inset(*views[0.0]), folder / "figure-03-scene.png")
+    captions = ["fog 0", f"fog {PAPER_FOG:g} m⁻¹"]
+    for name, which in (("08-scene", 0), ("09-camera", 1)):
+        grid = picture_grid([views[fog][which] for fog in views], captions, columns=2)
+        save_plot(grid, folder / f"figure-{name}-clear-and-fog.png")
+
+
+def looking(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
+    """W from a camera at ``eye`` that looks at ``target``, upright [m]."""
+    back = np.subtract(eye, target) / np.linalg.norm(np.subtract(eye, target))
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    return Pose(np.array(eye), np.stack([right, np.cross(back, right), back], axis=1))
+
+
+# ------------------------------------------------------------------ 10, 11: visibility
+
+
+class Plates:
+    """A black and a white plate, looked at along their normal, at any distance in any fog.
+
+    V = 1 - (white(d) - black(d)) / (white(0.2 m, fog 0) - black(0.2 m, fog 0)), means of the
+    central 9 x 9 pixels of 8-bit pictures, without noise and attenuation.
+    """
+
+    def __init__(self, *, fog_distance: str = "ray") -> None:
+        self.renderer = Renderer()
+        self.plates = [plate(shade) for shade in (1.0, 0.0)]
+        self.intrinsics = Intrinsics.from_fovy(320, 240, math.radians(50.0))
+        clear = Water(fog=0.0, attenuation=(0.0, 0.0, 0.0))
+        self.water = replace(clear, fog_distance=fog_distance)
+        self.reference = self.contrast(0.0, 0.2)
+
+    def visibility(self, fog: float, distance: float) -> float:
+        """V at a fog density [1/m] and a distance [m]."""
+        return 1.0 - self.contrast(fog, distance) / self.reference
+
+    def contrast(self, fog: float, distance: float) -> float:
+        """White less black [grey level], from 5 m under water looking straight down."""
+        eye = Pose(np.array([0.0, 0.0, -5.0]), np.eye(3))
+        below = np.eye(4)
+        below[2, 3] = -5.0 - distance
+        levels = []
+        for model in self.plates:
+            handle = self.renderer.add(model, 1)
+            self.renderer.place(handle, below)
+            water, light = replace(self.water, fog=fog), Light(shadows=False)
+            picture = self.renderer.draw(eye, self.intrinsics, water, light, targets={"colour"})
+            self.renderer.remove(handle)
+            levels.append(float(picture.colour[116:125, 156:165, :3].mean()))
+        return levels[0] - levels[1]
+
+    def close(self) -> None:
+        """Give the graphics context back."""
+        self.renderer.close()
+
+
+def plate(shade: float) -> Model:
+    """A square of 40 m in the plane z = 0, facing up, black (0) or white (1)."""
+    corners = np.array([[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]], np.float32)
+    mesh = Mesh(
+        vertices=corners,
+        normals=np.tile(np.array([0, 0, 1], np.float32), (4, 1)),
+        uvs=np.zeros((4, 2), np.float32),
+        triangles=np.array([[0, 1, 2], [0, 2, 3]], np.uint32),
+        colour=(shade, shade, shade),
+    )
+    return Model(name=f"plate {shade:g}", meshes=(mesh,), source="stand-in", sha256=f"{shade}")
+
+
+def visibility_figures(folder: Path, *, quick: bool) -> None:
+    distances, fogs = (DISTANCES[::4], FOGS[::5]) if quick else (DISTANCES, FOGS)
+    plates = Plates()
+    over_distance = {
+        fog: (distances, [plates.visibility(fog, d) for d in distances]) for fog in FOGS_OF_DISTANCE
+    }
+    over_fog = fogs, [plates.visibility(fog, PAPER_DISTANCE) for fog in fogs]
+    plates.close()
+    save_plot(visibility_over_distance(over_distance), folder / "figure-10-visibility-distance.png")
+    at_paper = visibility_over_fog(
+        over_fog, distance=PAPER_DISTANCE, marked=PAPER_FOG, at="the paper's"
+    )
+    save_plot(at_paper, folder / "figure-11-visibility-fog.png")
+
+
+# ------------------------------------------------------------------ 4, 5-7: the benchmark
+
+
+def benchmark_figures(folder: Path, *, quick: bool) -> None:
+    result = play("esm", folder / "visibility.result", quick=quick)
+    control = play("frozen", folder / "frozen.result", quick=quick)
+    wanted = [fog for fog in OVERLAY_FOGS if not quick or fog in QUICK_FOGS]
+    pictures, captions = tracked(result, folder / "visibility.result", wanted)
+    save_plot(picture_grid(pictures, captions, columns=3), folder / "figure-04-tracking.png")
+    for number, column in ((5, "total"), (6, "centroid"), (7, "corners")):
+        figure = value_plot(result, column, control=control)
+        save_plot(figure, folder / f"figure-{number:02}-{column}.png")
+
+
+def play(algorithm: str, out: Path, *, quick: bool) -> Result:
+    """Play ``visibility`` as ``uwsim bench`` does."""
+    levels = [word for fog in QUICK_FOGS for word in ("--level", f"fog={fog}")] if quick else []
+    command = ["bench", "visibility", "--algorithm", algorithm, "--seed", str(SEED), *levels]
+    status = uwsim([*command, "--out", str(out), "--overwrite"])
+    if status != 0:
+        raise SystemExit(status)
+    return load(out)
+
+
+def tracked(
+    result: Result, directory: Path, fogs: list[float]
+) -> tuple[list[npt.NDArray[np.uint8]], list[str]]:
+    """The camera's last pictures at these fogs, with truth and estimate, and what became of it."""
+    drawn, captions = [], []
+    for picture in result.pictures:
+        fog, status = result.numbers("fog")[picture.row], result.values("status")[picture.row]
+        if fog is not None and min(abs(fog - wanted) for wanted in fogs) < 1e-9:
+            pixels = np.asarray(Image.open(directory / picture.file).convert("RGB"))
+            quads = {"truth": picture.truth, "estimate": picture.estimate}
+            drawn.append(overlay(pixels, **quads, scale=3))
+            captions.append(f"fog {fog:g} m⁻¹" + ("" if status == "ok" else f", {status}"))
+    return drawn, captions
+
+
+if __name__ == "__main__":
+    main()
