@@ -15,6 +15,7 @@ from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import cv2
 import mujoco
@@ -218,7 +219,10 @@ def collect(bench: Bench) -> tuple[Result, list[Log]]:
         ]
         for name, taken in record["logs"].items():
             samples[name] += [(*led, *values, before + sample[0], *sample[1:]) for sample in taken]
-        pictures += [TakenPicture(row=index, **picture) for picture in record["pictures"]]
+        pictures += [
+            TakenPicture(row=index, **{k: _tuple(v) for k, v in picture.items()})
+            for picture in record["pictures"]
+        ]
     ends = [(unit, found.end) for unit, found in stored if found.end is not None]
     first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.parameters)}
     run = {
@@ -282,6 +286,10 @@ def _columns(plan: Plan, record: unit_file.Record | None) -> list[Column]:
         Column(name="status", kind="status"),
         Column(name="ended_at", kind="time", unit="s"),
     ]
+
+
+def _tuple(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value
 
 
 def _unit(unit: str) -> str | None:

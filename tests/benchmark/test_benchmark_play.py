@@ -1,0 +1,295 @@
+"""Whole runs of a short benchmark: a black box, fog in three levels of 0.2 s, small pictures."""
+
+import hashlib
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from uwsim.benchmark.bench import Bench, open_once
+from uwsim.benchmark.result import Result, load
+from uwsim.bus import Node
+from uwsim.cli.bench import make_plan
+from uwsim.errors import BadSetting, NeverStarted
+from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, String
+
+BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="esm">
+  <measures>
+    <euclideanNorm u:value="mean">
+      <name>corners</name>
+      <groundTruth type="cornersFromCamera">
+        <camera>bowtech1</camera> <target>blackbox</target> <publishOn>autoInit</publishOn>
+      </groundTruth>
+      <target>cornersTopic</target>
+      <log>0.05</log>
+      <startOn><type>onInit</type></startOn> <stopOn><type>never</type></stopOn>
+    </euclideanNorm>
+    <time>
+      <name>taskTime</name>
+      <startOn><type>onInit</type></startOn> <stopOn><type>never</type></stopOn>
+    </time>
+  </measures>
+  <startOn><type>service</type><target>startBench</target></startOn>
+  <stopOn><type>never</type></stopOn>
+  <function>corners*2</function>
+  <sceneUpdater>
+    <sceneFogUpdater>
+      <initialValue>0</initialValue> <finalValue>1.0</finalValue> <step>0.4</step>
+      <interval>LENGTH</interval>
+    </sceneFogUpdater>
+  </sceneUpdater>
+</benchmark>
+"""
+
+
+@pytest.fixture
+def benchmark(tmp_path: Path) -> Path:
+    return write_benchmark(tmp_path, "0.2")
+
+
+def write_benchmark(folder: Path, length: str) -> Path:
+    path = folder / "short.xml"
+    path.write_text(BENCHMARK.replace("LENGTH", length))
+    return path
+
+
+def run(
+    benchmark: Path,
+    out: Path,
+    *,
+    algorithm: str | None = None,
+    seed: int = 1,
+    repeat: int = 1,
+    mode: str | None = None,
+    levels: list[str] | None = None,
+    settings: list[str] | None = None,
+    workers: int = 1,
+) -> Result:
+    plan = make_plan(
+        str(benchmark),
+        scene=None,
+        algorithm=algorithm,
+        seed=seed,
+        repeat=repeat,
+        mode=mode,
+        levels=levels or [],
+        settings=settings or [],
+        compat=[],
+        data_path=(),
+    )
+    inputs, renderer = open_once(plan)
+    return Bench(plan=plan, out=out, inputs=inputs, renderer=renderer).run(workers=workers)
+
+
+def fingerprint(out: Path) -> dict[str, str]:
+    return {
+        str(path.relative_to(out)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(out.rglob("*"))
+        if path.is_file()
+        and path.name not in ("provenance.json", "report.html")
+        and "plots" not in path.parts
+    }
+
+
+class Silent:
+    """Starts the benchmark and then says nothing."""
+
+    def start(self, node: Node) -> None:
+        node.call("startBench", Empty())
+
+
+class Absent:
+    """Never starts anything."""
+
+    def start(self, node: Node) -> None:
+        pass
+
+
+class Raises:
+    """Fails at the fourth picture."""
+
+    def start(self, node: Node) -> None:
+        self.n = 0
+        node.subscribe("/uwsim/camera1", Image, self.look)
+        node.call("startBench", Empty())
+
+    def look(self, image: Image) -> None:
+        self.n += 1
+        if self.n == 4:
+            raise ZeroDivisionError("no focus")
+
+
+class Asks:
+    """Says it failed."""
+
+    def start(self, node: Node) -> None:
+        node.call("startBench", Empty())
+        node.publisher("algorithmStatus", String)(String(data="failed: no template"))
+
+
+class Counts:
+    """Publishes the number of its picture as corners, to see what a level takes for its own."""
+
+    def start(self, node: Node) -> None:
+        self.n = 0.0
+        self.publish = node.publisher("cornersTopic", Float32MultiArray)
+        node.subscribe("/uwsim/camera1", Image, self.look)
+        node.serve("autoInit", GTpublish, self.initialise)
+        self.started = False
+        self.node = node
+        self.truth = None
+
+    def initialise(self, request: GTpublish) -> GTpublishResponse:
+        self.truth = request.groundTruth
+        return GTpublishResponse()
+
+    def look(self, image: Image) -> None:
+        from uwsim.messages import floats
+
+        if not self.started:
+            self.started = True
+            self.node.call("startBench", Empty())
+            return
+        self.publish(floats(self.truth))
+
+
+HERE = "test_benchmark_play"
+
+
+def test_two_runs_with_one_seed_are_the_same_bytes(benchmark: Path, tmp_path: Path) -> None:
+    run(benchmark, tmp_path / "a")
+    run(benchmark, tmp_path / "b")
+    assert fingerprint(tmp_path / "a") == fingerprint(tmp_path / "b")
+    assert {"result.json", "result.dat", "measure-corners.csv"} <= set(fingerprint(tmp_path / "a"))
+
+
+def test_another_seed_gives_other_images_and_other_scores(benchmark: Path, tmp_path: Path) -> None:
+    one, two = run(benchmark, tmp_path / "a"), run(benchmark, tmp_path / "b", seed=2)
+    assert one.image_streams[0].sha256 != two.image_streams[0].sha256
+    assert one.values("corners") != two.values("corners")
+
+
+def test_the_same_seed_shows_every_algorithm_the_same_images(
+    benchmark: Path, tmp_path: Path
+) -> None:
+    results = [run(benchmark, tmp_path / name, algorithm=name) for name in ("esm", "orb", "frozen")]
+    streams = {(r.image_streams[0].frames, r.image_streams[0].sha256) for r in results}
+    assert len(streams) == 1
+    assert results[0].image_streams[0].frames == 19  # at 0, 1/30, ... 0.6 s
+
+
+def test_a_benchmark_has_a_row_for_each_level_with_all_cells(
+    benchmark: Path, tmp_path: Path
+) -> None:
+    result = run(benchmark, tmp_path / "a")
+    assert result.values("fog") == (0.0, 0.4, 0.8)
+    assert result.values("status") == ("ok", "ok", "ok")
+    assert result.values("ended_at") == (0.2, 0.4, 0.6000000000000001)
+    corners, total = result.numbers("corners"), result.numbers("total")
+    assert all(c is not None and 0.0 < c < 1.0 for c in corners)
+    assert total == tuple(2 * c for c in corners if c is not None)
+    assert result.values("corners.n") == (6.0, 6.0, 6.0)
+    assert load(tmp_path / "a") == result
+
+
+@pytest.mark.slow
+def test_one_worker_and_two_give_the_same_bytes(benchmark: Path, tmp_path: Path) -> None:
+    run(benchmark, tmp_path / "one", repeat=4, workers=1)
+    run(benchmark, tmp_path / "two", repeat=4, workers=2)
+    assert fingerprint(tmp_path / "one") == fingerprint(tmp_path / "two")
+    assert load(tmp_path / "one").values("seed") == tuple(s for s in (1, 2, 3, 4) for _ in "abc")
+
+
+@pytest.mark.slow
+def test_a_killed_run_that_is_resumed_ends_with_the_same_bytes(tmp_path: Path) -> None:
+    benchmark = write_benchmark(tmp_path, "2")
+    command = [sys.executable, "-m", "uwsim.cli", "bench", str(benchmark), "--mode", "independent"]
+    whole, broken = tmp_path / "whole", tmp_path / "broken"
+    subprocess.run([*command, "--out", str(whole)], check=True, capture_output=True)
+    chance = random.Random(20261121)
+    for _ in range(3):
+        process = subprocess.Popen(
+            [*command, "--out", str(broken), "--resume"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        time.sleep(chance.uniform(1.0, 4.0))
+        os.kill(process.pid, signal.SIGKILL)
+        process.wait()
+    subprocess.run([*command, "--out", str(broken), "--resume"], check=True, capture_output=True)
+    assert fingerprint(broken) == fingerprint(whole)
+
+
+def test_a_level_alone_is_the_level_within_the_sweep(benchmark: Path, tmp_path: Path) -> None:
+    sweep = run(benchmark, tmp_path / "a", mode="independent")
+    alone = run(benchmark, tmp_path / "b", mode="independent", levels=["fog=0.8"])
+    assert alone.values("fog") == (0.8,)
+    assert alone.values("corners") == sweep.values("corners")[2:]
+    assert alone.image_streams[0].sha256 == sweep.image_streams[2].sha256
+
+
+def test_a_level_that_the_sweep_does_not_have_names_the_nearest(
+    benchmark: Path, tmp_path: Path
+) -> None:
+    with pytest.raises(BadSetting, match=r"nearest is 0\.4"):
+        run(benchmark, tmp_path / "a", levels=["fog=0.5"])
+
+
+def test_an_algorithm_that_never_starts_the_benchmark_stops_it(
+    benchmark: Path, tmp_path: Path
+) -> None:
+    with pytest.raises(NeverStarted, match="10 s of simulation time"):
+        run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Absent")
+    assert load(tmp_path / "a").rows == ()
+
+
+def test_an_algorithm_that_raises_fails_its_rows_and_no_other_measure(
+    benchmark: Path, tmp_path: Path
+) -> None:
+    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Raises")
+    assert result.values("status") == ("algorithm error",) * 3
+    assert result.values("corners") == (None,) * 3
+    assert result.values("total") == (None,) * 3
+    assert result.numbers("taskTime") == pytest.approx((0.2, 0.2, 0.2))
+    assert "ZeroDivisionError: no focus" in str(result.why(0, "corners"))
+
+
+def test_an_algorithm_that_says_it_failed_is_believed(benchmark: Path, tmp_path: Path) -> None:
+    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Asks")
+    assert result.values("status")[0] == "algorithm error"
+    assert "no template" in str(result.why(0, "corners"))
+
+
+def test_silence_for_more_than_a_second_is_a_timeout(tmp_path: Path) -> None:
+    result = run(
+        write_benchmark(tmp_path, "1.2"),
+        tmp_path / "a",
+        algorithm=f"{HERE}:Silent",
+        levels=["fog=0"],
+    )
+    assert result.values("status") == ("timeout",)
+    assert "no estimate" in str(result.why(0, "corners"))
+
+
+def test_latency_shows_in_what_is_scored(benchmark: Path, tmp_path: Path) -> None:
+    result = run(
+        benchmark,
+        tmp_path / "a",
+        algorithm=f"{HERE}:Counts",
+        settings=["algorithm.latency_s=0.1"],
+        levels=["fog=0"],
+    )
+    assert result.values("corners.n") == (3.0,)  # of the pictures at 1/30 ... 0.2 s, three by 0.2 s
+
+
+def test_a_setting_of_the_scene_reaches_the_camera(benchmark: Path, tmp_path: Path) -> None:
+    path = "vehicle[girona500].virtualCamera[bowtech1].std=0"
+    quiet = run(benchmark, tmp_path / "a", settings=[path], levels=["fog=0"])
+    assert json.loads((tmp_path / "a" / "result.json").read_text())["run"]["settings"]
+    assert max(v for v in quiet.numbers("corners") if v is not None) < 0.01
