@@ -18,8 +18,8 @@ class StandIn:
     """``"stand-in"`` (modelled) or ``"labelled box"`` (a placeholder of the right size)."""
 
 
-def _made_by(module: str, maker: str) -> Callable[[], tuple[Mesh, ...]]:
-    """A maker in ``procedural/``, imported when it is first called."""
+def _modelled(module: str, maker: str) -> StandIn:
+    """A model by a maker in ``procedural/``, imported when it is first called."""
 
     def make() -> tuple[Mesh, ...]:
         from importlib import import_module
@@ -29,22 +29,61 @@ def _made_by(module: str, maker: str) -> Callable[[], tuple[Mesh, ...]]:
         )()
         return meshes
 
-    return make
+    return StandIn(make)
+
+
+def _box(label: str, x: float, y: float, z: float) -> StandIn:
+    """A labelled box with these edges [m]."""
+
+    def make() -> tuple[Mesh, ...]:
+        from .procedural.placeholder import labelled_box
+
+        return labelled_box(label, (x, y, z))
+
+    return StandIn(make, "labelled box")
 
 
 STAND_INS: dict[str, StandIn] = {
-    "objects/blackbox": StandIn(_made_by("blackbox", "blackbox")),
-    "objects/blackbox_standard": StandIn(_made_by("blackbox", "blackbox_standard")),
-    "objects/blackbox_uib": StandIn(_made_by("blackbox", "blackbox_uib")),
-    "objects/blackbox_uib_trimesh": StandIn(_made_by("blackbox", "blackbox_uib")),
-    "robot/ARM5E/ARM5E_part0": StandIn(_made_by("arm5e", "part0")),
-    "robot/ARM5E/ARM5E_part1": StandIn(_made_by("arm5e", "part1")),
-    "robot/ARM5E/ARM5E_part2": StandIn(_made_by("arm5e", "part2")),
-    "robot/ARM5E/ARM5E_part3": StandIn(_made_by("arm5e", "part3")),
-    "robot/ARM5E/ARM5E_part4_base": StandIn(_made_by("arm5e", "part4_base")),
-    "robot/ARM5E/ARM5E_part4_jaw1": StandIn(_made_by("arm5e", "jaw1")),
-    "robot/ARM5E/ARM5E_part4_jaw2": StandIn(_made_by("arm5e", "jaw2")),
-    "robot/GIRONA500/g500_March11": StandIn(_made_by("girona500", "girona500")),
-    "terrain/CIRS/cirs": StandIn(_made_by("tank", "tank")),
-    "terrain/CIRS/cirs_trident": StandIn(_made_by("tank", "tank")),
+    "objects/amphora": _modelled("amphora", "amphora"),
+    "objects/blackbox": _modelled("blackbox", "blackbox"),
+    "objects/blackbox_standard": _modelled("blackbox", "blackbox_standard"),
+    "objects/blackbox_uib": _modelled("blackbox", "blackbox_uib"),
+    "objects/blackbox_uib_trimesh": _modelled("blackbox", "blackbox_uib"),
+    "objects/boat": _modelled("ships", "boat"),
+    "objects/full_amphora": _modelled("amphora", "amphora"),
+    "objects/gun": _modelled("cannon", "cannon"),
+    "objects/hook": _modelled("fittings", "hook"),
+    "objects/pipe_green": _modelled("pipe", "pipe"),
+    "objects/ship": _modelled("ships", "ship"),
+    "objects/torus": _modelled("fittings", "ring_object"),
+    "robot/ARM5E/ARM5E_part0": _modelled("arm5e", "part0"),
+    "robot/ARM5E/ARM5E_part1": _modelled("arm5e", "part1"),
+    "robot/ARM5E/ARM5E_part2": _modelled("arm5e", "part2"),
+    "robot/ARM5E/ARM5E_part3": _modelled("arm5e", "part3"),
+    "robot/ARM5E/ARM5E_part4": _modelled("arm5e", "part4"),
+    "robot/ARM5E/ARM5E_part4_base": _modelled("arm5e", "part4_base"),
+    "robot/ARM5E/ARM5E_part4_jaw1": _modelled("arm5e", "jaw1"),
+    "robot/ARM5E/ARM5E_part4_jaw1long": _modelled("arm5e", "jaw1_long"),
+    "robot/ARM5E/ARM5E_part4_jaw2": _modelled("arm5e", "jaw2"),
+    "robot/ARM5E/ARM5E_part4_jaw2long": _modelled("arm5e", "jaw2_long"),
+    "robot/GIRONA500/g500_March11": _modelled("girona500", "girona500"),
+    "robot/PA10/barrett": _box("BARRETT HAND", 0.13, 0.20, 0.16),
+    "robot/PA10/pa10link0": _box("PA-10 LINK 0", 0.23, 0.26, 0.20),
+    "robot/PA10/pa10link1": _box("PA-10 LINK 1", 0.20, 0.20, 0.20),
+    "robot/PA10/pa10link2": _box("PA-10 LINK 2", 0.18, 0.18, 0.28),
+    "robot/PA10/pa10link3": _box("PA-10 LINK 3", 0.16, 0.16, 0.20),
+    "robot/PA10/pa10link4": _box("PA-10 LINK 4", 0.14, 0.14, 0.28),
+    "robot/PA10/pa10link5": _box("PA-10 LINK 5", 0.12, 0.12, 0.20),
+    "robot/PA10/pa10link6": _box("PA-10 LINK 6", 0.10, 0.10, 0.08),
+    "robot/PA10/pa10link7": _box("PA-10 LINK 7", 0.08, 0.08, 0.05),
+    "robot/UJIOne/ujione_base": _modelled("ujione", "base"),
+    "robot/UJIOne/ujione_jaw_inner": _modelled("ujione", "inner_jaw"),
+    "robot/UJIOne/ujione_jaw_outer": _modelled("ujione", "outer_jaw"),
+    "terrain/CIRS/cirs": _modelled("tank", "higher_tank"),
+    "terrain/CIRS/cirs_trident": _modelled("tank", "tank"),
+    "terrain/desert/desert2": _modelled("seafloor", "desert"),
+    "terrain/islands/islands": _box("ISLANDS", 40.0, 40.0, 8.0),
+    "terrain/seafloor/terrain_noship": _modelled("seafloor", "seafloor"),
+    "terrain/shipwreck/terrain": _modelled("seafloor", "shipwreck"),
 }
+"""In alphabetical order, one line each."""

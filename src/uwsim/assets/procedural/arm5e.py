@@ -9,6 +9,7 @@ begins, there is a lug, a fork or a flange, so that the arm has no gaps in any p
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -221,3 +222,40 @@ def _jaw(side: float) -> tuple[Mesh, ...]:
     whole = fitted([loft(rings), *teeth, *ribs], (0.014, -0.046, -0.035), (0.106, 0.046, 0.007))
     whole = [part.scaled(1.0, 1.0, side) for part in whole]
     return _metal(whole[:1], whole[1:], [])
+
+
+def part4() -> tuple[Mesh, ...]:
+    """Wrist and closed jaws in one piece, as an older robot file has it."""
+    hinge_x, _, hinge_z = HINGE_IN_PART4
+    jaws = [
+        _moved(piece, hinge_x, side * hinge_z)
+        for side, pieces in ((1.0, jaw1()), (-1.0, jaw2()))
+        for piece in pieces
+    ]
+    return (*part4_base(), *jaws)
+
+
+def _moved(piece: Mesh, x: float, z: float) -> Mesh:
+    """A mesh shifted in x and z."""
+    return replace(piece, vertices=piece.vertices + np.array([x, 0.0, z], dtype=np.float32))
+
+
+def jaw1_long() -> tuple[Mesh, ...]:
+    """The long jaw on the +z side."""
+    return _lengthened(jaw1())
+
+
+def jaw2_long() -> tuple[Mesh, ...]:
+    """The long jaw on the -z side."""
+    return _lengthened(jaw2())
+
+
+def _lengthened(pieces: tuple[Mesh, ...]) -> tuple[Mesh, ...]:
+    """Jaws half as long again; normals turn with the stretch."""
+    stretched = []
+    for piece in pieces:
+        normals = piece.normals * np.array([1.0 / 1.5, 1.0, 1.0], dtype=np.float32)
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        vertices = piece.vertices * np.array([1.5, 1.0, 1.0], dtype=np.float32)
+        stretched.append(replace(piece, vertices=vertices, normals=normals))
+    return tuple(stretched)

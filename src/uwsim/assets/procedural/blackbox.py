@@ -172,8 +172,8 @@ def blackbox_uib() -> tuple[Mesh, ...]:
     return (
         mesh(_large(x, y0, y1, z), texture=face()),
         mesh(sides, texture=side()),
-        mesh(plates, _ends(x, *case, -inner, inner), *shelves, colour=WHITE, texture=_metal()),
-        mesh(*clamps, colour=ORANGE, texture=_metal()),
+        mesh(plates, _ends(x, *case, -inner, inner), colour=WHITE, texture=_metal()),
+        mesh(*shelves, *clamps, colour=ORANGE, texture=_metal()),
         mesh(pinger, handle, colour=(0.70, 0.71, 0.72), texture=_metal()),
     )
 

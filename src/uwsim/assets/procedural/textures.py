@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import cv2
 import numpy as np
@@ -156,6 +156,7 @@ def write(
     picture[rows, columns] = mixed(patch, colour, part.astype(np.float32))
 
 
+@cache
 def worn(name: str, colour: Colour, *, size: int = 256, grain: float = 0.06) -> Texture:
     """Paint or metal that has been used: cloudy, with fine scratches."""
     clouds = noise(f"{name}/clouds", size, size, cells=3, octaves=6)
@@ -167,6 +168,7 @@ def worn(name: str, colour: Colour, *, size: int = 256, grain: float = 0.06) -> 
     return finished(name, picture)
 
 
+@cache
 def concrete(name: str, colour: Colour, *, size: int = 512, joints: int = 0) -> Texture:
     """Cement, with stains and pores; ``joints`` tiles along each side when not 0."""
     clouds = noise(f"{name}/clouds", size, size, cells=2, octaves=7, gain=0.62)

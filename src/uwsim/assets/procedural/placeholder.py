@@ -1,0 +1,22 @@
+"""Labelled boxes: they stand for models that are not made yet, in about the right size."""
+
+from __future__ import annotations
+
+from ..mesh import Mesh
+from .shapes import box, mesh
+from .textures import finished, plain, write
+
+
+def labelled_box(label: str, size: tuple[float, float, float]) -> tuple[Mesh, ...]:
+    """A grey box on the origin's plane z = 0 with its name on every face.
+
+    Args:
+        label: Short enough to be read.
+        size: Edges x, y, z [m].
+    """
+    picture = plain(128, 256, (0.62, 0.64, 0.66))
+    picture[:5] = picture[-5:] = picture[:, :5] = picture[:, -5:] = (0.25, 0.26, 0.28)
+    write(picture, label, (0.5, 0.5), width=0.8, height=0.3, colour=(0.08, 0.08, 0.09))
+    x, y, z = size
+    shape = box((-x / 2, -y / 2, 0.0), (x / 2, y / 2, z))
+    return (mesh(shape, texture=finished(f"label/{label}", picture, repeats=False)),)
