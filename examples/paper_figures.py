@@ -2,6 +2,7 @@
 
     python examples/paper_figures.py FOLDER            all of them, about a minute
     python examples/paper_figures.py FOLDER --quick    few levels and points, for CI
+    python examples/paper_figures.py FOLDER --trackers   all trackers in one plot, too; minutes
 
 3: the scene, with the camera's picture as an inset. 4: the tracker while visibility falls.
 5-7: total, centroid and corner error over fog. 8, 9: scene and camera at fog 0 and 1.1.
@@ -19,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
+from uwsim.algorithms import ALGORITHMS
 from uwsim.assets.find import find
 from uwsim.assets.mesh import Mesh, Model
 from uwsim.benchmark.figures import (
@@ -28,7 +30,7 @@ from uwsim.benchmark.figures import (
     visibility_over_fog,
 )
 from uwsim.benchmark.overlay import overlay
-from uwsim.benchmark.plots import save_plot, value_plot
+from uwsim.benchmark.plots import compare_plot, save_plot, value_plot
 from uwsim.benchmark.result import Result, load
 from uwsim.cli import main as uwsim
 from uwsim.geometry import Intrinsics, Pose
@@ -51,12 +53,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the figures of the paper.")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--quick", action="store_true", help="few levels and points, for CI")
+    parser.add_argument("--trackers", action="store_true", help="compare all trackers, too")
     asked = parser.parse_args()
     folder: Path = asked.folder
     folder.mkdir(parents=True, exist_ok=True)
     scene_figures(folder)
     visibility_figures(folder, quick=asked.quick)
     benchmark_figures(folder, quick=asked.quick)
+    if asked.trackers:
+        tracker_figures(folder, quick=asked.quick)
 
 
 # ------------------------------------------------------------------ 3, 8, 9: the scene
@@ -176,10 +181,20 @@ def benchmark_figures(folder: Path, *, quick: bool) -> None:
         save_plot(figure, folder / f"figure-{number:02}-{column}.png")
 
 
-def play(algorithm: str, out: Path, *, quick: bool) -> Result:
-    """Play ``visibility`` as ``uwsim bench`` does."""
+def tracker_figures(folder: Path, *, quick: bool) -> None:
+    """All trackers and the control in one plot: where nothing moves, and where they must track."""
+    for benchmark in ("visibility", "visibility-moving"):
+        results = [
+            play(name, folder / f"{benchmark}-{name}.result", quick=quick, benchmark=benchmark)
+            for name in ALGORITHMS
+        ]
+        save_plot(compare_plot(results, "corners"), folder / f"trackers-{benchmark}.png")
+
+
+def play(algorithm: str, out: Path, *, quick: bool, benchmark: str = "visibility") -> Result:
+    """Play a benchmark as ``uwsim bench`` does."""
     levels = [word for fog in QUICK_FOGS for word in ("--level", f"fog={fog}")] if quick else []
-    command = ["bench", "visibility", "--algorithm", algorithm, "--seed", str(SEED), *levels]
+    command = ["bench", benchmark, "--algorithm", algorithm, "--seed", str(SEED), *levels]
     status = uwsim([*command, "--out", str(out), "--overwrite"])
     if status != 0:
         raise SystemExit(status)

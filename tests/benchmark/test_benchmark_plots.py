@@ -72,6 +72,24 @@ def test_the_control_is_dashed_and_named() -> None:
     assert styles["esm"] == "-"
 
 
+def scaled(*factors: float) -> Result:
+    result = replace(frozen(), facts={})
+    rows = [
+        (row[0], *(1.0 * factor for _ in range(6)), "ok", 2.0)
+        for row, factor in zip(result.rows, factors, strict=False)
+    ]
+    return replace(result, rows=tuple(rows))
+
+
+@pytest.mark.parametrize(
+    ("values", "scale"), [((1.0, 49.0), "linear"), ((1.0, 100.0), "log"), ((1e-5, 2.0), "linear")]
+)
+def test_errors_far_apart_are_drawn_on_a_logarithmic_axis_but_nothing_is_not_an_error(
+    values: tuple[float, ...], scale: str
+) -> None:
+    assert value_plot(scaled(*values), "corners").axes[0].get_yscale() == scale
+
+
 def test_a_column_without_values_says_why() -> None:
     assert f"no data: {WHY}" in words(value_plot(nothing_measured(), "corners"))
 

@@ -333,17 +333,21 @@ def _label_axes(axes: Axes, result: Result, column: Column) -> None:
 
 
 def _scale(axes: Axes, curves: Sequence[Curve]) -> None:
-    """Begin at 0 when nothing is negative; logarithmic when the values span more than 1 : 50."""
+    """Begin at 0 when nothing is negative; logarithmic between 1 : 50 and 1 : 1000.
+
+    What is below a thousandth of the largest value is nothing (a control that echoes the truth).
+    """
     values = np.array([v for curve in curves for v in curve.mean if not np.isnan(v)])
-    if values.size == 0:
+    if values.size == 0 or values.min() < 0:
         return
-    if values.min() > 0 and values.max() > 50 * values.min():
+    low, high = float(values.min()), float(values.max())
+    if high > 50 * low > 0.05 * high:
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    elif values.min() >= 0:
+    else:
         limits = [v for curve in curves for v in curve.high if not np.isnan(v)]
-        top = float(min(max([values.max(), *limits]), 1.6 * values.max())) * 1.12 or 1.0
-        axes.set_ylim(-0.03 * top if values.min() == 0 else 0, top)
+        top = min(max([high, *limits]), 1.6 * high) * 1.12 or 1.0
+        axes.set_ylim(-0.03 * top if low < 0.01 * high else 0, top)
 
 
 def _say_no_data(axes: Axes, why: str | None) -> None:
