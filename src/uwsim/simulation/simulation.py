@@ -33,6 +33,7 @@ from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
 from ..sensors.virtual_camera import VirtualCamera
 from .bodies import SceneBody, find_body, name_bodies, read_robots
+from .commands import Commands
 from .image_publisher import ImagePublisher
 from .node import InProcessNode
 from .scenery import Scenery
@@ -88,6 +89,8 @@ class Simulation:
             fog_distance="clip" if "fog-distance" in compatibility else "ray",
         )
         self._light = Light(rate=scene.sim_params.light_rate)
+        robots = [self.robots[i] for i in range(len(scene.vehicles))]
+        self._commands = Commands(scene, robots, self._state, self.bus, timestep)
         self._nodes: list[InProcessNode] = []
         self._cameras: dict[str, VirtualCamera] = {}
         for vehicle in scene.vehicles:
@@ -127,6 +130,7 @@ class Simulation:
     def advance(self) -> None:
         """Take one step."""
         self.bus.step += 1
+        self._commands.carry_out()
         self._move_vehicles()
         self._tail()
 
@@ -291,11 +295,18 @@ class Simulation:
         for camera in self._cameras.values():
             camera.std = std
 
+    def joints(self, vehicle: str) -> npt.NDArray[np.float64]:
+        """Return the joint vector of a vehicle, (n,) [rad or m]; UnknownName if there is none."""
+        return self._state.joints(self._vehicle(vehicle))
+
+    def _vehicle(self, name: str) -> int:
+        if name not in self.vehicles:
+            raise UnknownName("vehicle", name, self.vehicles)
+        return self.vehicles.index(name)
+
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their number in the joint vector [rad or m], clamped to limits."""
-        if vehicle not in self.vehicles:
-            raise UnknownName("vehicle", vehicle, self.vehicles)
-        index = self.vehicles.index(vehicle)
+        index = self._vehicle(vehicle)
         joints = self._state.joints(index)
         for number, value in values.items():
             if 0 <= number < len(joints):

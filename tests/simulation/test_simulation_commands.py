@@ -1,0 +1,110 @@
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uwsim.geometry import Pose, rotation_from_xyz
+from uwsim.messages import (
+    JointState,
+    Point,
+    Quaternion,
+    Twist,
+    TwistStamped,
+    Vector3,
+    header,
+)
+from uwsim.messages import Pose as PoseMessage
+from uwsim.scene.reader import read_scene
+from uwsim.scene.ros_interfaces import (
+    ROSJointStateToArmSpec,
+    ROSPoseToPATSpec,
+    ROSTwistToPATSpec,
+)
+from uwsim.simulation import Simulation
+
+SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-scene.xml"
+
+
+@pytest.fixture
+def simulation() -> Simulation:
+    scene = read_scene(SCENE)
+    interfaces = (
+        ROSPoseToPATSpec(topic="/pose", vehicle_name="girona500"),
+        ROSTwistToPATSpec(topic="/twist", vehicle_name="girona500"),
+        ROSJointStateToArmSpec(topic="/arm", vehicle_name="girona500"),
+    )
+    simulation = Simulation(replace(scene, objects=(), ros_interfaces=interfaces))
+    simulation.open()
+    return simulation
+
+
+def pose_in_l(simulation: Simulation) -> Pose:
+    return simulation.world_from_localized.inverse() @ (
+        simulation.body("girona500").world_from_body
+    )
+
+
+def twist(x: float, yaw: float) -> TwistStamped:
+    return TwistStamped(
+        header=header(0.0),
+        twist=Twist(linear=Vector3(x=x, y=0.0, z=0.0), angular=Vector3(x=0.0, y=0.0, z=yaw)),
+    )
+
+
+def test_a_pose_is_taken_as_it_is_in_the_frame_of_the_file(simulation: Simulation) -> None:
+    simulation.bus.publisher("/pose", PoseMessage)(
+        PoseMessage(
+            position=Point(x=1.0, y=2.0, z=3.0),
+            orientation=Quaternion(x=0.0, y=0.0, z=np.sqrt(0.5), w=np.sqrt(0.5)),
+        )
+    )
+    for _ in range(2):
+        simulation.advance()
+    pose = pose_in_l(simulation)
+    assert pose.position == pytest.approx([1.0, 2.0, 3.0])
+    assert pose.rotation == pytest.approx(rotation_from_xyz(0.0, 0.0, np.pi / 2), abs=1e-12)
+
+
+def test_a_twist_moves_by_the_time_since_the_one_before_and_is_not_held(
+    simulation: Simulation,
+) -> None:
+    start = pose_in_l(simulation).position
+    publish = simulation.bus.publisher("/twist", TwistStamped)
+    for step in range(200):
+        if step in (0, 50, 100):
+            publish(twist(0.5, 0.0))
+        simulation.advance()
+    assert pose_in_l(simulation).position - start == pytest.approx([0.1, 0.0, 0.0])
+
+
+def test_after_more_than_a_second_of_silence_a_twist_moves_nothing(simulation: Simulation) -> None:
+    start = pose_in_l(simulation).position
+    publish = simulation.bus.publisher("/twist", TwistStamped)
+    publish(twist(0.5, 0.0))
+    for _ in range(600):
+        simulation.advance()
+    publish(twist(0.5, 0.0))
+    simulation.advance()
+    simulation.advance()
+    assert pose_in_l(simulation).position == pytest.approx(start)
+
+
+def test_joints_are_found_by_name_and_clamped(simulation: Simulation) -> None:
+    simulation.bus.publisher("/arm", JointState)(
+        JointState(
+            header=header(0.0),
+            name=["Elbow", "Slew", "Nobody"],
+            position=np.array([9.0, -0.3, 1.0]),
+            velocity=np.array([]),
+            effort=np.array([]),
+        )
+    )
+    before = simulation.joints("girona500")
+    simulation.advance()
+    simulation.advance()
+    after = simulation.joints("girona500")
+    assert after[2] == pytest.approx(2.15294)
+    assert after[0] == pytest.approx(-0.3)
+    assert after[[1, 3, 4]] == pytest.approx(before[[1, 3, 4]])
