@@ -41,6 +41,9 @@ class Renderer:
 
     def __init__(self) -> None:
         self._context = create_context()
+        facts = self._context.info
+        self.description = f"{facts['GL_RENDERER']}, {facts['GL_VERSION']}"
+        """What draws: ``llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6``."""
         self._models = GpuModels(self._context)
         self._instances: dict[int, Instance] = {}
         self._next_handle = 1
@@ -51,12 +54,6 @@ class Renderer:
         self._frame = Frame(self._context)
         self._slots = Slots(self._context)
         self._shadow = SunShadow(self._context)
-
-    @property
-    def description(self) -> str:
-        """What draws: ``llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6``."""
-        facts = self._context.info
-        return f"{facts['GL_RENDERER']}, {facts['GL_VERSION']}"
 
     def add(self, model: Model, id: int) -> int:
         """Put a model at the origin of W; returns the handle for `place` and `remove`.

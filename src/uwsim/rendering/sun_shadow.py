@@ -8,10 +8,15 @@ import moderngl
 import numpy as np
 
 from ..geometry import Array
-from .instance import INSTANCE, Instance
+from .instance import INSTANCE, Instance, Slots
 from .program import build
 
-SIZE = 1024
+SMALL, LARGE = 512, 1024
+"""Edges of the map [texels]; the small one costs a third of the large one to draw."""
+
+FINE_TEXEL = 0.008
+"""The small map is used while its texels are no larger than this [m]."""
+
 LARGEST_CASTER = 5.0
 """Bounding radius [m] above which a model casts no shadow: tanks and sea floors."""
 
@@ -30,13 +35,15 @@ class SunShadow:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
-        self.texture = context.depth_texture((SIZE, SIZE))
-        self.texture.compare_func = "<="
-        self.texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-        self.texture.repeat_x = self.texture.repeat_y = False
-        self._framebuffer = context.framebuffer(depth_attachment=self.texture)
+        self._maps = {size: _depth_map(context, size) for size in (SMALL, LARGE)}
+        self.texture = self._maps[SMALL]
+        """The map now in use."""
+        self._framebuffers = {
+            size: context.framebuffer(depth_attachment=texture)
+            for size, texture in self._maps.items()
+        }
         self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
-        self._slot = context.buffer(reserve=INSTANCE.dtype.itemsize, dynamic=True)
+        self._slots = Slots(context)
         self._drawn: object = None
         self.texture_from_world = np.eye(4)
         """W to texture coordinates and depth of the map, 0..1."""
@@ -55,27 +62,32 @@ class SunShadow:
         if key == self._drawn:
             return
         self._drawn = key
-        clip_from_world, texel = _fit(casters, sun)
+        clip_from_world, edge = _fit(casters, sun)
+        size = SMALL if edge / SMALL <= FINE_TEXEL else LARGE
+        self.texture = self._maps[size]
         self.texture_from_world = _TO_TEXTURE @ clip_from_world
-        self.lift = 1.5 * texel
+        self.lift = 1.5 * edge / size
         context = self._context
-        self._framebuffer.use()
+        self._framebuffers[size].use()
+        self._framebuffers[size].clear(depth=1.0)
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
-        self._framebuffer.clear(depth=1.0)
-        self._slot.bind_to_uniform_block(INSTANCE.binding)
-        values = np.zeros((), dtype=INSTANCE.dtype)
-        for caster in casters:
-            values["camera_from_model"] = (clip_from_world @ caster.world_from_model).T
-            self._slot.write(values.tobytes())
+        self._slots.fill(casters, clip_from_world)
+        for slot, caster in enumerate(casters):
+            self._slots.bind(slot)
+            context.front_face = "cw" if caster.is_mirrored else "ccw"
             for batch in caster.batches:
+                if batch.two_sided:
+                    context.disable(moderngl.CULL_FACE)
+                else:
+                    context.enable(moderngl.CULL_FACE)
                 batch.draw(self._program)
         context.polygon_offset = 0.0, 0.0
 
 
 def _fit(casters: Sequence[Instance], sun: Array) -> tuple[Array, float]:
-    """An orthographic camera of the sun around all casters: (4, 4), and its texel [m]."""
+    """The sun's orthographic camera round all casters, (4, 4), and the edge of its view [m]."""
     forward = -sun
     aside = np.cross(forward, [0.0, 0.0, 1.0] if abs(sun[2]) < 0.9 else [1.0, 0.0, 0.0])
     aside /= np.linalg.norm(aside)
@@ -90,4 +102,12 @@ def _fit(casters: Sequence[Instance], sun: Array) -> tuple[Array, float]:
     matrix = np.eye(4)
     matrix[:3, :3] = axes * scale[:, None]
     matrix[:3, 3] = -scale * [middle[0], middle[1], (high[2] + reach + low[2]) / 2.0]
-    return matrix, 2.0 * half / SIZE
+    return matrix, 2.0 * half
+
+
+def _depth_map(context: moderngl.Context, size: int) -> moderngl.Texture:
+    texture = context.depth_texture((size, size))
+    texture.compare_func = "<="
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture

@@ -1,0 +1,136 @@
+"""Pictures of the `visibility` scene: tank, Girona 500 with its arm, black box. JSON on stdout.
+
+The scene and the camera stand still unless the name says otherwise; every picture is drawn anew,
+and read back. ``colour`` is 8 bit; ``colour + noise`` goes through 16 bit as cameras do.
+``ratio`` is the CPU time over the promise of DESIGN 9.
+"""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from measure import main, milliseconds
+
+from uwsim.assets import load_model
+from uwsim.geometry import Intrinsics, Pose, rotation_from_xyz
+from uwsim.rendering.grey import grey_truncated
+from uwsim.rendering.noise import add_noise, warm_up
+from uwsim.rendering.renderer import Renderer
+from uwsim.rendering.targets import TARGETS
+from uwsim.rendering.water import Light, Water
+
+WORLD_FROM_LOCALIZED = Pose(np.zeros(3), rotation_from_xyz(np.pi, 0.0, -np.pi / 2))
+WATER = Water(fog=0.4)
+COLOUR = frozenset({"colour"})
+BOX = "objects/blackbox_uib_trimesh.osg"
+ARM = "robot/ARM5E/ARM5E_part"
+
+
+def pose(position: tuple[float, float, float], rpy: tuple[float, float, float]) -> np.ndarray:
+    return Pose.from_rpy(position, rpy).matrix
+
+
+def visibility_scene(renderer: Renderer) -> tuple[list[tuple[int, np.ndarray]], Pose, int]:
+    """Fill the renderer; returns the vehicle's handles with places, the camera, all triangles."""
+    world = WORLD_FROM_LOCALIZED.matrix
+    vehicle = pose((2.0, 0.0, 2.515), (0.0, 0.0, 0.0))
+    part0 = vehicle @ pose((0.0, 0.0, 0.95), (0.0, 0.0, np.pi))
+    slew = part0 @ pose((0.0, 0.0, 0.13), (0.0, 0.0, 0.0))
+    shoulder = slew @ pose((0.08052, 0.0, 0.0), (np.pi / 2, 0.0, 0.0))
+    elbow = shoulder @ pose((0.438492379, 0.061470007, 0.0), (0.0, 0.0, 0.139277274 + 2.15294))
+    wrist = elbow @ pose((0.349117258, 0.058023573, 0.0), (np.pi / 2, 0.0, 1.972222055))
+    jaw1 = wrist @ pose((-0.04, 0.0, 0.045), (0.0, -0.8, 0.0))
+    jaw2 = wrist @ pose((0.04, 0.0, 0.045), (0.0, 0.8, 0.0))
+    upright = (0.0, -np.pi / 2, 0.0)
+    links = (
+        ("robot/GIRONA500/g500_March11.osg", vehicle, (-0.2, 0.0, 0.75), (-np.pi / 2, 0.0, np.pi)),
+        (f"{ARM}0.osg", part0, (0.0, 0.0, 0.0), (np.pi, 0.0, 0.0)),
+        (f"{ARM}1.osg", slew, (0.0, 0.0, -0.13), (np.pi, 0.0, 0.0)),
+        (f"{ARM}2.osg", shoulder, (0.0, 0.0, 0.0), (np.pi / 2, 0.0, -0.087262726)),
+        (f"{ARM}3.osg", elbow, (0.0, 0.0, 0.0), (np.pi / 2, 0.0, 0.4014)),
+        (f"{ARM}4_base.osg", wrist, (0.0, 0.0, -0.028), upright),
+        (f"{ARM}4_jaw1.osg", jaw1, (0.0, 0.0, 0.0), upright),
+        (f"{ARM}4_jaw2.osg", jaw2, (0.0, 0.0, 0.0), upright),
+    )
+    n_triangles = 0
+    moving = []
+    for number, (name, frame, position, rpy) in enumerate(links, start=3):
+        model = load_model(name)
+        n_triangles += model.n_triangles
+        place = world @ frame @ pose(position, rpy)
+        moving.append((renderer.add(model, number), place))
+        renderer.place(*moving[-1])
+    tank, box = load_model("terrain/CIRS/cirs_trident.osg"), load_model(BOX)
+    turned = Pose(np.zeros(3), rotation_from_xyz(3.1415, 0.0, -1.57)).matrix
+    renderer.place(renderer.add(tank, 1), world @ turned @ pose((1.5, 3.0, 0.0), (0.0, 0.0, 0.0)))
+    renderer.place(renderer.add(box, 2), world @ pose((2.0, 0.35, 4.735), (0.0, np.pi, 0.0)))
+    camera = Pose.from_rpy((-0.2, 0.1, 0.0), (0.0, np.pi, np.pi / 2))
+    world_from_part0 = world @ part0
+    on_part0 = Pose(world_from_part0[:3, 3], world_from_part0[:3, :3])
+    n_triangles += tank.n_triangles + box.n_triangles
+    return moving, on_part0 @ camera, n_triangles
+
+
+def measure() -> dict[str, object]:
+    """All figures."""
+    warm_up()
+    load_model(BOX)
+    began = time.perf_counter()
+    renderer = Renderer()
+    context_s = time.perf_counter() - began
+    moving, down, n_triangles = visibility_scene(renderer)
+    began = time.perf_counter()
+    small = Intrinsics.from_fovy(320, 240, np.radians(50.0))
+    large = Intrinsics.from_fovy(640, 480, np.radians(50.0))
+    renderer.draw(down, small, WATER, Light())
+    first_s = time.perf_counter() - began
+    back = WORLD_FROM_LOCALIZED.transform(np.array([[0.2, -2.6, 2.6]]))[0]
+    aside = Pose.from_rpy(tuple(back), (1.37, 0.0, -0.58))
+    rng = np.random.Generator(np.random.Philox(1))
+    sway = 0.0
+
+    def draw(camera: Intrinsics, targets: frozenset[str], eye: Pose = down, **how: object) -> None:
+        renderer.draw(eye, camera, WATER, Light(), targets=targets, **how)
+
+    def noisy(camera: Intrinsics, targets: frozenset[str]) -> None:
+        picture = renderer.draw(down, camera, WATER, Light(), targets=targets, colour="linear16")
+        add_noise(picture.colour, 0.02, rng)
+
+    def swaying() -> None:
+        nonlocal sway
+        sway += 0.01
+        for handle, place in moving:
+            renderer.place(handle, pose((0.1 * np.sin(sway), 0.0, 0.0), (0.0, 0.0, 0.0)) @ place)
+        draw(small, COLOUR)
+
+    picture16 = renderer.draw(down, small, WATER, Light(), colour="linear16").colour
+    picture8 = add_noise(picture16, 0.02, rng)
+    everything = frozenset(TARGETS)
+    figures: dict[str, object] = {
+        "renderer": renderer.description,
+        "triangles_in_scene": n_triangles,
+        "context_s": round(context_s, 4),
+        "first_picture_s": round(first_s, 4),
+        "320x240 colour": milliseconds(lambda: draw(small, COLOUR), target=3.0),
+        "320x240 colour + range + ids": milliseconds(lambda: draw(small, everything), target=5.0),
+        "320x240 colour + noise": milliseconds(lambda: noisy(small, COLOUR)),
+        "320x240 colour, vehicle moving": milliseconds(swaying),
+        "320x240 colour, vehicle in view": milliseconds(lambda: draw(small, COLOUR, aside)),
+        "640x480 colour": milliseconds(lambda: draw(large, COLOUR), target=9.0, calls=15),
+        "640x480 colour + range + ids": milliseconds(
+            lambda: draw(large, everything), target=15.0, calls=15
+        ),
+        "640x480 colour, vehicle in view": milliseconds(
+            lambda: draw(large, COLOUR, aside), calls=15
+        ),
+        "320x240 range": milliseconds(lambda: draw(small, frozenset({"range"}))),
+        "320x240 noise": milliseconds(lambda: add_noise(picture16, 0.02, rng), target=0.4),
+        "320x240 grey": milliseconds(lambda: grey_truncated(picture8)),
+    }
+    renderer.close()
+    return figures
+
+
+if __name__ == "__main__":
+    main(measure)
