@@ -114,6 +114,8 @@ class _Reader:
         if (node := root.find("sceneUpdater")) is not None:
             updater = self.updater(node)
             given["scene_updater"] = updater or NoneSpec()
+        if updater is not None:
+            self.check_levels(updater)
         given["compatibility"] = self.compatibility(root)
         spec = read(BenchmarkSpec, root, self.faults, given=given)
         self.check_names(found, updater)
@@ -128,7 +130,7 @@ class _Reader:
         """Read what stands in ``<measures>``, in the file's order."""
         found = []
         for node in self.children(box):
-            cls = self.measures.get(str(node.tag))
+            cls = self.measures.get(_name(node))
             if cls is None:
                 self.unknown(node, box, self.measures)
             elif (spec := self.measure(cls, node)) is not None:
@@ -138,13 +140,13 @@ class _Reader:
     def measure(self, cls: type[MeasureSpec], node: etree._Element) -> MeasureSpec | None:
         spec = read(cls, node, self.faults, given=self.by_hand(cls, node))
         if not cls.is_simulated:
-            self.faults.notice(node, f"<{node.tag}>: {NOT_YET}")
+            self.faults.notice(node, f"<{_name(node)}>: {NOT_YET}")
         if spec is None:
             return None
         if spec.value not in cls.values:
             self.faults.add(
                 node,
-                f"u:value is {spec.value!r}; the value of <{node.tag}> is always its last",
+                f"u:value is {spec.value!r}; the value of <{_name(node)}> is always its last",
             )
         if (
             isinstance(spec, EuclideanNormSpec)
@@ -221,49 +223,51 @@ class _Reader:
         for extra in nodes[1:]:
             self.faults.add(
                 extra,
-                f"<{extra.tag}> stands beside <{nodes[0].tag}> in <sceneUpdater>; only one may: "
-                "nest it in a <sceneUpdater> of its own",
+                f"<{_name(extra)}> stands beside <{_name(nodes[0])}> in <sceneUpdater>; "
+                "only one may: nest it in a <sceneUpdater> of its own",
             )
         if not nodes:
             return None
         node = nodes[0]
-        cls = self.updaters.get(str(node.tag))
+        cls = self.updaters.get(_name(node))
         if cls is None:
             self.unknown(node, box, self.updaters)
             return None
         spec = read(cls, node, self.faults, given=self.by_hand(cls, node))
         if not cls.is_simulated:
-            self.faults.notice(node, f"<{node.tag}>: {NOT_YET}")
+            self.faults.notice(node, f"<{_name(node)}>: {NOT_YET}")
         if spec is not None:
-            self.check_levels(node, spec)
+            self.check_sweep(node, spec)
         return spec
 
-    def check_levels(self, node: etree._Element, spec: SceneUpdaterSpec) -> None:
-        """Refuse a sweep that ends before it begins, or that never ends."""
+    def check_sweep(self, node: etree._Element, spec: SceneUpdaterSpec) -> None:
+        """Refuse a sweep that ends before it begins, and arms of different lengths."""
         initial, final = getattr(spec, "initial_value", None), getattr(spec, "final_value", None)
         if initial is not None and final is not None and final < initial:
             self.faults.add(
                 node, f"<finalValue> {final:g} is below <initialValue> {initial:g}: nothing to play"
             )
-            return
-        try:
-            count = 1
-            for updater in chain(spec):
-                count *= len(updater.values())
-                if count > MAX_LEVELS:
-                    raise BadSetting(f"{count} levels are more than {MAX_LEVELS}")
-        except BadSetting as fault:
-            self.faults.add(node, str(fault))
-        vectors = getattr(spec, "arm_position", ())
-        if len({len(vector) for vector in vectors}) > 1:
+        if len({len(joints) for joints in getattr(spec, "arm_position", ())}) > 1:
             self.faults.add(node, "every <armPosition> must have as many <joint> as the first")
+
+    def check_levels(self, outermost: SceneUpdaterSpec) -> None:
+        """Refuse a sweep that never ends, or a nest of them with too many levels."""
+        count = 1
+        for updater in chain(outermost):
+            node = self.faults.node_of(updater)
+            try:
+                count *= len(updater.values())
+            except BadSetting as fault:
+                self.faults.add(node, str(fault))
+            if count > MAX_LEVELS:
+                self.faults.add(node, f"with this, there are more than {MAX_LEVELS} levels")
+                return
 
     def compatibility(self, root: etree._Element) -> tuple[str, ...]:
         names = tuple(str(root.get(f"{{{NAMESPACE}}}compatibility", "")).replace(",", " ").split())
         known = [*COMPATIBILITY, "uwsim"]
-        for name in names:
-            if name not in known:
-                self.faults.unknown(root, f"u:compatibility names {name[:60]!r}", name, known)
+        for name in [name for name in names if name not in known][:10]:
+            self.faults.unknown(root, f"u:compatibility names {name[:60]!r}", name, known)
         return names
 
     def check_names(self, measures: list[MeasureSpec], updater: SceneUpdaterSpec | None) -> None:
@@ -313,8 +317,13 @@ class _Reader:
         return list(box.iterchildren("*"))
 
     def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
-        tag = str(node.tag)
-        self.faults.unknown(node, f"<{tag[:60]}> is not an element of <{box.tag}>", tag, known)
+        name = _name(node)
+        self.faults.unknown(node, f"<{name[:60]}> is not an element of <{box.tag}>", name, known)
+
+
+def _name(node: etree._Element) -> str:
+    """How a table has an element: ``distance``, or ``u:topSpeed`` for an extension."""
+    return str(node.tag).replace(f"{{{NAMESPACE}}}", "u:")
 
 
 def _take_out(node: etree._Element) -> None:

@@ -150,13 +150,14 @@ def parse(text: str, names: Collection[str]) -> Expression:
 
     Raises:
         ScoreFault: a syntax error, an unknown name or function, a wrong number of arguments, or
-            an expression longer than 4096 characters or deeper than 100 levels.
+            an expression longer than 4096 characters or with brackets deeper than 100 levels.
     """
-    text = _one_line(text).strip()
+    text = text.strip()
     if not text:
         raise ScoreFault(text, 0, "the function is empty; expected an expression")
     if len(text) > MAX_LENGTH:
         raise ScoreFault(text[:60] + " ...", 0, f"longer than {MAX_LENGTH} characters")
+    text = _one_line(text)
     _check_depth(text)
     try:
         tree = _parser().parse(text)
@@ -177,13 +178,12 @@ def _one_line(text: str) -> str:
 
 
 def _check_depth(text: str) -> None:
-    """Refuse what would nest deeper than the language's limit."""
-    depth, signs = 0, 0
+    """Refuse brackets nested deeper than the language's limit."""
+    depth = 0
     for column, letter in enumerate(text):
-        depth += (letter in "(?") - (letter == ")")
-        signs = 0 if letter.isalnum() or letter in "_.)" else signs + (letter in "+-^")
-        if depth > MAX_DEPTH or signs > MAX_DEPTH:
-            raise ScoreFault(text, column, f"nested deeper than {MAX_DEPTH} levels")
+        depth += (letter == "(") - (letter == ")")
+        if depth > MAX_DEPTH:
+            raise ScoreFault(text, column, f"brackets nested deeper than {MAX_DEPTH} levels")
 
 
 @functools.cache

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...dialect import element
-from ...errors import UnknownName
+from ...errors import BadSetting, UnknownName
 from ...world import Stage
 from .updater import MAX_LEVELS, SceneUpdater, SceneUpdaterSpec
 
@@ -45,6 +45,8 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
     def values(self) -> tuple[float, ...]:
         """Return the number of each level, from 0."""
         count = len(self.arm_position) + (len(self.arm_position) - 1) * self.step
+        if count > MAX_LEVELS:
+            raise BadSetting(f"The arm has {count} positions; at most {MAX_LEVELS}.")
         return tuple(float(i) for i in range(count))
 
     def joints(self, value: float) -> npt.NDArray[np.float64]:

@@ -162,12 +162,15 @@ def sweep(initial: float, final: float, step: float, *, single: bool = False) ->
     """
     kind = np.float32 if single else np.float64
     value, last, increment = kind(initial), kind(final), kind(step)
+    endless = BadSetting(
+        f"From {initial:g} to {final:g} by steps of {step:g} "
+        f"there are more than {MAX_LEVELS} levels."
+    )
+    if final > initial and not (final - initial) < MAX_LEVELS * step:
+        raise endless
     count = 1
     while (grown := value + increment) <= last:
-        if grown <= value or count >= MAX_LEVELS:
-            raise BadSetting(
-                f"From {initial:g} to {final:g} by steps of {step:g} "
-                f"there are more than {MAX_LEVELS} levels."
-            )
+        if grown <= value:
+            raise endless
         value, count = grown, count + 1
     return tuple(initial + i * step for i in range(count))

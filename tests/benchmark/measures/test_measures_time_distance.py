@@ -1,0 +1,74 @@
+"""Time and distance: what counts while the measure is on."""
+
+from __future__ import annotations
+
+import pytest
+
+from fakes import FakeBody, FakeWorld
+from uwsim.benchmark.measures import Distance, DistanceSpec, TimeSpec
+from uwsim.errors import UnknownName
+
+
+def walk(distance: Distance, body: FakeBody, *places: tuple[float, float, float]) -> None:
+    for place in places:
+        body.move(*place)
+        distance.update()
+
+
+def test_sides_of_a_square_add_up() -> None:
+    body = FakeBody()
+    distance = Distance(body)
+    distance.start()
+    walk(distance, body, (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 0))
+    assert distance.value == pytest.approx(8.0)
+
+
+def test_travel_during_a_pause_does_not_count() -> None:
+    body = FakeBody()
+    distance = Distance(body)
+    distance.start()
+    walk(distance, body, (1, 0, 0))
+    body.move(100, 0, 0)
+    distance.start()
+    walk(distance, body, (102, 0, 0))
+    assert distance.value == pytest.approx(3.0)
+
+
+def test_a_distance_that_was_never_on_is_no_value() -> None:
+    distance = Distance(FakeBody())
+    assert (distance.value, distance.why) == (None, "it was never on")
+
+
+def test_standing_still_is_a_distance_of_0() -> None:
+    distance = Distance(FakeBody())
+    distance.start()
+    assert (distance.value, distance.why) == (0.0, None)
+
+
+def test_a_misspelt_target_is_an_error_that_names_the_right_one() -> None:
+    world = FakeWorld({"girona500": FakeBody()})
+    with pytest.raises(UnknownName, match="Did you mean 'girona500'"):
+        DistanceSpec(name="d", target="girona50").bind(world)
+
+
+def test_time_is_simulation_time_to_the_step() -> None:
+    world = FakeWorld(timestep=0.002)
+    world.advance(7)
+    time = TimeSpec(name="t").bind(world)
+    assert (time.value, time.why) == (None, "it was never on")
+    time.start()
+    for _ in range(1500):
+        world.advance()
+        time.update()
+    assert time.value == 3.0
+
+
+def test_time_during_a_pause_does_not_count() -> None:
+    world = FakeWorld(timestep=0.5)
+    time = TimeSpec(name="t").bind(world)
+    for _ in range(2):
+        world.advance(10)
+        time.start()
+        world.advance()
+        time.update()
+    assert time.value == 1.0
