@@ -9,6 +9,8 @@ Not modelled: shot noise (all grey levels are equally noisy), fixed-pattern nois
 
 from __future__ import annotations
 
+from statistics import NormalDist
+
 import numpy as np
 import numpy.typing as npt
 
@@ -21,9 +23,9 @@ _MIX_2 = np.uint64(0x94D049BB133111EB)
 
 def gaussian_quantiles() -> npt.NDArray[np.float32]:
     """65536 equally likely values of N(0, 1), ascending, scaled to a variance of exactly one."""
-    from scipy.special import ndtri
-
-    values = ndtri((np.arange(65536) + 0.5) / 65536.0)
+    normal = NormalDist()
+    above = np.array([normal.inv_cdf((i + 0.5) / 65536.0) for i in range(32768, 65536)])
+    values = np.concatenate([-above[::-1], above])
     scaled: npt.NDArray[np.float32] = (values / values.std()).astype(np.float32)
     return scaled
 
