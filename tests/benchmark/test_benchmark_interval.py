@@ -10,7 +10,6 @@ from uwsim.benchmark.interval import (
     mean_interval,
     per_level,
     rows_by_level,
-    success,
 )
 from uwsim.benchmark.result import Column, Missing, Result
 
@@ -75,4 +74,3 @@ def test_repeats_are_gathered_by_level_and_what_is_missing_is_counted() -> None:
     assert (clear.interval.n, clear.interval.mean, clear.n_missing) == (2, 3.0, 0)
     assert (foggy.interval.n, foggy.interval.mean, foggy.n_missing) == (1, 8.0, 1)
     assert foggy.why == "lost at 3 s"
-    assert success(result, (0.5,)) == (1, 2)

@@ -104,13 +104,3 @@ def per_level(result: Result, column: str, *, confidence: float = 0.95) -> list[
             )
         )
     return found
-
-
-def success(result: Result, level: tuple[float, ...]) -> tuple[int, int]:
-    """Return (rows that ended ``ok``, rows played) at a level."""
-    rows = rows_by_level(result).get(level, [])
-    status = result.of_kind("status")
-    if not status:
-        return len(rows), len(rows)
-    cells = result.values(status[0].name)
-    return sum(cells[row] == "ok" for row in rows), len(rows)

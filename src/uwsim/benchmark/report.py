@@ -209,7 +209,7 @@ def _endings(result: Result) -> list[Ending]:
         share = f"{100 * len(rows) / len(cells):.0f} %"
         if _n_repeats(result) > 1:
             share += f" ({100 * low:.0f} to {100 * high:.0f})"
-        reasons = dict.fromkeys(m.why for m in result.missing if m.row in set(rows))
+        reasons = dict.fromkeys(why for row in rows for why in result.reasons(row))
         found.append(
             Ending(
                 status=name,

@@ -17,6 +17,7 @@ import math
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
+from functools import cached_property
 from numbers import Integral, Real
 from pathlib import Path
 from typing import Literal, TypeVar, cast, get_args
@@ -151,8 +152,19 @@ class Result:
 
     def why(self, row: int, column: str) -> str | None:
         """Return why a cell is null; a detail has the reason of its measure."""
-        reasons = {m.column: m.why for m in self.missing if m.row == row}
+        reasons = self._reasons.get(row, {})
         return reasons.get(column) or reasons.get(column.split(".")[0])
+
+    def reasons(self, row: int) -> tuple[str, ...]:
+        """Return the reasons given in a row, each once."""
+        return tuple(dict.fromkeys(self._reasons.get(row, {}).values()))
+
+    @cached_property
+    def _reasons(self) -> dict[int, dict[str, str]]:
+        found: dict[int, dict[str, str]] = {}
+        for note in self.missing:
+            found.setdefault(note.row, {})[note.column] = note.why
+        return found
 
     def fact(self, name: str) -> tuple[float, str] | None:
         """Return a measured constant as (value, unit); None if it was not measured."""
@@ -284,12 +296,12 @@ def _check_rows(result: Result) -> None:
 
 
 def _check_notes(result: Result) -> None:
-    n, names = len(result.rows), [column.name for column in result.columns]
+    n, names = len(result.rows), {column.name: i for i, column in enumerate(result.columns)}
     for i, note in enumerate(result.missing):
         at = f"missing[{i}]"
         _expect(_is_row(note.row, n), f"{at} is about row {note.row!r}, which is not there")
         _expect(note.column in names, f"{at} is about {note.column!r}, which is no column")
-        cell = result.rows[note.row][names.index(note.column)]
+        cell = result.rows[note.row][names[note.column]]
         _expect(cell is None, f"{at}: row {note.row} has a value for {note.column!r}: {cell!r}")
         _expect(isinstance(note.why, str) and note.why != "", f"{at} gives no reason")
     for i, stream in enumerate(result.image_streams):

@@ -145,8 +145,9 @@ def _notes(shown: Sequence[Line], n_levels: int) -> list[str]:
 
 
 def _statuses(result: Result, rows: Sequence[int]) -> list[str]:
-    columns = result.of_kind("status")
-    return [str(result.values(columns[0].name)[row]) for row in rows] if columns else []
+    status = result.of_kind("status")
+    index = result.index(status[0].name) if status else 0
+    return [str(result.rows[row][index]) for row in rows] if status else []
 
 
 def _status(result: Result, rows: Sequence[int]) -> str:
@@ -158,6 +159,6 @@ def _status(result: Result, rows: Sequence[int]) -> str:
 
 def _why(result: Result, rows: Sequence[int]) -> str:
     if len(rows) == 1:
-        return "; ".join(dict.fromkeys(m.why for m in result.missing if m.row in rows))
+        return "; ".join(result.reasons(rows[0]))
     counts = Counter(status for status in _statuses(result, rows) if status != "ok")
     return ", ".join(f"{n} {status}" for status, n in sorted(counts.items()))
