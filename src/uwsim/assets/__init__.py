@@ -10,8 +10,8 @@ import hashlib
 from functools import cache
 from pathlib import Path, PurePosixPath
 
-from ..errors import AssetNotFound
-from .find import candidates, find, folders_searched, plain_name
+from ..errors import AssetNotFound, did_you_mean
+from .find import UNDER, candidates, find, folders_searched, plain_name, roots
 from .loaders import READABLE, read_model
 from .mesh import Mesh, Model, Texture
 from .primitives import primitive
@@ -65,10 +65,11 @@ def load_model(
     stand_in = _stand_in_name(stem)
     if stand_in is not None:
         return _made(stand_in)
-    folders = folders_searched(beside=beside, data_path=data_path)
     raise AssetNotFound(
-        f"There is no file {name!r}, nor a stand-in of that name. Searched, in order: "
-        + ", ".join(str(folder) for folder in folders)
+        f"There is no file {name!r}, nor a stand-in of that name."
+        f"{did_you_mean(stem.removeprefix('data/'), STAND_INS)} Searched, in order: "
+        + ", ".join(str(root) for root in roots(beside=beside, data_path=data_path))
+        + f"; each also under {', '.join(UNDER[1:])}."
     )
 
 

@@ -27,21 +27,26 @@ def plain_name(name: str) -> str:
     return name
 
 
-def folders_searched(*, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> list[Path]:
-    """The folders a relative name is looked for in, in order, each once.
+def roots(*, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> list[Path]:
+    """The folders that are searched together with their sub-folders `UNDER`, in order, each once.
 
     Args:
         beside: The file that names the file, or its folder.
         data_path: Folders the user gave.
     """
-    roots = [Path()]
+    folders = [Path()]
     if beside is not None:
         start = beside.absolute()
         start = start if start.is_dir() else start.parent
-        roots += [start, *start.parents]
-    roots += [*data_path, Path("~/.uwsim/data").expanduser(), PACKAGE]
-    folders = (root / under for root in roots for under in UNDER)
+        folders += [start, *start.parents]
+    folders += [*data_path, Path("~/.uwsim/data").expanduser(), PACKAGE]
     return list(dict.fromkeys(folders))
+
+
+def folders_searched(*, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> list[Path]:
+    """Every folder a relative name is looked for in, in order, each once; arguments as `roots`."""
+    found = roots(beside=beside, data_path=data_path)
+    return list(dict.fromkeys(root / under for root in found for under in UNDER))
 
 
 def find(name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> Path | None:

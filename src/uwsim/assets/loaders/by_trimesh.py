@@ -61,8 +61,11 @@ def read_meshes(
     if total > LARGEST_MODEL:
         raise AssetError(f"{path}: {total} triangles; at most {LARGEST_MODEL} are read.")
     keep = 1.0 if max_triangles is None else min(1.0, max_triangles / total)
-    meshes = [_mesh(part, path, keep) for part in parts if len(part.faces)]
-    return tuple(found for found in meshes if len(found.triangles))
+    made = [_mesh(part, path, keep) for part in parts if len(part.faces)]
+    meshes = tuple(found for found in made if found is not None)
+    if not meshes:
+        raise AssetError(f"{path}: all of its triangles are without area.")
+    return meshes
 
 
 def _refuse_entities(path: Path) -> None:
@@ -100,7 +103,8 @@ def _geometries(path: Path, beside: Path | None) -> list[Any]:
     return [part for part in dumped if isinstance(part, trimesh.Trimesh)]
 
 
-def _mesh(part: Any, path: Path, keep: float) -> Mesh:
+def _mesh(part: Any, path: Path, keep: float) -> Mesh | None:
+    """One trimesh mesh as ours; None when it has no area."""
     vertices = np.asarray(part.vertices, dtype=np.float64)
     faces = np.asarray(part.faces, dtype=np.int64)
     if faces.min() < 0 or faces.max() >= len(vertices):
@@ -114,7 +118,10 @@ def _mesh(part: Any, path: Path, keep: float) -> Mesh:
         uvs = np.nan_to_num(np.asarray(given, dtype=np.float64))
     if keep < 1.0:
         vertices, faces, uvs = _simplified(vertices, faces, uvs, keep)
-    return mesh(Shape(vertices[faces], uvs[faces]), colour=colour, texture=texture, two_sided=True)
+    shape = Shape(vertices[faces], uvs[faces])
+    if shape.area <= 0.0:
+        return None
+    return mesh(shape, colour=colour, texture=texture, two_sided=True)
 
 
 def _simplified(

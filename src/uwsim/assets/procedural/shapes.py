@@ -64,6 +64,11 @@ class Shape:
         return Shape(self.corners, uvs / metres)
 
     @property
+    def area(self) -> float:
+        """Area of all triangles [m^2]."""
+        return float(np.linalg.norm(_face_normals(self.corners), axis=1).sum() / 2.0)
+
+    @property
     def volume(self) -> float:
         """Signed volume [m^3]; positive for a closed shape wound outward."""
         a, b, c = self.corners[:, 0], self.corners[:, 1], self.corners[:, 2]
@@ -103,9 +108,17 @@ def _groups(cells: Array) -> npt.NDArray[np.int64]:
 
 
 def _normals(corners: Array, crease: float) -> Array:
-    """Normals at the corners, (3m, 3): mean of the faces that meet there, split at creases."""
+    """Normals at the corners, (3m, 3): mean of the faces that meet there, split at creases.
+
+    Each face counts with its area and its angle at the corner.
+    """
     face = _face_normals(corners)
     unit = face / np.linalg.norm(face, axis=1, keepdims=True)
+    sides = np.roll(corners, -1, axis=1) - corners  # (m, 3, 3) from each corner to the next
+    sides /= np.linalg.norm(sides, axis=2, keepdims=True)
+    cosine = -np.einsum("ijk,ijk->ij", sides, np.roll(sides, 1, axis=1))
+    weighted = face[:, None] * np.arccos(np.clip(cosine, -1.0, 1.0))[..., None]
+    weighted = weighted.reshape(-1, 3)  # (3m, 3)
     point = _groups(corners.reshape(-1, 3) / _grain(corners))
     order = by_point = np.argsort(point, kind="stable")
     size = np.bincount(point)
@@ -118,9 +131,9 @@ def _normals(corners: Array, crease: float) -> Array:
     step = np.arange(len(first)) - np.repeat(np.cumsum(n_beside) - n_beside, n_beside)
     second = by_point[np.repeat(start[point[order]], n_beside) + step]
     alike = np.einsum("ij,ij->i", unit[first // 3], unit[second // 3]) > math.cos(crease)
-    first, second = first[alike], second[alike] // 3
+    first, second = first[alike], second[alike]
     total = np.stack(
-        [np.bincount(first, weights=face[second, k], minlength=len(point)) for k in range(3)],
+        [np.bincount(first, weights=weighted[second, k], minlength=len(point)) for k in range(3)],
         axis=1,
     )
     length = np.linalg.norm(total, axis=1, keepdims=True)
@@ -143,7 +156,8 @@ def mesh(
 ) -> Mesh:
     """Shapes of one material as a mesh with shared vertices and unit normals."""
     shape = join(*shapes)
-    big = np.linalg.norm(_face_normals(shape.corners), axis=1) > _grain(shape.corners) ** 2
+    areas = np.linalg.norm(_face_normals(shape.corners), axis=1)
+    big = areas > min(_grain(shape.corners) ** 2, 1e-9 * float(areas.max()))
     corners, uvs = shape.corners[big], shape.uvs[big].reshape(-1, 2)
     normals = _normals(corners, crease)
     points = corners.reshape(-1, 3)
@@ -348,16 +362,21 @@ def tube(
     points = np.asarray(path, dtype=np.float64)
     step = np.diff(points, axis=0)
     step /= np.linalg.norm(step, axis=1, keepdims=True)
-    along = np.concatenate([step[:1], step[:-1] + step[1:], step[-1:]])
+    before, after = np.concatenate([step[:1], step]), np.concatenate([step, step[-1:]])
+    along = before + after
     along /= np.linalg.norm(along, axis=1, keepdims=True)
     across = facing(along[0])[:, 0]
+    disc = circle(radius, n)
     rings = []
-    for point, direction in zip(points, along, strict=True):
-        across = across - direction * (across @ direction)
+    for k, point in enumerate(points):
+        across = across - along[k] * (across @ along[k])
         across /= np.linalg.norm(across)
-        up = np.cross(direction, across)
-        disc = circle(radius, n)
-        rings.append(point + disc[:, :1] * across + disc[:, 1:] * up)
+        offsets = disc[:, :1] * across + disc[:, 1:] * np.cross(along[k], across)
+        bend = after[k] - before[k]
+        if bend @ bend > 1e-12:  # a mitre: wider across the bend, so that the bar stays as thick
+            bend /= np.linalg.norm(bend)
+            offsets += np.outer(offsets @ bend, bend) * (1.0 / (before[k] @ along[k]) - 1.0)
+        rings.append(point + offsets)
     return loft(np.array(rings), closed=closed)
 
 
