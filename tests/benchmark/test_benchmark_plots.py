@@ -123,7 +123,12 @@ def test_what_cannot_be_compared_is_an_error() -> None:
 @pytest.mark.parametrize("make", [visibility, nothing_measured, one_level, nested, frozen])
 def test_any_result_can_be_drawn(make: Callable[[], Result], tmp_path: Path) -> None:
     files = draw_plots(make(), tmp_path / "plots", control=frozen())
-    assert [f.name for f in files] == ["total.png", "corners.png", "centroid.png", "overview.png"]
+    assert [f.name for f in files] == [
+        "total.png",
+        "corners.png",
+        "centroid.png",
+        "all-measures.png",
+    ]
     assert all(f.read_bytes().startswith(b"\x89PNG") for f in files)
 
 

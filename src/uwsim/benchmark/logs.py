@@ -38,8 +38,8 @@ class Log:
 
 
 def file_of(directory: Path, measure: str) -> Path:
-    """Return where the log of a measure lies."""
-    return directory / f"measure-{measure}.csv"
+    """Return where the log of a measure lies; what is no letter, digit, . or - becomes _."""
+    return directory / f"measure-{re.sub(r'[^A-Za-z0-9_.-]', '_', measure)}.csv"
 
 
 def save_log(log: Log, directory: Path) -> Path:

@@ -36,7 +36,7 @@ PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 INK, FAINT = "#222222", "#777777"
 DPI = 200
-OVERVIEW = "overview"
+OVERVIEW = "all-measures"
 SIZE = (5.0, 3.1)  # [inch]
 
 LEVEL_WORDS = {
