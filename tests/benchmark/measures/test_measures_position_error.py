@@ -9,12 +9,12 @@ import pytest
 
 from fakes import FakeBody, FakeWorld
 from uwsim.benchmark.measures import PositionErrorSpec
-from uwsim.geometry import Pose, rotation_from_xyz, rotation_z
+from uwsim.geometry import Pose, rotation_z
 from uwsim.messages import Point, PoseStamped, Quaternion, header
 from uwsim.messages import Pose as PoseMessage
 
-NED = Pose(np.array([0.0, 0.0, 1.0]), rotation_from_xyz(np.pi, 0.0, -np.pi / 2))
-"""W = (L.y, L.x, 1 - L.z)."""
+WORLD_FROM_LOCALIZED = Pose(np.array([0.0, 0.0, 1.0]), rotation_z(math.pi / 2))
+"""W = (-L.y, L.x, 1 + L.z)."""
 
 
 def stamped(x: float, y: float, z: float) -> PoseStamped:
@@ -25,8 +25,8 @@ def stamped(x: float, y: float, z: float) -> PoseStamped:
 
 
 def test_error_and_components_are_given_in_the_frame_of_files() -> None:
-    body = FakeBody((3.0, 2.0, -3.0))  # L (2, 3, 4)
-    world = FakeWorld({"v": body}, world_from_localized=NED)
+    body = FakeBody((-3.0, 2.0, 5.0))  # L (2, 3, 4)
+    world = FakeWorld({"v": body}, world_from_localized=WORLD_FROM_LOCALIZED)
     error = PositionErrorSpec(name="e", target="v", position=(1.0, 5.0, 2.0)).bind(world)
     error.start()
     assert error.value == pytest.approx(3.0)
@@ -35,8 +35,8 @@ def test_error_and_components_are_given_in_the_frame_of_files() -> None:
 
 
 def test_the_attitude_is_that_in_the_frame_of_files() -> None:
-    body = FakeBody(rotation=NED.rotation @ rotation_z(math.pi / 2))
-    world = FakeWorld({"v": body}, world_from_localized=NED)
+    body = FakeBody(rotation=WORLD_FROM_LOCALIZED.rotation @ rotation_z(math.pi / 2))
+    world = FakeWorld({"v": body}, world_from_localized=WORLD_FROM_LOCALIZED)
     error = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0)).bind(world)
     error.start()
     half = math.sqrt(0.5)
@@ -61,17 +61,19 @@ def test_every_step_is_a_sample() -> None:
 
 
 def test_with_a_topic_its_first_message_says_where_the_body_should_be() -> None:
-    world = FakeWorld({"v": FakeBody((3.0, 2.0, -3.0))}, world_from_localized=NED)
+    world = FakeWorld({"v": FakeBody((-3.0, 2.0, 5.0))}, world_from_localized=WORLD_FROM_LOCALIZED)
     error = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0), topic="goal").bind(
         world
     )
     error.start()
     assert (error.value, error.why) == (None, "no position on 'goal'")
     publish = world.publisher("goal", PoseStamped)
-    for place in ((2.0, 3.0, 9.0), (0.0, 0.0, 0.0)):
-        publish(stamped(*place))
+    publish(stamped(2.0, 3.0, 9.0))
+    publish(stamped(0.0, 0.0, 0.0))
+    for _ in range(2):
         world.advance()
         error.update()
+        publish(stamped(1.0, 1.0, 1.0))
         assert error.value == pytest.approx(5.0)
     error.close()
     assert not world.bus.has_readers("goal")

@@ -16,7 +16,7 @@ from uwsim.benchmark.triggers import (
     TopicSpec,
 )
 from uwsim.errors import UnknownName
-from uwsim.geometry import Pose, rotation_from_xyz
+from uwsim.geometry import Pose, rotation_from_xyz, rotation_z
 from uwsim.messages import Bool, Empty, EmptyResponse
 
 LEGACY = frozenset({"thresholds"})
@@ -163,11 +163,11 @@ def test_position_goes_on_near_its_place_and_stays_on(
 
 
 def test_the_place_of_a_position_trigger_is_given_in_the_frame_of_files() -> None:
-    ned = Pose(np.array([0.0, 0.0, 1.0]), rotation_from_xyz(np.pi, 0.0, -np.pi / 2))
-    body = FakeBody((3.0, 2.0, -3.0))  # W = (L.y, L.x, 1 - L.z)
-    world = FakeWorld({"b": body}, world_from_localized=ned)
+    world_from_localized = Pose(np.array([0.0, 0.0, 1.0]), rotation_z(np.pi / 2))
+    body = FakeBody((-3.0, 2.0, 5.0))  # W = (-L.y, L.x, 1 + L.z)
+    world = FakeWorld({"b": body}, world_from_localized=world_from_localized)
     assert PositionSpec(target="b", position=(2.0, 3.0, 4.0)).bind(world).is_on()
-    assert not PositionSpec(target="b", position=(3.0, 2.0, 4.0)).bind(world).is_on()
+    assert not PositionSpec(target="b", position=(-3.0, 2.0, 5.0)).bind(world).is_on()
 
 
 @pytest.mark.parametrize(
