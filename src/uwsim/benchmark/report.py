@@ -171,7 +171,13 @@ def _cards(result: Result) -> list[Card]:
         if ending.status != "ok":
             note = ending.reasons[0] if ending.reasons else "no reason was given"
             cards.append(Card(label=f"first {ending.status}", value=ending.first, note=note))
-    for column in result.of_kind("score", "measure"):
+    star = result.fact("f_star")
+    if star is not None:
+        note = "fog at which the patch's ZNCC should fall to its threshold"
+        cards.append(
+            Card(label="loss predicted at f*", value=f"{star[0]:.3f}{_space(star[1])}", note=note)
+        )
+    for column in result.of_kind("score") + result.of_kind("measure"):
         entries = [e for e in per_level(result, column.name) if e.interval.mean is not None]
         if not entries:
             continue
@@ -185,12 +191,6 @@ def _cards(result: Result) -> list[Card]:
             else (f"at {_level_text(result, first.level)} and {_level_text(result, last.level)}")
         )
         cards.append(Card(label=column.name, value=value + _space(column.unit), note=at))
-    star = result.fact("f_star")
-    if star is not None:
-        note = "fog at which the patch's ZNCC should fall to its threshold"
-        cards.append(
-            Card(label="loss predicted at f*", value=f"{star[0]:.3f}{_space(star[1])}", note=note)
-        )
     return cards[:8]
 
 
