@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from rendering_models import ball, block, placed, plate
 
-from uwsim.assets.mesh import Texture
+from uwsim.assets.mesh import Model, Texture
 from uwsim.errors import UnknownName
 from uwsim.geometry import Intrinsics, Pose, rotation_from_rpy
+from uwsim.rendering.context import create_context
+from uwsim.rendering.gpu_model import GpuModels
 from uwsim.rendering.renderer import Renderer
-from uwsim.rendering.water import Light, Water
+from uwsim.rendering.water import AMBIENT, Light, Water
 
 DRY = Water(fog=0.0, attenuation=(0.0, 0.0, 0.0), colour=(0.0, 0.0, 0.0))
 HERE = Pose.identity()
@@ -231,6 +235,27 @@ def test_the_same_scene_gives_the_same_bytes() -> None:
         renderer.close()
     assert np.array_equal(pictures[0].colour, pictures[1].colour)  # type: ignore[arg-type]
     assert np.array_equal(pictures[0].range, pictures[1].range)  # type: ignore[arg-type]
+
+
+def test_a_mesh_without_normals_is_dark_but_drawn(renderer: Renderer) -> None:
+    whole = plate(1.0, 1.0).meshes[0]
+    bare = replace(whole, normals=np.zeros_like(whole.normals))
+    model = Model(name="bare", meshes=(bare,), source="file")
+    renderer.place(renderer.add(model, 1), placed(z=-2.0))
+    picture = renderer.draw(HERE, CAMERA, DRY, Light())
+    assert picture.colour is not None
+    assert picture.ids is not None
+    assert picture.ids[60, 80] == 1
+    assert picture.colour[60, 80] == pytest.approx(255.0 * AMBIENT, abs=1.0)
+
+
+def test_a_model_is_uploaded_once_however_often_it_is_added() -> None:
+    model = ball(0.1)
+    context = create_context()
+    models = GpuModels(context)
+    assert models.upload(model) is models.upload(model)
+    assert models.upload(ball(0.1)) is not models.upload(model)
+    context.release()
 
 
 def test_two_renderers_live_side_by_side() -> None:

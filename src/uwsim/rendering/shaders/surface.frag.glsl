@@ -27,7 +27,7 @@ void main() {
 #ifdef TEXTURED
     colour *= texture(base_map, place).rgb;
 #endif
-    float unit = inversesqrt(dot(normal, normal));
+    float unit = inversesqrt(max(dot(normal, normal), 1e-12));
     unit = gl_FrontFacing ? unit : -unit;
     float facing = along.x * unit;
     float mirrored = (along.y - 2.0 * facing * unit * dot(normal, position)) / range;

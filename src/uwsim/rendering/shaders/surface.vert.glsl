@@ -34,7 +34,7 @@ void main() {
     place = uv;
 #endif
 #ifdef SHADOWS
-    vec3 lifted = position + normalize(normal) * sun.w;
+    vec3 lifted = position + normal * (sun.w * inversesqrt(max(dot(normal, normal), 1e-12)));
     shadow_place = (shadow_from_camera * vec4(lifted, 1.0)).xyz;
 #endif
 #endif
