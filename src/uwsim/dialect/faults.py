@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal, cast
@@ -34,8 +35,13 @@ class Faults:
 
     def unknown(self, node: etree._Element, what: str, name: str, known: Iterable[str]) -> None:
         """Say that ``name`` is not one of ``known``, with the nearest right one."""
-        near = did_you_mean(name, known) if self._has_room("fault") and len(name) < 80 else ""
-        self.add(node, f"{what}.{near.replace(chr(39), '')}")
+        self.add(node, f"{what}.{self.near(name, known)}")
+
+    def near(self, name: str, known: Iterable[str], severity: str = "fault") -> str:
+        """Return " Did you mean x?", or nothing where nobody would read it."""
+        if len(name) > 80 or not self._has_room(severity):
+            return ""
+        return did_you_mean(name, itertools.islice(known, 1000)).replace("'", "")
 
     def remember(self, spec: object, node: etree._Element) -> None:
         """Keep the element a spec was read from, so that later checks can name its line."""

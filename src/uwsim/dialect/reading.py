@@ -147,17 +147,20 @@ def _read_attributes(
     table: tuple[Slot, ...], node: etree._Element, values: dict[str, Any], faults: Faults
 ) -> None:
     known = {slot.tag: slot for slot in table if slot.xml.attribute}
-    for name, text in node.attrib.items():
-        slot = known.get(str(name))
-        if slot is None:
+    for name in node.attrib:
+        if name not in known:
             _unknown_attribute(node, str(name), known, faults)
-        elif slot.field not in values:
-            value = scalar(slot, str(text).strip(BLANKS), node, faults, local(slot.tag) + "=")
-            if value is not BAD:
-                values[slot.field] = value
     for slot in known.values():
-        if slot.default is MISSING and slot.tag not in node.attrib and slot.field not in values:
-            faults.add(node, f"{shown(node)} lacks the attribute {slot.shown}")
+        text = node.get(slot.tag)
+        if slot.field in values:
+            continue
+        if text is None:
+            if slot.default is MISSING:
+                faults.add(node, f"{shown(node)} lacks the attribute {slot.shown}")
+            continue
+        value = scalar(slot, text.strip(BLANKS), node, faults, f"{slot.shown}= of {shown(node)}")
+        if value is not BAD:
+            values[slot.field] = value
 
 
 def _read_slot(

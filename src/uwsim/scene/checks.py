@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
 
 from ..devices.force_sensor import ForceSensorSpec
 from ..dialect import Faults, slots
-from ..errors import did_you_mean
 from .ros_interfaces import (
     INTERFACES,
     ContactSensorToROSSpec,
@@ -80,13 +80,15 @@ def mounted(vehicle: VehicleSpec) -> Iterator[tuple[str, object]]:
 
 
 def _check_links(vehicle: VehicleSpec, robot: RobotSpec, scene: SceneSpec, faults: Faults) -> None:
-    links = [link.name for link in robot.links]
+    links = {link.name: None for link in robot.links}
     for element, part in mounted(vehicle):
         link = getattr(part, "relative_to", None) or getattr(part, "target", None)
         if link is None:
             continue
         if link not in links:
-            said = f"<{element}>: {link!r} is no link of {vehicle.file}.{did_you_mean(link, links)}"
+            severity = "fault" if isinstance(part, ForceSensorSpec) else "notice"
+            near = faults.near(link, links, severity)
+            said = f"<{element}>: {link!r} is no link of {vehicle.file}.{near}"
             if isinstance(part, ForceSensorSpec):
                 faults.add(faults.node_of(part), said)
             else:
@@ -112,16 +114,16 @@ def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, faults: Faults) -> Non
             faults.notice(place, f"joint {joint.name!r} at {value:g} is held at its limit {held:g}")
 
 
-def _names(scene: SceneSpec) -> dict[str, list[str]]:
-    """Element -> the names that elements of that kind have."""
-    known: dict[str, list[str]] = {
-        "vehicle": [vehicle.name for vehicle in scene.vehicles],
-        "object": [thing.name for thing in scene.objects],
+def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
+    """Element -> the names that elements of that kind have, in their order."""
+    known: dict[str, dict[str, None]] = {
+        "vehicle": {vehicle.name: None for vehicle in scene.vehicles},
+        "object": {thing.name: None for thing in scene.objects},
     }
     for vehicle in scene.vehicles:
         for element, part in mounted(vehicle):
             name = str(getattr(part, "name", None) or getattr(part, "dccomms_id", ""))
-            known.setdefault(element, []).append(name)
+            known.setdefault(element, {})[name] = None
     return known
 
 
@@ -135,7 +137,10 @@ def _interfaces(scene: SceneSpec) -> Iterator[InterfaceSpec]:
 
 
 def _check_interface(
-    interface: InterfaceSpec, known: Mapping[str, list[str]], scene: SceneSpec, faults: Faults
+    interface: InterfaceSpec,
+    known: Mapping[str, Mapping[str, None]],
+    scene: SceneSpec,
+    faults: Faults,
 ) -> None:
     node = faults.node_of(interface)
     element = next(name for name, cls in INTERFACES.items() if cls is type(interface))
@@ -150,15 +155,15 @@ def _check_interface(
     if wanted is None:
         return
     kinds = SOURCES.get(element, ("vehicle",))
-    names = [name for kind in kinds for name in known.get(kind, ())]
-    if wanted not in names:
+    if not any(wanted in known.get(kind, {}) for kind in kinds):
+        near = faults.near(wanted, chain(*(known.get(kind, {}) for kind in kinds)), "notice")
         faults.notice(
             node,
-            f"<{element}>: no {_or(kinds)} is called {wanted!r}.{did_you_mean(wanted, names)} "
+            f"<{element}>: no {_or(kinds)} is called {wanted!r}.{near} "
             "The interface is left out, as in the original",
         )
     elif isinstance(interface, VirtualCameraToROSImageSpec) and interface.depth:
-        if wanted not in known.get("virtualRangeImage", ()):
+        if wanted not in known.get("virtualRangeImage", {}):
             faults.add(
                 node, f"<{element}>: <depth> 1 wants a virtualRangeImage; {wanted!r} is none"
             )
@@ -173,8 +178,9 @@ def _check_sources(scene: SceneSpec, faults: Faults) -> None:
         for interface in scene.ros_interfaces
         if isinstance(interface, VirtualCameraToROSImageSpec)
     ]
+    last_of = {interface.camera_name: interface for interface in cameras}
     for name in _repeated(interface.camera_name for interface in cameras):
-        last = [interface for interface in cameras if interface.camera_name == name][-1]
+        last = last_of[name]
         faults.notice(
             faults.node_of(last),
             f"camera {name!r} has several interfaces; the original serves this last one only",

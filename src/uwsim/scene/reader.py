@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -17,6 +18,8 @@ from .urdf import RobotSpec, read_robot, read_urdf
 
 ROOT = "UWSimScene"
 """Name of the root element."""
+MOST_FILES = 200
+"""So many different robots and models of a scene, and meshes of a robot, are looked for."""
 
 
 class Library(Protocol):
@@ -73,9 +76,10 @@ def check_scene(path: Path, *, strict: bool = False, library: Library | None = N
         robots, others = _robots(scene, document, library, faults)
         check_names(scene, robots, faults)
         if library is not None:
-            for thing in scene.objects:
-                if not library.has_model(thing.file, path):
-                    _lost(f"model {thing.file!r}", thing, document, library, faults)
+            first = {thing.file: thing for thing in reversed(scene.objects)}
+            for name, thing in itertools.islice(first.items(), MOST_FILES):
+                if not library.has_model(name, path):
+                    _lost(f"model {name!r}", thing, document, library, faults)
         not_simulated(document.root, faults)
     return [*faults.all(), *others]
 
@@ -88,7 +92,7 @@ def check_robot(path: Path, *, library: Library | None = None) -> list[Fault]:
     except SceneError as error:
         return list(error.faults)
     if robot is not None and library is not None:
-        for name in dict.fromkeys(_meshes(robot)):
+        for name in itertools.islice(dict.fromkeys(_meshes(robot)), MOST_FILES):
             if not library.has_model(name, path):
                 faults.notice(None, f"there is no model {name!r}, nor a stand-in of that name")
     return faults.all()
@@ -100,15 +104,21 @@ def _robots(
     """The robot of each vehicle by its number, and what is to be said about their files."""
     robots: dict[int, RobotSpec] = {}
     said: list[Fault] = []
-    for index, vehicle in enumerate(scene.vehicles if library is not None else ()):
-        assert library is not None
-        path = library.find(vehicle.file, document.path)
-        if path is None:
-            _lost(f"robot file {vehicle.file!r}", vehicle, document, library, faults)
-            continue
-        said += [fault for fault in check_robot(path, library=library) if fault not in said]
-        with suppress(SceneError):
-            robots[index] = read_urdf(path)
+    if library is None:
+        return robots, said
+    by_file: dict[str, RobotSpec | None] = {}
+    for index, vehicle in enumerate(scene.vehicles):
+        if vehicle.file not in by_file and len(by_file) < MOST_FILES:
+            by_file[vehicle.file] = None
+            path = library.find(vehicle.file, document.path)
+            if path is None:
+                _lost(f"robot file {vehicle.file!r}", vehicle, document, library, faults)
+                continue
+            said += check_robot(path, library=library)
+            with suppress(SceneError):
+                by_file[vehicle.file] = read_urdf(path)
+        if (robot := by_file.get(vehicle.file)) is not None:
+            robots[index] = robot
     return robots, said
 
 

@@ -30,7 +30,7 @@ from typing import Literal, cast
 from lxml import etree
 
 from ..dialect import Faults, number, parse
-from ..errors import SceneError, did_you_mean
+from ..errors import SceneError
 
 Triple = tuple[float, float, float]
 Colour = tuple[float, float, float, float]
@@ -378,7 +378,7 @@ def _check_mimic(joint: JointSpec, joints: dict[str, JointSpec], faults: Faults)
         faults.add(
             faults.node_of(joint),
             f"joint {joint.name!r} mimics {source[:60]!r}, which is no joint"
-            f".{did_you_mean(source[:60], joints)}",
+            f".{faults.near(source, joints)}",
         )
 
 
@@ -392,8 +392,7 @@ def _end(node: etree._Element, end: str, links: dict[str, LinkSpec], faults: Fau
     else:
         faults.add(
             node,
-            f"joint {_name(node)!r}: its {end} {link[:60]!r} is no link"
-            f".{did_you_mean(link[:60], links)}",
+            f"joint {_name(node)!r}: its {end} {link[:60]!r} is no link.{faults.near(link, links)}",
         )
     return None
 
