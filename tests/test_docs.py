@@ -56,10 +56,6 @@ def test_the_page_of_the_command_line_is_what_the_program_prints() -> None:
 
 
 def test_every_document_is_reached_from_the_index() -> None:
-    linked = {
-        (ROOT / "docs" / link).resolve()
-        for link in LINK.findall((ROOT / "docs" / "index.md").read_text())
-    }
-    assert {path.resolve() for path in (ROOT / "docs").glob("*.md")} - linked == {
-        (ROOT / "docs" / "index.md").resolve()
-    }
+    linked = LINK.findall((ROOT / "docs" / "index.md").read_text())
+    pages = [path.name for path in sorted((ROOT / "docs").glob("*.md"))]
+    assert [page for page in pages if page not in [*linked, "index.md"]] == []
