@@ -62,7 +62,7 @@ def test_a_plane_that_stands_still_is_found_where_it_is_in_the_order_handed_in(n
 @pytest.mark.parametrize("name", TRACKERS)
 def test_a_plane_that_moves_is_followed(name: str) -> None:
     node = started(name)
-    texture = Texture(shortest=6.0)
+    texture = Texture(shortest=6.0, waves=40)
     node.show(texture.picture())
     node.auto_init(QUAD)
     for k in range(1, 8):
@@ -166,8 +166,8 @@ def test_a_patch_that_leaves_the_picture_is_lost_at_once() -> None:
     texture = Texture()
     node.show(texture.picture())
     node.auto_init(QUAD)
-    for k in range(1, 60):
-        node.show(texture.picture(between(QUAD, QUAD + np.array([3.0 * k, 0.0]))))
+    for k in range(1, 20):
+        node.show(texture.picture(between(QUAD, QUAD + np.array([7.0 * k, 0.0]))))
     assert node.statuses[1].startswith("lost: corner NE (32")
     assert "320x240" in node.statuses[1]
 

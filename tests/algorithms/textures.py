@@ -10,19 +10,22 @@ from uwsim.algorithms.esm.homography import warp
 class Texture:
     """A sum of cosines: known, with its derivatives, at every point of the plane."""
 
-    def __init__(self, seed: int = 0, *, shortest: float = 8.0, longest: float = 60.0) -> None:
+    def __init__(
+        self, seed: int = 0, *, shortest: float = 8.0, longest: float = 60.0, waves: int = 16
+    ) -> None:
         rng = np.random.Generator(np.random.Philox(seed))
-        n = 40
+        n = waves
         wavelength = shortest * (longest / shortest) ** rng.random(n)
         angle = 2 * np.pi * rng.random(n)
-        self._k = 2 * np.pi / wavelength * np.stack([np.cos(angle), np.sin(angle)])
-        self._phase = 2 * np.pi * rng.random(n)
+        k = 2 * np.pi / wavelength * np.stack([np.cos(angle), np.sin(angle)])
+        self._k = k.astype(np.float32)
+        self._phase = (2 * np.pi * rng.random(n)).astype(np.float32)
         self._mean, self._contrast = 128.0, 30.0
 
     def at(self, points: np.ndarray) -> np.ndarray:
         """Grey levels at points (n, 2): mean 128, standard deviation about 30."""
-        waves = np.cos(points @ self._k + self._phase).sum(axis=1)
-        return self._mean + self._contrast * waves / np.sqrt(self._k.shape[1] / 2)
+        phase = (points.astype(np.float32) @ self._k + self._phase).astype(np.float32)
+        return self._mean + self._contrast * np.cos(phase).sum(axis=1) / np.sqrt(phase.shape[1] / 2)
 
     def picture(
         self, homography: np.ndarray | None = None, *, width: int = 320, height: int = 240

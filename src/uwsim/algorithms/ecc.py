@@ -66,6 +66,7 @@ class EccTracker(Tracker):
     ) -> None:
         import cv2
 
+        cv2.setNumThreads(1)  # the same sums in the same order on every machine; also quicker
         height, width = template.values.shape
         self._smoothing = (smoothing, smoothing)
         smooth = cv2.GaussianBlur(image, self._smoothing, 0.0)

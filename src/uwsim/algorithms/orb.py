@@ -75,6 +75,7 @@ class OrbTracker(Tracker):
     ) -> None:
         import cv2
 
+        cv2.setNumThreads(1)  # the same sums in the same order on every machine; also quicker
         self._orb = cv2.ORB.create(
             nfeatures=features,
             edgeThreshold=MARGIN,

@@ -1,0 +1,104 @@
+"""What a picture costs the trackers: DESIGN 9's ESM case, and the patch of `visibility`.
+
+Run ``python benchmarks/tracking.py``. The case: one 100x100 patch in 320x240, up to 3 px of motion
+a picture, noise of 4 grey levels, pyramid and loss test included, median of 500 pictures; the
+target of 2 ms is for ``esm``. The patch of `visibility` is 93x28 and stands still in RGB pictures
+with a noise of 5.1; the conversion to grey counts there, and the target is 1 ms.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from statistics import median
+
+import numpy as np
+from measure import main
+
+from uwsim.algorithms import ALGORITHMS
+from uwsim.algorithms.esm.homography import between, warp
+from uwsim.algorithms.esm.pyramid import grey
+from uwsim.algorithms.tracker import LossTest, Tracker
+from uwsim.algorithms.tracker_node import TrackerNode
+
+PICTURES = 500
+WIDTH, HEIGHT = 320, 240
+
+
+def rectangle(width: float, height: float) -> np.ndarray:
+    u, v = WIDTH / 2, HEIGHT / 2
+    signs = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    return np.array([u, v]) + signs * [width / 2, height / 2]
+
+
+def texture() -> tuple[np.ndarray, np.ndarray]:
+    rng = np.random.Generator(np.random.Philox(0))
+    angle, wavelength = 2 * np.pi * rng.random(24), 8.0 * 7.5 ** rng.random(24)
+    k = 2 * np.pi / wavelength * np.stack([np.cos(angle), np.sin(angle)])
+    return k, 2 * np.pi * rng.random(24)
+
+
+def pictures(quad: np.ndarray, step: float, sigma: float, *, rgb: bool) -> list[np.ndarray]:
+    """Pictures of a plane that moves by exactly ``step`` px each, around the middle."""
+    k, phase = texture()
+    rng = np.random.Generator(np.random.Philox(1))
+    v, u = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
+    points = np.stack([u.ravel(), v.ravel()], axis=1)
+    position, result = np.zeros(2), []
+    for i in range(PICTURES + 1):
+        inverse = between(quad + position, quad)
+        plain = np.cos(warp(inverse, points) @ k + phase).sum(axis=1).reshape(HEIGHT, WIDTH)
+        plain = 128.0 + 30.0 * plain / math.sqrt(12.0)
+        if rgb:
+            plain = np.repeat(plain[:, :, None], 3, axis=2)
+        noisy = np.rint(plain + sigma * rng.standard_normal(plain.shape))
+        result.append(np.clip(noisy, 0, 255).astype(np.uint8))
+        heading = 0.1 * i
+        position = position + step * np.array([math.cos(heading), math.sin(heading)])
+    return result
+
+
+def cost(name: str, quad: np.ndarray, images: list[np.ndarray], target: float | None) -> object:
+    node = ALGORITHMS[name]()
+    assert isinstance(node, TrackerNode)
+    tracker = node.follow(grey(images[0]), quad)
+    assert isinstance(tracker, Tracker)
+    loss = LossTest(zncc_threshold=0.5, frames=5)
+    tracker.step(grey(images[0]))  # compiles
+    cpu, wall, iterations = [], [], []
+    for image in images[1:]:
+        began_cpu, began_wall = time.process_time_ns(), time.perf_counter_ns()
+        estimate = tracker.step(grey(image))
+        why = loss.check(estimate, WIDTH, HEIGHT)
+        cpu.append((time.process_time_ns() - began_cpu) / 1e6)
+        wall.append((time.perf_counter_ns() - began_wall) / 1e6)
+        iterations.append(estimate.iterations)
+        if why:
+            return {"lost": why, "after": len(cpu)}
+    figures = {
+        "cpu_ms": round(median(cpu), 3),
+        "wall_ms": round(median(wall), 3),
+        "wall_ms_95": round(sorted(wall)[int(0.95 * len(wall))], 3),
+        "iterations": round(sum(iterations) / len(iterations), 1),
+        "pictures": len(cpu),
+    }
+    if target is not None:
+        figures |= {"target_ms": target, "ratio": round(median(cpu) / target, 3)}
+    return figures
+
+
+def measure() -> dict[str, object]:
+    result: dict[str, object] = {}
+    quad = rectangle(100.0, 100.0)
+    images = pictures(quad, 3.0, 4.0, rgb=False)
+    for name in ("esm", "ssd-esm", "ic", "ecc", "orb"):
+        target = 2.0 if name == "esm" else None
+        result[f"{name}, 100x100, 3 px a picture, noise 4"] = cost(name, quad, images, target)
+    quad = rectangle(93.0, 28.0)
+    images = pictures(quad, 0.0, 5.1, rgb=True)
+    result["esm, 93x28, still, RGB, noise 5.1"] = cost("esm", quad, images, 1.0)
+    return result
+
+
+if __name__ == "__main__":
+    main(measure)
