@@ -69,8 +69,8 @@ def _ram(start: Point, end: Point, radius: float, rod: float) -> tuple[Shape, Sh
     a, b = np.array(start), np.array(end)
     split = b - rod * (b - a) / np.linalg.norm(b - a)
     x, y, z = split.tolist()
-    body = cylinder(start, (x, y, z), radius, n=12, bevel=radius * 0.25)
-    return body, cylinder((x, y, z), end, radius * 0.4, n=8)
+    body = cylinder(start, (x, y, z), radius, n=10, bevel=radius * 0.25)
+    return body, cylinder((x, y, z), end, radius * 0.4, n=6)
 
 
 def _block(lower: Point, upper: Point, radius: float) -> Shape:
@@ -87,7 +87,7 @@ def _plate(a: tuple[float, float], b: tuple[float, float], r: float, y0: float, 
     """A flat bar with round ends in the x-z plane from ``a`` to ``b``, between two y."""
     start, end = np.array(a), np.array(b)
     along = math.atan2(end[1] - start[1], end[0] - start[0])
-    half = np.linspace(0.0, math.pi, 7)
+    half = np.linspace(0.0, math.pi, 5)
     first, second = along + math.pi / 2 + half, along - math.pi / 2 + half
     outline = np.concatenate(
         [
@@ -106,7 +106,7 @@ def part0() -> tuple[Mesh, ...]:
         box((-0.33, -0.029, 0.045), (-0.24, 0.06, 0.058)),
         box((-0.10, -0.029, 0.045), (-0.02, 0.06, 0.058)),
     ]
-    bearing = cylinder((0.0, 0.0, -0.054), (0.0, 0.0, 0.061), 0.0295, n=16, bevel=0.004)
+    bearing = cylinder((0.0, 0.0, -0.054), (0.0, 0.0, 0.061), 0.0295, n=14)
     body, rod = _ram((-0.32, 0.062, 0.028), (-0.005, 0.062, 0.028), 0.028, 0.12)
     lug = cylinder((-0.02, 0.055, 0.028), (0.006, 0.055, 0.028), 0.014, n=8)
     box_of_part0 = (-0.336, -0.029, -0.054), (0.031, 0.090, 0.061)
@@ -115,8 +115,8 @@ def part0() -> tuple[Mesh, ...]:
 
 def part1() -> tuple[Mesh, ...]:
     """The slew body: a sleeve round the bearing, and the fork that holds the shoulder."""
-    sleeve = ring(0.034, 0.0297, -0.05, 0.03, n=16)
-    cap = cylinder((0.0, 0.0, -0.095), (0.0, 0.0, -0.048), 0.034, n=16, bevel=0.004)
+    sleeve = ring(0.034, 0.0297, -0.05, 0.03, n=14)
+    cap = cylinder((0.0, 0.0, -0.095), (0.0, 0.0, -0.048), 0.034, n=14)
     ear = box((-0.016, 0.026, 0.014), (0.02, 0.047, 0.044))
     neck = _block((-0.02, -0.034, -0.120), (0.050, 0.034, -0.062), 0.012)
     cheeks = [_plate((0.02, -0.10), (0.0805, -0.13), 0.022, y, y + 0.014) for y in (-0.040, 0.026)]
@@ -139,12 +139,12 @@ def part2() -> tuple[Mesh, ...]:
     far, far_rod = _ram((0.552, 0.066, -0.094), (0.060, 0.066, -0.020), 0.027, 0.16)
     motor = cylinder((-0.078, -0.060, -0.002), (-0.020, -0.060, -0.010), 0.0285, n=12)
     yokes = [
-        cylinder((0.320, -0.066, -0.060), (0.320, 0.02, -0.060), 0.010, n=8),
-        cylinder((0.065, -0.02, -0.021), (0.065, 0.072, -0.021), 0.010, n=8),
-        cylinder((0.400, -0.02, -0.076), (0.400, 0.06, -0.076), 0.012, n=8),
+        cylinder((0.320, -0.066, -0.060), (0.320, 0.02, -0.060), 0.010, n=6),
+        cylinder((0.065, -0.02, -0.021), (0.065, 0.072, -0.021), 0.010, n=6),
+        cylinder((0.400, -0.02, -0.076), (0.400, 0.06, -0.076), 0.012, n=6),
         _block((0.12, -0.045, -0.045), (0.17, 0.0, -0.018), 0.006),
     ]
-    hubs = [_pin(0.0, 0.0, 0.026, 0.014, n=12), _pin(*elbow, 0.036, 0.018, n=12)]
+    hubs = [_pin(0.0, 0.0, 0.026, 0.014, n=8), _pin(*elbow, 0.036, 0.018, n=10)]
     return _link(
         [*plates, near_rod, far_rod, *hubs],
         [near, far, motor],

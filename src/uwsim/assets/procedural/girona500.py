@@ -16,7 +16,7 @@ import numpy as np
 
 from ...geometry import rotation_z
 from ..mesh import Mesh, Texture
-from .shapes import Shape, box, cylinder, facing, join, lathe, mesh, quad, rounded_box, tube
+from .shapes import Shape, cylinder, facing, join, lathe, mesh, quad, rounded_box, tube
 from .textures import finished, mixed, noise, plain, step, worn, write
 
 HULL_LENGTH, HULL_RADIUS = 1.507, 0.153
@@ -46,7 +46,7 @@ def _hull_texture() -> Texture:
     name, height, width = "girona500/hull", 640, 384
     clouds = noise(name, height, width, cells=3, octaves=6)
     picture = plain(height, width, YELLOW)
-    picture[round(0.24 * height) : round(0.75 * height)] = DARK
+    picture[round(0.24 * height) : round(0.75 * height)] = (0.22, 0.23, 0.25)
     for edge in (0.228, 0.75):
         picture[round(edge * height) : round((edge + 0.012) * height)] = (0.92, 0.92, 0.90)
     white = (0.94, 0.94, 0.92)
@@ -74,7 +74,7 @@ def _hull() -> Shape:
             (radius, -half + 0.36)]  # fmt: skip
     nose = [(radius * math.cos(t), half - 0.19 + 0.19 * math.sin(t))
             for t in (0.0, 0.45, 0.85, 1.2)]  # fmt: skip
-    shape = lathe([*tail, *nose, (0.0, half)], n=20)
+    shape = lathe([*tail, *nose, (0.0, half)], n=18)
     return shape.turned(facing(np.array([1.0, 0.0, 0.0])))
 
 
@@ -90,8 +90,9 @@ def _thruster(at: tuple[float, float, float], way: tuple[float, float, float]) -
         turn = rotation_z(k * 2.0 * math.pi / 3.0)
         a, b, c, d = (tuple(corner) for corner in (blade @ turn.T).tolist())
         parts += [quad(a, b, c, d), quad(a, b, c, d).flipped()]
-        strut = box((0.03, -0.004, -0.042), (0.09, 0.004, -0.030))
-        parts.append(strut.turned(rotation_z(0.5 + k * 2.0 * math.pi / 3.0)))
+        strut = quad((0.03, 0, -0.045), (0.09, 0, -0.045), (0.09, 0, -0.03), (0.03, 0, -0.03))
+        strut = strut.turned(rotation_z(0.5 + k * 2.0 * math.pi / 3.0))
+        parts += [strut, strut.flipped()]
     place = facing(np.array(way))
     return [join(duct, pod).turned(place).moved(*at), join(*parts).turned(place).moved(*at)]
 
@@ -104,8 +105,7 @@ def _bar(*path: tuple[float, float, float], radius: float = 0.015) -> Shape:
 def _frame() -> list[Shape]:
     """The aluminium frame: three ribs that carry the hulls, rails between them."""
     parts = []
-    strap = lathe([(HULL_RADIUS, -0.022), (HULL_RADIUS + 0.010, -0.018),
-                   (HULL_RADIUS + 0.010, 0.018), (HULL_RADIUS, 0.022)], n=18)  # fmt: skip
+    strap = lathe([(HULL_RADIUS, -0.024), (HULL_RADIUS + 0.011, 0.0), (HULL_RADIUS, 0.024)], n=16)
     strap = strap.turned(facing(np.array([1.0, 0.0, 0.0])))
     for x in RIBS:
         parts.append(_bar((x, -0.22, 0.06), (x, 0.22, 0.06)))
@@ -136,7 +136,7 @@ def girona500() -> tuple[Mesh, ...]:
     ]
     dark = [
         *(motor for motor, _ in thrusters),
-        cylinder((-0.75, 0.0, 0.46), (-0.54, 0.0, 0.46), 0.075, n=14, bevel=0.012),  # DVL
+        cylinder((-0.66, 0.0, 0.46), (-0.44, 0.0, 0.46), 0.075, n=14, bevel=0.012),  # DVL
         cylinder((0.22, 0.10, 0.48), (0.50, 0.10, 0.48), 0.055, n=12, bevel=0.01),  # sonar
         cylinder((0.44, -0.10, 0.47), (0.56, -0.10, 0.47), 0.045, n=12, bevel=0.008),  # camera
         rounded_box((-0.46, -0.14, 0.42), (-0.12, 0.14, 0.55), radius=0.02, n=1),  # computer
