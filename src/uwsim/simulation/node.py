@@ -61,8 +61,17 @@ class InProcessNode:
         return self._random
 
     def run(self, algorithm: Algorithm) -> None:
-        """Start the algorithm; what it raises is kept in `error`."""
-        self._guard(algorithm.start, self)
+        """Start the algorithm; what it raises is kept in `error`.
+
+        Raises:
+            BadSetting: it refuses one of its parameters: that is the user's mistake, not its own.
+        """
+        try:
+            algorithm.start(self)
+        except BadSetting:
+            raise
+        except Exception as error:  # whatever a stranger's program raises is its own failure
+            self.error = f"{type(error).__name__}: {error}"
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Have ``callback`` called with every message on ``topic``."""

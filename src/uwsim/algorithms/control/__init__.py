@@ -1,0 +1,9 @@
+"""Controllers as algorithms under test: they see a camera and say a twist."""
+
+from __future__ import annotations
+
+from .controller import ControllerNode, StationKeeper
+from .p import P
+from .pi import PI
+
+__all__ = ["PI", "ControllerNode", "P", "StationKeeper"]

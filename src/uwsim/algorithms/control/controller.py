@@ -1,0 +1,136 @@
+r"""Keeping station over what a tracker follows, with nothing but the camera.
+
+The error in metres, in the camera's axes, of the tracked centroid c from the principal point o is
+
+.. math:: e = (c - o) \, d / f
+
+with a *parameter* d for the distance that the camera cannot measure. The command is
+
+.. math:: u = K_p e + K_i \int e \, dt, \qquad |u_i| \le u_{max}
+
+The integral stands still in an axis while its command is at the limit and the error would drive
+it further (clamping). Time is that between two estimates. Not modelled: that d may be wrong, tilt.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from ...bus import Node
+from ...messages import (
+    CameraInfo,
+    Float32MultiArray,
+    String,
+    Twist,
+    TwistStamped,
+    Vector3,
+    header,
+)
+from ..direct import Esm
+from ..tracker_node import chosen
+from .node_view import NodeView
+
+Array = npt.NDArray[np.float64]
+
+PARAMETERS: Mapping[str, float | str] = {
+    "kp": 0.4,
+    "ki": 0.0,
+    "distance": 2.2,
+    "limit": 0.5,
+    "info_topic": "/uwsim/camera1_info",
+    "twist_topic": "/dataNavigator",
+}
+"""Gains [1/s, 1/s^2], distance d to the target [m], largest speed [m/s], topics."""
+
+
+class StationKeeper:
+    """The control law alone: errors in, speeds out."""
+
+    def __init__(self, *, kp: float, ki: float, limit: float) -> None:
+        self._kp, self._ki, self._limit = kp, ki, limit
+        self._integral = np.zeros(2)  # [m s]
+
+    def step(self, error: Array, dt: float) -> Array:
+        """Return the speeds (2,) [m/s] for an error (2,) [m], ``dt`` [s] after the last one."""
+        integral = self._integral + error * dt
+        wanted = self._kp * error + self._ki * integral
+        pushes_on = (np.abs(wanted) > self._limit) & (wanted * error > 0.0)
+        self._integral = np.where(pushes_on, self._integral, integral)
+        command: Array = np.clip(
+            self._kp * error + self._ki * self._integral, -self._limit, self._limit
+        )
+        return command
+
+
+class ControllerNode:
+    """A station keeper on the bus, with an ESM tracker of its own.
+
+    The camera looks down and the top of its picture points to the bow: what is right of the centre
+    calls for sway to starboard, what is above it for surge. The twist is held by the vehicle until
+    the next one; when the tracker is lost, it is zero.
+    """
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {**Esm.PARAMETERS, **PARAMETERS}
+
+    def __init__(self) -> None:
+        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
+        self._info: CameraInfo | None = None
+        self._last: float | None = None
+        self._is_over = False
+        self._tracker = Esm()
+
+    @property
+    def parameters(self) -> Mapping[str, float | str]:
+        """The parameters in force, after `start`."""
+        return dict(self._parameters)
+
+    def start(self, node: Node) -> None:
+        """Take the parameters, go on the bus, start the tracker."""
+        self._parameters = chosen(self.PARAMETERS, node.parameters)
+        self._node = node
+        self._keeper = StationKeeper(
+            kp=self._number("kp"), ki=self._number("ki"), limit=self._number("limit")
+        )
+        self._say = node.publisher(str(self._parameters["twist_topic"]), TwistStamped)
+        node.subscribe(str(self._parameters["info_topic"]), CameraInfo, self._on_info)
+        node.subscribe("centroidTopic", Float32MultiArray, self._on_centroid)
+        node.subscribe("algorithmStatus", String, self._on_status)
+        tracking = {name: self._parameters[name] for name in Esm.PARAMETERS}
+        self._tracker.start(NodeView(node, tracking))
+
+    def _number(self, name: str) -> float:
+        return float(self._parameters[name])
+
+    def _on_info(self, info: CameraInfo) -> None:
+        self._info = info
+
+    def _on_centroid(self, centroid: Float32MultiArray) -> None:
+        if self._info is None or self._is_over:
+            return
+        fx, cx, fy, cy = (float(self._info.k[i]) for i in (0, 2, 4, 5))
+        u, v = (float(x) for x in centroid.data[:2])
+        distance = self._number("distance")
+        right, up = (u - cx) * distance / fx, (cy - v) * distance / fy  # [m]
+        dt = 0.0 if self._last is None else self._node.now - self._last
+        self._last = self._node.now
+        surge_sway = self._keeper.step(np.array([up, right]), dt)
+        self._command(*surge_sway.tolist())
+
+    def _on_status(self, status: String) -> None:
+        if status.data.startswith(("lost", "failed")):
+            self._is_over = True
+            self._command(0.0, 0.0)
+
+    def _command(self, surge: float, sway: float) -> None:
+        self._say(
+            TwistStamped(
+                header=header(self._node.now),
+                twist=Twist(
+                    linear=Vector3(x=surge, y=sway, z=0.0), angular=Vector3(x=0.0, y=0.0, z=0.0)
+                ),
+            )
+        )

@@ -1,0 +1,54 @@
+"""The door of an algorithm, seen by a part of it that has parameters of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TypeVar
+
+import numpy as np
+
+from ...bus import Node
+
+M = TypeVar("M")
+
+
+class NodeView:
+    """A `uwsim.bus.Node` that is another one but for its parameters."""
+
+    def __init__(self, node: Node, parameters: Mapping[str, float | str]) -> None:
+        self._node, self._parameters = node, dict(parameters)
+
+    @property
+    def now(self) -> float:
+        """Simulation time [s]."""
+        return self._node.now
+
+    @property
+    def parameters(self) -> Mapping[str, float | str]:
+        """The part's parameters."""
+        return self._parameters
+
+    @property
+    def random(self) -> np.random.Generator:
+        """The algorithm's random stream."""
+        return self._node.random
+
+    def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
+        """Have ``callback`` called with every message on ``topic``."""
+        self._node.subscribe(topic, type, callback)
+
+    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
+        """Return ``publish(message)`` for ``topic``."""
+        return self._node.publisher(topic, type)
+
+    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
+        """Offer a service."""
+        self._node.serve(name, type, handler)
+
+    def call(self, name: str, request: object) -> object:
+        """Call a service."""
+        return self._node.call(name, request)
+
+    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Have ``callback`` called every ``period_s``."""
+        self._node.every(period_s, callback)
