@@ -72,6 +72,15 @@ def visibility_scene(renderer: Renderer) -> tuple[list[tuple[int, np.ndarray]], 
     return moving, on_part0 @ camera, n_triangles
 
 
+def look_from(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
+    """A camera in the tank, both points in L [m]; up is up."""
+    points = WORLD_FROM_LOCALIZED.transform(np.array([eye, target]))
+    back = (points[0] - points[1]) / np.linalg.norm(points[0] - points[1])
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    return Pose(points[0], np.stack([right, np.cross(back, right), back], axis=1))
+
+
 def measure() -> dict[str, object]:
     """All figures."""
     warm_up()
@@ -85,8 +94,7 @@ def measure() -> dict[str, object]:
     large = Intrinsics.from_fovy(640, 480, np.radians(50.0))
     renderer.draw(down, small, WATER, Light())
     first_s = time.perf_counter() - began
-    back = WORLD_FROM_LOCALIZED.transform(np.array([[0.2, -2.6, 2.6]]))[0]
-    aside = Pose.from_rpy(tuple(back), (1.37, 0.0, -0.58))
+    aside = look_from((4.5, 2.5, 1.2), (1.9, 0.0, 3.3))
     rng = np.random.Generator(np.random.Philox(1))
     sway = 0.0
 

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..jit import njit
+from .grey import grey_truncated
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
@@ -87,5 +88,6 @@ def _store(
 
 
 def warm_up() -> None:
-    """Compile (or load from numba's cache) before the first frame needs it."""
-    add_noise(np.zeros((1, 1, 4), np.uint16), 0.01, np.random.Generator(np.random.Philox(0)))
+    """Compile noise and grey, or load them from numba's cache, before a frame needs them."""
+    rng = np.random.Generator(np.random.Philox(0))
+    grey_truncated(add_noise(np.zeros((1, 1, 4), np.uint16), 0.01, rng))
