@@ -1,0 +1,178 @@
+"""The kernel as MuJoCo's callback for passive forces, and a loop that does without the callback.
+
+MuJoCo calls ``mjcb_passive`` after it has factorised the mass matrix and before anything uses it
+for accelerations. There the wrapper rebuilds M (the callback may run twice on one state, as in
+``mjd_transitionFD``), adds the water, factorises again, and projects the constraints again where
+the solver needs it. The slot is one per process; models without our tables pass through it
+untouched, so several models live beside one another, in any number of threads.
+
+MuJoCo skips the callback when springs and dampers are both disabled.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numba
+import numpy as np
+from numba import types
+
+from ...errors import UwsimError
+from . import kernel, layout
+from .memory import Floats, Ints64
+
+
+class CallbackTaken(UwsimError):
+    """Somebody else's function sits in MuJoCo's one slot for passive forces."""
+
+
+@functools.cache
+def library() -> ctypes.CDLL:
+    """MuJoCo's own library: the one that the bindings have loaded."""
+    folder = Path(mujoco.__file__).parent
+    patterns = ("libmujoco.so*", "libmujoco*.dylib", "mujoco.dll")
+    for pattern in patterns:
+        for path in sorted(folder.glob(pattern)):
+            return ctypes.CDLL(str(path))
+    raise layout.MujocoChanged(f"no library {' or '.join(patterns)} in the mujoco package")
+
+
+@functools.cache
+def offsets() -> Ints64:
+    """The offsets of this MuJoCo, held against a small model once."""
+    at = layout.offsets()
+    model = mujoco.MjModel.from_xml_string(_SMALL)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    layout.check(model, data, at)
+    return at
+
+
+@functools.cache
+def wrapper() -> Any:
+    """Compile the C function ``void (const mjModel*, mjData*)``."""
+    at = offsets()
+    make, factor, project = (
+        _native(name) for name in ("mj_makeM", "mj_factorM", "mj_projectConstraint")
+    )
+    has_tables, add_water = kernel.has_tables, kernel.add_water
+    needs_projection = kernel.needs_projection
+
+    def water(m: int, d: int) -> None:
+        if has_tables(m, at):
+            make(m, d)
+            add_water(m, d, at)
+            factor(m, d)
+            if needs_projection(m, at):
+                project(m, d)
+
+    return numba.cfunc(types.void(types.intp, types.intp))(water)
+
+
+@functools.cache
+def stepper() -> Callable[[int, int, int], None]:
+    """Compile a loop of ``mj_step1``, water, ``mj_step2``: what the callback does, without it."""
+    at = offsets()
+    one, two, make, factor, project = (
+        _native(name)
+        for name in ("mj_step1", "mj_step2", "mj_makeM", "mj_factorM", "mj_projectConstraint")
+    )
+    add_water, needs_projection = kernel.add_water, kernel.needs_projection
+
+    def loop(m: int, d: int, n: int) -> None:
+        for _ in range(n):
+            one(m, d)
+            make(m, d)
+            add_water(m, d, at)
+            factor(m, d)
+            if needs_projection(m, at):
+                project(m, d)
+            two(m, d)
+
+    compiled: Callable[[int, int, int], None] = numba.njit(nogil=True)(loop)
+    return compiled
+
+
+def has_slot() -> bool:
+    """Whether this MuJoCo exports the slot of the callback."""
+    try:
+        _slot()
+    except ValueError:
+        return False
+    return True
+
+
+def is_installed() -> bool:
+    """Whether our function sits in the slot."""
+    return has_slot() and _slot().value == wrapper().address
+
+
+def install() -> None:
+    """Put our function into the slot; again after ``mj_resetCallbacks``.
+
+    Raises:
+        CallbackTaken: there is another one.
+    """
+    slot = _slot()
+    if slot.value == wrapper().address:
+        return
+    if slot.value is not None:
+        raise CallbackTaken(
+            "MuJoCo's callback for passive forces (mjcb_passive) is taken by another function; "
+            "remove it with mujoco.set_mjcb_passive(None), or step with `Hydrodynamics.step`."
+        )
+    slot.value = wrapper().address
+
+
+def remove() -> None:
+    """Empty the slot, if it is ours."""
+    if is_installed():
+        _slot().value = None
+
+
+def add_water(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Call what the callback calls, once, on ``data`` as ``mj_forward`` without it left it."""
+    function = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(wrapper().address)
+    function(model._address, data._address)
+
+
+def water_wrenches(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:
+    """Torque and force of the water on each subtree; see `kernel.water_wrenches`, (nbody, 6)."""
+    wrenches = np.zeros((model.nbody, 6))
+    kernel.water_wrenches(model._address, data._address, offsets(), wrenches)
+    return wrenches
+
+
+def _slot() -> ctypes.c_void_p:
+    return ctypes.c_void_p.in_dll(library(), "mjcb_passive")
+
+
+def _native(name: str) -> Any:
+    function = getattr(library(), name)
+    function.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
+    function.restype = None
+    signature = types.void(types.intp, types.intp)
+    return types.ExternalFunctionPointer(
+        signature, get_pointer=lambda _: ctypes.cast(function, ctypes.c_void_p).value or 0
+    )
+
+
+_SMALL = """
+<mujoco>
+  <size nuser_body="2" nuser_actuator="3" nuserdata="5"/>
+  <option timestep="0.003" noslip_iterations="2" integrator="implicitfast" gravity="1 2 -9.8"/>
+  <worldbody>
+    <body name="a"><freejoint/><geom size="0.1"/><site name="s"/>
+      <body name="b" pos="0.3 0 0"><joint name="j"/><geom size="0.1"/></body></body>
+  </worldbody>
+  <actuator>
+    <general site="s" gear="1 0 0 0 0 0" dyntype="filterexact" dynprm="0.2" ctrlrange="-1 1"/>
+    <motor joint="j"/>
+  </actuator>
+</mujoco>
+"""

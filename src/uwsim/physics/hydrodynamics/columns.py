@@ -1,0 +1,34 @@
+"""Columns of the tables inside the model: what the kernel knows of a body and of a thruster.
+
+The tables are ``body_user`` and ``actuator_user`` of the model, so that they survive attaching,
+saving and loading, and copies for a batch. What changes while a simulation runs (the water's
+velocity, faults of thrusters) lies in ``userdata`` and is part of the state.
+"""
+
+from __future__ import annotations
+
+BODY_COLUMNS = 128
+"""``nuser_body``."""
+THRUSTER_COLUMNS = 32
+"""``nuser_actuator``."""
+WATER_COLUMNS = 8
+"""Of a body's row in ``userdata``: velocity (3) [m/s], acceleration (3) [m/s2], elevation of the
+surface above its still height [m], spare. Behind the rows of all bodies: the loss of each
+actuator, 0 (healthy) .. 1 (dead)."""
+
+# the row of the world body: the water as a whole
+MAGIC, SURFACE, DENSITY = 0, 1, 2
+MAGIC_NUMBER = 0.0196_1998  # nobody else's body_user begins like this
+
+# the row of any other body
+KIND, THETA, DISPLACED = 0, 1, 2  # [0 dry, 1 diagonal damping, 2 full], [1], [kg]
+CENTRE, SHAPE, SIZE = 3, 6, 7  # (3,) [m], 0..4, (3,) [m]
+ADDED, LINEAR, QUADRATIC = 16, 52, 88  # (6, 6) each, row by row
+
+DRY, DIAGONAL, FULL = 0.0, 1.0, 2.0
+SPHERE, ELLIPSOID, BOX, CYLINDER, SHRINKING_SPHERE = 0.0, 1.0, 2.0, 3.0, 4.0
+
+# a thruster
+IS_THRUSTER, DEAD_ZONE, LEAST, MOST, TORQUE, RADIUS, FORWARD, BACKWARD = 0, 1, 2, 3, 4, 5, 8, 18
+CURVE_TERMS = 9
+"""Coefficients of x, x^2, ... x^9 [N]."""

@@ -1,0 +1,186 @@
+"""The water of one model: install it, set currents and thrusters, step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import UnknownName, UwsimError
+from . import callback
+from . import columns as c
+from .inverse_weights import correct_inverse_weights
+from .memory import Floats
+from .self_test import self_test
+
+
+class NoWater(UwsimError):
+    """A model that cannot have hydrodynamics as it stands."""
+
+
+class Hydrodynamics:
+    """The water around the bodies of one model; what changes lies in the data it is given."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self.model = model
+        self._uses_callback = callback.has_slot()
+        self.thrusters = tuple(
+            int(i)
+            for i in range(model.nactuator)
+            if model.nuser_actuator == c.THRUSTER_COLUMNS
+            and model.actuator_user[i, c.IS_THRUSTER] == 1.0
+        )
+        """Actuator ids of the thrusters, in the order of the model."""
+        self.bodies = tuple(
+            int(i) for i in range(1, model.nbody) if model.body_user[i, c.KIND] != c.DRY
+        )
+        """Body ids that the water acts on."""
+
+    @property
+    def surface(self) -> float:
+        """Height of the still water's surface [m]."""
+        return float(self.model.body_user[0, c.SURFACE])
+
+    @property
+    def density(self) -> float:
+        """Of the water [kg/m3]."""
+        return float(self.model.body_user[0, c.DENSITY])
+
+    def water(self, data: mujoco.MjData) -> Floats:
+        """The water at every body, a live view, (nbody, 8): see `columns.WATER_COLUMNS`."""
+        n = c.WATER_COLUMNS * self.model.nbody
+        rows: Floats = data.userdata[:n].reshape(self.model.nbody, c.WATER_COLUMNS)
+        return rows
+
+    def set_current(
+        self,
+        data: mujoco.MjData,
+        velocity: Sequence[float] | Floats,
+        acceleration: Sequence[float] | Floats = (0.0, 0.0, 0.0),
+        *,
+        body: int | None = None,
+    ) -> None:
+        """Let the water move at a body, or everywhere.
+
+        Args:
+            data: the state.
+            velocity: of the water in W, (3,) [m/s]; with ``body`` None also (nbody, 3).
+            acceleration: of the water in W, the same shapes [m/s2].
+            body: id in the model; None for all.
+        """
+        rows = self.water(data)
+        chosen = slice(None) if body is None else body
+        rows[chosen, 0:3] = velocity
+        rows[chosen, 3:6] = acceleration
+
+    def set_elevation(
+        self, data: mujoco.MjData, elevation: float, *, body: int | None = None
+    ) -> None:
+        """Let the surface stand above its still height at a body, or everywhere [m]."""
+        self.water(data)[slice(None) if body is None else body, 6] = elevation
+
+    def set_thruster(self, data: mujoco.MjData, index: int, command: float) -> None:
+        """Command a thruster by its number among the thrusters [1]."""
+        data.ctrl[self.model.actuator_ctrladr[self.thrusters[index]]] = command
+
+    def set_thrusters(
+        self, data: mujoco.MjData, commands: Sequence[float] | npt.NDArray[np.float64]
+    ) -> None:
+        """Command all thrusters, (n,) [1]."""
+        for index, command in enumerate(commands):
+            self.set_thruster(data, index, float(command))
+
+    def set_loss(self, data: mujoco.MjData, index: int, loss: float) -> None:
+        """Let a thruster lose a part of its thrust: 0 healthy, 1 dead."""
+        data.userdata[c.WATER_COLUMNS * self.model.nbody + self.thrusters[index]] = loss
+
+    def thruster(self, name: str) -> int:
+        """Number of a thruster among the thrusters, by its actuator's name."""
+        names = [self.model.actuator(i).name for i in self.thrusters]
+        if name not in names:
+            raise UnknownName("thruster", name, names)
+        return names.index(name)
+
+    def step(self, data: mujoco.MjData, n: int = 1) -> None:
+        """Advance by ``n`` steps, through the callback where there is one."""
+        if self._uses_callback:
+            callback.install()  # mj_resetCallbacks may have emptied the slot
+            mujoco.mj_step(self.model, data, n)
+        else:
+            self.step_without_callback(data, n)
+
+    def step_without_callback(self, data: mujoco.MjData, n: int = 1) -> None:
+        """Advance by ``n`` steps with ``mj_step1``, water, ``mj_step2``; not for RK4."""
+        if self.model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
+            raise NoWater("RK4 needs MuJoCo's callback; this MuJoCo does not export it.")
+        callback.remove()
+        callback.stepper()(self.model._address, data._address, n)
+
+    def wrenches(self, data: mujoco.MjData) -> Floats:
+        """Torque [N m] and force [N] of water and thrusters on each subtree, (nbody, 6).
+
+        In world axes, about ``data.subtree_com`` of the tree's root. For the state of the last
+        forward pass; ``data.cacc`` must be fresh: it is when the model has an accelerometer, a
+        force or a torque sensor, else call ``mujoco.mj_rnePostConstraint`` first.
+        """
+        return callback.water_wrenches(self.model, data)
+
+    def force_and_torque(self, data: mujoco.MjData, site: int) -> tuple[Floats, Floats]:
+        """What a force-torque sensor at a site reads: force [N] and torque [N m], site axes.
+
+        MuJoCo's own sensors add up ``cfrc_int``, which lacks passive forces and so the water. Like
+        theirs, it is what the parent does to the body the site is on.
+        """
+        model = self.model
+        body = int(model.site_bodyid[site])
+        root = int(model.body_rootid[body])
+        inner = data.cfrc_int[body] - self.wrenches(data)[body]
+        axes = data.site_xmat[site].reshape(3, 3)
+        lever = data.site_xpos[site] - data.subtree_com[root]
+        force: Floats = axes.T @ inner[3:]
+        torque: Floats = axes.T @ (inner[:3] - np.cross(lever, inner[3:]))
+        return force, torque
+
+
+def install(model: mujoco.MjModel) -> Hydrodynamics:
+    """Give a compiled model its water.
+
+    Corrects the model's inverse weights (once: install a model only once), checks MuJoCo's layout
+    and the kernel, and puts the kernel into MuJoCo's slot.
+
+    Raises:
+        NoWater: the model was not prepared, or its options exclude the callback.
+        CallbackTaken: another function sits in the slot.
+        MujocoChanged: this MuJoCo is not laid out as the kernel needs it.
+    """
+    _check(model)
+    self_test()
+    if callback.has_slot():
+        callback.install()
+    correct_inverse_weights(model)
+    return Hydrodynamics(model)
+
+
+def _check(model: mujoco.MjModel) -> None:
+    if model.nuser_body != c.BODY_COLUMNS or model.body_user[0, c.MAGIC] != c.MAGIC_NUMBER:
+        raise NoWater("The model has no hydrodynamics; call prepare() before compiling it.")
+    if model.nuserdata < c.WATER_COLUMNS * model.nbody + model.nactuator:
+        raise NoWater(
+            f"The model has {model.nuserdata} numbers of userdata for {model.nbody} bodies and "
+            f"{model.nactuator} actuators; call prepare() last, after every body was added."
+        )
+    off = mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
+    if model.opt.disableflags & off == off:
+        raise NoWater("Springs and dampers are both disabled: MuJoCo then skips the water too.")
+    if model.opt.density or model.opt.viscosity:
+        raise NoWater("option density and viscosity must be 0: MuJoCo's own fluid is not used.")
+    for body in range(1, model.nbody):
+        if model.body_user[body, c.KIND] == c.DRY or model.body_treeid[body] < 0:
+            continue
+        weld = int(model.body_weldid[body])
+        dofs = range(model.body_dofadr[weld], model.body_dofadr[weld] + model.body_dofnum[weld])
+        if any(model.dof_simplenum[dof] for dof in dofs):
+            name = model.body(body).name
+            raise NoWater(f"Body {name!r} is 'simple' to MuJoCo; prepare() must see it first.")

@@ -1,0 +1,135 @@
+"""Where the fields of MuJoCo's C structs lie, worked out from `mujoco.introspect`.
+
+The kernel gets nothing but the addresses of ``mjModel`` and ``mjData``. The offset of every field
+it reads follows from the declarations by C's rules of alignment; `check` holds the offsets
+against the live arrays that the Python bindings give out, so that a change of MuJoCo is refused,
+never misread.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+from mujoco.introspect import structs
+
+from ...errors import UwsimError
+
+MODEL_FIELDS = (
+    "opt.timestep", "opt.gravity", "opt.integrator", "opt.solver", "opt.noslip_iterations",
+    "opt.disableflags", "opt.enableflags",
+    "nv", "nbody", "nactuator", "nuser_body", "nuser_actuator", "nuserdata",
+    "body_parentid", "body_rootid", "body_treeid", "body_dofnum", "body_dofadr", "body_user",
+    "dof_bodyid", "M_rownnz", "M_rowadr", "M_colind",
+    "actuator_user", "actuator_trnid", "actuator_actadr", "actuator_ctrladr", "actuator_ctrlrange",
+    "site_bodyid",
+)  # fmt: skip
+"""What the kernel reads of the model."""
+
+DATA_FIELDS = (
+    "qvel", "act", "ctrl", "userdata", "xpos", "xmat", "site_xpos", "site_xmat", "subtree_com",
+    "cdof", "cdof_dot", "cvel", "cacc", "M", "qfrc_passive", "tree_awake",
+)  # fmt: skip
+"""What the kernel reads and writes of the data."""
+
+_SIZES = {
+    "char": 1, "mjtByte": 1, "mjtBool": 1, "int": 4, "float": 4, "mjtNum": 8, "double": 8,
+    "mjtSize": 8, "size_t": 8, "uintptr_t": 8, "uint64_t": 8,
+}  # fmt: skip
+
+
+class MujocoChanged(UwsimError):
+    """This MuJoCo is laid out otherwise than the kernel believes."""
+
+
+def offsets() -> npt.NDArray[np.int64]:
+    """Byte offsets of `MODEL_FIELDS` in mjModel, then of `DATA_FIELDS` in mjData, (n,)."""
+    model, data = _fields("mjModel"), _fields("mjData")
+    option = _fields("mjOption")
+    found = []
+    for name in MODEL_FIELDS:
+        head, _, tail = name.partition(".")
+        found.append(
+            _find(model, "mjModel", head) + (_find(option, "mjOption", tail) if tail else 0)
+        )
+    found += [_find(data, "mjData", name) for name in DATA_FIELDS]
+    return np.array(found, dtype=np.int64)
+
+
+def check(model: mujoco.MjModel, data: mujoco.MjData, at: npt.NDArray[np.int64]) -> None:
+    """Hold the offsets against live arrays and numbers.
+
+    Raises:
+        MujocoChanged: a pointer or a number is not where it should be.
+    """
+    for name, offset in zip((*MODEL_FIELDS, *DATA_FIELDS), at.tolist(), strict=True):
+        is_data = name in DATA_FIELDS
+        place = (data if is_data else model)._address + offset
+        live = data if is_data else model
+        for part in name.split("."):
+            live = getattr(live, part)
+        if isinstance(live, np.ndarray) and name.startswith("opt."):
+            right = live.ctypes.data == place
+        elif isinstance(live, np.ndarray):
+            right = live.size == 0 or live.ctypes.data == _read(place, ctypes.c_uint64)
+        elif isinstance(live, float):
+            right = live == _read(place, ctypes.c_double)
+        else:
+            width = ctypes.c_int32 if name.startswith("opt.") else ctypes.c_int64
+            right = int(live) == _read(place, width)
+        if not right:
+            raise MujocoChanged(
+                f"MuJoCo {mujoco.__version__} keeps {name!r} elsewhere than its own description "
+                "says; the hydrodynamics need mujoco>=4.0,<4.1."
+            )
+
+
+def _read(place: int, kind: Any) -> Any:
+    return kind.from_address(place).value
+
+
+def _find(fields: dict[str, int], struct: str, name: str) -> int:
+    if name not in fields:
+        raise MujocoChanged(
+            f"MuJoCo {mujoco.__version__} has no field {struct}.{name}; the hydrodynamics need "
+            "mujoco>=4.0,<4.1."
+        )
+    return fields[name]
+
+
+def _fields(struct: str) -> dict[str, int]:
+    """Name -> byte offset."""
+    places: dict[str, int] = {}
+    _walk(structs.STRUCTS[struct].fields, places)
+    return places
+
+
+def _walk(fields: Any, places: dict[str, int]) -> tuple[int, int]:
+    """Size and alignment of a struct; fills ``places``."""
+    end, widest = 0, 1
+    for field in fields:
+        size, alignment = _size(field.type)
+        end = -(-end // alignment) * alignment
+        places[field.name] = end
+        end += size
+        widest = max(widest, alignment)
+    return -(-end // widest) * widest, widest
+
+
+def _size(kind: Any) -> tuple[int, int]:
+    """Size and alignment of a type of `mujoco.introspect`."""
+    if hasattr(kind, "fields"):
+        return _walk(kind.fields, {})
+    if hasattr(kind, "extents"):
+        size, alignment = _size(kind.inner_type)
+        return size * int(np.prod(kind.extents)), alignment
+    if not hasattr(kind, "name"):
+        return 8, 8  # a pointer
+    if kind.name in _SIZES:
+        return _SIZES[kind.name], _SIZES[kind.name]
+    if kind.name in structs.STRUCTS:
+        return _walk(structs.STRUCTS[kind.name].fields, {})
+    return 4, 4  # an enumeration

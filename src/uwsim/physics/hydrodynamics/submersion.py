@@ -1,0 +1,239 @@
+"""How much of a shape is under water, and where the centre of that part is.
+
+Volumes are exact for spheres, ellipsoids and boxes at any attitude, and for cylinders that stand
+upright or whose end discs stay clear of the waterline; else a cylinder's are quadratures over 24
+chords, good to about a thousandth. The water surface is a horizontal plane.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...jit import njit
+from .columns import BOX, CYLINDER, ELLIPSOID, SHRINKING_SPHERE, SPHERE
+from .memory import Floats
+
+CHORDS = 24
+_CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) - 0.5
+_PATHS = np.array([[1, 3], [1, 5], [2, 3], [2, 6], [4, 5], [4, 6]])
+"""A box is six tetrahedra along the edges from corner 0 to corner 7."""
+
+
+@njit
+def submerged(shape: float, size: Floats, up: Floats, depth: float, centre: Floats) -> float:
+    """Fraction of a shape's volume that is under water.
+
+    Args:
+        shape: which one; see `columns`.
+        size: (3,) [m]: radius; half-axes; edges; radius and length (about z).
+        up: the vertical in the shape's axes, (3,), unit.
+        depth: of the shape's centre below the surface [m].
+        centre: (3,) [m], receives the centre of the submerged part in the shape's axes.
+    """
+    centre[:] = 0.0
+    if shape == SPHERE:
+        return _ball(size[0], size[0], size[0], up, depth, centre)
+    if shape == ELLIPSOID:
+        return _ball(size[0], size[1], size[2], up, depth, centre)
+    if shape == SHRINKING_SPHERE:
+        left: float = min(max(1.0 + min(depth, 0.0) / size[0], 0.0), 1.0)
+        return left**3
+    if shape == BOX:
+        reach = 0.5 * (abs(size[0] * up[0]) + abs(size[1] * up[1]) + abs(size[2] * up[2]))
+    else:
+        tilt = math.sqrt(up[0] * up[0] + up[1] * up[1])
+        reach = size[0] * tilt + 0.5 * size[1] * abs(up[2])
+    if depth >= reach:
+        return 1.0
+    if depth <= -reach:
+        return 0.0
+    if shape == BOX:
+        return _box(size, up, depth, centre)
+    if shape == CYLINDER:
+        return _cylinder(size[0], size[1], up, depth, centre)
+    return 1.0
+
+
+@njit
+def _ball(a: float, b: float, c: float, up: Floats, depth: float, centre: Floats) -> float:
+    """An ellipsoid is a unit sphere, stretched; planes stay planes and fractions stay."""
+    reach = math.sqrt((a * up[0]) ** 2 + (b * up[1]) ** 2 + (c * up[2]) ** 2)
+    if reach <= 0.0 or depth >= reach:
+        return 1.0
+    if depth <= -reach:
+        return 0.0
+    h = 1.0 + depth / reach  # height of the cap of the unit sphere
+    fraction: float = h * h * (3.0 - h) / 4.0
+    # distance of the cap's centroid below the centre of the unit sphere
+    down = 3.0 * (2.0 - h) ** 2 / (4.0 * (3.0 - h))
+    centre[0] = -down * a * a * up[0] / reach
+    centre[1] = -down * b * b * up[1] / reach
+    centre[2] = -down * c * c * up[2] / reach
+    return fraction
+
+
+@njit
+def _box(size: Floats, up: Floats, depth: float, centre: Floats) -> float:
+    """Six tetrahedra, each cut by the plane exactly."""
+    points = np.empty((4, 3))  # [m]
+    heights = np.empty(4)  # above the surface [m]
+    whole = size[0] * size[1] * size[2] / 6.0
+    volume: float = 0.0
+    for path in range(6):
+        for i in range(4):
+            corner = 0 if i == 0 else (7 if i == 3 else _PATHS[path, i - 1])
+            for axis in range(3):
+                points[i, axis] = _CORNERS[corner, axis] * size[axis]
+            heights[i] = points[i, 0] * up[0] + points[i, 1] * up[1] + points[i, 2] * up[2] - depth
+        volume += _tetrahedron(points, heights, whole, centre)
+    if volume <= 0.0:
+        return 0.0
+    centre /= volume
+    fraction: float = volume / (6.0 * whole)
+    return fraction
+
+
+@njit
+def _tetrahedron(points: Floats, heights: Floats, whole: float, moment: Floats) -> float:
+    """Volume below height 0; adds volume times centroid to ``moment``."""
+    for i in range(1, 4):  # sort, lowest first
+        j = i
+        while j > 0 and heights[j] < heights[j - 1]:
+            heights[j], heights[j - 1] = heights[j - 1], heights[j]
+            for axis in range(3):
+                points[j, axis], points[j - 1, axis] = points[j - 1, axis], points[j, axis]
+            j -= 1
+    if heights[0] >= 0.0:
+        return 0.0
+    if heights[3] <= 0.0:
+        for axis in range(3):
+            mean = (points[0, axis] + points[1, axis] + points[2, axis] + points[3, axis]) / 4.0
+            moment[axis] += whole * mean
+        return whole
+    if heights[1] >= 0.0:  # one corner in the water
+        return _tip(points, heights, 0, whole, moment)
+    if heights[2] < 0.0:  # one corner out of the water
+        for axis in range(3):
+            mean = (points[0, axis] + points[1, axis] + points[2, axis] + points[3, axis]) / 4.0
+            moment[axis] += whole * mean
+        rest: float = whole - _tip(points, heights, 3, -whole, moment)
+        return rest
+    # two in, two out: a wedge of three tetrahedra, cut along its edges at shares of the whole
+    a = heights[0] / (heights[0] - heights[2])
+    b = heights[0] / (heights[0] - heights[3])
+    c = heights[1] / (heights[1] - heights[2])
+    d = heights[1] / (heights[1] - heights[3])
+    first = a * b * whole
+    second = (1.0 - a) * b * c * whole
+    third = (1.0 - b) * c * d * whole
+    for axis in range(3):
+        p, q = points[0, axis], points[1, axis]
+        ac = p + a * (points[2, axis] - p)
+        ad = p + b * (points[3, axis] - p)
+        bc = q + c * (points[2, axis] - q)
+        bd = q + d * (points[3, axis] - q)
+        moment[axis] += first * (p + ac + ad + q) / 4.0
+        moment[axis] += second * (ac + ad + q + bc) / 4.0
+        moment[axis] += third * (ad + q + bc + bd) / 4.0
+    wedge: float = first + second + third
+    return wedge
+
+
+@njit
+def _tip(points: Floats, heights: Floats, at: int, whole: float, moment: Floats) -> float:
+    """Volume (> 0) of the corner ``at`` that the plane cuts off; ``whole`` may carry a sign."""
+    share = 1.0
+    for i in range(4):
+        if i != at:
+            share *= heights[at] / (heights[at] - heights[i])
+    volume: float = share * whole
+    for axis in range(3):
+        total = 4.0 * points[at, axis]
+        for i in range(4):
+            if i != at:
+                cut = heights[at] / (heights[at] - heights[i])
+                total += cut * (points[i, axis] - points[at, axis])
+        moment[axis] += volume * total / 4.0
+    return abs(volume)
+
+
+@njit
+def _cylinder(radius: float, length: float, up: Floats, depth: float, centre: Floats) -> float:
+    """Chords across the level direction; each slice is a rectangle cut by a line."""
+    tilt = math.sqrt(up[0] * up[0] + up[1] * up[1])
+    x, y = (up[0] / tilt, up[1] / tilt) if tilt > 1e-12 else (1.0, 0.0)
+    volume, across, along = 0.0, 0.0, 0.0
+    piece = np.empty(3)
+    for i in range(CHORDS):
+        angle = math.pi * (i + 1) / (CHORDS + 1)
+        half = radius * math.sin(angle)
+        _rectangle(half, 0.5 * length, tilt, up[2], depth, piece)
+        weight = math.sin(angle)
+        volume += weight * piece[0]
+        across += weight * piece[1]
+        along += weight * piece[2]
+    if volume <= 0.0:
+        return 0.0
+    centre[0] = x * across / volume
+    centre[1] = y * across / volume
+    centre[2] = along / volume
+    # sum of 4 (length/2) r sin^2 over the nodes, exact: the whole by the same rule
+    return volume / (length * radius * (CHORDS + 1))
+
+
+@njit
+def _rectangle(a: float, b: float, up_x: float, up_z: float, depth: float, piece: Floats) -> None:
+    """Area and first moments of the part of [-a, a] x [-b, b] where up . p <= depth."""
+    piece[:] = 0.0
+    px, pz, ph = -a, -b, -a * up_x - b * up_z - depth
+    for i in range(1, 5):
+        qx = a if i in (1, 2) else -a
+        qz = b if i in (2, 3) else -b
+        qh = qx * up_x + qz * up_z - depth
+        if ph <= 0.0 or qh <= 0.0:
+            sx, sz, ex, ez = px, pz, qx, qz
+            if ph > 0.0:
+                share = ph / (ph - qh)
+                sx, sz = px + share * (qx - px), pz + share * (qz - pz)
+            if qh > 0.0:
+                share = ph / (ph - qh)
+                ex, ez = px + share * (qx - px), pz + share * (qz - pz)
+            _edge(sx, sz, ex, ez, piece)
+        px, pz, ph = qx, qz, qh
+    # close along the waterline: from where the outline leaves the water to where it comes back
+    _waterline(a, b, up_x, up_z, depth, piece)
+    piece[1] /= 3.0
+    piece[2] /= 3.0
+
+
+@njit
+def _edge(sx: float, sz: float, ex: float, ez: float, piece: Floats) -> None:
+    """Green's theorem for one edge: area, and three times the first moments."""
+    turn = 0.5 * (sx * ez - ex * sz)
+    piece[0] += turn
+    piece[1] += turn * (sx + ex)
+    piece[2] += turn * (sz + ez)
+
+
+@njit
+def _waterline(a: float, b: float, up_x: float, up_z: float, depth: float, piece: Floats) -> None:
+    """The edge that the surface makes across the rectangle."""
+    leave_x, leave_z, back_x, back_z, found = 0.0, 0.0, 0.0, 0.0, 0
+    px, pz, ph = -a, -b, -a * up_x - b * up_z - depth
+    for i in range(1, 5):
+        qx = a if i in (1, 2) else -a
+        qz = b if i in (2, 3) else -b
+        qh = qx * up_x + qz * up_z - depth
+        if (ph <= 0.0) != (qh <= 0.0):
+            share = ph / (ph - qh)
+            x, z = px + share * (qx - px), pz + share * (qz - pz)
+            if ph <= 0.0:
+                leave_x, leave_z = x, z
+            else:
+                back_x, back_z = x, z
+            found += 1
+        px, pz, ph = qx, qz, qh
+    if found == 2:
+        _edge(leave_x, leave_z, back_x, back_z, piece)

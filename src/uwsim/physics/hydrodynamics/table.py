@@ -1,0 +1,156 @@
+"""From specs to the tables inside the model: before and after compiling."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from . import columns as c
+from .spec import BadHydrodynamics, BodyHydrodynamics, ThrusterSpec, body_faults, matrix
+from .spec import thruster_faults as _thruster_faults
+
+_SHAPES = {
+    "sphere": c.SPHERE, "ellipsoid": c.ELLIPSOID, "box": c.BOX, "cylinder": c.CYLINDER,
+    "shrinking-sphere": c.SHRINKING_SPHERE,
+}  # fmt: skip
+
+
+def prepare(
+    spec: mujoco.MjSpec,
+    bodies: Mapping[str, BodyHydrodynamics],
+    thrusters: Mapping[str, tuple[str, ThrusterSpec]] | None = None,
+    *,
+    surface: float = 0.0,
+    density: float = 1000.0,
+) -> None:
+    """Write hydrodynamics into a model that is about to be compiled.
+
+    Call it last: it counts the bodies and the actuators.
+
+    Args:
+        spec: the whole scene.
+        bodies: name of a body in ``spec`` -> what the water does to it.
+        thrusters: name of the actuator to make -> the body it sits on, and its spec.
+        surface: height of the still water's surface in W [m].
+        density: of the water [kg/m3].
+
+    Raises:
+        BadHydrodynamics: with every fault.
+    """
+    propellers = thrusters or {}
+    _check(spec, bodies, propellers)
+    spec.nuser_body = c.BODY_COLUMNS
+    spec.nuser_actuator = max(spec.nuser_actuator, c.THRUSTER_COLUMNS)
+    if spec.nuser_actuator != c.THRUSTER_COLUMNS:
+        raise BadHydrodynamics([f"nuser_actuator must be at most {c.THRUSTER_COLUMNS}"])
+    water = np.zeros(c.BODY_COLUMNS)
+    water[[c.MAGIC, c.SURFACE, c.DENSITY]] = c.MAGIC_NUMBER, surface, density
+    spec.worldbody.userdata = water
+    for name, body in bodies.items():
+        _prepare_body(spec.body(name), body, density)
+    for name, (link, thruster) in propellers.items():
+        _add_thruster(spec, name, spec.body(link), thruster)
+    spec.nuserdata = c.WATER_COLUMNS * len(spec.bodies) + len(spec.actuators)
+
+
+def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]:
+    """The columns of a body, (128,)."""
+    row = np.zeros(c.BODY_COLUMNS)
+    linear, quadratic = matrix(body.linear_damping), matrix(body.quadratic_damping)
+    added = matrix(body.added_mass)
+    is_full = any(np.any(m - np.diag(np.diag(m))) for m in (linear, quadratic))
+    row[c.KIND] = c.FULL if is_full else c.DIAGONAL
+    row[c.THETA] = body.implicitness
+    row[c.DISPLACED] = density * body.volume
+    row[c.CENTRE : c.CENTRE + 3] = body.centre_of_buoyancy
+    row[c.SHAPE] = _SHAPES[body.shape]
+    size = body.size or (max(0.75 * body.volume / math.pi, 1e-12) ** (1.0 / 3.0),)
+    row[c.SIZE : c.SIZE + len(size)] = size
+    row[c.ADDED : c.ADDED + 36] = (0.5 * (added + added.T)).ravel()
+    row[c.LINEAR : c.LINEAR + 36] = linear.ravel()
+    row[c.QUADRATIC : c.QUADRATIC + 36] = quadratic.ravel()
+    return row
+
+
+def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:
+    """The columns of a thruster, (32,)."""
+    row = np.zeros(c.THRUSTER_COLUMNS)
+    row[c.IS_THRUSTER] = 1.0
+    row[c.DEAD_ZONE] = thruster.dead_zone
+    row[c.LEAST], row[c.MOST] = thruster.saturation or (-math.inf, math.inf)
+    row[c.TORQUE], row[c.RADIUS] = thruster.torque, thruster.radius
+    backward = thruster.forward if thruster.backward is None else thruster.backward
+    row[c.FORWARD : c.FORWARD + len(thruster.forward)] = thruster.forward
+    row[c.BACKWARD : c.BACKWARD + len(backward)] = backward
+    return row
+
+
+def _check(
+    spec: mujoco.MjSpec,
+    bodies: Mapping[str, BodyHydrodynamics],
+    thrusters: Mapping[str, tuple[str, ThrusterSpec]],
+) -> None:
+    faults = [fault for body in bodies.values() for fault in body_faults(body)]
+    faults += [fault for _, one in thrusters.values() for fault in _thruster_faults(one)]
+    for name in (*bodies, *(link for link, _ in thrusters.values())):
+        if name == "world" or spec.body(name) is None:
+            faults.append(f"the model has no body {name!r} that the water could act on")
+    if spec.option.density or spec.option.viscosity:
+        faults.append("option density and viscosity must be 0: MuJoCo's own fluid is not used")
+    if faults:
+        raise BadHydrodynamics(faults)
+
+
+def _prepare_body(node: mujoco.MjsBody, body: BodyHydrodynamics, density: float) -> None:
+    node.userdata = body_row(body, density)
+    if any(joint.type == mujoco.mjtJoint.mjJNT_FREE for joint in node.joints):
+        node.simple = mujoco.mjtLimited.mjLIMITED_FALSE
+    if body.mass is not None:
+        node.mass = body.mass
+        node.explicitinertial = True
+    if body.centre_of_mass is not None:
+        node.ipos = list(body.centre_of_mass)
+        node.explicitinertial = True
+    if body.inertia is not None:
+        node.fullinertia = list(body.inertia)
+        node.inertia = [0.0, 0.0, 0.0]
+        node.iquat = [1.0, 0.0, 0.0, 0.0]
+        node.explicitinertial = True
+
+
+def _add_thruster(
+    spec: mujoco.MjSpec, name: str, body: mujoco.MjsBody, thruster: ThrusterSpec
+) -> None:
+    """A site whose x axis is the thrust, and an actuator whose state is the rotor's.
+
+    MuJoCo integrates the state; its own gain is 0, the kernel makes the force.
+    """
+    body.add_site(name=name, pos=list(thruster.position), quat=_quat_to(thruster.direction))
+    actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_SITE)
+    actuator.gear = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    actuator.gaintype = mujoco.mjtGain.mjGAIN_FIXED
+    actuator.gainprm[0] = 0.0
+    actuator.biastype = mujoco.mjtBias.mjBIAS_NONE
+    actuator.ctrllimited = mujoco.mjtLimited.mjLIMITED_TRUE
+    actuator.ctrlrange = list(thruster.limits)
+    if thruster.time_constant > 0.0:
+        actuator.dyntype = mujoco.mjtDyn.mjDYN_FILTEREXACT
+        actuator.dynprm[0] = thruster.time_constant
+    actuator.userdata = thruster_row(thruster)
+
+
+def _quat_to(direction: tuple[float, float, float]) -> list[float]:
+    """A turn wxyz that takes x into ``direction``."""
+    quat = np.zeros(4)
+    unit = np.array(direction) / math.hypot(*direction)
+    half = np.array([1.0, 0.0, 0.0]) + unit
+    if np.linalg.norm(half) < 1e-6:
+        return [0.0, 0.0, 0.0, 1.0]
+    half /= np.linalg.norm(half)
+    quat[0] = half[0]
+    quat[1:] = np.cross([1.0, 0.0, 0.0], half)
+    return [float(value) for value in quat]
