@@ -8,7 +8,7 @@ import pytest
 from fake_node import FakeNode
 from textures import Texture, rectangle
 
-from uwsim.algorithms import ALGORITHMS, Esm, load_algorithm, summary
+from uwsim.algorithms import ALGORITHMS, Esm, check_parameters, load_algorithm, summary
 from uwsim.bus import Bus
 from uwsim.errors import BadSetting
 from uwsim.messages import (
@@ -52,6 +52,17 @@ def test_a_bundled_algorithm_is_found_by_its_name() -> None:
 def test_an_algorithm_that_is_not_there_is_a_clean_error(name: str, message: str) -> None:
     with pytest.raises(BadSetting, match=message):
         load_algorithm(name)
+
+
+def test_parameters_can_be_checked_before_anything_runs() -> None:
+    check_parameters(Esm, {"levels": 2, "latency_s": 0.1})
+    with pytest.raises(BadSetting, match="Did you mean 'levels'"):
+        check_parameters(Esm, {"level": 2})
+
+    class Stranger:
+        def start(self, node: object) -> None: ...
+
+    check_parameters(Stranger, {"whatever": 1.0})
 
 
 def test_every_algorithm_is_described_in_the_documentation() -> None:

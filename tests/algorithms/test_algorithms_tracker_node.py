@@ -221,6 +221,8 @@ def test_a_misspelt_parameter_is_refused_with_the_right_name() -> None:
         started("esm", zncc_treshold=0.4)
     with pytest.raises(BadSetting, match="expected a number"):
         started("esm", levels="many")
+    with pytest.raises(BadSetting, match="'levels' of the algorithm is -1"):
+        started("esm", levels=-1)
 
 
 def test_parameters_in_force_can_be_read() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Mapping
 
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean
@@ -10,8 +11,9 @@ from .direct import Esm, InverseCompositional, SsdEsm
 from .ecc import Ecc
 from .frozen import Frozen
 from .orb import Orb
+from .tracker_node import chosen
 
-__all__ = ["ALGORITHMS", "load_algorithm", "summary"]
+__all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
 
 ALGORITHMS: dict[str, type[Algorithm]] = {
     "ecc": Ecc,
@@ -47,7 +49,7 @@ def load_algorithm(name: str) -> type[Algorithm]:
     except Exception as error:
         raise BadSetting(
             f"Algorithm {name!r}: the module {module_name!r} cannot be imported: "
-            f"{type(error).__name__}: {error}"
+            f"{type(error).__name__}: {error}. (A file beside you is found with PYTHONPATH=.)"
         ) from error
     found = getattr(module, class_name, None)
     if not isinstance(found, type):
@@ -59,3 +61,17 @@ def load_algorithm(name: str) -> type[Algorithm]:
     if not callable(getattr(found, "start", None)):
         raise BadSetting(f"Algorithm {name!r}: the class has no method start(node).")
     return found
+
+
+def check_parameters(algorithm: type[Algorithm], parameters: Mapping[str, float | str]) -> None:
+    """Refuse a parameter that a bundled algorithm would refuse at its start.
+
+    A stranger's class is held to its ``PARAMETERS`` if it has them. ``latency_s`` is the bus's
+    own and always allowed.
+
+    Raises:
+        BadSetting: an unknown name, or a value that cannot be used.
+    """
+    defaults = getattr(algorithm, "PARAMETERS", None)
+    if isinstance(defaults, Mapping):
+        chosen(defaults, {name: parameters[name] for name in parameters if name != "latency_s"})

@@ -38,7 +38,7 @@ class Esm(TrackerNode):
             max_iterations=int(self.number("max_iterations")),
             precision=self.number("precision"),
         )
-        levels = int(self.number("levels"))
+        levels = max(int(self.number("levels")), 1)
         return DirectTracker.remember(image, quad, levels=levels, method=method)
 
 

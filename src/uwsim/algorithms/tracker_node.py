@@ -9,6 +9,7 @@ anew. Estimates carry no stamp; they are published while the picture's callback 
 from __future__ import annotations
 
 import abc
+import math
 from collections.abc import Mapping
 from typing import ClassVar
 
@@ -62,7 +63,8 @@ class TrackerNode(abc.ABC):
     def loss_test(self) -> LossTest | None:
         """Make the test that says when it is lost; None for one that never is."""
         return LossTest(
-            zncc_threshold=self.number("zncc_threshold"), frames=int(self.number("lost_frames"))
+            zncc_threshold=self.number("zncc_threshold"),
+            frames=max(int(self.number("lost_frames")), 1),
         )
 
     def start(self, node: Node) -> None:
@@ -140,7 +142,7 @@ def chosen(
     """The defaults, overridden by what was given.
 
     Raises:
-        BadSetting: a name that is not among the defaults, or text for a number.
+        BadSetting: a name that is not among the defaults, or text or less than 0 for a number.
     """
     result = dict(defaults)
     for name, value in given.items():
@@ -155,7 +157,9 @@ def chosen(
         try:
             result[name] = float(value)
         except ValueError:
+            result[name] = math.nan
+        if not 0.0 <= float(result[name]) < math.inf:
             raise BadSetting(
-                f"Parameter {name!r} of the algorithm is {value!r}; expected a number."
-            ) from None
+                f"Parameter {name!r} of the algorithm is {value!r}; expected a number >= 0."
+            )
     return result
