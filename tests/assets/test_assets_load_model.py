@@ -45,6 +45,7 @@ def test_osgconv_is_asked_for_pictures_then_for_obj(
     program.chmod(0o755)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
     (tmp_path / "thing.osg").write_text("Group {}")
+    (tmp_path / "thing.obj").write_text(TRIANGLE)  # the exact name wins when it can be read
     model = load_model("thing.osg", data_path=(tmp_path,))
     assert model.box.upper == (2.0, 2.0, 0.0)
 

@@ -12,7 +12,7 @@ from pathlib import Path, PurePosixPath
 
 from ..errors import AssetNotFound, did_you_mean
 from .find import UNDER, candidates, find, folders_searched, plain_name, roots
-from .loaders import READABLE, read_model
+from .loaders import BY_OSGCONV, READABLE, can_read, read_model
 from .mesh import Mesh, Model, Texture
 from .primitives import primitive
 from .stand_ins import STAND_INS, StandIn
@@ -52,14 +52,9 @@ def load_model(
     """
     name = plain_name(name)
     stem = name.rpartition(".")[0] or name
-    exact = list(candidates(name, beside=beside, data_path=data_path))
-    others = (
-        path
-        for suffix in READABLE
-        for path in candidates(stem + suffix, beside=beside, data_path=data_path)
-    )
-    path = next((p for p in (*exact, *others) if p.suffix.lower() in READABLE), None)
-    path = path or (exact[0] if exact else None)
+    names = [name, *(stem + suffix for suffix in (*READABLE, *BY_OSGCONV))]
+    found = list(candidates(names, beside=beside, data_path=data_path))
+    path = next((path for path in found if can_read(path)), next(iter(found), None))
     if path is not None:
         return read_model(path, name=name, max_triangles=max_triangles)
     stand_in = _stand_in_name(stem)

@@ -7,7 +7,7 @@ folders; in every data path; in ``~/.uwsim/data``; in the package. Each of these
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 UNDER = ("", "data", "data/scenes", "objects", "terrain", "robot", "textures")
@@ -51,26 +51,31 @@ def folders_searched(*, beside: Path | None = None, data_path: tuple[Path, ...] 
 
 def find(name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> Path | None:
     """The file called ``name``, or None when it is in none of the folders searched."""
-    return next(candidates(name, beside=beside, data_path=data_path), None)
+    return next(candidates([name], beside=beside, data_path=data_path), None)
 
 
 def candidates(
-    name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()
+    names: Sequence[str], *, beside: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> Iterator[Path]:
-    """Every file called ``name``, in the order of search."""
-    wanted = Path(plain_name(name)).expanduser()
-    if wanted.is_absolute():
-        if _is_file(wanted):
-            yield wanted
-        return
-    for folder in folders_searched(beside=beside, data_path=data_path):
-        if _is_file(folder / wanted):
-            yield folder / wanted
+    """Every file that has one of the names: those of the first name in the order of search, ..."""
+    searched = folders_searched(beside=beside, data_path=data_path)
+    present: dict[Path, list[Path]] = {}  # by the folder within the name: where there is one
+    for name in names:
+        wanted = Path(plain_name(name)).expanduser()
+        if wanted.is_absolute():
+            yield from (path for path in [wanted] if _is(path, Path.is_file))
+            continue
+        if wanted.parent not in present:
+            places = (folder / wanted.parent for folder in searched)
+            present[wanted.parent] = [place for place in places if _is(place, Path.is_dir)]
+        for place in present[wanted.parent]:
+            if _is(place / wanted.name, Path.is_file):
+                yield place / wanted.name
 
 
-def _is_file(path: Path) -> bool:
-    """Whether there is a file; names no file system can have are simply not there."""
+def _is(path: Path, kind: Callable[[Path], bool]) -> bool:
+    """Whether the path is of that kind; names no file system can have are simply not there."""
     try:
-        return path.is_file()
+        return kind(path)
     except (OSError, ValueError):
         return False

@@ -9,12 +9,18 @@ from pathlib import Path
 from ...errors import AssetError
 from ..mesh import Model
 from .by_trimesh import READABLE, read_meshes
-from .openscenegraph import BY_OSGCONV, converted
+from .openscenegraph import BY_OSGCONV, converted, has_osgconv
 
-__all__ = ["BY_OSGCONV", "READABLE", "read_model"]
+__all__ = ["BY_OSGCONV", "READABLE", "can_read", "read_model"]
 
 LARGEST_FILE = 512 * 1024 * 1024
 """Files above this size [bytes] are refused."""
+
+
+def can_read(path: Path) -> bool:
+    """Whether files of that type can be read here and now."""
+    suffix = path.suffix.lower()
+    return suffix in READABLE or (suffix in BY_OSGCONV and has_osgconv())
 
 
 def read_model(path: Path, *, name: str, max_triangles: int | None = None) -> Model:

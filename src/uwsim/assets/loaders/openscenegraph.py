@@ -19,6 +19,11 @@ PATIENCE = 120.0
 """Longest time one conversion may take [s]."""
 
 
+def has_osgconv() -> bool:
+    """Whether the program is installed."""
+    return shutil.which("osgconv") is not None
+
+
 @contextmanager
 def converted(path: Path) -> Iterator[Path]:
     """The file as OBJ, in a folder that is gone afterwards.

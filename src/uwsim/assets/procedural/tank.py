@@ -102,7 +102,7 @@ def _grass() -> Texture:
 
 def _facade() -> Texture:
     """Rendered wall with two rows of windows and a door, for the whole front."""
-    height, width = 512, 1024
+    height, width = 384, 768
     stain = noise("tank/facade", height, width, cells=4, octaves=7)
     picture = plain(height, width, (0.80, 0.76, 0.68)) * (1.0 + 0.04 * stain)[:, :, None]
     for row in (0.16, 0.55):
@@ -118,8 +118,8 @@ def _facade() -> Texture:
                 1.0 + 0.15 * sky[:, :, None]
             )
             picture[c:d, (a + b) // 2 - 2 : (a + b) // 2 + 2] = (0.92, 0.92, 0.90)
-    picture[round(0.52 * height) :, 460:560] = (0.30, 0.34, 0.40)
-    picture[round(0.52 * height) :, 508:512] = (0.70, 0.70, 0.70)
+    picture[round(0.52 * height) :, 345:420] = (0.30, 0.34, 0.40)
+    picture[round(0.52 * height) :, 381:384] = (0.70, 0.70, 0.70)
     picture[round(0.94 * height) :] *= 0.6
     return finished("tank/facade", picture, repeats=False)
 
@@ -131,7 +131,9 @@ def _title() -> Texture:
     picture = plain(height, width, (0.55, 0.38, 0.20)) * (1.0 + 0.06 * grain)[:, :, None]
     picture[:6] = picture[-6:] = picture[:, :6] = picture[:, -6:] = (0.25, 0.16, 0.08)
     cream = (0.96, 0.93, 0.84)
-    write(picture, "UNDERWATER ROBOTICS TEST TANK", (0.5, 0.38), height=0.36, colour=cream)
+    write(
+        picture, "UNDERWATER ROBOTICS TEST TANK", (0.5, 0.40), width=0.90, height=0.38, colour=cream
+    )
     write(picture, "uwsim  -  16 x 8 x 5 m", (0.5, 0.77), height=0.17, colour=cream)
     return finished("tank/title", picture, repeats=False)
 
@@ -155,7 +157,7 @@ def _wall_under_water() -> Texture:
 
 def tank() -> tuple[Mesh, ...]:
     """The basin, what lies in it, and what stands round it."""
-    wet, dry = _wall_under_water(), concrete("tank/cement", (0.66, 0.65, 0.62))
+    wet, dry = _wall_under_water(), concrete("tank/cement", (0.66, 0.65, 0.62), size=256)
     (px, py), pz = PICTURE_SIZE, PICTURE_TOP
     floor_z = -4.85
     slab = quad((-px / 2, -py / 2, pz), (px / 2, -py / 2, pz), (px / 2, py / 2, pz),
@@ -172,10 +174,10 @@ def tank() -> tuple[Mesh, ...]:
     ]  # fmt: skip
     window = quad((-2.7, 3.96, -1.95), (2.7, 3.96, -1.95), (2.7, 3.96, -0.75), (-2.7, 3.96, -0.75))
     frame = join(
-        box((-2.8, 3.95, -2.05), (2.8, 4.0, -1.95)),
-        box((-2.8, 3.95, -0.75), (2.8, 4.0, -0.65)),
-        box((-2.8, 3.95, -1.95), (-2.7, 4.0, -0.75)),
-        box((2.7, 3.95, -1.95), (2.8, 4.0, -0.75)),
+        box((-2.8, 3.93, -2.05), (2.8, 4.0, -1.95)),
+        box((-2.8, 3.93, -0.75), (2.8, 4.0, -0.65)),
+        box((-2.8, 3.93, -1.95), (-2.7, 4.0, -0.75)),
+        box((2.7, 3.93, -1.95), (2.8, 4.0, -0.75)),
     )
     house = box((-8.3, 4.32, 0.1), (8.3, 9.6, 4.67))
     front = quad((-8.3, 4.3, 0.1), (8.3, 4.3, 0.1), (8.3, 4.3, 4.67), (-8.3, 4.3, 4.67))
@@ -188,7 +190,7 @@ def tank() -> tuple[Mesh, ...]:
         mesh(_walls(0.0, RIM_TOP).projected(2.0), _deck().projected(2.0), texture=dry),
         mesh(window, texture=_window()),
         mesh(front, texture=_facade()),
-        mesh(house.projected(3.0), texture=concrete("tank/render", (0.74, 0.70, 0.63))),
+        mesh(house.projected(3.0), texture=concrete("tank/render", (0.74, 0.70, 0.63), size=256)),
         mesh(board, texture=_title()),
         mesh(
             box((-5.14, 4.24, 4.58), (5.14, 4.34, 5.92)),
