@@ -114,6 +114,19 @@ def test_back_faces_are_not_drawn_unless_asked_for(renderer: Renderer) -> None:
     assert renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS).ids.any()  # type: ignore[union-attr]
 
 
+def test_the_back_of_a_two_sided_plate_is_lit_as_a_front(renderer: Renderer) -> None:
+    pictures = []
+    for roll in (0.0, np.pi):
+        handle = renderer.add(plate(9.0, 9.0, (0.6, 0.6, 0.6), two_sided=True), 1)
+        renderer.place(handle, Pose.from_rpy((0.0, 0.0, -2.0), (roll, 0.0, 0.0)).matrix)
+        picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
+        assert picture.colour is not None
+        pictures.append(picture.colour.astype(int))
+        renderer.remove(handle)
+    assert np.abs(pictures[0] - pictures[1]).max() <= 1
+    assert pictures[0].min() > 255.0 * AMBIENT * 0.6 + 20.0  # the sun reaches it
+
+
 def test_a_mirroring_matrix_does_not_turn_a_body_inside_out(renderer: Renderer) -> None:
     body = renderer.add(block((1.0, 1.0, 1.0)), 1)
     renderer.place(body, placed(z=-3.0) @ np.diag([-1.0, 1.0, 1.0, 1.0]))

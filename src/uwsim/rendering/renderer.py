@@ -126,8 +126,7 @@ class Renderer:
 
     def close(self) -> None:
         """Give the context and all that is in it back; the renderer is of no use afterwards."""
-        if self._context.mglo is not None:
-            self._context.release()
+        self._context.release()
 
     def _find(self, handle: int) -> Instance:
         if handle not in self._instances:
