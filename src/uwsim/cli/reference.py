@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import unittest.mock
 
 from .app import COMMANDS, main
 
@@ -36,8 +37,7 @@ def page() -> str:
 def section(title: str, *arguments: str) -> str:
     """Return one section: the title and what ``uwsim ARGUMENTS`` prints."""
     printed = io.StringIO()
-    os.environ["COLUMNS"] = "80"
-    with contextlib.redirect_stdout(printed):
+    with unittest.mock.patch.dict(os.environ, COLUMNS="80"), contextlib.redirect_stdout(printed):
         main(arguments)
     return f"## {title}\n\n```text\n{printed.getvalue().strip()}\n```\n"
 
