@@ -54,6 +54,9 @@ def read_document(document: Document, faults: Faults) -> SceneSpec | None:
     if document.root.tag != ROOT:
         return None
     upgrade(document.root, faults)
+    if faults.strict:
+        for node in document.root.iter("ProfilingSonar", "ProfilingSonarROS"):
+            faults.add(node, f"<{node.tag}> is not in the original grammar")
     return read(SceneSpec, document.root, faults, given={"path": str(document.path)})
 
 

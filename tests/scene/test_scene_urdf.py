@@ -1,0 +1,219 @@
+"""Robot files: UWSim's order of joints, limits, mimics, and the arm's forward kinematics."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from uwsim.errors import SceneError
+from uwsim.scene.kinematics import joint_positions, link_poses
+from uwsim.scene.urdf import RobotSpec, read_urdf
+
+G500 = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "scenes" / "g500ARM5.urdf"
+
+
+def robot_of(inside: str, folder: Path) -> RobotSpec:
+    file = folder / "robot.urdf"
+    file.write_text(f'<robot name="r">{inside}</robot>')
+    return read_urdf(file)
+
+
+def refused(inside: str, folder: Path) -> list[str]:
+    with pytest.raises(SceneError) as caught:
+        robot_of(inside, folder)
+    return [fault.message for fault in caught.value.faults]
+
+
+def joint(name: str, inside: str = "", *, kind: str = "continuous", of: str = "a b") -> str:
+    parent, child = of.split()
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f"{inside}</joint>"
+    )
+
+
+LINKS = '<link name="a"/><link name="b"/><link name="c"/>'
+
+
+def test_the_joint_vector_of_the_girona_500() -> None:
+    robot = read_urdf(G500)
+    names = [joint.name for joint in robot.movable]
+    assert names == ["Slew", "Shoulder", "Elbow", "JawRotate", "JawOpening"]
+    assert robot.root == "base_link"
+    assert [link.mass for link in robot.links if link.mass] == [95.0]
+    assert (robot.movable[3].lower, robot.movable[3].upper) == (-math.pi, math.pi)
+
+
+@pytest.mark.parametrize(
+    ("joints", "expected"),
+    [
+        (
+            (),
+            {
+                "part2": (-0.0805, 0, 1.08),
+                "part3": (-0.5190, 0, 1.1415),
+                "part4_base": (-0.8567, 0, 1.2474),
+                "end_effector": (-0.9840, 0, 1.3238),
+            },
+        ),
+        (
+            (0, 0, 2.15294, 0, 0.3),
+            {"part4_base": (-0.2449, 0, 1.3653), "end_effector": (-0.1110, 0, 1.4296)},
+        ),
+        ((0, math.pi / 4, math.pi / 4, 0, 0), {"end_effector": (-0.1647, 0, 1.8985)}),
+    ],
+)
+def test_the_arm_is_where_the_original_has_it(
+    joints: tuple[float, ...], expected: dict[str, tuple[float, float, float]]
+) -> None:
+    poses = link_poses(read_urdf(G500), joints)
+    for link, position in expected.items():
+        np.testing.assert_allclose(poses[link].position, position, atol=6e-5)
+
+
+def test_the_hand_points_where_the_original_has_it() -> None:
+    pose = link_poses(read_urdf(G500), (0, math.pi / 4, math.pi / 4))["end_effector"]
+    np.testing.assert_allclose(pose.rotation[:, 2], [0.5147, 0, 0.8573], atol=5e-5)
+
+
+def test_joints_are_held_at_their_limits() -> None:
+    positions = joint_positions(read_urdf(G500), (9, -9, 2.2, 9, -0.3))
+    assert positions["Slew"] == 0.5488
+    assert positions["Shoulder"] == 0
+    assert positions["Elbow"] == 2.15294
+    assert positions["JawRotate"] == math.pi
+    assert positions["JawOpening"] == -0.05816
+
+
+def test_the_second_jaw_follows_the_first() -> None:
+    positions = joint_positions(read_urdf(G500), (0, 0, 0, 0, 0.7))
+    assert positions["part4_to_link4_jaw2"] == positions["JawOpening"] == 0.7
+
+
+def test_children_are_walked_in_the_order_of_their_joints_names(tmp_path: Path) -> None:
+    robot = robot_of(LINKS + joint("z", of="a b") + joint("B", of="a c"), tmp_path)
+    assert [joint.name for joint in robot.joints] == ["B", "z"]
+    assert [link.name for link in robot.links] == ["a", "c", "b"]
+
+
+def test_a_limit_without_bounds_freezes_the_joint(tmp_path: Path) -> None:
+    limit = '<limit effort="1" velocity="1"/>'
+    (slew,) = robot_of('<link name="a"/><link name="b"/>' + joint("s", limit), tmp_path).joints
+    assert (slew.lower, slew.upper) == (0, 0)
+
+
+def test_a_prismatic_joint_without_limit_slides_from_minus_pi_to_pi(tmp_path: Path) -> None:
+    robot = robot_of(
+        '<link name="a"/><link name="b"/>' + joint("s", '<axis xyz="0 0 2"/>', kind="prismatic"),
+        tmp_path,
+    )
+    pose = link_poses(robot, (4.0,))["b"]
+    np.testing.assert_allclose(pose.position, [0, 0, math.pi])
+
+
+def test_floating_joints_are_fixed(tmp_path: Path) -> None:
+    robot = robot_of('<link name="a"/><link name="b"/>' + joint("s", kind="floating"), tmp_path)
+    assert robot.movable == ()
+
+
+def test_mimics_of_mimics_are_not_followed(tmp_path: Path) -> None:
+    robot = robot_of(
+        LINKS
+        + '<link name="d"/>'
+        + joint("1", of="a b")
+        + joint("2", '<mimic joint="1" multiplier="2" offset="0.1"/>', of="a c")
+        + joint("3", '<mimic joint="2" offset="0.5"/>', of="a d"),
+        tmp_path,
+    )
+    assert joint_positions(robot, (0.3,)) == pytest.approx({"1": 0.3, "2": 0.7, "3": 0.5})
+
+
+def test_a_slider_crank_follows_its_own_law(tmp_path: Path) -> None:
+    robot = robot_of(
+        LINKS + joint("1") + joint("slidercrank", '<mimic joint="1" offset="0.5"/>', of="a c"),
+        tmp_path,
+    )
+    positions = joint_positions(robot, (0.4,))
+    assert positions["slidercrank"] == pytest.approx(-(0.4 + math.asin(0.5 * math.sin(0.4))))
+
+
+def test_only_the_first_visual_counts_and_materials_go_by_name(tmp_path: Path) -> None:
+    robot = robot_of(
+        '<material name="red"><color rgba="1 0 0 0.5"/></material>'
+        '<link name="a"><visual><geometry><cylinder radius="0.2" length="0.6"/></geometry>'
+        '<material name="red"/></visual>'
+        '<visual><geometry><box size="1 2 3"/></geometry></visual></link>',
+        tmp_path,
+    )
+    visual = robot.links[0].visual
+    assert visual is not None
+    assert (visual.kind, visual.size, visual.colour) == (
+        "cylinder",
+        (0.4, 0.4, 0.6),
+        (1, 0, 0, 0.5),
+    )
+
+
+def test_what_other_programs_wrote_is_passed_over(tmp_path: Path) -> None:
+    robot = robot_of('<gazebo><plugin/></gazebo><link name="a"/><transmission/>', tmp_path)
+    assert robot.root == "a"
+
+
+def test_every_fault_of_a_robot_is_said_at_once(tmp_path: Path) -> None:
+    said = refused(
+        '<link name="arm"/><link name="arm"/>'
+        '<link name="b"><visual><geometry><mesh/></geometry></visual></link>'
+        + joint("1", kind="fixde", of="arm b")
+        + joint("2", of="amr b")
+        + joint("3", '<origin xyz="0 0"/><mimic joint="x"/>', of="arm b"),
+        tmp_path,
+    )
+    assert said == [
+        "two links are called 'arm'",
+        "<mesh> lacks the attribute filename",
+        "joint '1' has the type 'fixde'; expected one of revolute, continuous, prismatic, fixed, "
+        "floating, planar. Did you mean fixed?",
+        "joint '2': its parent 'amr' is no link. Did you mean arm?",
+        "xyz of <origin> is '0 0'; expected 3 numbers",
+        "joint '3' mimics 'x', which is no joint.",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("inside", "said"),
+    [
+        ("", "found a loop"),
+        (LINKS, "3 links hang on none"),
+        (LINKS + joint("1", of="a b") + joint("2", of="b c") + joint("3", of="c a"), "a loop"),
+        ('<link name="d"/>' + LINKS + joint("1", of="b c") + joint("2", of="c b")
+         + joint("3", of="d a"), "part of a loop"),
+        ('<link name="a"/><link name="b"/>' + joint("1") + joint("2"), "hangs on two joints"),
+        ('<link name="a"/><link name="b"/>' + joint("1", '<origin xyz="${x} 0 0"/>'), "xacro"),
+        ('<link name="a"/><link name="b"/>' + joint("1", '<axis xyz="nan 0 0"/>'), "3 numbers"),
+    ],
+)  # fmt: skip
+def test_a_robot_that_is_no_tree_is_refused(inside: str, said: str, tmp_path: Path) -> None:
+    assert any(said in message for message in refused(inside, tmp_path))
+
+
+SEED = G500.read_bytes()
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.integers(0, len(SEED)), st.integers(0, 60), st.binary(max_size=6), st.booleans())
+def test_no_mutation_of_a_robot_raises_anything_but_a_scene_error(
+    at: int, length: int, piece: bytes, cut: bool
+) -> None:
+    text = SEED[:at] + piece + (b"" if cut else SEED[at + length :])
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "robot.urdf"
+        file.write_bytes(text)
+        with contextlib.suppress(SceneError):
+            link_poses(read_urdf(file), (0.1, 0.2, 0.3))
