@@ -7,6 +7,7 @@ from textures import Texture, rectangle, through_fog
 
 from uwsim.algorithms import ALGORITHMS
 from uwsim.algorithms.esm.homography import between, warp
+from uwsim.algorithms.tracker import Estimate, LossTest
 from uwsim.errors import BadSetting
 
 QUAD = rectangle(160.0, 120.0, 93.0, 28.0)
@@ -161,15 +162,25 @@ def test_a_low_picture_in_between_is_forgiven() -> None:
     assert node.statuses == ["tracking"]
 
 
-def test_a_patch_that_leaves_the_picture_is_lost_at_once() -> None:
+def test_a_patch_whose_centre_leaves_the_picture_is_lost_at_once() -> None:
     node = started("esm")
     texture = Texture()
     node.show(texture.picture())
     node.auto_init(QUAD)
-    for k in range(1, 20):
+    for k in range(1, 40):
         node.show(texture.picture(between(QUAD, QUAD + np.array([7.0 * k, 0.0]))))
-    assert node.statuses[1].startswith("lost: corner NE (32")
-    assert "320x240" in node.statuses[1]
+    assert node.statuses[1].startswith("lost: ")
+    assert "centre (32" in node.statuses[1] or "ZNCC" in node.statuses[1]
+
+
+def test_a_corner_outside_the_picture_is_no_loss() -> None:
+    check = LossTest(zncc_threshold=0.5, frames=5).check
+    corners = np.array([[220.0, 60.0], [325.0, 60.0], [325.0, 90.0], [220.0, 90.0]])
+    inside = Estimate(corners=corners, centroid=corners.mean(axis=0), zncc=0.9)
+    assert check(inside, 320, 240) is None
+    gone = corners + np.array([50.0, 0.0])
+    why = check(Estimate(corners=gone, centroid=gone.mean(axis=0), zncc=0.9), 320, 240)
+    assert why == "the quad's centre (322.5, 75.0) is outside the 320x240 picture"
 
 
 NAN = float("nan")

@@ -42,7 +42,8 @@ class LossTest:
     """Says when a tracker is lost, instead of letting it wander.
 
     Lost is: a ZNCC below the threshold (or nothing found) on so many pictures in a row; or a quad
-    that is not convex; or a corner outside the picture. Pictures in between may still be low.
+    that is not convex; or one that has left the picture: its centre is outside, so about half of it
+    is. Pictures in between may still be low.
     """
 
     def __init__(self, *, zncc_threshold: float, frames: int) -> None:
@@ -59,7 +60,10 @@ class LossTest:
             return f"{what} on {self._frames} frames"
         if not estimate.found:
             return None
-        return quad_fault(estimate.corners, width, height)
+        u, v = estimate.centroid
+        if not (0.0 <= u <= width and 0.0 <= v <= height):
+            return f"the quad's centre ({u:.1f}, {v:.1f}) is outside the {width}x{height} picture"
+        return _not_convex(estimate.corners)
 
 
 def quad_fault(quad: Array, width: int, height: int) -> str | None:
@@ -68,6 +72,10 @@ def quad_fault(quad: Array, width: int, height: int) -> str | None:
     for name, (u, v) in zip(names, quad, strict=True):
         if not (0.0 <= u <= width and 0.0 <= v <= height):
             return f"corner {name} ({u:.1f}, {v:.1f}) is outside the {width}x{height} picture"
+    return _not_convex(quad)
+
+
+def _not_convex(quad: Array) -> str | None:
     if not is_convex(quad):
         corners = " ".join(f"({u:.1f}, {v:.1f})" for u, v in quad)
         return f"the quad {corners} is not convex"
