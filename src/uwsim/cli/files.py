@@ -11,7 +11,9 @@ from ..errors import AssetNotFound, did_you_mean
 def bundled(kind: str, suffix: str = ".xml") -> dict[str, Path]:
     """Return the bundled files of a kind, ``scenes`` or ``benchmarks``: bare name -> path."""
     folder = Path(str(resources.files("uwsim"))) / "data" / kind
-    return {path.stem: path for path in sorted(folder.glob(f"*{suffix}"))}
+    return {
+        path.stem: path for path in sorted(folder.glob(f"*{suffix}"), key=lambda file: file.stem)
+    }
 
 
 def scene_file(name: str, data_path: tuple[Path, ...] = ()) -> Path:
