@@ -41,6 +41,11 @@ def test_help_names_every_command_with_its_one_line(capsys: pytest.CaptureFixtur
         assert command.summary in text
 
 
+def test_without_arguments_help_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 0
+    assert capsys.readouterr().out.startswith("Usage: uwsim")
+
+
 def test_help_imports_no_heavy_library() -> None:
     heavy = (
         "numba",

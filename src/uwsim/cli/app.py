@@ -86,7 +86,7 @@ READER_LEFT = 1
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``uwsim`` and return its exit status: 0 done, 2 wrong input, 3 the run failed."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    wanted = [argument for argument in given if argument != TRACEBACK]
+    wanted = [argument for argument in given if argument != TRACEBACK] or ["--help"]
     try:
         result = build(wanted)(wanted, prog_name="uwsim", standalone_mode=False)
         sys.stdout.flush()
@@ -118,7 +118,6 @@ def build(arguments: Sequence[str]) -> typer.Typer:
     app = typer.Typer(
         help="Underwater robots, simulated and measured.",
         epilog="Try 'uwsim bench visibility'. 'uwsim COMMAND --help' shows examples.",
-        no_args_is_help=True,
         add_completion=False,
         rich_markup_mode=None,
     )
