@@ -59,7 +59,7 @@ class FogSpec:
     """A ``<fog>``: how visibility falls with distance."""
 
     density: float = element(default=0.1, required_by_dtd=True)
-    """Visibility is ``1 - exp(-(density * distance)^2)`` lost [1/m]."""
+    """At a distance d the share ``1 - exp(-(density d)^2)`` of what is there is lost [1/m]."""
     color: Triple = element(default=NIGHT_BLUE, parts="rgb", required_by_dtd=True)
     """What replaces what cannot be seen [0..1]."""
 

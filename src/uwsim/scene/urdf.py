@@ -353,7 +353,7 @@ def _limits(node: etree._Element, kind: str, faults: Faults) -> tuple[float, flo
         return -math.pi, math.pi
     lower, upper = (_number(limit, end, faults, 0.0) for end in ("lower", "upper"))
     if lower > upper:
-        faults.add(limit, f"joint {_name(node)!r}: lower {lower:g} is above upper {upper:g}")
+        faults.notice(limit, f"joint {_name(node)!r}: lower {lower:g} is above upper {upper:g}")
     elif "lower" not in limit.attrib and "upper" not in limit.attrib:
         faults.notice(
             limit, f"joint {_name(node)!r} has a <limit> without lower and upper: it is held at 0"

@@ -36,7 +36,7 @@ def drop_extensions(root: etree._Element) -> None:
     etree.cleanup_namespaces(root)
 
 
-def _text(root: etree._Element, *, doctype: str | None = None) -> str:
+def _text(root: etree._Element, *, doctype: str = "") -> str:
     etree.indent(root)
-    data = etree.tostring(root, xml_declaration=True, encoding="UTF-8", doctype=doctype)
-    return data.decode("utf-8") + "\n"
+    head = '<?xml version="1.0"?>\n' + (doctype + "\n" if doctype else "")
+    return head + str(etree.tostring(root, encoding="unicode")) + "\n"

@@ -1,0 +1,203 @@
+"""``docs/dialect.md`` and ``docs/grammar/*.rng``: the dialects, as the specs have them.
+
+Both are made from the same table that reads the files (`uwsim.dialect.slots`), so that neither can
+say what the reader does not do.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from lxml import etree
+
+from ..dialect import NAMESPACE, TOKENS, Slot, slots
+
+RNG = "http://relaxng.org/ns/structure/1.0"
+TYPES = "http://www.w3.org/2001/XMLSchema-datatypes"
+
+HEAD = """\
+# The dialect
+
+What may stand in a scene file, made from the specs that read it by `scripts/docs`. Elements may
+stand in any order; what equals its default may be left out. Numbers may be `M_PI`, `M_PI_2`,
+`M_PI_4` and their negatives. Flags are 0 or 1. `u:` is the namespace `urn:uwsim:1`: a file that
+uses it carries no DOCTYPE. Old names that older UWSim files use are read, too, with a notice;
+`uwsim check FILE.xml` names them.
+
+The grammar for editors is [uwsim-scene.rng](grammar/uwsim-scene.rng) (RELAX NG). It knows today's
+names only.
+"""
+
+SIGNED = "|".join(token.removeprefix("-") for token in TOKENS if not token.startswith("-"))
+NUMBER = rf"[+\-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?|-?({SIGNED})"
+SPACE = r"[ \t\n\r]*"
+
+
+def page() -> str:
+    """Return ``docs/dialect.md``."""
+    from ..scene.reader import ROOT
+    from ..scene.spec import SceneSpec
+
+    parts = [HEAD]
+    done: set[type] = set()
+    for name, cls in _specs(ROOT, SceneSpec):
+        if cls not in done:
+            done.add(cls)
+            parts.append(_section(name, cls))
+    return "\n".join(parts)
+
+
+def grammar() -> str:
+    """Return ``docs/grammar/uwsim-scene.rng``."""
+    from ..scene.reader import ROOT
+    from ..scene.spec import SceneSpec
+
+    return relax_ng(ROOT, SceneSpec)
+
+
+def relax_ng(root: str, spec: type) -> str:
+    """Return the RELAX NG grammar of a document whose root element is read by ``spec``."""
+    tree = etree.Element(f"{{{RNG}}}grammar", {"datatypeLibrary": TYPES}, nsmap={None: RNG})  # type: ignore[dict-item]  # the stubs know no default namespace
+    _sub(_sub(tree, "start"), "element", name=root).append(_ref(spec))
+    done: set[type] = set()
+    for _, cls in _specs(root, spec):
+        if cls not in done:
+            done.add(cls)
+            content = _sub(_sub(tree, "define", name=cls.__name__), "interleave")
+            _sub(content, "empty")
+            for slot in slots(cls):
+                _field(content, slot)
+    etree.indent(tree)
+    return etree.tostring(tree, encoding="unicode") + "\n"
+
+
+def _specs(name: str, cls: type) -> Iterator[tuple[str, type]]:
+    """Every spec below a spec, itself first, in the order of the files."""
+    yield name, cls
+    for slot in slots(cls):
+        if slot.kind == "spec":
+            yield from _specs(slot.shown, slot.type)
+        elif slot.kind == "choice":
+            for child, spec in slot.type.items():
+                yield from _specs(child, spec)
+
+
+def _section(name: str, cls: type) -> str:
+    """One element: what it is, how it looks, what stands in it."""
+    doc = (inspect.getdoc(cls) or "").strip()
+    module = sys.modules[cls.__module__].__doc__ or ""
+    lines = [f"## `<{name}>`", "", _markdown(doc), ""]
+    block = re.search(r"\.\. code-block:: xml\n\n((?:    .*\n|\n)+)", module)
+    if block and re.search(rf"<{re.escape(name)}[ >]", block[1].split("\n")[0]):
+        lines += ["```xml", inspect.cleandoc(block[1]).rstrip(), "```", ""]
+    lines += ["| element | what stands there | default | meaning |", "|---|---|---|---|"]
+    for slot in slots(cls):
+        mark = " (attribute)" if slot.xml.attribute else ""
+        cells = (f"`{slot.shown}`{mark}", _kind(slot), _default(slot), _markdown(slot.doc))
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def _kind(slot: Slot) -> str:
+    what = slot.expected
+    if slot.kind == "spec":
+        what = f"[`<{slot.shown}>`](#{slot.shown.lower().replace(':', '')})"
+    elif slot.kind == "choice":
+        what = "any of " + ", ".join(f"[`{name}`](#{name.lower()})" for name in slot.type)
+    elif slot.kind == "triple":
+        unit = f" [{slot.unit}]" if slot.unit else ""
+        what = " ".join(f"`<{part}>`" for part in slot.xml.parts) + unit
+    elif slot.xml.item:
+        what = f"`<{slot.xml.item}>`, any number: {what}"
+    return f"{what}, any number" if slot.repeated and slot.kind == "spec" else what
+
+
+def _default(slot: Slot) -> str:
+    default = slot.default
+    if default is dataclasses.MISSING:
+        return "must be there"
+    if default is None or default in ((), "") or slot.kind == "spec":
+        return "-"
+    if isinstance(default, bool):
+        return str(default).lower() if slot.xml.attribute else str(int(default))
+    if isinstance(default, tuple):
+        return " ".join(f"{value:g}" for value in default)
+    return f"{default:g}" if isinstance(default, float) else str(default)
+
+
+def _markdown(text: str) -> str:
+    return " ".join(text.replace("``", "`").split())
+
+
+def _field(content: etree._Element, slot: Slot) -> None:
+    """The pattern of one field."""
+    if slot.repeated and slot.kind == "spec":
+        content = _sub(content, "zeroOrMore")
+    elif slot.default is not dataclasses.MISSING:
+        content = _sub(content, "optional")
+    what = "attribute" if slot.xml.attribute else "element"
+    name, space = slot.tag, {}
+    if name.startswith("{"):
+        name, space = name.split("}")[1], {"ns": NAMESPACE}
+    node = _sub(content, what, name=name, **space)
+    if slot.kind == "spec":
+        node.append(_ref(slot.type))
+    elif slot.kind == "choice":
+        several = _sub(_sub(node, "zeroOrMore"), "choice")
+        for child, spec in slot.type.items():
+            _sub(several, "element", name=child).append(_ref(spec))
+    elif slot.kind == "triple":
+        parts = _sub(node, "interleave")
+        for part in slot.xml.parts:
+            _data(_sub(parts, "element", name=part), slot, may_be_empty=True)
+    elif slot.xml.item:
+        _data(_sub(_sub(node, "zeroOrMore"), "element", name=slot.xml.item), slot)
+    else:
+        _data(node, slot, may_be_empty=slot.default is not dataclasses.MISSING)
+
+
+def _data(node: etree._Element, slot: Slot, *, may_be_empty: bool = False) -> None:
+    """The pattern of a scalar."""
+    if slot.kind == "str":
+        _sub(node, "text")
+        return
+    patterns = {
+        "int": r"[+\-]?[0-9]+",
+        "bool": "true|false|0|1" if slot.xml.attribute else "0|1",
+        "word": "|".join(map(re.escape, slot.type)) if slot.kind == "word" else "",
+    }
+    inner = f"({patterns.get(slot.kind, NUMBER)})" + ("?" if may_be_empty else "")
+    data = _sub(node, "data", type="string")
+    _sub(data, "param", name="pattern").text = f"{SPACE}{inner}{SPACE}"
+
+
+def _ref(spec: type) -> etree._Element:
+    node = etree.Element(f"{{{RNG}}}ref")
+    node.set("name", spec.__name__)
+    return node
+
+
+def _sub(parent: etree._Element, tag: str, **attributes: str) -> etree._Element:
+    return etree.SubElement(parent, f"{{{RNG}}}{tag}", dict(attributes))
+
+
+def pages() -> Mapping[str, str]:
+    """Return what is generated: file below ``docs`` -> text."""
+    return {"dialect.md": page(), "grammar/uwsim-scene.rng": grammar()}
+
+
+def main() -> None:
+    """Write the generated files below the folder given."""
+    folder = Path(sys.argv[1])
+    for name, text in pages().items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+
+
+if __name__ == "__main__":
+    main()
