@@ -17,6 +17,7 @@ def test_there_are_examples_numbered_from_one() -> None:
     assert NUMBERED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("example", NUMBERED, ids=lambda path: path.stem)
 def test_an_example_prints_what_the_file_beside_it_says(example: Path, tmp_path: Path) -> None:
     done = subprocess.run(

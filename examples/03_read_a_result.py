@@ -1,0 +1,40 @@
+"""Read a result: play two levels with two algorithms, and ask result.json how it went.
+
+A result explains itself: columns with units, a row for each level, and a reason for every value
+that is missing. Nothing but the standard library is needed to read it.
+"""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+ALGORITHMS = ("esm", "frozen")
+LEVELS = ("fog=0", "fog=1.3")  # [1/m]
+GOOD = 5.0  # total below which the paper calls tracking good [px]
+
+
+def main() -> None:
+    for algorithm in ALGORITHMS:
+        folder = Path(f"{algorithm}.result")
+        command = [sys.executable, "-m", "uwsim.cli", "bench", "visibility", "--seed", "1"]
+        command += ["--algorithm", algorithm, "--out", str(folder), "--overwrite"]
+        for level in LEVELS:
+            command += ["--level", level]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+        result = json.loads((folder / "result.json").read_text())
+        names = [column["name"] for column in result["columns"]]
+        for number, row in enumerate(result["rows"]):
+            cells = dict(zip(names, row, strict=True))
+            if cells["total"] is None:
+                said = "nothing to measure"
+                reasons = [m["why"] for m in result["missing"] if m["row"] == number]
+                said += ": " + reasons[0].split(":")[0].rsplit(" at ", 1)[0]
+            else:
+                said = f"total below {GOOD:g} px: {cells['total'] < GOOD}"
+            print(f"{algorithm}, fog {cells['fog']:.1f} 1/m: {cells['status']}; {said}")
+
+
+if __name__ == "__main__":
+    main()
