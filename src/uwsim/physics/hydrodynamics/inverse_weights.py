@@ -13,6 +13,7 @@ import numpy as np
 from . import callback
 from . import columns as c
 
+_FREE, _BALL = int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtJoint.mjJNT_BALL)
 _ABOVE_ALL = 1e9  # a surface so high that everything is under water [m]
 
 
@@ -27,9 +28,8 @@ def correct_inverse_weights(model: mujoco.MjModel) -> None:
     mujoco.mj_tendon(model, data)
     for joint in range(model.njnt):
         first = model.jnt_dofadr[joint]
-        kind = model.jnt_type[joint]
-        n_parts = {mujoco.mjtJoint.mjJNT_FREE: 2, mujoco.mjtJoint.mjJNT_BALL: 1}.get(kind)
-        if n_parts is None:
+        n_parts = {_FREE: 2, _BALL: 1}.get(int(model.jnt_type[joint]), 0)
+        if n_parts == 0:
             model.dof_invweight0[first] = inverse[first, first]
             continue
         for part in range(n_parts):

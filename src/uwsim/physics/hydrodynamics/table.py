@@ -115,6 +115,8 @@ def _prepare_body(node: mujoco.MjsBody, body: BodyHydrodynamics, density: float)
     if body.centre_of_mass is not None:
         node.ipos = list(body.centre_of_mass)
         node.explicitinertial = True
+    elif node.mass > 0.0 and math.isnan(node.ipos[0]):
+        node.ipos = [0.0, 0.0, 0.0]  # else MuJoCo takes the body's own position for it
     if body.inertia is not None:
         node.fullinertia = list(body.inertia)
         node.inertia = [0.0, 0.0, 0.0]
