@@ -1,0 +1,107 @@
+"""``uwsim check``: 0 without faults, 2 with, every fault on its own line."""
+
+from __future__ import annotations
+
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from uwsim.cli import main
+
+DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data"
+
+
+def status(*words: str) -> int:
+    return main(["check", *words])
+
+
+def test_a_file_without_faults_is_status_0(capsys: pytest.CaptureFixture[str]) -> None:
+    assert status(str(DATA / "scenes" / "cirs.xml"), str(DATA / "scenes" / "g500ARM5.urdf")) == 0
+    said = capsys.readouterr().out
+    assert "read, not simulated yet: imu" in said
+    assert said.count(": no faults") == 2
+
+
+def test_faults_are_status_2_and_all_are_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "scene.xml"
+    file.write_text("<UWSimScene>\n<vehicel/>\n<camera><fov>wide</fov></camera></UWSimScene>")
+    assert status(str(file), str(tmp_path / "nothing.xml")) == 2
+    said = capsys.readouterr().out.splitlines()
+    assert said[0] == (
+        f"{file}:2: <vehicel> is not an element of <UWSimScene>. Did you mean vehicle?"
+    )
+    assert said[1] == f"{file}:3: <fov> is 'wide'; expected a number > 0 and < 180 [deg]"
+    assert f"{file}: 2 faults" in said
+    assert any("there is no such file" in line for line in said)
+
+
+def test_strict_holds_a_scene_against_the_originals_order(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "scene.xml"
+    file.write_text("<UWSimScene><simParams/><oceanState/></UWSimScene>")
+    assert status(str(file)) == 0
+    assert status(str(file), "--strict") == 2
+    assert "<oceanState> stands behind <simParams>" in capsys.readouterr().out
+
+
+def test_a_root_that_nobody_knows_says_what_was_expected(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "page.xml"
+    file.write_text("<html/>")
+    assert status(str(file)) == 2
+    assert "expected <UWSimScene>, <benchmark> or <robot>" in capsys.readouterr().out
+
+
+CHECK = """
+import sys
+from pathlib import Path
+import uwsim.scene.reader
+from uwsim.cli.check import faults_of
+assert faults_of(Path(sys.argv[1]))
+"""
+UNKNOWN = b"".join(b"<oops%d/>" % i for i in range(49_000))
+CAMERAS = b"".join(
+    b"<virtualCamera><name>c%d</name><relativeTo>p%d</relativeTo></virtualCamera>" % (i, i)
+    for i in range(16_000)
+)
+VEHICLE = b"<vehicle><name>v</name><file>data/scenes/g500ARM5.urdf</file>%s</vehicle>"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "inside",
+    [
+        UNKNOWN,
+        VEHICLE % CAMERAS,
+        b"<oceanState><windx>" + b"1" * 9_900_000 + b"</windx></oceanState>",
+        b"<a/>" * 4_000_000,
+        b"<a " + b" ".join(b"a%d=''" % i for i in range(90_000)) + b"/>",
+        b"<a>" * 250 + b"&amp;" * 90_000 + b"</a>" * 250,
+    ],
+    ids=["unknown", "cameras", "text", "elements", "attributes", "deep"],
+)
+def test_a_hostile_file_costs_little_time_and_less_than_500_mb(
+    inside: bytes, tmp_path: Path
+) -> None:
+    file = tmp_path / "scene.xml"
+    file.write_bytes(b"<UWSimScene>" + inside + b"</UWSimScene>")
+    assert file.stat().st_size <= 16 * 2**20
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (500 * 2**20, 500 * 2**20))
+        resource.setrlimit(resource.RLIMIT_CPU, (10, 10))  # 2 s are promised; no timed unit test
+
+    subprocess.run(
+        [sys.executable, "-c", CHECK, str(file)],
+        env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
+        preexec_fn=limit,
+        check=True,
+    )
