@@ -153,7 +153,7 @@ class Slot:
             )
             if limit is not None
         ]
-        said = " ".join([words.get(self.kind, "text"), *(["and ".join(limits)] if limits else [])])
+        said = " ".join([words.get(self.kind, "text"), *([" and ".join(limits)] if limits else [])])
         return f"{said} [{self.unit}]" if self.unit else said
 
 
