@@ -98,8 +98,8 @@ def test_the_second_jaw_follows_the_first() -> None:
 
 
 def test_children_are_walked_in_the_order_of_their_joints_names(tmp_path: Path) -> None:
-    robot = robot_of(LINKS + joint("z", of="a b") + joint("B", of="a c"), tmp_path)
-    assert [joint.name for joint in robot.joints] == ["B", "z"]
+    robot = robot_of(LINKS + joint("a", of="a b") + joint("B", of="a c"), tmp_path)
+    assert [joint.name for joint in robot.joints] == ["B", "a"]
     assert [link.name for link in robot.links] == ["a", "c", "b"]
 
 
