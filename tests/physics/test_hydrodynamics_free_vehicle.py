@@ -133,3 +133,28 @@ def test_halving_the_step_halves_the_error() -> None:
         water.step(data, round(5.0 / timestep))
         found.append(errors(data, end)[0])
     assert found[0] / found[1] == pytest.approx(2.0, abs=0.2)
+
+
+def test_coefficients_may_be_given_about_any_point() -> None:
+    """Moved to another point by hand (no drag squared, which has no such rule)."""
+    point = np.array([0.2, -0.1, 0.3])
+    s = np.array([[0, -point[2], point[1]], [point[2], 0, -point[0]], [-point[1], point[0], 0]])
+    move = np.block([[np.eye(3), -s], [np.zeros((3, 3)), np.eye(3)]])  # twist at the point
+    ends = []
+    for about_point in (True, False):
+        added = ADDED if about_point else move.T @ ADDED @ move
+        linear = LINEAR if about_point else move.T @ LINEAR @ move
+        water = BodyHydrodynamics(
+            link="body",
+            reference=tuple(point) if about_point else (0.0, 0.0, 0.0),
+            added_mass=tuple(added.ravel()),
+            linear_damping=tuple(linear.ravel()),
+            volume=0.15,
+            centre_of_buoyancy=CENTRE_OF_BUOYANCY,
+        )
+        built = free_body(water, mass=MASS, inertia=INERTIA, centre_of_mass=CENTRE_OF_MASS)
+        hydrodynamics, data, _ = begin(built)
+        hydrodynamics.set_current(data, (0.2, 0.1, 0.0), (0.1, -0.2, 0.1))
+        hydrodynamics.step(data, 500)
+        ends.append(data.qpos.copy())
+    assert ends[0] == pytest.approx(ends[1], abs=1e-9)

@@ -1,6 +1,6 @@
 r"""The forces of the water on every body, written into MuJoCo's own matrices.
 
-For a body with added mass :math:`M_A` and damping :math:`D` (body axes, at the body's origin),
+For a body with added mass :math:`M_A` and damping :math:`D` (body axes, about a point fixed to it),
 moving with the twist :math:`\nu` in water that moves with :math:`v_c`, Fossen's equations say
 
 .. math:: f = -M_A\dot\nu_r - C_A(\nu_r)\nu_r - D(\nu_r)\nu_r + B,
@@ -49,6 +49,7 @@ from .columns import (
     MOST,
     QUADRATIC,
     RADIUS,
+    REFERENCE,
     SHAPE,
     SIZE,
     SURFACE,
@@ -319,12 +320,16 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         com = floats(word(d + at[_COM]) + 24 * root[body], 3)
         twist = floats(word(d + at[_CVEL]) + 48 * body, 6)
         row = work[body]
-        rx, ry, rz = place[0] - com[0], place[1] - com[1], place[2] - com[2]
+        bx, by, bz = table[REFERENCE], table[REFERENCE + 1], table[REFERENCE + 2]
+        height = place[2] + axes[6] * bx + axes[7] * by + axes[8] * bz
+        rx = place[0] - com[0] + axes[0] * bx + axes[1] * by + axes[2] * bz
+        ry = place[1] - com[1] + axes[3] * bx + axes[4] * by + axes[5] * bz
+        rz = height - com[2]
 
         # the submerged part
         up[0], up[1], up[2] = axes[6], axes[7], axes[8]
         bx, by, bz = table[CENTRE], table[CENTRE + 1], table[CENTRE + 2]
-        depth = still + water[6] - place[2] - (up[0] * bx + up[1] * by + up[2] * bz)
+        depth = still + water[6] - height - (up[0] * bx + up[1] * by + up[2] * bz)
         wet = submerged(table[SHAPE], table[SIZE : SIZE + 3], up, depth, centre)
         if wet <= 0.0:
             continue
@@ -402,6 +407,9 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         row[_WRENCH + 4] += fy
         row[_WRENCH + 5] += fz
 
+        if with_mass:
+            _inertia(axes, matrix, rx, ry, rz, turned, row)
+
         # buoyancy, at the centre of the submerged part
         mass = wet * table[DISPLACED]
         bx, by, bz = bx + centre[0], by + centre[1], bz + centre[2]
@@ -417,9 +425,6 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         row[_WRENCH + 3] += fx
         row[_WRENCH + 4] += fy
         row[_WRENCH + 5] += fz
-        if with_mass:
-            _inertia(axes, matrix, place[0] - com[0], place[1] - com[1], place[2] - com[2],
-                     turned, row)  # fmt: skip
 
 
 @njit

@@ -1,7 +1,7 @@
 """What the water does to a body, and what a thruster does: numbers, checked all at once.
 
 Every 6x6 matrix is in the literature's order (surge, sway, heave, roll, pitch, yaw) in the axes of
-the body (link) it belongs to, about the link's origin. Forces oppose motion with positive
+the body (link) it belongs to, about its reference point. Forces oppose motion with positive
 coefficients; published derivatives (``X_udot``, ``X_u``) mostly carry the other sign.
 """
 
@@ -43,6 +43,8 @@ class BodyHydrodynamics:
 
     link: str
     """The link it belongs to."""
+    reference: Triple = ZERO
+    """The point that added mass and damping are about, in the link's frame [m]."""
     added_mass: Numbers = (0.0,) * 6
     """6 numbers (the diagonal) or 36, row by row; symmetric, positive semi-definite
     [kg, kg m, kg m2]."""

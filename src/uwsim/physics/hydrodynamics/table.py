@@ -66,7 +66,8 @@ def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]
     row[c.KIND] = c.FULL if is_full else c.DIAGONAL
     row[c.THETA] = body.implicitness
     row[c.DISPLACED] = density * body.volume
-    row[c.CENTRE : c.CENTRE + 3] = body.centre_of_buoyancy
+    row[c.REFERENCE : c.REFERENCE + 3] = body.reference
+    row[c.CENTRE : c.CENTRE + 3] = np.array(body.centre_of_buoyancy) - body.reference
     row[c.SHAPE] = _SHAPES[body.shape]
     size = body.size or (max(0.75 * body.volume / math.pi, 1e-12) ** (1.0 / 3.0),)
     row[c.SIZE : c.SIZE + len(size)] = size
