@@ -1,7 +1,7 @@
 r"""What decides when a tracker that compares by ZNCC loses its patch in fog.
 
-With the contrast of the patch S (standard deviation in grey levels, no noise, fog 0), the noise of
-the grey image sigma, the threshold z and the mean distance d from camera to patch, fog of density f
+With the contrast of the patch S (standard deviation in grey levels, no noise, fog 0), the noise
+sigma, the threshold z and the mean distance d from camera to patch, fog of density f
 leaves the contrast :math:`S e^{-(fd)^2}`, and the ZNCC with a noise-free template is
 
 .. math:: \rho = \left(1 + \sigma^2 / (S e^{-(fd)^2})^2\right)^{-1/2}
@@ -10,7 +10,10 @@ which falls below z at
 
 .. math:: f^* = \frac{1}{d} \sqrt{\ln\left(\frac{S}{\sigma}\sqrt{1/z^2 - 1}\right)}
 
-Not modelled: noise in the template, 8-bit quantisation, attenuation, the tracker's own error.
+The noise of a camera is that of each of its channels, ``255 std`` grey levels. Grey is a weighted
+sum of three of them, so its noise is smaller by the norm of the weights, 0.669; ``f_star_grey`` is
+the limit with that, nearer to what a tracker of grey pictures meets. Not modelled: noise in the
+template, 8-bit quantisation, the tracker's own error.
 """
 
 from __future__ import annotations
@@ -38,9 +41,9 @@ def visibility_facts(
     """Measure S, sigma, d and f* of the first target whose corners are tracked in a camera.
 
     Returns:
-        ``S``, ``sigma_channel`` and ``sigma`` [grey level], ``d`` [m], ``z``, ``f_star`` and
-        ``f_star_channel`` [1/m]: with the noise of the grey image and with that of one channel.
-        Empty when no measure asks for corners, or the camera has no noise.
+        ``S``, ``sigma`` and ``sigma_grey`` [grey level], ``d`` [m], ``z``, ``f_star`` and
+        ``f_star_grey`` [1/m]: with the camera's noise and with that of the grey picture.
+        Empty when no measure asks for corners.
     """
     for spec in plan.benchmark.measures:
         if not isinstance(spec, EuclideanNormSpec):
@@ -62,18 +65,18 @@ def visibility_facts(
         grey = picture.colour[..., :3].astype(np.float64) @ GREY
         contrast = float(grey[inside].std())
         distance = float(picture.range[inside].mean())
-        channel = 255.0 * camera.std
-        sigma = channel * float(np.linalg.norm(GREY))
+        sigma = 255.0 * camera.std
+        sigma_grey = sigma * float(np.linalg.norm(GREY))
         given = parameters.get("zncc_threshold", 0.5)
         threshold = float(given) if isinstance(given, float | int) else 0.5
         facts: dict[str, Fact] = {
             "S": (contrast, "grey level"),
             "sigma": (sigma, "grey level"),
-            "sigma_channel": (channel, "grey level"),
+            "sigma_grey": (sigma_grey, "grey level"),
             "d": (distance, "m"),
             "z": (threshold, "1"),
         }
-        for name, noise in (("f_star", sigma), ("f_star_channel", channel)):
+        for name, noise in (("f_star", sigma), ("f_star_grey", sigma_grey)):
             limit = fog_of_loss(contrast, noise, distance, threshold)
             if limit is not None:
                 facts[name] = (limit, "1/m")
