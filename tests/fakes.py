@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -11,7 +12,7 @@ from uwsim import chance
 from uwsim.bus import Bus, Inbox
 from uwsim.errors import UnknownName
 from uwsim.geometry import Intrinsics, Pose
-from uwsim.world import Body, Box, Camera
+from uwsim.world import Body, Box, Camera, Contact, Flow
 
 M = TypeVar("M")
 
@@ -74,7 +75,8 @@ class FakeCamera:
 class FakeWorld:
     """A `uwsim.world.Stage`: bodies, cameras and a bus; time moves only by `advance`.
 
-    What updaters do to it is kept in ``fog``, ``light_rate``, ``camera_noise`` and ``joints``.
+    What updaters do to it is kept in ``fog``, ``light_rate``, ``camera_noise``, ``joints``,
+    ``current`` and ``put_backs``; what touches what stands in ``touching``.
     """
 
     def __init__(
@@ -97,6 +99,10 @@ class FakeWorld:
         self.light_rate: float | None = None
         self.camera_noise: float | None = None
         self.joints: dict[str, dict[int, float]] = {}
+        self.current: Flow | None = None
+        self.put_backs: list[tuple[str, float]] = []
+        self.touching: dict[str, list[Contact]] = {}
+        self._timers: list[tuple[float, Callable[[], None]]] = []
         self._seed = seed
 
     @property
@@ -111,12 +117,20 @@ class FakeWorld:
         """Let time pass, and deliver what was published."""
         for _ in range(steps):
             self.bus.step += 1
+            for rate, call in list(self._timers):
+                n = math.floor(self.step * rate * self.timestep + 1e-9)
+                if math.ceil(n / (rate * self.timestep) - 1e-9) == self.step:
+                    call()
             self.bus.deliver()
 
     def body(self, name: str) -> Body:
         if name not in self.bodies:
             raise UnknownName("body", name, self.bodies)
         return self.bodies[name]
+
+    def contacts(self, name: str) -> Sequence[Contact]:
+        self.body(name)
+        return tuple(self.touching.get(name, ()))
 
     def camera(self, name: str) -> Camera:
         if name not in self.cameras:
@@ -160,3 +174,16 @@ class FakeWorld:
         if vehicle not in self.vehicles:
             raise UnknownName("vehicle", vehicle, self.vehicles)
         self.joints.setdefault(vehicle, {}).update(values)
+
+    def set_current(self, current: Flow | None) -> None:
+        self.current = current
+
+    def put_back(self, vehicle: str) -> None:
+        if vehicle not in self.vehicles:
+            raise UnknownName("vehicle", vehicle, self.vehicles)
+        self.put_backs.append((vehicle, self.time))
+
+    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
+        timer = (rate, call)
+        self._timers.append(timer)
+        return lambda: self._timers.remove(timer)

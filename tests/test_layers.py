@@ -11,7 +11,7 @@ PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
 
 GROUND = {"errors", "geometry", "chance", "compatibility", "jit", "dialect", "clock"}
 BASE = GROUND | {"world", "messages", "bus"}
-PARTS = BASE | {"sensors", "devices", "scene", "assets"}
+PARTS = BASE | {"currents", "sensors", "devices", "scene", "assets"}
 ENGINES = PARTS | {"physics", "rendering"}
 
 MAY_IMPORT: dict[str, set[str]] = {
@@ -19,9 +19,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     "messages": BASE,
     "bus": GROUND | {"bus"},
     "world": BASE,
+    "currents": BASE | {"currents"},
     "sensors": BASE | {"sensors", "devices"},
     "devices": BASE | {"sensors", "devices"},
-    "scene": BASE | {"sensors", "devices", "scene"},
+    "scene": BASE | {"currents", "sensors", "devices", "scene"},
     "assets": BASE | {"assets"},
     "physics": PARTS | {"physics"},
     "rendering": PARTS | {"rendering"},

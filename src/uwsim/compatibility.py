@@ -12,6 +12,7 @@ from .errors import UnknownName
 
 COMPATIBILITY: dict[str, str] = {
     "collision": "only the first body of a contact is looked at, and only its velocity counts",
+    "current-force": "publishAsForce pushes with v^2 along each axis: the sign of v is lost",
     "fog-distance": "fog uses the clip-space z of the camera, not the distance along the ray",
     "last-norm": "an estimate of any age is scored; without a new one the last norm stands",
     "rows": "a row with a measure in error is left out of result.dat",

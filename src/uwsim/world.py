@@ -6,7 +6,7 @@ of files, topics and results. Everything handed out is a copy.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
@@ -68,6 +68,34 @@ class Camera(Protocol):
         """Where it is now; OpenGL axes."""
 
 
+@dataclass(frozen=True)
+class Contact:
+    """One point at which a body touches another, at the present step."""
+
+    approach_speed: float
+    """Relative velocity of the two along their normal, above 0 while they close [m/s]."""
+    own_speed: float
+    """The part of it that is the body's own motion [m/s]."""
+    is_first: bool
+    """Whether the engine lists the body as the first of the two."""
+    other: str = ""
+    """Name of what it touches."""
+
+
+class Flow(Protocol):
+    """Moving water, such as those in `uwsim.currents`; everything in L."""
+
+    def velocity(
+        self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
+    ) -> npt.NDArray[np.float64]:
+        """Return the water's velocity at ``points`` (n, 3) [m], ``time`` [s]: (n, 3) [m/s]."""
+
+    def acceleration(
+        self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
+    ) -> npt.NDArray[np.float64]:
+        """Return how fast that changes at a fixed point, (n, 3) [m/s2]."""
+
+
 class World(Protocol):
     """What a measure or a trigger sees."""
 
@@ -93,6 +121,9 @@ class World(Protocol):
 
     def body(self, name: str) -> Body:
         """Find a vehicle, link or object by its route ``a/b``; UnknownName if none."""
+
+    def contacts(self, name: str) -> Sequence[Contact]:
+        """Where a vehicle (all its links) or object touches others now; UnknownName if none."""
 
     def camera(self, name: str) -> Camera:
         """Find a virtual camera; UnknownName if none."""
@@ -140,6 +171,15 @@ class Stage(World, Protocol):
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their number in the joint vector [rad or m], clamped to limits."""
+
+    def set_current(self, current: Flow | None) -> None:
+        """Let the water move so, besides the scene's own currents; None: no more."""
+
+    def put_back(self, vehicle: str) -> None:
+        """Put a vehicle where the scene put it, at rest; UnknownName if there is none."""
+
+    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
+        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
 
 
 class SensorWorld(World, Protocol):

@@ -417,7 +417,6 @@ def test_what_is_not_simulated_yet_is_a_notice(file: Path) -> None:
         "<collision>",
         "<reconstruction3D>",
         "<pathFollowing>",
-        "<currentForceUpdater>",
     ]
 
 

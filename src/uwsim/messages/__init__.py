@@ -38,6 +38,12 @@ from rosbags.typesys.stores.ros2_jazzy import (
     geometry_msgs__msg__Vector3 as Vector3,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__Wrench as Wrench,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    geometry_msgs__msg__WrenchStamped as WrenchStamped,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
     nav_msgs__msg__Odometry as Odometry,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
@@ -101,6 +107,8 @@ __all__ = [
     "TwistStamped",
     "TwistWithCovariance",
     "Vector3",
+    "Wrench",
+    "WrenchStamped",
     "floats",
     "header",
     "image",

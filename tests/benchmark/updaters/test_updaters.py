@@ -171,5 +171,9 @@ def test_an_arm_of_a_vehicle_that_is_not_there_is_an_error() -> None:
 
 
 def test_what_cannot_be_played_yet_says_so_when_it_is_bound() -> None:
-    with pytest.raises(NotSimulatedYet, match="<currentForceUpdater> is read, not simulated yet"):
-        bind_updaters(current(0.0, 0.2, 0.01), FakeWorld())
+    spec = BagFogUpdaterSpec(
+        initial_value=0.0, final_value=1.3, step=0.05, interval=2.0,
+        bag="a.bag", image_topic="i", info_topic="c", image_depth=2.0,
+    )  # fmt: skip
+    with pytest.raises(NotSimulatedYet, match="<bagFogUpdater> is read, not simulated yet"):
+        bind_updaters(spec, FakeWorld())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .arm_move_updater import ArmMoveUpdater, ArmMoveUpdaterSpec
 from .bag_fog_updater import BagFogUpdaterSpec
 from .camera_noise_updater import CameraNoiseUpdater, CameraNoiseUpdaterSpec
-from .current_force_updater import CurrentForceUpdaterSpec, SphericalSpec
+from .current_force_updater import CurrentForceUpdater, CurrentForceUpdaterSpec, SphericalSpec
 from .none import NoneSpec, NoneUpdater
 from .repeat import Repeat, RepeatSpec
 from .scene_fog_updater import SceneFogUpdater, SceneFogUpdaterSpec
@@ -18,12 +18,15 @@ from .updater import (
     apply_level,
     bind_updaters,
     blend,
+    calm,
     chain,
     initial_level,
     interval,
     levels,
     n_levels,
+    ramp_level,
     references,
+    steps,
     sweep,
 )
 
@@ -47,6 +50,7 @@ __all__ = [
     "BagFogUpdaterSpec",
     "CameraNoiseUpdater",
     "CameraNoiseUpdaterSpec",
+    "CurrentForceUpdater",
     "CurrentForceUpdaterSpec",
     "Level",
     "NoneSpec",
@@ -63,11 +67,14 @@ __all__ = [
     "apply_level",
     "bind_updaters",
     "blend",
+    "calm",
     "chain",
     "initial_level",
     "interval",
     "levels",
     "n_levels",
+    "ramp_level",
     "references",
+    "steps",
     "sweep",
 ]

@@ -1,4 +1,4 @@
-"""currentForceUpdater: a current that grows from level to level. Read, not simulated yet.
+"""currentForceUpdater: a current that grows from level to level.
 
 .. code-block:: xml
 
@@ -18,10 +18,24 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
+from ...currents import LateCurrent, Place, UwsimSinusoidSpec
 from ...dialect import element
-from ...world import Stage
-from ..not_simulated import NotSimulatedYet
+from ...errors import BadSetting, UnknownName
+from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
+from ...world import Flow, Stage
 from .updater import SceneUpdater, SceneUpdaterSpec, sweep
+
+GRACE = 2.0
+"""A level begins with so long without any current [s]."""
+RESET = "dynamics/reset"
+"""The service called when a level begins, if somebody offers it."""
+FORCE_TOPIC = "currentForce"
+FORCE_RATE = 100.0
+"""Of the messages on it [Hz]."""
+DRAG = 500.0 * 0.82
+"""Half the density of water, times the drag coefficient of a cube, times 1 m2 [kg/m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +54,7 @@ class CurrentForceUpdaterSpec(SceneUpdaterSpec):
 
     name: ClassVar[str] = "current"
     unit: ClassVar[str] = "m/s"
-    is_simulated: ClassVar[bool] = False
+    calm: ClassVar[float] = GRACE
 
     initial_value: float = element(aliases=("initialCurrent",))
     """Speed of the current in the first level [m/s]."""
@@ -63,7 +77,7 @@ class CurrentForceUpdaterSpec(SceneUpdaterSpec):
     interval: float = element(above=0.0)
     """Length of a level [s]."""
     target: str
-    """Name of the vehicle."""
+    """Name of the vehicle that is put back when a level begins."""
     publish_as_force: bool = element(default=False, attribute=True)
     """Whether the current is published as a force instead of moving the vehicle."""
 
@@ -76,6 +90,98 @@ class CurrentForceUpdaterSpec(SceneUpdaterSpec):
         """The interval [s]."""
         return self.interval
 
-    def bind(self, stage: Stage) -> SceneUpdater:
-        """Raise NotSimulatedYet."""
-        raise NotSimulatedYet("currentForceUpdater")
+    def current(self, value: float) -> UwsimSinusoidSpec:
+        """Return the current of a level.
+
+        Raises:
+            BadSetting: the direction is to turn with a period that is not above 0.
+        """
+        periods = {}
+        for angle in ("theta", "phi"):
+            period = getattr(self.direction_period, angle)
+            if period <= 0.0 and getattr(self.direction_variation, angle) != 0.0:
+                raise BadSetting(
+                    f"<directionPeriod> has {angle} {period:g}; expected a number > 0 [s], "
+                    f"as <directionVariation> lets {angle} turn."
+                )
+            periods[angle] = period if period > 0.0 else 1.0
+        return UwsimSinusoidSpec(
+            speed=value,
+            speed_variation=self.force_variation,
+            speed_period=self.force_period,
+            theta=self.spherical_direction.theta,
+            theta_variation=self.direction_variation.theta,
+            theta_period=periods["theta"],
+            phi=self.spherical_direction.phi,
+            phi_variation=self.direction_variation.phi,
+            phi_period=periods["phi"],
+            random=self.random,
+        )
+
+    def bind(self, stage: Stage) -> CurrentForceUpdater:
+        """Find the vehicle; raises UnknownName if it is not there."""
+        if self.target not in stage.vehicles:
+            raise UnknownName("vehicle", self.target, stage.vehicles)
+        self.current(self.initial)
+        return CurrentForceUpdater(stage, self)
+
+
+class CurrentForceUpdater(SceneUpdater):
+    """Begins each level alike: the vehicle in its place, 2 s of still water, then the current.
+
+    The current's time and its random factors begin with the level, so that a level is the same
+    alone and in a sweep. (In the original both ran on through the levels, from the clock.)
+    """
+
+    def __init__(self, stage: Stage, spec: CurrentForceUpdaterSpec) -> None:
+        self._stage, self._spec = stage, spec
+        self._force: ForcePublisher | None = None
+
+    def apply(self, value: float) -> None:
+        """Put the vehicle back and let a current of ``value`` [m/s] begin."""
+        stage = self._stage
+        stage.put_back(self._spec.target)
+        current = LateCurrent(
+            self._spec.current(value).bind(Place(stream=stage.stream)),
+            began=stage.time,
+            calm=GRACE,
+        )
+        if not self._spec.publish_as_force:
+            stage.set_current(current)
+        elif self._force is None:
+            self._force = ForcePublisher(stage, current)
+        else:
+            self._force.current = current
+        if stage.serves(RESET):
+            stage.call(RESET, Empty())
+
+    def ramp(self, value: float) -> None:
+        """Do nothing: a level begins in still water, so there is nothing to lead over to."""
+
+
+class ForcePublisher:
+    r"""Says at 100 Hz on ``currentForce`` how a current pushes, instead of moving the water.
+
+    .. math:: f_i = \tfrac{1}{2} \rho\, C_d A\; v_i |v_i|, \quad
+        \rho = 1000,\ C_d = 0.82,\ A = 1
+
+    along each axis of L (``frame_id`` "Currents"), torque 0. It is meant for a dynamics node that
+    knows no current. With the compatibility ``current-force`` it is :math:`v_i^2` as in the
+    original, which loses the sign. Not modelled: the vehicle's own velocity and shape.
+    """
+
+    def __init__(self, stage: Stage, current: Flow) -> None:
+        self.current = current
+        """The current as of now."""
+        self._stage = stage
+        self._is_signless = "current-force" in stage.compatibility
+        self._publish = stage.publisher(FORCE_TOPIC, WrenchStamped)
+        stage.every(FORCE_RATE, self._say)
+
+    def _say(self) -> None:
+        time = self._stage.time
+        v = self.current.velocity(np.zeros((1, 3)), time)[0]  # (3,) [m/s]
+        force = DRAG * v * (v if self._is_signless else np.abs(v))  # (3,) [N]
+        x, y, z = force.tolist()
+        wrench = Wrench(force=Vector3(x=x, y=y, z=z), torque=Vector3(x=0.0, y=0.0, z=0.0))
+        self._publish(WrenchStamped(header=header(time, "Currents"), wrench=wrench))

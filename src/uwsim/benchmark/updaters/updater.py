@@ -40,6 +40,9 @@ class SceneUpdaterSpec(abc.ABC):
     is_simulated: ClassVar[bool] = True
     """False: a later version will play it."""
 
+    calm: ClassVar[float] = 0.0
+    """How long after a step of it nothing is measured yet [s]."""
+
     child: SceneUpdaterSpec | None = element("sceneUpdater", default=None)
     """The updater nested in it, which is stepped first."""
 
@@ -77,6 +80,10 @@ class SceneUpdater(abc.ABC):
     @abc.abstractmethod
     def apply(self, value: float) -> None:
         """Bring the scene to ``value``."""
+
+    def ramp(self, value: float) -> None:
+        """Bring the scene to ``value`` on the way from one level to another: as `apply`."""
+        self.apply(value)
 
 
 def chain(spec: SceneUpdaterSpec) -> tuple[SceneUpdaterSpec, ...]:
@@ -144,10 +151,42 @@ def bind_updaters(spec: SceneUpdaterSpec, stage: Stage) -> tuple[SceneUpdater, .
     return tuple(updater.bind(stage) for updater in chain(spec))
 
 
-def apply_level(updaters: Sequence[SceneUpdater], level: Level) -> None:
-    """Bring the scene to ``level``, the outermost updater first."""
+def steps(level: Level, after: Level | None) -> tuple[bool, ...]:
+    """Which updaters step when ``level`` is played ``after`` another, outermost first.
+
+    As in the original, one steps only when its value or that of one around it is another: the
+    current that contains a sweep of fog puts its vehicle back once, not at every fog.
+    """
+    n = len(level.values)
+    return tuple(after is None or after.values[:i] != level.values[:i] for i in range(1, n + 1))
+
+
+def calm(spec: SceneUpdaterSpec, level: Level, *, after: Level | None = None) -> float:
+    """Return how long after the beginning of ``level`` nothing is measured yet [s]."""
+    stepped = zip(chain(spec), steps(level, after), strict=True)
+    return max(updater.calm if steps_now else 0.0 for updater, steps_now in stepped)
+
+
+def apply_level(
+    updaters: Sequence[SceneUpdater], level: Level, *, after: Level | None = None
+) -> None:
+    """Bring the scene to ``level``, the outermost updater first.
+
+    Args:
+        updaters: bound, outermost first.
+        level: what to play.
+        after: the level played before in the same simulation, if any; see `steps`.
+    """
+    stepped = zip(updaters, level.values, steps(level, after), strict=True)
+    for updater, (_, value), steps_now in stepped:
+        if steps_now:
+            updater.apply(value)
+
+
+def ramp_level(updaters: Sequence[SceneUpdater], level: Level) -> None:
+    """Bring the scene to what lies between two levels, the outermost updater first."""
     for updater, (_, value) in zip(updaters, level.values, strict=True):
-        updater.apply(value)
+        updater.ramp(value)
 
 
 def sweep(initial: float, final: float, step: float, *, single: bool = False) -> tuple[float, ...]:

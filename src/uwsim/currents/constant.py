@@ -1,0 +1,43 @@
+"""constant: water that moves evenly.
+
+.. code-block:: xml
+
+    <u:constant> <u:velocity> <x>0.2</x> <y>0</y> <z>0</z> </u:velocity> </u:constant>
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..dialect import element
+from .current import Array, Current, CurrentSpec, Place, everywhere
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConstantSpec(CurrentSpec):
+    """A ``<u:constant>`` element."""
+
+    velocity: tuple[float, float, float] = element(namespaced=True)
+    """Of the water, in L [m/s]."""
+
+    def bind(self, place: Place) -> Constant:
+        """Needs nothing of the scene."""
+        return Constant(self.velocity)
+
+
+class Constant(Current):
+    """The same velocity everywhere and always; no boundary layer, no turbulence."""
+
+    def __init__(self, velocity: tuple[float, float, float]) -> None:
+        self._velocity = velocity
+
+    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return the velocity of the water, in L, (n, 3) [m/s]."""
+        return everywhere(points, *self._velocity)
+
+    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return zeros, (n, 3) [m/s2]."""
+        return np.zeros((len(points), 3))

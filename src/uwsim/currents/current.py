@@ -1,0 +1,86 @@
+"""What every current is: a velocity of the water at a place and a time."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Pose
+
+Array = npt.NDArray[np.float64]
+DIFFERENCE = 1e-3
+"""Half the span of the central difference that stands for the acceleration [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place:
+    """What a current may need to know of the scene it flows in."""
+
+    stream: Callable[[str], np.random.Generator]
+    """The random generator of a name."""
+    find: Callable[[str], Path] = Path
+    """Where a file that the scene names is."""
+    world_from_localized: Pose = field(default_factory=Pose.identity)
+    """W from L."""
+    surface_height: float = 0.0
+    """Of the still water, in W [m]."""
+
+    def depths(self, points: Array) -> Array:
+        """Return how far below the still surface points of L lie, (n,) [m]; above it negative."""
+        pose = self.world_from_localized
+        below: Array = self.surface_height - (points @ pose.rotation[2] + pose.position[2])
+        return below
+
+
+@dataclass(frozen=True, kw_only=True)
+class CurrentSpec(abc.ABC):
+    """What a file says about a current."""
+
+    @abc.abstractmethod
+    def bind(self, place: Place) -> Current:
+        """Find what it needs; raises UwsimError when that is not there."""
+
+
+class Current(abc.ABC):
+    """Moving water: a `uwsim.world.Flow`.
+
+    It is a function of place and time alone: asked twice, or out of order, it answers the same.
+    """
+
+    @abc.abstractmethod
+    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return the velocity of the water, in L.
+
+        Args:
+            points: where, in L, (n, 3) [m].
+            time: simulation time [s].
+            vehicles: what floats at each point, n names, ``""`` for none; or empty.
+
+        Returns:
+            (n, 3) [m/s]; the caller's own array.
+        """
+
+    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return how fast that velocity changes at a fixed point, in L, (n, 3) [m/s2].
+
+        A central difference over 2 ms unless the current knows better.
+        """
+        before = max(0.0, time - DIFFERENCE)
+        later = self.velocity(points, time + DIFFERENCE, vehicles)
+        earlier = self.velocity(points, before, vehicles)
+        change: Array = (later - earlier) / (time + DIFFERENCE - before)
+        return change
+
+
+def everywhere(points: Array, x: float, y: float, z: float) -> Array:
+    """Return one vector for every point, (n, 3)."""
+    vectors = np.empty((len(points), 3))
+    vectors[:, 0] = x
+    vectors[:, 1] = y
+    vectors[:, 2] = z
+    return vectors

@@ -1,0 +1,35 @@
+"""A current that begins at some time, and counts its own time from there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..world import Flow
+from .current import Array, Current
+
+
+class LateCurrent(Current):
+    """Nothing before ``began + calm``; then the current as of the time since ``began``.
+
+    The time since ``began`` is rounded to nanoseconds, so that a level gives the same numbers
+    whether it is played alone or late in a sweep.
+    """
+
+    def __init__(self, current: Flow, *, began: float, calm: float) -> None:
+        self._current, self._began, self._calm = current, began, calm
+
+    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return the velocity of the water, in L, (n, 3) [m/s]."""
+        elapsed = round(time - self._began, 9)
+        if elapsed < self._calm:
+            return np.zeros((len(points), 3))
+        return self._current.velocity(points, elapsed, vehicles)
+
+    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return its acceleration, in L, (n, 3) [m/s2]; the jump at its beginning is left out."""
+        elapsed = round(time - self._began, 9)
+        if elapsed < self._calm:
+            return np.zeros((len(points), 3))
+        return self._current.acceleration(points, elapsed, vehicles)

@@ -1,0 +1,120 @@
+r"""uwsimSinusoid: the current of UWSim's benchmarks, which swells and turns.
+
+.. code-block:: xml
+
+    <u:uwsimSinusoid>
+      <u:speed>0.2</u:speed> <u:speedVariation>0.005</u:speedVariation>
+      <u:speedPeriod>4</u:speedPeriod>
+      <u:theta>M_PI_2</u:theta>
+      <u:phi>0</u:phi> <u:phiVariation>0.7</u:phiVariation> <u:phiPeriod>30</u:phiPeriod>
+      <u:random>0.01</u:random>
+    </u:uwsimSinusoid>
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..dialect import element
+from .current import Array, Current, CurrentSpec, Place, everywhere
+from .draws import Draws
+
+RATE = 60.0
+"""The random factors are drawn anew this often, and held between [Hz]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class UwsimSinusoidSpec(CurrentSpec):
+    """A ``<u:uwsimSinusoid>`` element, or a level of a ``<currentForceUpdater>``."""
+
+    speed: float = element(namespaced=True)
+    """Mean speed [m/s]."""
+    speed_variation: float = element(namespaced=True, default=0.0)
+    """Amplitude of its swelling [m/s]."""
+    speed_period: float = element(namespaced=True, default=1.0, above=0)
+    """Period of its swelling [s]."""
+    theta: float = element(namespaced=True, default=math.pi / 2.0)
+    """Polar angle from z of L [rad]."""
+    theta_variation: float = element(namespaced=True, default=0.0)
+    """Amplitude of its turning in theta [rad]."""
+    theta_period: float = element(namespaced=True, default=1.0, above=0)
+    """Period of its turning in theta [s]."""
+    phi: float = element(namespaced=True, default=0.0)
+    """Azimuth from y of L towards -x of L [rad]."""
+    phi_variation: float = element(namespaced=True, default=0.0)
+    """Amplitude of its turning in phi [rad]."""
+    phi_period: float = element(namespaced=True, default=1.0, above=0)
+    """Period of its turning in phi [s]."""
+    random: float = element(namespaced=True, default=0.0, minimum=0)
+    """Half-width of the uniform noise on speed and both angles, relative [1]."""
+
+    def bind(self, place: Place) -> UwsimSinusoid:
+        """Take the stream ``current``."""
+        generator = place.stream("current")
+        return UwsimSinusoid(self, Draws(lambda size: generator.uniform(-1.0, 1.0, size), 3))
+
+
+class UwsimSinusoid(Current):
+    r"""The original's function of time, the same everywhere.
+
+    .. math::
+
+        F      &= (F_0 + F_v \sin(2\pi t/T_F)) (1 + e\,r_1) \\
+        \theta &= (\theta_0 + \theta_v \sin(2\pi t/T_\theta)) (1 + e\,r_2) \\
+        \phi   &= (\phi_0 + \phi_v \sin(2\pi t/T_\phi)) (1 + e\,r_3) \\
+        v      &= F\,(-\sin\theta \sin\phi,\ \sin\theta \cos\phi,\ \cos\theta)
+
+    in L, with r uniform in -1..1, drawn anew every 1/60 s and held, and e = ``random``. With
+    theta = pi/2 the water flows along y of L, and turns towards -x as phi grows.
+    Source: UWSim's benchmark module. It writes 3.14 for pi, takes t from the wall clock, and
+    draws at every frame; here t is simulation time.
+
+    Not modelled: any change with place. The acceleration leaves out the jumps of the noise.
+    """
+
+    def __init__(self, spec: UwsimSinusoidSpec, draws: Draws) -> None:
+        self._spec, self._draws = spec, draws
+        self._speed_rate = 2.0 * math.pi / spec.speed_period  # [rad/s]
+        self._theta_rate = 2.0 * math.pi / spec.theta_period  # [rad/s]
+        self._phi_rate = 2.0 * math.pi / spec.phi_period  # [rad/s]
+
+    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return the velocity of the water, in L, (n, 3) [m/s]."""
+        spec = self._spec
+        a, b, c = self._factors(time)
+        speed = a * (spec.speed + spec.speed_variation * math.sin(self._speed_rate * time))
+        theta = b * (spec.theta + spec.theta_variation * math.sin(self._theta_rate * time))
+        phi = c * (spec.phi + spec.phi_variation * math.sin(self._phi_rate * time))
+        flat = speed * math.sin(theta)
+        return everywhere(
+            points, -flat * math.sin(phi), flat * math.cos(phi), speed * math.cos(theta)
+        )
+
+    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return the derivative with the random factors held, in L, (n, 3) [m/s2]."""
+        spec = self._spec
+        a, b, c = self._factors(time)
+        speed = a * (spec.speed + spec.speed_variation * math.sin(self._speed_rate * time))
+        theta = b * (spec.theta + spec.theta_variation * math.sin(self._theta_rate * time))
+        phi = c * (spec.phi + spec.phi_variation * math.sin(self._phi_rate * time))
+        dspeed = a * spec.speed_variation * self._speed_rate * math.cos(self._speed_rate * time)
+        dtheta = b * spec.theta_variation * self._theta_rate * math.cos(self._theta_rate * time)
+        dphi = c * spec.phi_variation * self._phi_rate * math.cos(self._phi_rate * time)
+        sine, cosine = math.sin(theta), math.cos(theta)
+        flat, dflat = speed * sine, dspeed * sine + speed * cosine * dtheta
+        return everywhere(
+            points,
+            -dflat * math.sin(phi) - flat * math.cos(phi) * dphi,
+            dflat * math.cos(phi) - flat * math.sin(phi) * dphi,
+            dspeed * cosine - speed * sine * dtheta,
+        )
+
+    def _factors(self, time: float) -> tuple[float, float, float]:
+        """What multiplies speed, theta and phi now."""
+        e = self._spec.random
+        if e == 0.0:
+            return 1.0, 1.0, 1.0
+        r = self._draws.row(math.floor(time * RATE + 1e-6))
+        return 1.0 + e * r[0], 1.0 + e * r[1], 1.0 + e * r[2]
