@@ -12,6 +12,7 @@
       BadSetting           a command-line setting or a parameter that cannot be used
       MissingExtra         an optional part that is not installed; says how to install it
       NoGraphics           no OpenGL context; says what to install
+      RunFailed            a run that broke in the middle
       NeverStarted         the start trigger of a benchmark never went on
       ResultError          a result that cannot be read, resumed or trusted
         ReplayDiffers      ... a replay that did not give the rows that are stored
@@ -96,6 +97,10 @@ class NoGraphics(UwsimError):
 
 class NeverStarted(UwsimError):
     """The start trigger of a benchmark never went on."""
+
+
+class RunFailed(UwsimError):
+    """A run that broke in the middle; what was finished is kept."""
 
 
 class ResultError(UwsimError):

@@ -15,6 +15,7 @@ from .find import UNDER, candidates, find, folders_searched, plain_name, roots
 from .loaders import BY_OSGCONV, READABLE, can_read, read_model
 from .mesh import Mesh, Model, Texture
 from .primitives import primitive
+from .procedural.placeholder import labelled_box
 from .stand_ins import STAND_INS, StandIn
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "folders_searched",
     "load_model",
     "primitive",
+    "unknown_model",
 ]
 
 
@@ -65,6 +67,17 @@ def load_model(
         f"{did_you_mean(stem.removeprefix('data/'), STAND_INS)} Searched, in order: "
         + ", ".join(str(root) for root in roots(beside=beside, data_path=data_path))
         + f"; each also under {', '.join(UNDER[1:])}."
+    )
+
+
+def unknown_model(name: str) -> Model:
+    """A labelled box of 0.3 m in the place of a model that is nowhere."""
+    label = PurePosixPath(plain_name(name).replace("\\", "/")).stem[:16] or "?"
+    return Model(
+        name=plain_name(name),
+        meshes=labelled_box(label, (0.3, 0.3, 0.3)),
+        source="labelled box",
+        sha256=hashlib.sha256(f"labelled box {label}".encode()).hexdigest(),
     )
 
 

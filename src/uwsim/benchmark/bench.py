@@ -22,7 +22,7 @@ import mujoco
 import numpy as np
 
 from .. import __version__
-from ..errors import ResultError
+from ..errors import RunFailed
 from ..simulation import Simulation
 from . import unit_file
 from .logs import Log, save_log
@@ -122,7 +122,7 @@ class Bench:
                         on_level()
                     seen = now
             except BrokenProcessPool:
-                raise ResultError(
+                raise RunFailed(
                     "A worker process died. Finished rows are kept; go on with --resume."
                 ) from None
             finally:

@@ -151,7 +151,7 @@ def make_plan(
     Raises:
         UwsimError: a file, a name or a setting that is wrong.
     """
-    from ..algorithms import load_algorithm
+    from ..algorithms import check_parameters, load_algorithm
     from ..benchmark.plan import Plan
     from ..benchmark.reader import read_benchmark
     from ..compatibility import compatibility
@@ -179,6 +179,8 @@ def make_plan(
             f"{path}: the benchmark does not name an algorithm (u:algorithm); "
             "give one with --algorithm."
         )
+    if ":" in wanted and "" not in sys.path and str(Path.cwd()) not in sys.path:
+        sys.path.insert(0, str(Path.cwd()))  # module:Class may lie where the user stands
     chosen_mode = mode or spec.mode or "sequential"
     if chosen_mode not in ("sequential", "independent"):
         raise BadSetting(f"--mode is {chosen_mode!r}; expected sequential or independent.")
@@ -198,6 +200,7 @@ def make_plan(
         data_path=data_path,
     )
     plan.levels()
+    check_parameters(plan.algorithm, plan.parameters)
     return plan
 
 
@@ -304,7 +307,8 @@ def finish(run: Bench, result: Result, *, began: float, workers: int) -> None:
     wall = time.time() - began
     save_provenance(provenance(run, began, wall, workers), run.out)
     report = write_report(run.out)
-    Console().print(table(result))
+    console = Console()
+    console.print(table(result, width=console.width))
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
 
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from lxml import etree
 
 from ..dialect import NAMESPACE, TOKENS, Slot, slots
+from ..dialect.names import local
 
 RNG = "http://relaxng.org/ns/structure/1.0"
 TYPES = "http://www.w3.org/2001/XMLSchema-datatypes"
@@ -84,7 +85,7 @@ def _specs(name: str, cls: type) -> Iterator[tuple[str, type]]:
             yield from _specs(slot.shown, slot.type)
         elif slot.kind == "choice":
             for child, spec in slot.type.items():
-                yield from _specs(child, spec)
+                yield from _specs(local(child), spec)
 
 
 def _section(name: str, cls: type) -> str:
@@ -106,15 +107,21 @@ def _section(name: str, cls: type) -> str:
 def _kind(slot: Slot) -> str:
     what = slot.expected
     if slot.kind == "spec":
-        what = f"[`<{slot.shown}>`](#{slot.shown.lower().replace(':', '')})"
+        what = f"[`<{slot.shown}>`](#{_anchor(slot.shown)})"
     elif slot.kind == "choice":
-        what = "any of " + ", ".join(f"[`{name}`](#{name.lower()})" for name in slot.type)
+        names = [local(child) for child in slot.type]
+        what = "any of " + ", ".join(f"[`{name}`](#{_anchor(name)})" for name in names)
     elif slot.kind == "triple":
         unit = f" [{slot.unit}]" if slot.unit else ""
         what = " ".join(f"`<{part}>`" for part in slot.xml.parts) + unit
     elif slot.xml.item:
         what = f"`<{slot.xml.item}>`, any number: {what}"
     return f"{what}, any number" if slot.repeated and slot.kind == "spec" else what
+
+
+def _anchor(name: str) -> str:
+    """Where a link to an element leads."""
+    return name.lower().replace(":", "")
 
 
 def _default(slot: Slot) -> str:
@@ -141,16 +148,13 @@ def _field(content: etree._Element, slot: Slot) -> None:
     elif slot.default is not dataclasses.MISSING:
         content = _sub(content, "optional")
     what = "attribute" if slot.xml.attribute else "element"
-    name, space = slot.tag, {}
-    if name.startswith("{"):
-        name, space = name.split("}")[1], {"ns": NAMESPACE}
-    node = _sub(content, what, name=name, **space)
+    node = _sub(content, what, **_named(slot.tag))
     if slot.kind == "spec":
         node.append(_ref(slot.type))
     elif slot.kind == "choice":
         several = _sub(_sub(node, "zeroOrMore"), "choice")
         for child, spec in slot.type.items():
-            _sub(several, "element", name=child).append(_ref(spec))
+            _sub(several, "element", **_named(child)).append(_ref(spec))
     elif slot.kind == "triple":
         parts = _sub(node, "interleave")
         for part in slot.xml.parts:
@@ -159,6 +163,13 @@ def _field(content: etree._Element, slot: Slot) -> None:
         _data(_sub(_sub(node, "zeroOrMore"), "element", name=slot.xml.item), slot)
     else:
         _data(node, slot, may_be_empty=slot.default is not dataclasses.MISSING)
+
+
+def _named(tag: str) -> dict[str, str]:
+    """How the grammar names an element or attribute."""
+    if tag.startswith("{"):
+        return {"name": tag.split("}")[1], "ns": NAMESPACE}
+    return {"name": tag}
 
 
 def _data(node: etree._Element, slot: Slot, *, may_be_empty: bool = False) -> None:

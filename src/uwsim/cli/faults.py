@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import typer
 
-from ..errors import FileError, NeverStarted, ReplayDiffers, UwsimError
+from ..errors import FileError, NeverStarted, ReplayDiffers, RunFailed, UwsimError
 
 WRONG_INPUT = 2
 RUN_FAILED = 3
 INTERRUPTED = 130
 
-RUN_ERRORS = (NeverStarted, ReplayDiffers)
+RUN_ERRORS = (NeverStarted, ReplayDiffers, RunFailed)
 """What can only be found by running; every other `UwsimError` is wrong input."""
 
 

@@ -19,6 +19,15 @@ WAVES = (
     "crestFoamHeight",
 )
 
+SIMULATED = (
+    "ROSJointStateToArm",
+    "ROSOdomToPAT",
+    "ROSPoseToPAT",
+    "ROSTwistToPAT",
+    "VirtualCameraToROSImage",
+)
+"""Interfaces that work."""
+
 NOT_YET: dict[tuple[str, str], str] = {
     **{("oceanState", name): "waves" for name in WAVES},
     ("simParams", "disableShaders"): "the window",
@@ -66,7 +75,7 @@ NOT_YET: dict[tuple[str, str], str] = {
     **{
         ("rosInterfaces", name): name
         for name in INTERFACES
-        if name not in ("VirtualCameraToROSImage", "SimulatedDeviceROS")
+        if name not in (*SIMULATED, "SimulatedDeviceROS")
     },
 }
 """(parent, element) -> what it belongs to."""

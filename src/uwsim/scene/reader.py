@@ -57,7 +57,12 @@ def read_document(document: Document, faults: Faults) -> SceneSpec | None:
     if faults.strict:
         for node in document.root.iter("ProfilingSonar", "ProfilingSonarROS"):
             faults.add(node, f"<{node.tag}> is not in the original grammar")
-    return read(SceneSpec, document.root, faults, given={"path": str(document.path)})
+    return read(
+        SceneSpec,
+        document.root,
+        faults,
+        given={"path": str(document.path), "is_original": document.has_doctype},
+    )
 
 
 def check_scene(path: Path, *, strict: bool = False, library: Library | None = None) -> list[Fault]:

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..assets import load_model, primitive
+from ..assets import load_model, primitive, unknown_model
 from ..assets.mesh import Model
+from ..errors import AssetNotFound
 from ..geometry import Intrinsics, Pose
 from ..physics.state import State
 from ..rendering.renderer import Picture, Renderer
@@ -150,7 +151,7 @@ def _parts(
             Part(
                 len(parts) + 1,
                 thing.name,
-                load_model(thing.file, beside=beside, data_path=data_path),
+                _object_model(thing.file, scene, beside, data_path),
                 None,
                 "",
                 index,
@@ -164,7 +165,21 @@ def _parts(
 
 def _visual_model(visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]) -> Model:
     if visual.kind == "mesh":
-        return load_model(visual.file, beside=beside, data_path=data_path)
+        try:
+            return load_model(visual.file, beside=beside, data_path=data_path)
+        except AssetNotFound:  # `uwsim check` says so
+            return unknown_model(visual.file)
     if visual.colour is None:
         return primitive(visual.kind, visual.size)
     return primitive(visual.kind, visual.size, visual.colour)
+
+
+def _object_model(
+    name: str, scene: SceneSpec, beside: Path | None, data_path: tuple[Path, ...]
+) -> Model:
+    try:
+        return load_model(name, beside=beside, data_path=data_path)
+    except AssetNotFound:
+        if not scene.is_original:
+            raise
+        return unknown_model(name)

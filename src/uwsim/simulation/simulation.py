@@ -95,7 +95,9 @@ class Simulation:
         self._cameras: dict[str, VirtualCamera] = {}
         for vehicle in scene.vehicles:
             for spec in vehicle.virtual_cameras:
-                self._cameras.setdefault(spec.name, spec.bind(self, vehicle.name))
+                # a sensor on a link that is not there is left out, as in the original
+                if f"{vehicle.name}/{spec.relative_to}" in self._bodies:
+                    self._cameras.setdefault(spec.name, spec.bind(self, vehicle.name))
         self.images: dict[str, ImagePublisher] = {}
         """What publishes images, by topic."""
         for interface in scene.ros_interfaces:
