@@ -154,22 +154,22 @@ def _field(content: etree._Element, slot: Slot) -> None:
     elif slot.kind == "choice":
         several = _sub(_sub(node, "zeroOrMore"), "choice")
         for child, spec in slot.type.items():
-            _sub(several, "element", **_named(child)).append(_ref(spec))
+            _sub(several, "element", **_named(child, within=slot)).append(_ref(spec))
     elif slot.kind == "triple":
         parts = _sub(node, "interleave")
         for part in slot.xml.parts:
-            _data(_sub(parts, "element", name=part), slot, may_be_empty=True)
+            _data(_sub(parts, "element", **_named(part, within=slot)), slot, may_be_empty=True)
     elif slot.xml.item:
-        _data(_sub(_sub(node, "zeroOrMore"), "element", name=slot.xml.item), slot)
+        _data(_sub(_sub(node, "zeroOrMore"), "element", **_named(slot.xml.item, within=slot)), slot)
     else:
         _data(node, slot, may_be_empty=slot.default is not dataclasses.MISSING)
 
 
-def _named(tag: str) -> dict[str, str]:
-    """How the grammar names an element or attribute."""
+def _named(tag: str, *, within: Slot | None = None) -> dict[str, str]:
+    """How the grammar names an element or attribute; it would inherit the namespace around it."""
     if tag.startswith("{"):
         return {"name": tag.split("}")[1], "ns": NAMESPACE}
-    return {"name": tag}
+    return {"name": tag, "ns": ""} if within and within.xml.namespaced else {"name": tag}
 
 
 def _data(node: etree._Element, slot: Slot, *, may_be_empty: bool = False) -> None:

@@ -4,12 +4,32 @@ from __future__ import annotations
 
 from .constant import Constant, ConstantSpec
 from .current import Current, CurrentSpec, Place
+from .field import Field, FieldSpec, Grid, read_grid
+from .gauss_markov import GaussMarkov, GaussMarkovSpec
 from .late import LateCurrent
+from .profile import (
+    Layers,
+    LayerSpec,
+    LayersSpec,
+    LogProfile,
+    LogProfileSpec,
+    PowerProfile,
+    PowerProfileSpec,
+)
+from .python_function import PythonFunction, PythonFunctionSpec
+from .tidal import ConstituentSpec, Tidal, TidalSpec
 from .total import TotalCurrent, bind_currents
 from .uwsim_sinusoid import UwsimSinusoid, UwsimSinusoidSpec
 
 CURRENTS: dict[str, type[CurrentSpec]] = {
     "constant": ConstantSpec,
+    "field": FieldSpec,
+    "gaussMarkov": GaussMarkovSpec,
+    "layers": LayersSpec,
+    "logProfile": LogProfileSpec,
+    "powerProfile": PowerProfileSpec,
+    "pythonFunction": PythonFunctionSpec,
+    "tidal": TidalSpec,
     "uwsimSinusoid": UwsimSinusoidSpec,
 }
 """Element, without its prefix -> what a file says about it. In alphabetical order."""
@@ -18,12 +38,30 @@ __all__ = [
     "CURRENTS",
     "Constant",
     "ConstantSpec",
+    "ConstituentSpec",
     "Current",
     "CurrentSpec",
+    "Field",
+    "FieldSpec",
+    "GaussMarkov",
+    "GaussMarkovSpec",
+    "Grid",
     "LateCurrent",
+    "LayerSpec",
+    "Layers",
+    "LayersSpec",
+    "LogProfile",
+    "LogProfileSpec",
     "Place",
+    "PowerProfile",
+    "PowerProfileSpec",
+    "PythonFunction",
+    "PythonFunctionSpec",
+    "Tidal",
+    "TidalSpec",
     "TotalCurrent",
     "UwsimSinusoid",
     "UwsimSinusoidSpec",
     "bind_currents",
+    "read_grid",
 ]

@@ -18,7 +18,7 @@ from .current import Array, Current, CurrentSpec, Place, everywhere
 
 @dataclass(frozen=True, kw_only=True)
 class ConstantSpec(CurrentSpec):
-    """A ``<u:constant>`` element."""
+    """A ``<u:constant>``: the same velocity everywhere and always."""
 
     velocity: tuple[float, float, float] = element(namespaced=True)
     """Of the water, in L [m/s]."""

@@ -27,7 +27,10 @@ RATE = 60.0
 
 @dataclass(frozen=True, kw_only=True)
 class UwsimSinusoidSpec(CurrentSpec):
-    """A ``<u:uwsimSinusoid>`` element, or a level of a ``<currentForceUpdater>``."""
+    """A ``<u:uwsimSinusoid>``: the current of UWSim's benchmarks, which swells and turns.
+
+    A level of a ``<currentForceUpdater>`` is one.
+    """
 
     speed: float = element(namespaced=True)
     """Mean speed [m/s]."""

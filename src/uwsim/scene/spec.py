@@ -21,6 +21,7 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 
+from ..currents import CURRENTS, CurrentSpec
 from ..devices.comms import (
     AcousticCommsChannelSpec,
     AcousticCommsDeviceSpec,
@@ -33,7 +34,7 @@ from ..devices.force_sensor import ForceSensorSpec
 from ..devices.led_array import LedArraySpec
 from ..devices.object_picker import ObjectPickerSpec
 from ..devices.sway import SwaySpec, swayed
-from ..dialect import element
+from ..dialect import NAMESPACE, element
 from ..geometry import Pose, rotation_from_xyz
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.gps_sensor import GpsSensorSpec
@@ -94,6 +95,11 @@ class OceanStateSpec:
     """Light scattered into the view by the water [0..1]."""
     attenuation: Triple = element(default=(0.015, 0.0075, 0.005), parts="rgb")
     """Loss of red, green and blue light on its way [1/m]."""
+    currents: tuple[CurrentSpec, ...] = element(
+        "current", namespaced=True, default=(),
+        choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in CURRENTS.items()},
+    )  # fmt: skip
+    """How the water moves; several add up."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -376,6 +382,8 @@ class SceneSpec:
     """Topics in and out."""
     path: str = dataclasses.field(default="", compare=False, metadata={"path": True})
     """The file it was read from."""
+    is_original: bool = dataclasses.field(default=False, compare=False, metadata={"path": True})
+    """Whether it names the original's DTD: models that are nowhere are then labelled boxes."""
 
     @property
     def world_from_localized(self) -> Pose:

@@ -1,0 +1,282 @@
+r"""field: water that moves as a file says, over x, y, z and time.
+
+.. code-block:: xml
+
+    <u:field> <u:file>fjord.nc</u:file> <u:start>0</u:start> <u:outside>edge</u:outside> </u:field>
+
+A ``.csv`` file has a line of names, ``x,y,z,t,u,v,w``, and a line of numbers for every node of a
+full grid, in any order. A ``.nc`` file is classic NetCDF (version 3) with coordinate variables
+``x``, ``y``, ``z`` and ``t`` (or ``time``), and ``u``, ``v``, ``w`` over them. Metres, seconds and
+m/s, in L. ``w`` and any of the coordinates may be left out: the water then does not move along z,
+or does not change along that coordinate.
+"""
+
+from __future__ import annotations
+
+import csv
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from ..dialect import element
+from ..errors import AssetError
+from .current import Array, Current, CurrentSpec, Place
+
+AXES = ("t", "x", "y", "z")
+COMPONENTS = ("u", "v", "w")
+
+
+@dataclass(frozen=True, kw_only=True)
+class FieldSpec(CurrentSpec):
+    """A ``<u:field>``: velocities on a grid over x, y, z and time, linear between its nodes."""
+
+    file: str = element(namespaced=True)
+    """The file, ``.csv`` or ``.nc``."""
+    start: float = element(namespaced=True, default=0.0)
+    """Time in the file when the simulation begins [s]."""
+    outside: Literal["edge", "still"] = element(namespaced=True, default="edge")
+    """Beyond the grid in space: as at its edge, or still. In time always as at its ends."""
+
+    def bind(self, place: Place) -> Field:
+        """Read the file.
+
+        Raises:
+            AssetError: it cannot be used; says what is wrong with it.
+        """
+        return Field(read_grid(place.find(self.file)), start=self.start, outside=self.outside)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Velocities at the nodes of a grid with straight, possibly uneven, axes."""
+
+    axes: tuple[Array, Array, Array, Array]
+    """Values of t, x, y, z, each increasing; a single 0 where nothing changes along it [s, m]."""
+    velocities: Array
+    """In L, (t, x, y, z, 3) [m/s]."""
+
+
+def read_grid(path: Path) -> Grid:
+    """Read a ``.csv`` or ``.nc`` file.
+
+    Raises:
+        AssetError: it cannot be used; says what is wrong with it.
+    """
+    readers = {".csv": read_csv, ".nc": read_netcdf, ".cdf": read_netcdf}
+    reader = readers.get(path.suffix.lower())
+    if reader is None:
+        raise AssetError(f"{path}: a field is a .csv or a .nc file, not {path.suffix!r}.")
+    try:
+        return reader(path)
+    except OSError as error:
+        raise AssetError(f"{path}: {error.strerror or error}.") from error
+
+
+def read_csv(path: Path) -> Grid:
+    """Read a table with a line for every node."""
+    with path.open(newline="", encoding="utf-8", errors="replace") as file:
+        lines = csv.reader(file)
+        names = [name.strip() for name in next(lines, [])]
+        _check_names(path, names)
+        rows = []
+        for row in lines:
+            if not any(cell.strip() for cell in row):
+                continue
+            if len(row) != len(names):
+                raise AssetError(
+                    f"{path}:{lines.line_num}: {len(row)} values; expected {len(names)}: "
+                    f"{', '.join(names)}."
+                )
+            rows.append([_number(cell, path, lines.line_num) for cell in row])
+    if not rows:
+        raise AssetError(f"{path}: has no line of numbers.")
+    table = np.array(rows)  # (n, names)
+    columns = {name: table[:, i] for i, name in enumerate(names)}
+    still = np.zeros(len(table))
+    found = [np.unique(columns.get(name, still), return_inverse=True) for name in AXES]
+    axes = tuple(values for values, _ in found)
+    shape = tuple(len(values) for values in axes)
+    node = np.ravel_multi_index(tuple(index for _, index in found), shape)  # (n,)
+    counts = np.bincount(node, minlength=int(np.prod(shape)))
+    for wrong, what in ((counts > 1, "stands twice"), (counts == 0, "is missing")):
+        if wrong.any():
+            where = np.unravel_index(int(np.argmax(wrong)), shape)
+            place = ", ".join(
+                f"{name} {axis[i]:g}" for name, axis, i in zip(AXES, axes, where, strict=True)
+            )
+            raise AssetError(
+                f"{path}: the node {place} {what} ({np.count_nonzero(wrong)} such); expected a "
+                f"full grid of {' x '.join(map(str, shape))} nodes over {', '.join(AXES)}."
+            )
+    velocities = np.empty((*shape, 3))
+    flat = velocities.reshape(-1, 3)
+    for i, name in enumerate(COMPONENTS):
+        flat[node, i] = columns.get(name, still)
+    return Grid((axes[0], axes[1], axes[2], axes[3]), velocities)
+
+
+def read_netcdf(path: Path) -> Grid:
+    """Read a classic NetCDF file."""
+    from scipy.io import netcdf_file
+
+    with path.open("rb") as file:
+        if file.read(4) == b"\x89HDF":
+            raise AssetError(
+                f"{path}: is NetCDF-4; expected classic NetCDF. `nccopy -k classic` converts it."
+            )
+    try:
+        with netcdf_file(path, mmap=False, maskandscale=True) as data:
+            arrays = {
+                "t" if name == "time" else name: (
+                    tuple("t" if each == "time" else each for each in variable.dimensions),
+                    np.ma.filled(np.ma.asarray(variable[:], dtype=np.float64), np.nan),
+                )
+                for name, variable in data.variables.items()
+                if name in (*AXES, "time", *COMPONENTS)
+            }
+    except (TypeError, ValueError, IndexError, KeyError) as error:
+        raise AssetError(f"{path}: is not a NetCDF file that can be read ({error}).") from error
+    _check_names(path, list(arrays))
+    axes = [_axis(path, name, *arrays[name]) if name in arrays else np.zeros(1) for name in AXES]
+    shape = tuple(len(axis) for axis in axes)
+    velocities = np.zeros((*shape, 3))
+    for i, name in enumerate(COMPONENTS):
+        if name in arrays:
+            velocities[..., i] = _component(path, name, *arrays[name], tuple(arrays))
+    return Grid((axes[0], axes[1], axes[2], axes[3]), velocities)
+
+
+def _axis(path: Path, name: str, dimensions: tuple[str, ...], values: Array) -> Array:
+    if dimensions != (name,):
+        raise AssetError(
+            f"{path}: {name} is over ({', '.join(dimensions)}); expected a coordinate over itself."
+        )
+    if not np.isfinite(values).all() or not (np.diff(values) > 0.0).all() or len(values) == 0:
+        raise AssetError(f"{path}: the values of {name} do not increase.")
+    return values
+
+
+def _component(
+    path: Path, name: str, dimensions: tuple[str, ...], values: Array, known: tuple[str, ...]
+) -> Array:
+    """The values over t, x, y, z, those it does not change along of length 1."""
+    strange = [each for each in dimensions if each not in AXES or each not in known]
+    if strange or len(set(dimensions)) < len(dimensions):
+        raise AssetError(
+            f"{path}: {name} is over ({', '.join(dimensions)}); expected coordinates of "
+            f"{', '.join(AXES)}, each with a variable of its own."
+        )
+    if n_missing := int(np.count_nonzero(~np.isfinite(values))):
+        raise AssetError(
+            f"{path}: {n_missing} of {values.size} values of {name} are missing; "
+            "expected a number at every node (0 on land)."
+        )
+    order = [dimensions.index(axis) for axis in AXES if axis in dimensions]
+    absent = [i for i, axis in enumerate(AXES) if axis not in dimensions]
+    return np.expand_dims(values.transpose(order), absent)
+
+
+def _check_names(path: Path, names: list[str]) -> None:
+    known = (*AXES, *COMPONENTS)
+    strange = [name for name in names if name not in known]
+    lacking = [name for name in ("u", "v") if name not in names]
+    if strange or lacking or len(set(names)) < len(names):
+        raise AssetError(
+            f"{path}: has {', '.join(names) or 'nothing'}; expected u and v, and of w, x, y, z "
+            "and t what there is, each once."
+        )
+
+
+def _number(cell: str, path: Path, line: int) -> float:
+    try:
+        value = float(cell)
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise AssetError(f"{path}:{line}: {cell.strip()[:40]!r}; expected a number.")
+    return value
+
+
+class Field(Current):
+    """Velocities of a grid, linear between its nodes along each of t, x, y, z.
+
+    Linear interpolation keeps neither mass nor the curl exactly: a field that conserves volume at
+    its nodes does so between them only on average. Not modelled: geographic coordinates, land,
+    eddies smaller than a cell.
+    """
+
+    def __init__(self, grid: Grid, *, start: float = 0.0, outside: str = "edge") -> None:
+        self._times = grid.axes[0]
+        self._axes = grid.axes[1:]
+        self._start, self._is_still_outside = start, outside == "still"
+        n_t, n_x, n_y, n_z, _ = grid.velocities.shape
+        self._velocities = grid.velocities.reshape(n_t, n_x * n_y * n_z, 3)
+        self._strides = (n_y * n_z, n_z, 1)
+        used = [len(axis) > 1 for axis in self._axes]
+        self._corners = np.array(  # (c, 3): which of the two nodes along x, y, z
+            [corner for corner in itertools.product((0, 1), repeat=3) if _within(corner, used)]
+        )
+        self._offsets = self._corners @ np.array(self._strides)  # (c,)
+
+    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return the velocity of the water, in L, (n, 3) [m/s]."""
+        i, fraction, _ = self._at(time)
+        before = self._in_space(points, i)
+        if fraction == 0.0:
+            return before
+        both: Array = before + (self._in_space(points, i + 1) - before) * fraction
+        return both
+
+    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return how fast it changes between two times of the file, in L, (n, 3) [m/s2]."""
+        i, _, span = self._at(time)
+        if span == 0.0:
+            return np.zeros((len(points), 3))
+        slope: Array = (self._in_space(points, i + 1) - self._in_space(points, i)) / span
+        return slope
+
+    def _at(self, time: float) -> tuple[int, float, float]:
+        """Index of the time before, share of the way to the next, and how far that is [s]."""
+        times, now = self._times, self._start + time
+        last = len(times) - 1
+        if now < times[0] or last == 0:
+            return 0, 0.0, 0.0
+        if now >= times[-1]:
+            return last, 0.0, 0.0
+        i = int(np.searchsorted(times, now, side="right")) - 1
+        span = float(times[i + 1] - times[i])
+        return i, float(now - times[i]) / span, span
+
+    def _in_space(self, points: Array, time_index: int) -> Array:
+        """Interpolate the velocities of one time, (n, 3) [m/s]."""
+        node = np.zeros(len(points), dtype=np.int64)
+        shares = np.empty((2, 3, len(points)))  # of the lower and the upper node along x, y, z
+        is_inside = np.ones(len(points), dtype=bool)
+        for k, (axis, stride) in enumerate(zip(self._axes, self._strides, strict=True)):
+            if len(axis) == 1:
+                shares[0, k], shares[1, k] = 1.0, 0.0
+                continue
+            at = points[:, k]
+            i = np.clip(np.searchsorted(axis, at, side="right") - 1, 0, len(axis) - 2)
+            upper = (at - axis[i]) / (axis[i + 1] - axis[i])
+            if self._is_still_outside:
+                is_inside &= (upper >= 0.0) & (upper <= 1.0)
+            shares[1, k] = np.clip(upper, 0.0, 1.0)
+            shares[0, k] = 1.0 - shares[1, k]
+            node += i * stride
+        corner = self._corners
+        weights = shares[corner[:, 0], 0] * shares[corner[:, 1], 1] * shares[corner[:, 2], 2]
+        nodes = node[None, :] + self._offsets[:, None]  # (c, n)
+        around = self._velocities[time_index][nodes]  # (c, n, 3)
+        velocities: Array = np.einsum("cn,cnk->nk", weights, around)
+        velocities[~is_inside] = 0.0
+        return velocities
+
+
+def _within(corner: tuple[int, ...], used: list[bool]) -> bool:
+    """Whether a corner exists: along an axis of one node there is only the lower."""
+    return all(along or which == 0 for which, along in zip(corner, used, strict=True))

@@ -1,0 +1,104 @@
+r"""pythonFunction: water that moves as the user's own function says.
+
+.. code-block:: xml
+
+    <u:pythonFunction> <u:function>my_water:eddy</u:function> </u:pythonFunction>
+
+with, in ``my_water.py`` on Python's path::
+
+    def eddy(point, time, vehicle):
+        x, y, z = point
+        return -0.1 * y, 0.1 * x, 0.0
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..dialect import element
+from ..errors import BadSetting, did_you_mean
+from .current import Array, Current, CurrentSpec, Place
+
+Function = Callable[[Array, float, str], Sequence[float]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PythonFunctionSpec(CurrentSpec):
+    """A ``<u:pythonFunction>``: what a function of the user's own returns."""
+
+    function: str = element(namespaced=True)
+    """``module:function``."""
+
+    def bind(self, place: Place) -> PythonFunction:
+        """Import the module: its code runs here, and not when a file is only read or checked.
+
+        Raises:
+            BadSetting: there is no such module, or no such function in it.
+        """
+        module_name, _, name = self.function.partition(":")
+        if not module_name or not name:
+            raise BadSetting(f"<u:function> is {self.function!r}; expected 'module:function'.")
+        try:
+            module = importlib.import_module(module_name)
+        except ModuleNotFoundError as error:
+            raise BadSetting(
+                f"<u:function> is {self.function!r}; there is no module {error.name!r} on "
+                "Python's path (PYTHONPATH adds folders to it)."
+            ) from error
+        function = getattr(module, name, None)
+        if not callable(function):
+            known = [each for each in dir(module) if callable(getattr(module, each))]
+            raise BadSetting(
+                f"<u:function> is {self.function!r}; {module_name} has no function {name!r}."
+                f"{did_you_mean(name, known)}"
+            )
+        return PythonFunction(self.function, function)
+
+
+class PythonFunction(Current):
+    """What ``function(point, time, vehicle)`` returns: three numbers, the velocity in L [m/s].
+
+    ``point`` is in L, (3,) [m], its own copy; ``time`` is simulation time [s]; ``vehicle`` is the
+    name of the vehicle whose part is there, ``""`` for anything else. The function is called for
+    every body at every step and twice more for the acceleration, so its cost is the simulation's; a
+    result is repeatable only if it depends on its arguments alone.
+    """
+
+    def __init__(self, name: str, function: Function) -> None:
+        self._name, self._function = name, function
+
+    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return the velocity of the water, in L, (n, 3) [m/s].
+
+        Raises:
+            BadSetting: the function raised, or returned something else than three finite numbers.
+        """
+        names = vehicles if len(vehicles) else [""] * len(points)
+        velocities = np.empty((len(points), 3))
+        for i, (point, vehicle) in enumerate(zip(points, names, strict=True)):
+            velocities[i] = self._ask(np.array(point), time, vehicle)
+        return velocities
+
+    def _ask(self, point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
+        place = f"at {point.tolist()}, {time:g} s"
+        try:
+            said = self._function(point, time, vehicle)
+        except Exception as error:  # whatever a stranger's function raises is its own failure
+            raise BadSetting(
+                f"The current {self._name!r} raised {place}: {type(error).__name__}: {error}"
+            ) from error
+        try:
+            x, y, z = (float(value) for value in said)
+        except (TypeError, ValueError):
+            x = math.nan
+        if not math.isfinite(x) or not math.isfinite(y) or not math.isfinite(z):
+            raise BadSetting(
+                f"The current {self._name!r} returned {said!r:.80} {place}; "
+                "expected three finite numbers [m/s]."
+            )
+        return x, y, z
