@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 
 import mujoco
 import numpy as np
 
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec, prepare
+from uwsim.geometry import Pose, rotation_about
+from uwsim.physics.hydrodynamics import (
+    BodyHydrodynamics,
+    ThrusterSpec,
+    VehicleHydrodynamics,
+    prepare,
+)
+from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
+from uwsim.scene.urdf import read_urdf
 
 FAR_BELOW = 1000.0  # a surface that nothing reaches [m]
 
@@ -62,3 +71,56 @@ def random_added_mass(rng: np.random.Generator, scale: float = 1.0) -> tuple[flo
     root = rng.normal(size=(6, 6))
     full = scale * (root @ root.T / 6 + 0.5 * np.eye(6))
     return tuple(float(value) for value in full.ravel())
+
+
+DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data"
+ROBOTS = {
+    "bluerov2_heavy": DATA / "vehicles" / "bluerov2_heavy.urdf",
+    "g500_physical": DATA / "scenes" / "g500ARM5.urdf",
+    "rexrov": DATA / "vehicles" / "rexrov.urdf",
+    "uwsim_compat": DATA / "scenes" / "g500ARM5.urdf",
+}
+
+
+def bundled(
+    name: str,
+    *,
+    only_base: bool = False,
+    z_down: bool = True,
+    rail: tuple[float, ...] | None = None,
+    held: tuple[float, ...] = (0.0, 0.0, 2.15, 0.0, 0.0, 0.0),
+    timestep: float = 0.002,
+    gravity: float = 9.81,
+) -> tuple[mujoco.MjModel, VehicleHydrodynamics]:
+    """Compile a bundled set with its robot, the arm's joints held fast at ``held``.
+
+    With ``z_down`` the vehicle begins turned by half a turn about x: its z points down in W. On a
+    ``rail`` it may only move along that direction of its own.
+    """
+    robot = read_urdf(ROBOTS[name])
+    vehicle = read_vehicle(vehicle_sets()[name], [link.name for link in robot.links])
+    spec = mujoco.MjSpec()
+    set_options(spec, timestep=timestep, gravity=gravity)
+    quat = [0.0, 1.0, 0.0, 0.0] if z_down else [1.0, 0.0, 0.0, 0.0]
+    nodes = {robot.root: spec.worldbody.add_body(name=robot.root, quat=quat)}
+    if rail is None:
+        nodes[robot.root].add_freejoint()
+    else:
+        nodes[robot.root].add_joint(type=mujoco.mjtJoint.mjJNT_SLIDE, axis=list(rail))
+    angles = iter(held)
+    for joint in () if only_base else robot.joints:
+        pose = Pose.from_rpy(joint.position, joint.rpy)
+        angle = next(angles) if joint.moves else 0.0
+        turn = Pose(np.zeros(3), rotation_about(np.array(joint.axis), angle))
+        placed = pose @ turn
+        nodes[joint.child] = nodes[joint.parent].add_body(
+            name=joint.child, pos=placed.position.tolist(), quat=placed.quaternion.tolist()
+        )
+    prepare(
+        spec,
+        {body.link: body for body in vehicle.bodies if body.link in nodes},
+        {one.name: (one.link, one) for one in vehicle.thrusters},
+        surface=FAR_BELOW,
+        density=vehicle.density,
+    )
+    return spec.compile(), vehicle

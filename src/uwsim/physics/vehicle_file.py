@@ -1,0 +1,308 @@
+"""A vehicle's side file: what a URDF cannot say about a robot in water.
+
+.. code-block:: xml
+
+    <hydrodynamics name="my_rov">
+      <source>tow tank, 2026</source>
+      <body link="base_link">
+        <mass>13.5</mass>
+        <addedMass>6.36 7.12 18.68 0.189 0.135 0.222</addedMass>
+        <linearDamping>13.7 0 33 0 0.8 0</linearDamping>
+        <quadraticDamping>141 217 190 1.19 0.47 1.5</quadraticDamping>
+        <volume>0.0134</volume>
+        <centreOfBuoyancy> <x>0</x> <y>0</y> <z>-0.01</z> </centreOfBuoyancy>
+      </body>
+      <thruster name="surge" link="base_link">
+        <position> <x>0</x> <y>0</y> <z>0</z> </position>
+        <direction> <x>1</x> <y>0</y> <z>0</z> </direction>
+        <forward>0 40</forward>
+        <timeConstant>0.1</timeConstant>
+      </thruster>
+    </hydrodynamics>
+
+One file is one named set, keyed by the links of the URDF. ``<include>`` takes the bodies and
+thrusters of another file in (an arm that several vehicles carry). docs/your-own-vehicle.md has
+every element.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from importlib.resources import files
+from pathlib import Path
+from typing import Literal
+
+from lxml import etree
+
+from ..dialect import Faults, element, number, parse, read
+from ..errors import FileError, UnknownName, did_you_mean
+from .hydrodynamics.spec import (
+    BodyHydrodynamics,
+    Numbers,
+    ThrusterSpec,
+    VehicleHydrodynamics,
+    body_faults,
+    thruster_faults,
+)
+
+Triple = tuple[float, float, float]
+ZERO: Triple = (0.0, 0.0, 0.0)
+
+
+class VehicleError(FileError):
+    """A side file is wrong."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BodyElement:
+    """A ``<body>``: what the water does to one link."""
+
+    link: str = element(attribute=True)
+    """The link of the URDF."""
+    mass: float | None = element(default=None, above=0.0)
+    """Replaces the URDF's mass [kg]."""
+    centre_of_mass: Triple | None = None
+    """Replaces the URDF's, in the link's frame [m]."""
+    inertia: str = ""
+    """Replaces the URDF's: xx yy zz xy xz yz about the centre of mass, link's axes [kg m2]."""
+    reference: Triple = ZERO
+    """The point that the three next are about, in the link's frame [m]."""
+    added_mass: str = ""
+    """6 numbers (the diagonal) or 36 (rows), surge sway heave roll pitch yaw, positive
+    [kg, kg m, kg m2]."""
+    linear_damping: str = ""
+    """6 or 36, positive: force per speed [N s/m, N s, N m s]."""
+    quadratic_damping: str = ""
+    """6 or 36, positive: force per speed squared [N s2/m2, N s2, N m s2]."""
+    volume: float = element(default=0.0, minimum=0.0)
+    """Water displaced when fully submerged [m3]."""
+    centre_of_buoyancy: Triple = ZERO
+    """In the link's frame [m]."""
+    shape: Literal["sphere", "ellipsoid", "box", "cylinder", "shrinking-sphere"] = "sphere"
+    """How it comes out of the water; stands at the centre of buoyancy, along the link's axes."""
+    size: str = ""
+    """Of the shape: radius; three half-axes; three edges; radius and length along z. Without:
+    the sphere of that volume [m]."""
+    implicitness: float = element(default=0.5, minimum=0.0, maximum=1.0)
+    """Share of the drag taken at the end of a step; 1 for light things with much drag [1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThrusterElement:
+    """A ``<thruster>``: a propeller."""
+
+    name: str = element(attribute=True)
+    """Its name."""
+    link: str = element(attribute=True)
+    """The link it is fixed to."""
+    position: Triple = ZERO
+    """In the link's frame [m]."""
+    direction: Triple = (1.0, 0.0, 0.0)
+    """Of the force on the vehicle at a positive command, in the link's frame [1]."""
+    forward: str
+    """Thrust at a command x > 0: c1 x + c2 x^2 + ..., up to nine coefficients [N]."""
+    backward: str = ""
+    """The same of |x| for x < 0; without: as forward [N]."""
+    dead_zone: float = element(default=0.0, minimum=0.0)
+    """Commands up to this give nothing; the curve starts there [1]."""
+    limits: str = "-1 1"
+    """Least and greatest command [1]."""
+    saturation: str = ""
+    """Least and greatest thrust [N]."""
+    time_constant: float = element(default=0.0, minimum=0.0)
+    """First-order lag of the rotor [s]."""
+    torque: float = 0.0
+    """Torque about the direction per thrust, positive right-handed [m]."""
+    radius: float = element(default=0.05, above=0.0)
+    """Of the propeller; at the surface its thrust is lost over this height [m]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HydrodynamicsElement:
+    """A side file."""
+
+    name: str = element(attribute=True)
+    """What scenes call the set in ``<u:dynamics>``."""
+    source: str = ""
+    """Where the numbers come from, and which are estimates."""
+    density: float = element(default=1000.0, above=0.0)
+    """Of the water the numbers were given for [kg/m3]."""
+    include: tuple[str, ...] = ()
+    """Other side files, beside this one."""
+    body: tuple[BodyElement, ...] = ()
+    """One a link, at most."""
+    thruster: tuple[ThrusterElement, ...] = ()
+    """In the order of the command vector."""
+
+
+@dataclass
+class _Parts:
+    bodies: list[BodyHydrodynamics] = field(default_factory=list)
+    thrusters: list[ThrusterSpec] = field(default_factory=list)
+
+
+def vehicle_sets() -> dict[str, Path]:
+    """The bundled sets: name -> file."""
+    folder = Path(str(files("uwsim"))) / "data" / "vehicles"
+    return {path.stem: path for path in sorted(folder.glob("*.xml"))}
+
+
+def find_vehicle(name: str, beside: Path | None = None) -> Path:
+    """Find the side file of a set: a bundled one, or ``name.xml`` beside the scene.
+
+    Raises:
+        UnknownName: there is none.
+    """
+    if beside is not None and (own := beside.parent / f"{name}.xml").is_file():
+        return own
+    known = vehicle_sets()
+    if name not in known:
+        raise UnknownName("hydrodynamics set", name, known)
+    return known[name]
+
+
+def read_vehicle(path: Path, links: Iterable[str] | None = None) -> VehicleHydrodynamics:
+    """Read a side file.
+
+    Args:
+        path: the file.
+        links: names of the robot's links; None to take any.
+
+    Raises:
+        VehicleError: with every fault of the file.
+    """
+    faults = Faults(path)
+    vehicle = read_vehicle_into(path, links, faults)
+    faults.check(VehicleError)
+    assert vehicle is not None
+    return vehicle
+
+
+def read_vehicle_into(
+    path: Path, links: Iterable[str] | None, faults: Faults
+) -> VehicleHydrodynamics | None:
+    """Read a side file into ``faults``; None when it has some."""
+    parts = _Parts()
+    head = _read_file(path, None if links is None else list(links), faults, parts, ())
+    if head is None or faults.any:
+        return None
+    return VehicleHydrodynamics(
+        name=head.name,
+        source=" ".join(head.source.split()),
+        density=head.density,
+        bodies=tuple(parts.bodies),
+        thrusters=tuple(parts.thrusters),
+    )
+
+
+def _read_file(
+    path: Path, links: list[str] | None, faults: Faults, parts: _Parts, above: tuple[Path, ...]
+) -> HydrodynamicsElement | None:
+    root = parse(path, error=VehicleError).root
+    if root.tag != "hydrodynamics":
+        faults.add(root, f"the root element is <{str(root.tag)[:60]}>; expected <hydrodynamics>")
+        return None
+    head = read(HydrodynamicsElement, root, faults)
+    if head is None:
+        return None
+    for one in head.body:
+        node = faults.node_of(one)
+        assert node is not None
+        if any(one.link == known.link for known in parts.bodies):
+            faults.add(node, f"two <body> for the link {one.link!r}; only one may be")
+        _check_link(node, one.link, links, faults)
+        parts.bodies.append(_body(one, node, faults))
+    for propeller in head.thruster:
+        node = faults.node_of(propeller)
+        assert node is not None
+        if any(propeller.name == known.name for known in parts.thrusters):
+            faults.add(node, f"two thrusters are called {propeller.name!r}")
+        _check_link(node, propeller.link, links, faults)
+        parts.thrusters.append(_thruster(propeller, node, faults))
+    for name in head.include:
+        other = path.parent / name
+        if other in (*above, path):
+            faults.add(root, f"<include> {name!r} includes itself")
+        else:
+            inner = Faults(other)
+            _read_file(other, links, inner, parts, (*above, path))
+            for fault in inner.all():
+                faults.add(root, f"in {name}, line {fault.line}: {fault.message}")
+    return head
+
+
+def _check_link(node: etree._Element, link: str, links: list[str] | None, faults: Faults) -> None:
+    if links is not None and link not in links:
+        faults.add(
+            node,
+            f"the robot has no link {link!r}.{did_you_mean(link, links)} "
+            f"Links: {', '.join(links) or 'none'}",
+        )
+
+
+def _body(one: BodyElement, node: etree._Element, faults: Faults) -> BodyHydrodynamics:
+    zeros = (0.0,) * 6
+    found = BodyHydrodynamics(
+        link=one.link,
+        reference=one.reference,
+        added_mass=_numbers(one.added_mass, "addedMass", node, faults) or zeros,
+        linear_damping=_numbers(one.linear_damping, "linearDamping", node, faults) or zeros,
+        quadratic_damping=_numbers(one.quadratic_damping, "quadraticDamping", node, faults)
+        or zeros,
+        volume=one.volume,
+        centre_of_buoyancy=one.centre_of_buoyancy,
+        shape=one.shape,
+        size=_numbers(one.size, "size", node, faults),
+        mass=one.mass,
+        centre_of_mass=one.centre_of_mass,
+        inertia=_numbers(one.inertia, "inertia", node, faults) or None,
+        implicitness=one.implicitness,
+    )
+    for message in body_faults(found):
+        faults.add(node, message)
+    return found
+
+
+def _thruster(one: ThrusterElement, node: etree._Element, faults: Faults) -> ThrusterSpec:
+    found = ThrusterSpec(
+        name=one.name,
+        link=one.link,
+        position=one.position,
+        direction=one.direction,
+        forward=_numbers(one.forward, "forward", node, faults) or (0.0,),
+        backward=_numbers(one.backward, "backward", node, faults) or None,
+        dead_zone=one.dead_zone,
+        limits=_pair(one.limits, "limits", node, faults) or (-1.0, 1.0),
+        saturation=_pair(one.saturation, "saturation", node, faults),
+        time_constant=one.time_constant,
+        torque=one.torque,
+        radius=one.radius,
+    )
+    for message in thruster_faults(found):
+        faults.add(node, message)
+    return found
+
+
+def _pair(text: str, name: str, node: etree._Element, faults: Faults) -> tuple[float, float] | None:
+    values = _numbers(text, name, node, faults)
+    if values and len(values) != 2:
+        faults.add(_child(node, name), f"<{name}> has {len(values)} numbers; expected 2")
+        return None
+    return (values[0], values[1]) if values else None
+
+
+def _numbers(text: str, name: str, node: etree._Element, faults: Faults) -> Numbers:
+    """The numbers of an element, separated by blanks; commas may stand between them."""
+    words = text.replace(",", " ").split()
+    values = [number(word) for word in words[:1000]]
+    if None in values:
+        wrong = words[values.index(None)]
+        faults.add(_child(node, name), f"<{name}> holds {wrong[:40]!r}; expected numbers")
+        return ()
+    return tuple(value for value in values if value is not None)
+
+
+def _child(node: etree._Element, name: str) -> etree._Element:
+    child = node.find(name)
+    return node if child is None else child

@@ -1,0 +1,173 @@
+"""Side files of hydrodynamics: read whole, with every fault at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uwsim.errors import UnknownName
+from uwsim.physics.hydrodynamics import (
+    BodyHydrodynamics,
+    ThrusterSpec,
+    VehicleHydrodynamics,
+    vehicle_faults,
+)
+from uwsim.physics.hydrodynamics.spec import matrix
+from uwsim.physics.vehicle_file import VehicleError, find_vehicle, read_vehicle, vehicle_sets
+from uwsim.scene.urdf import read_urdf
+
+DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data"
+ROBOTS = {
+    "bluerov2_heavy": DATA / "vehicles" / "bluerov2_heavy.urdf",
+    "g500_physical": DATA / "scenes" / "g500ARM5.urdf",
+    "rexrov": DATA / "vehicles" / "rexrov.urdf",
+    "uwsim_compat": DATA / "scenes" / "g500ARM5.urdf",
+}
+
+MINIMAL = """<hydrodynamics name="mine">
+  <body link="base_link">
+    <addedMass>1, 2, 3, 4, 5, 6</addedMass>
+    <volume>0.01</volume>
+    <centreOfBuoyancy> <x>0</x> <y>0</y> <z>0.1</z> </centreOfBuoyancy>
+  </body>
+  <thruster name="t" link="base_link"> <forward>0 40</forward> </thruster>
+</hydrodynamics>"""
+
+
+def faults_of(path: Path, text: str, links: tuple[str, ...] = ("base_link",)) -> list[str]:
+    file = path / "mine.xml"
+    file.write_text(text)
+    with pytest.raises(VehicleError) as caught:
+        read_vehicle(file, links)
+    return [f"{fault.line}: {fault.message}" for fault in caught.value.faults]
+
+
+def test_a_short_file_is_read_with_defaults(tmp_path: Path) -> None:
+    (tmp_path / "mine.xml").write_text(MINIMAL)
+    vehicle = read_vehicle(tmp_path / "mine.xml", ["base_link"])
+    assert vehicle == VehicleHydrodynamics(
+        name="mine",
+        source="",
+        bodies=(
+            BodyHydrodynamics(
+                link="base_link",
+                added_mass=(1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
+                volume=0.01,
+                centre_of_buoyancy=(0.0, 0.0, 0.1),
+            ),
+        ),
+        thrusters=(ThrusterSpec(name="t", link="base_link", forward=(0.0, 40.0)),),
+    )
+
+
+def test_every_fault_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> None:
+    text = """<hydrodynamics name="mine">
+  <body link="base_lnk"> <addedMass>1 2 3</addedMass> </body>
+  <body link="base_link"> <addedMass>-1 2 3 4 5 6</addedMass> <mss>3</mss> </body>
+  <body link="base_link"> <linearDamping>1 2 x 4 5 6</linearDamping> <shape>bocks</shape> </body>
+  <thruster name="t" link="base_link"> <limits>1 2 3</limits> <forward>40</forward> </thruster>
+  <thruster name="t" link="base_link"> <direction><x>0</x><y>0</y><z>0</z></direction>
+    <forward>40</forward> <saturation>5 10</saturation> </thruster>
+</hydrodynamics>"""
+    said = "\n".join(faults_of(tmp_path, text))
+    for message in (
+        "2: the robot has no link 'base_lnk'. Did you mean 'base_link'?",
+        "2: link 'base_lnk': added mass has 3 numbers; expected 6 or 36",
+        "3: link 'base_link': added mass is not positive semi-definite: its least eigenvalue is -1",
+        "3: <mss> is not an element of <body>. Did you mean mass?",
+        "4: two <body> for the link 'base_link'; only one may be",
+        "4: <linearDamping> holds 'x'; expected numbers",
+        "4: <shape> is 'bocks'; expected one of 'sphere', 'ellipsoid', 'box'",
+        "5: <limits> has 3 numbers; expected 2",
+        "6: two thrusters are called 't'",
+        "6: thruster 't': direction is 0 0 0",
+        "saturation are 5 10; expected least <= 0 <= greatest",
+    ):
+        assert message in said, f"{message}\n--\n{said}"
+
+
+def test_an_added_mass_that_is_not_symmetric_names_the_entries(tmp_path: Path) -> None:
+    rows = np.eye(6)
+    rows[0, 4] = 0.5
+    text = MINIMAL.replace("1, 2, 3, 4, 5, 6", " ".join(map(str, rows.ravel())))
+    assert faults_of(tmp_path, text) == [
+        "2: link 'base_link': added mass is not symmetric: entry (1,5) is 0.5 and (5,1) is 0"
+    ]
+
+
+def test_an_inertia_that_no_body_has_is_refused(tmp_path: Path) -> None:
+    text = MINIMAL.replace("<volume>", "<inertia>1 1 3 0 0 0</inertia> <volume>")
+    assert "no body can have one above the sum" in faults_of(tmp_path, text)[0]
+
+
+def test_an_included_file_brings_its_bodies_and_its_faults(tmp_path: Path) -> None:
+    (tmp_path / "arm.xml").write_text(
+        '<hydrodynamics name="arm"> <body link="hand"> <volume>-1</volume> </body></hydrodynamics>'
+    )
+    text = MINIMAL.replace("<body", "<include>arm.xml</include> <body", 1)
+    said = faults_of(tmp_path, text, ("base_link", "hand"))
+    assert said == ["1: in arm.xml, line 1: <volume> is '-1'; expected a number >= 0 [m3]"]
+
+
+def test_a_file_that_includes_itself_is_refused(tmp_path: Path) -> None:
+    text = MINIMAL.replace("<body", "<include>mine.xml</include> <body", 1)
+    assert "includes itself" in faults_of(tmp_path, text)[0]
+
+
+def test_faults_of_a_set_made_in_python_are_the_same() -> None:
+    vehicle = VehicleHydrodynamics(
+        name="v",
+        source="",
+        bodies=(BodyHydrodynamics(link="a"), BodyHydrodynamics(link="a", shape="box")),
+        thrusters=(ThrusterSpec(name="t", link="b", forward=(1.0,) * 10),),
+    )
+    assert vehicle_faults(vehicle, ["a"]) == [
+        "two entries for the link 'a'; only one may be",
+        "link 'a': a box needs its 3 lengths (size) [m]",
+        "thruster 't': forward has 10 coefficients; expected 1 to 9",
+        "thruster 't': the robot has no link 'b'. Links: a",
+    ]
+
+
+def test_the_bundled_sets_are_the_promised_ones() -> None:
+    assert sorted(vehicle_sets()) == sorted(ROBOTS)
+    with pytest.raises(UnknownName, match="Did you mean 'rexrov'"):
+        find_vehicle("rexrow")
+
+
+def test_a_set_beside_the_scene_comes_before_a_bundled_one(tmp_path: Path) -> None:
+    own = tmp_path / "rexrov.xml"
+    own.write_text(MINIMAL)
+    assert find_vehicle("rexrov", tmp_path / "scene.xml") == own
+    assert find_vehicle("rexrov", DATA / "scene.xml") == vehicle_sets()["rexrov"]
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_bundled_set_fits_its_robot_names_its_source_and_floats(name: str) -> None:
+    robot = read_urdf(ROBOTS[name])
+    vehicle = read_vehicle(vehicle_sets()[name], [link.name for link in robot.links])
+    assert vehicle.name == name
+    assert len(vehicle.source) > 40
+    assert vehicle.body(robot.root) is not None
+    mass = sum(body.mass or 0.0 for body in vehicle.bodies)
+    displaced = vehicle.density * sum(body.volume for body in vehicle.bodies)
+    assert -0.01 < (displaced - mass) / mass < 0.02
+    for body in vehicle.bodies:
+        added = matrix(body.added_mass)
+        assert (added == added.T).all()
+
+
+def test_the_compat_set_is_the_mass_matrix_of_the_original_node() -> None:
+    vehicle = read_vehicle(vehicle_sets()["uwsim_compat"])
+    base = vehicle.body("base_link")
+    assert base is not None
+    assert base.centre_of_mass is not None
+    assert base.inertia is not None
+    assert base.mass == 98.0
+    assert base.mass * base.centre_of_mass[2] == pytest.approx(4.9)
+    steiner = base.mass * base.centre_of_mass[2] ** 2
+    assert base.inertia[:3] == pytest.approx((8 - steiner, 8 - steiner, 8.0))
+    thrust = [one.forward[1] for one in vehicle.thrusters]
+    assert thrust == pytest.approx([6.835e-5 * 1500**2] * 5)
