@@ -414,7 +414,6 @@ def test_what_is_not_simulated_yet_is_a_notice(file: Path) -> None:
     file.write_text(WHOLE)
     notices = [f.message for f in check_benchmark(file) if "not simulated yet" in f.message]
     assert [message.split(":")[0] for message in notices] == [
-        "<collision>",
         "<reconstruction3D>",
         "<pathFollowing>",
     ]

@@ -6,7 +6,6 @@ import pytest
 
 from fakes import FakeBody, FakeWorld
 from uwsim.benchmark.measures import (
-    CollisionSpec,
     MeasureSpec,
     PathFollowingSpec,
     Reconstruction3DSpec,
@@ -17,7 +16,6 @@ from uwsim.benchmark.not_simulated import NotSimulatedYet
 @pytest.mark.parametrize(
     ("spec", "element"),
     [
-        (CollisionSpec(name="c", target="b"), "collision"),
         (PathFollowingSpec(name="p", target="b"), "pathFollowing"),
         (Reconstruction3DSpec(name="r", target="b", topic="t", from_="b"), "reconstruction3D"),
     ],

@@ -48,6 +48,8 @@ class Measure(abc.ABC):
 
     unit: ClassVar[str]
     """Unit of its value."""
+    detail_units: ClassVar[Mapping[str, str]] = {}
+    """Units of those details that have another than its value: column suffix -> unit."""
     fed_by_algorithm: ClassVar[bool] = False
     """Whether it scores what the algorithm under test publishes."""
 
