@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from ..dialect import element
 from ..errors import AssetError
@@ -217,26 +218,30 @@ class Field(Current):
         self._velocities = grid.velocities.reshape(n_t, n_x * n_y * n_z, 3)
         self._strides = (n_y * n_z, n_z, 1)
         used = [len(axis) > 1 for axis in self._axes]
-        self._corners = np.array(  # (c, 3): which of the two nodes along x, y, z
+        corners = np.array(  # (c, 3): which of the two nodes along x, y, z
             [corner for corner in itertools.product((0, 1), repeat=3) if _within(corner, used)]
         )
-        self._offsets = self._corners @ np.array(self._strides)  # (c,)
+        self._corners = corners.T.copy()  # (3, c)
+        self._offsets = (corners @ np.array(self._strides))[:, None]  # (c, 1)
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         i, fraction, _ = self._at(time)
-        before = self._in_space(points, i)
-        if fraction == 0.0:
-            return before
-        both: Array = before + (self._in_space(points, i + 1) - before) * fraction
-        return both
+        nodes, weights = self._around(points)
+        now = self._velocities[i][nodes]  # (c, n, 3)
+        if fraction > 0.0:
+            now += (self._velocities[i + 1][nodes] - now) * fraction
+        velocities: Array = (weights[:, :, None] * now).sum(axis=0)
+        return velocities
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return how fast it changes between two times of the file, in L, (n, 3) [m/s2]."""
         i, _, span = self._at(time)
         if span == 0.0:
             return np.zeros((len(points), 3))
-        slope: Array = (self._in_space(points, i + 1) - self._in_space(points, i)) / span
+        nodes, weights = self._around(points)
+        change = self._velocities[i + 1][nodes] - self._velocities[i][nodes]  # (c, n, 3)
+        slope: Array = (weights[:, :, None] * change).sum(axis=0) / span
         return slope
 
     def _at(self, time: float) -> tuple[int, float, float]:
@@ -251,30 +256,29 @@ class Field(Current):
         span = float(times[i + 1] - times[i])
         return i, float(now - times[i]) / span, span
 
-    def _in_space(self, points: Array, time_index: int) -> Array:
-        """Interpolate the velocities of one time, (n, 3) [m/s]."""
+    def _around(self, points: Array) -> tuple[npt.NDArray[np.int64], Array]:
+        """The nodes around each point, and what each of them weighs there, (c, n)."""
         node = np.zeros(len(points), dtype=np.int64)
-        shares = np.empty((2, 3, len(points)))  # of the lower and the upper node along x, y, z
+        shares = np.empty((3, 2, len(points)))  # along x, y, z: of the lower and the upper node
         is_inside = np.ones(len(points), dtype=bool)
         for k, (axis, stride) in enumerate(zip(self._axes, self._strides, strict=True)):
             if len(axis) == 1:
-                shares[0, k], shares[1, k] = 1.0, 0.0
+                shares[k, 0], shares[k, 1] = 1.0, 0.0
                 continue
             at = points[:, k]
-            i = np.clip(np.searchsorted(axis, at, side="right") - 1, 0, len(axis) - 2)
-            upper = (at - axis[i]) / (axis[i + 1] - axis[i])
+            i = axis[1:-1].searchsorted(at, side="right")
+            lower = axis[i]
+            upper = (at - lower) / (axis[i + 1] - lower)
             if self._is_still_outside:
                 is_inside &= (upper >= 0.0) & (upper <= 1.0)
-            shares[1, k] = np.clip(upper, 0.0, 1.0)
-            shares[0, k] = 1.0 - shares[1, k]
+            shares[k, 1] = np.minimum(np.maximum(upper, 0.0), 1.0)
+            shares[k, 0] = 1.0 - shares[k, 1]
             node += i * stride
-        corner = self._corners
-        weights = shares[corner[:, 0], 0] * shares[corner[:, 1], 1] * shares[corner[:, 2], 2]
-        nodes = node[None, :] + self._offsets[:, None]  # (c, n)
-        around = self._velocities[time_index][nodes]  # (c, n, 3)
-        velocities: Array = np.einsum("cn,cnk->nk", weights, around)
-        velocities[~is_inside] = 0.0
-        return velocities
+        x, y, z = shares
+        weights: Array = x[self._corners[0]] * y[self._corners[1]] * z[self._corners[2]]  # (c, n)
+        if self._is_still_outside:
+            weights *= is_inside
+        return node + self._offsets, weights
 
 
 def _within(corner: tuple[int, ...], used: list[bool]) -> bool:

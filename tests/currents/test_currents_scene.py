@@ -1,0 +1,91 @@
+"""Currents in a scene file: read, written back, added up."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uwsim.chance import stream
+from uwsim.currents import (
+    CURRENTS,
+    Constant,
+    ConstantSpec,
+    GaussMarkovSpec,
+    Place,
+    TotalCurrent,
+    UwsimSinusoidSpec,
+    bind_currents,
+)
+from uwsim.dialect import slots
+from uwsim.errors import SceneError
+from uwsim.scene.reader import check_scene, read_scene
+from uwsim.world import Flow
+
+POINTS = np.array([[0.0, 0.0, 1.0], [5.0, 2.0, 3.0]])
+
+
+def scene(folder: Path, inside: str) -> Path:
+    path = folder / "scene.xml"
+    path.write_text(
+        '<UWSimScene xmlns:u="urn:uwsim:1"><oceanState><u:current>'
+        f"{inside}</u:current></oceanState></UWSimScene>"
+    )
+    return path
+
+
+def place(seed: int = 0) -> Place:
+    return Place(stream=lambda name: stream(seed, name))
+
+
+def test_a_scene_may_hold_several_currents_in_any_order(tmp_path: Path) -> None:
+    path = scene(
+        tmp_path,
+        "<u:uwsimSinusoid><u:speed>0.2</u:speed></u:uwsimSinusoid>"
+        "<u:constant><u:velocity><x>1</x><y>0</y><z>0</z></u:velocity></u:constant>",
+    )
+    assert read_scene(path).ocean_state.currents == (
+        UwsimSinusoidSpec(speed=0.2),
+        ConstantSpec(velocity=(1.0, 0.0, 0.0)),
+    )
+    assert "stands behind" not in str(check_scene(path, strict=True))
+
+
+def test_a_misspelt_current_is_a_fault_that_names_the_right_one(tmp_path: Path) -> None:
+    path = scene(tmp_path, "<u:gausMarkov/>")
+    with pytest.raises(SceneError, match="Did you mean u:gaussMarkov"):
+        read_scene(path)
+
+
+def test_a_scene_without_currents_has_still_water(tmp_path: Path) -> None:
+    total = bind_currents(read_scene(scene(tmp_path, "")).ocean_state.currents, place())
+    assert (total.velocity(POINTS, 3.0) == 0.0).all()
+    assert (total.acceleration(POINTS, 3.0) == 0.0).all()
+
+
+def test_velocities_and_accelerations_of_several_add_up() -> None:
+    specs = (ConstantSpec(velocity=(0.1, 0.0, 0.0)), ConstantSpec(velocity=(0.0, 0.2, 0.0)))
+    assert bind_currents(specs, place()).velocity(POINTS, 0.0).tolist() == [[0.1, 0.2, 0.0]] * 2
+    swelling = UwsimSinusoidSpec(speed=0.0, speed_variation=1.0, speed_period=4.0).bind(place())
+    both = TotalCurrent([swelling, swelling])
+    assert both.acceleration(POINTS, 0.0) == pytest.approx(2 * swelling.acceleration(POINTS, 0.0))
+
+
+def test_two_currents_of_a_kind_do_not_share_their_chance() -> None:
+    spec = GaussMarkovSpec(deviation=(0.1, 0.1, 0.1), mu=0.1)
+    one = bind_currents((spec,), place()).velocity(POINTS, 5.0)
+    two = bind_currents((spec, spec), place()).velocity(POINTS, 5.0)
+    assert two != pytest.approx(2.0 * one)
+    assert bind_currents((spec, spec), place()).velocity(POINTS, 5.0).tolist() == two.tolist()
+
+
+def test_every_current_is_a_flow_and_hands_out_its_own_array() -> None:
+    flow: Flow = Constant((0.1, 0.0, 0.0))
+    flow.velocity(POINTS, 0.0)[:] = 7.0
+    assert flow.velocity(POINTS, 0.0)[0].tolist() == [0.1, 0.0, 0.0]
+
+
+@pytest.mark.parametrize("spec", CURRENTS.values(), ids=lambda spec: spec.__name__)
+def test_every_field_of_a_current_is_an_extension_and_says_what_it_is(spec: type) -> None:
+    assert [slot.field for slot in slots(spec) if not slot.xml.namespaced or not slot.doc] == []
