@@ -14,9 +14,9 @@ from uwsim.physics.hydrodynamics.submersion import submerged
 def part(
     shape: float, size: tuple[float, ...], up: np.ndarray, depth: float
 ) -> tuple[float, np.ndarray]:
-    centre = np.empty(3)
-    lengths = np.array([*size, 0.0, 0.0, 0.0][:3])
-    return submerged(shape, lengths, up / np.linalg.norm(up), depth, centre), centre
+    lengths = [*size, 0.0, 0.0, 0.0][:3]
+    fraction, *centre = submerged(shape, *lengths, *(up / np.linalg.norm(up)), depth)
+    return fraction, np.array(centre)
 
 
 UP = np.array([0.0, 0.0, 1.0])

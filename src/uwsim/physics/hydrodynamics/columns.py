@@ -21,9 +21,10 @@ MAGIC, SURFACE, DENSITY = 0, 1, 2
 MAGIC_NUMBER = 0.0196_1998  # nobody else's body_user begins like this
 
 # the row of any other body
-KIND, THETA, DISPLACED = 0, 1, 2  # [0 dry, 1 diagonal damping, 2 full], [1], [kg]
+KIND, THETA, DISPLACED = 0, 1, 2  # [0 dry, 1 diagonal matrices, 2 full], [1], [kg]
 CENTRE, SHAPE, SIZE = 3, 6, 7  # (3,) [m] from the reference point, 0..4, (3,) [m]
 REFERENCE = 10  # (3,) [m] in the body: the point the matrices are about
+REACH = 13  # distance from the centre of buoyancy that no point of the shape exceeds [m]
 ADDED, LINEAR, QUADRATIC = 16, 52, 88  # (6, 6) each, row by row
 
 DRY, DIAGONAL, FULL = 0.0, 1.0, 2.0

@@ -49,6 +49,7 @@ from .columns import (
     MOST,
     QUADRATIC,
     RADIUS,
+    REACH,
     REFERENCE,
     SHAPE,
     SIZE,
@@ -113,6 +114,8 @@ _GRAVITY_OFF = 128  # mjDSBL_GRAVITY
 _DIAGEXACT = 32  # mjENBL_DIAGEXACT
 _RK4, _PGS = 1, 0
 
+_SCRATCH = 60  # doubles behind the rows, for full matrices
+
 # a row of the scratch array, one a body
 _BIAS, _WRENCH, _FF, _FT, _TT, _TOUCHED, _ROW = 0, 6, 12, 18, 27, 33, 34
 # _FF: force by velocity, symmetric (xx xy xz yy yz zz); _FT: force by rotation (3, 3), row by row;
@@ -141,7 +144,7 @@ def needs_projection(m: int, at: Ints64) -> bool:
 def add_water(m: int, d: int, at: Ints64) -> None:
     """Add the water to ``d.M`` and ``d.qfrc_passive``; both must be as MuJoCo made them."""
     nv, nbody = word(m + at[_NV]), word(m + at[_NBODY])
-    work = np.zeros((nbody, _ROW))
+    work = np.zeros(_ROW * nbody + _SCRATCH)
     theta_h = real(m + at[_TIMESTEP])
     if small(m + at[_INTEGRATOR]) == _RK4:
         theta_h = 0.0
@@ -158,22 +161,29 @@ def add_water(m: int, d: int, at: Ints64) -> None:
     column = ints(word(m + at[_COLUMN]), n_entries)
     mass = floats(word(d + at[_M]), n_entries)
     for k in range(nv):
-        row = work[dof_body[k]]
-        if row[_TOUCHED] == 0.0:
+        base = _ROW * dof_body[k]
+        if work[base + _TOUCHED] == 0.0:
             continue
         wx, wy, wz = cdof[6 * k], cdof[6 * k + 1], cdof[6 * k + 2]
         vx, vy, vz = cdof[6 * k + 3], cdof[6 * k + 4], cdof[6 * k + 5]
+        to = base + _WRENCH
         passive[k] += (
-            wx * row[_WRENCH] + wy * row[_WRENCH + 1] + wz * row[_WRENCH + 2]
-            + vx * row[_WRENCH + 3] + vy * row[_WRENCH + 4] + vz * row[_WRENCH + 5]
+            wx * work[to] + wy * work[to + 1] + wz * work[to + 2]
+            + vx * work[to + 3] + vy * work[to + 4] + vz * work[to + 5]
         )  # fmt: skip
-        ff, ft, tt = row[_FF:_FT], row[_FT:_TT], row[_TT:_TOUCHED]
-        fx = ff[0] * vx + ff[1] * vy + ff[2] * vz + ft[0] * wx + ft[1] * wy + ft[2] * wz
-        fy = ff[1] * vx + ff[3] * vy + ff[4] * vz + ft[3] * wx + ft[4] * wy + ft[5] * wz
-        fz = ff[2] * vx + ff[4] * vy + ff[5] * vz + ft[6] * wx + ft[7] * wy + ft[8] * wz
-        tx = tt[0] * wx + tt[1] * wy + tt[2] * wz + ft[0] * vx + ft[3] * vy + ft[6] * vz
-        ty = tt[1] * wx + tt[3] * wy + tt[4] * wz + ft[1] * vx + ft[4] * vy + ft[7] * vz
-        tz = tt[2] * wx + tt[4] * wy + tt[5] * wz + ft[2] * vx + ft[5] * vy + ft[8] * vz
+        ff, ft, tt = base + _FF, base + _FT, base + _TT
+        fx = work[ff] * vx + work[ff + 1] * vy + work[ff + 2] * vz
+        fy = work[ff + 1] * vx + work[ff + 3] * vy + work[ff + 4] * vz
+        fz = work[ff + 2] * vx + work[ff + 4] * vy + work[ff + 5] * vz
+        fx += work[ft] * wx + work[ft + 1] * wy + work[ft + 2] * wz
+        fy += work[ft + 3] * wx + work[ft + 4] * wy + work[ft + 5] * wz
+        fz += work[ft + 6] * wx + work[ft + 7] * wy + work[ft + 8] * wz
+        tx = work[tt] * wx + work[tt + 1] * wy + work[tt + 2] * wz
+        ty = work[tt + 1] * wx + work[tt + 3] * wy + work[tt + 4] * wz
+        tz = work[tt + 2] * wx + work[tt + 4] * wy + work[tt + 5] * wz
+        tx += work[ft] * vx + work[ft + 3] * vy + work[ft + 6] * vz
+        ty += work[ft + 1] * vx + work[ft + 4] * vy + work[ft + 7] * vz
+        tz += work[ft + 2] * vx + work[ft + 5] * vy + work[ft + 8] * vz
         for entry in range(start[k], start[k] + length[k]):
             j = 6 * column[entry]
             mass[entry] += (
@@ -196,19 +206,21 @@ def water_wrenches(m: int, d: int, at: Ints64, wrenches: Floats) -> None:
             about the centre of mass of its tree.
     """
     nbody = word(m + at[_NBODY])
-    work = np.zeros((nbody, _ROW))
+    work = np.zeros(_ROW * nbody + _SCRATCH)
     cacc = floats(word(d + at[_CACC]), 6 * nbody)
+    gravity = floats(m + at[_GRAVITY], 3)
     for body in range(1, nbody):
         for i in range(6):
-            work[body, _BIAS + i] = cacc[6 * body + i]
+            work[_ROW * body + _BIAS + i] = cacc[6 * body + i]
         if (small(m + at[_DISABLE]) & _GRAVITY_OFF) == 0:
-            gravity = floats(m + at[_GRAVITY], 3)
             for i in range(3):
-                work[body, _BIAS + 3 + i] += gravity[i]
+                work[_ROW * body + _BIAS + 3 + i] += gravity[i]
     _bodies(m, d, at, 0.0, work, False)
     _thrusters(m, d, at, work)
     _sum_up(m, at, work)
-    wrenches[:, :] = work[:, _WRENCH : _WRENCH + 6]
+    for body in range(nbody):
+        for i in range(6):
+            wrenches[body, i] = work[_ROW * body + _WRENCH + i]
 
 
 @njit
@@ -221,11 +233,12 @@ def _bias(m: int, d: int, at: Ints64, work: Floats) -> None:
     cdof_dot = floats(word(d + at[_CDOF_DOT]), 6 * nv)
     qvel = floats(word(d + at[_QVEL]), nv)
     for body in range(1, nbody):
+        base, above = _ROW * body + _BIAS, _ROW * parent[body] + _BIAS
         for i in range(6):
-            work[body, _BIAS + i] = work[parent[body], _BIAS + i]
+            work[base + i] = work[above + i]
         for k in range(dof_start[body], dof_start[body] + dof_number[body]):
             for i in range(6):
-                work[body, _BIAS + i] += cdof_dot[6 * k + i] * qvel[k]
+                work[base + i] += cdof_dot[6 * k + i] * qvel[k]
 
 
 @njit
@@ -234,11 +247,11 @@ def _sum_up(m: int, at: Ints64, work: Floats) -> None:
     nbody = word(m + at[_NBODY])
     parent = ints(word(m + at[_BODY_PARENT]), nbody)
     for body in range(nbody - 1, 0, -1):
-        above = parent[body]
-        if work[body, _TOUCHED] != 0.0 and above > 0:
+        base, above = _ROW * body, _ROW * parent[body]
+        if work[base + _TOUCHED] != 0.0 and above > 0:
             for i in range(_WRENCH, _TOUCHED):
-                work[above, i] += work[body, i]
-            work[above, _TOUCHED] = 1.0
+                work[above + i] += work[base + i]
+            work[above + _TOUCHED] = 1.0
 
 
 @njit
@@ -271,14 +284,15 @@ def _thrusters(m: int, d: int, at: Ints64, work: Floats) -> None:
         com = floats(word(d + at[_COM]) + 24 * root, 3)
         fx, fy, fz = thrust * axes[0], thrust * axes[3], thrust * axes[6]
         rx, ry, rz = place[0] - com[0], place[1] - com[1], place[2] - com[2]
-        row = work[body]
-        row[_TOUCHED] = 1.0
-        row[_WRENCH] += ry * fz - rz * fy + table[TORQUE] * fx
-        row[_WRENCH + 1] += rz * fx - rx * fz + table[TORQUE] * fy
-        row[_WRENCH + 2] += rx * fy - ry * fx + table[TORQUE] * fz
-        row[_WRENCH + 3] += fx
-        row[_WRENCH + 4] += fy
-        row[_WRENCH + 5] += fz
+        base = _ROW * body
+        to = base + _WRENCH
+        work[base + _TOUCHED] = 1.0
+        work[to] += ry * fz - rz * fy + table[TORQUE] * fx
+        work[to + 1] += rz * fx - rx * fz + table[TORQUE] * fy
+        work[to + 2] += rx * fy - ry * fx + table[TORQUE] * fz
+        work[to + 3] += fx
+        work[to + 4] += fy
+        work[to + 5] += fz
 
 
 @njit
@@ -306,8 +320,6 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
     still = real(word(m + at[_BODY_USER]) + 8 * SURFACE)
     gravity = floats(m + at[_GRAVITY], 3)
     weight = 0.0 if (small(m + at[_DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
-    nu, rate, momentum, force = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
-    up, centre, matrix, turned = np.empty(3), np.empty(3), np.empty((6, 6)), np.empty(9)
     for body in range(1, nbody):
         table = floats(word(m + at[_BODY_USER]) + 8 * BODY_COLUMNS * body, BODY_COLUMNS)
         if table[KIND] == DRY or tree[body] < 0:
@@ -319,171 +331,213 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         axes = floats(word(d + at[_XMAT]) + 72 * body, 9)
         com = floats(word(d + at[_COM]) + 24 * root[body], 3)
         twist = floats(word(d + at[_CVEL]) + 48 * body, 6)
-        row = work[body]
+        r00, r01, r02 = axes[0], axes[1], axes[2]
+        r10, r11, r12 = axes[3], axes[4], axes[5]
+        r20, r21, r22 = axes[6], axes[7], axes[8]
         bx, by, bz = table[REFERENCE], table[REFERENCE + 1], table[REFERENCE + 2]
-        height = place[2] + axes[6] * bx + axes[7] * by + axes[8] * bz
-        rx = place[0] - com[0] + axes[0] * bx + axes[1] * by + axes[2] * bz
-        ry = place[1] - com[1] + axes[3] * bx + axes[4] * by + axes[5] * bz
+        height = place[2] + r20 * bx + r21 * by + r22 * bz
+        rx = place[0] - com[0] + r00 * bx + r01 * by + r02 * bz
+        ry = place[1] - com[1] + r10 * bx + r11 * by + r12 * bz
         rz = height - com[2]
 
         # the submerged part
-        up[0], up[1], up[2] = axes[6], axes[7], axes[8]
         bx, by, bz = table[CENTRE], table[CENTRE + 1], table[CENTRE + 2]
-        depth = still + water[6] - height - (up[0] * bx + up[1] * by + up[2] * bz)
-        wet = submerged(table[SHAPE], table[SIZE : SIZE + 3], up, depth, centre)
-        if wet <= 0.0:
-            continue
-        row[_TOUCHED] = 1.0
+        depth = still + water[6] - height - (r20 * bx + r21 * by + r22 * bz)
+        wet = 1.0
+        if depth < table[REACH]:
+            wet, cx, cy, cz = submerged(
+                table[SHAPE], table[SIZE], table[SIZE + 1], table[SIZE + 2], r20, r21, r22, depth
+            )
+            bx, by, bz = bx + cx, by + cy, bz + cz
+            if wet <= 0.0:
+                continue
+        base = _ROW * body
+        work[base + _TOUCHED] = 1.0
 
-        # relative twist and the part of its rate that is known, body axes, linear part first
+        # twist relative to the water, body axes
         wx, wy, wz = twist[0], twist[1], twist[2]
-        _into(axes, twist[3] + wy * rz - wz * ry - water[0], twist[4] + wz * rx - wx * rz
-              - water[1], twist[5] + wx * ry - wy * rx - water[2], nu, 0)  # fmt: skip
-        _into(axes, wx, wy, wz, nu, 3)
-        ax, ay, az = row[_BIAS], row[_BIAS + 1], row[_BIAS + 2]
-        lx = row[_BIAS + 3] + ay * rz - az * ry - water[3]
-        ly = row[_BIAS + 4] + az * rx - ax * rz - water[4]
-        lz = row[_BIAS + 5] + ax * ry - ay * rx - water[5]
-        _into(axes, lx, ly, lz, rate, 0)
-        _into(axes, ax, ay, az, rate, 3)
-        cx = axes[0] * water[0] + axes[3] * water[1] + axes[6] * water[2]
-        cy = axes[1] * water[0] + axes[4] * water[1] + axes[7] * water[2]
-        cz = axes[2] * water[0] + axes[5] * water[1] + axes[8] * water[2]
-        rate[0] += nu[4] * cz - nu[5] * cy
-        rate[1] += nu[5] * cx - nu[3] * cz
-        rate[2] += nu[3] * cy - nu[4] * cx
+        x = twist[3] + wy * rz - wz * ry - water[0]
+        y = twist[4] + wz * rx - wx * rz - water[1]
+        z = twist[5] + wx * ry - wy * rx - water[2]
+        u = r00 * x + r10 * y + r20 * z
+        v = r01 * x + r11 * y + r21 * z
+        w = r02 * x + r12 * y + r22 * z
+        p = r00 * wx + r10 * wy + r20 * wz
+        q = r01 * wx + r11 * wy + r21 * wz
+        r = r02 * wx + r12 * wy + r22 * wz
+        # the part of its rate that is known: R^T (a - a_water) + omega x R^T v_water
+        ax, ay, az = work[base], work[base + 1], work[base + 2]
+        x = work[base + 3] + ay * rz - az * ry - water[3]
+        y = work[base + 4] + az * rx - ax * rz - water[4]
+        z = work[base + 5] + ax * ry - ay * rx - water[5]
+        cx = r00 * water[0] + r10 * water[1] + r20 * water[2]
+        cy = r01 * water[0] + r11 * water[1] + r21 * water[2]
+        cz = r02 * water[0] + r12 * water[1] + r22 * water[2]
+        du = r00 * x + r10 * y + r20 * z + q * cz - r * cy
+        dv = r01 * x + r11 * y + r21 * z + r * cx - p * cz
+        dw = r02 * x + r12 * y + r22 * z + p * cy - q * cx
+        dp = r00 * ax + r10 * ay + r20 * az
+        dq = r01 * ax + r11 * ay + r21 * az
+        dr = r02 * ax + r12 * ay + r22 * az
 
-        # added mass: -Ma rate - Ca(nu) nu
-        for i in range(6):
-            momentum[i], force[i] = 0.0, 0.0
-            for j in range(6):
-                entry = table[ADDED + 6 * i + j]
-                momentum[i] += entry * nu[j]
-                force[i] -= entry * rate[j]
-        px, py, pz = momentum[0], momentum[1], momentum[2]
-        force[0] -= nu[4] * pz - nu[5] * py
-        force[1] -= nu[5] * px - nu[3] * pz
-        force[2] -= nu[3] * py - nu[4] * px
-        force[3] -= nu[4] * momentum[5] - nu[5] * momentum[4] + nu[1] * pz - nu[2] * py
-        force[4] -= nu[5] * momentum[3] - nu[3] * momentum[5] + nu[2] * px - nu[0] * pz
-        force[5] -= nu[3] * momentum[4] - nu[4] * momentum[3] + nu[0] * py - nu[1] * px
-
-        # damping
+        # -Ma rate - D(nu) nu, and the momentum Ma nu
         step = theta_h * table[THETA]
+        scratch = _ROW * nbody
         if table[KIND] == FULL:
-            for i in range(6):
-                for j in range(6):
-                    linear = table[LINEAR + 6 * i + j]
-                    steep = table[QUADRATIC + 6 * i + j] * abs(nu[j])
-                    force[i] -= (linear + steep) * nu[j]
-                    matrix[i, j] = linear + 2.0 * steep
-            for i in range(6):
-                for j in range(i, 6):
-                    slope = 0.5 * step * (matrix[i, j] + matrix[j, i])
-                    matrix[i, j] = wet * (table[ADDED + 6 * i + j] + slope)
+            _full(table, step, work, scratch, u, v, w, p, q, r, du, dv, dw, dp, dq, dr)
+            fx, fy, fz = work[scratch], work[scratch + 1], work[scratch + 2]
+            tx, ty, tz = work[scratch + 3], work[scratch + 4], work[scratch + 5]
+            px, py, pz = work[scratch + 6], work[scratch + 7], work[scratch + 8]
+            hx, hy, hz = work[scratch + 9], work[scratch + 10], work[scratch + 11]
         else:
-            for i in range(6):
-                linear = table[LINEAR + 7 * i]
-                steep = table[QUADRATIC + 7 * i] * abs(nu[i])
-                force[i] -= (linear + steep) * nu[i]
-                for j in range(i, 6):
-                    matrix[i, j] = wet * table[ADDED + 6 * i + j]
-                matrix[i, i] += wet * step * (linear + 2.0 * steep)
+            px, py, pz = table[ADDED] * u, table[ADDED + 7] * v, table[ADDED + 14] * w
+            hx, hy, hz = table[ADDED + 21] * p, table[ADDED + 28] * q, table[ADDED + 35] * r
+            fx = -table[ADDED] * du - (table[LINEAR] + table[QUADRATIC] * abs(u)) * u
+            fy = -table[ADDED + 7] * dv - (table[LINEAR + 7] + table[QUADRATIC + 7] * abs(v)) * v
+            fz = -table[ADDED + 14] * dw - (table[LINEAR + 14] + table[QUADRATIC + 14] * abs(w)) * w
+            tx = -table[ADDED + 21] * dp - (table[LINEAR + 21] + table[QUADRATIC + 21] * abs(p)) * p
+            ty = -table[ADDED + 28] * dq - (table[LINEAR + 28] + table[QUADRATIC + 28] * abs(q)) * q
+            tz = -table[ADDED + 35] * dr - (table[LINEAR + 35] + table[QUADRATIC + 35] * abs(r)) * r
+
+        # -Ca(nu) nu
+        tx -= q * hz - r * hy + v * pz - w * py
+        ty -= r * hx - p * hz + w * px - u * pz
+        tz -= p * hy - q * hx + u * py - v * px
+        fx -= q * pz - r * py
+        fy -= r * px - p * pz
+        fz -= p * py - q * px
 
         # into world axes, about the centre of mass of the tree
-        fx = wet * (axes[0] * force[0] + axes[1] * force[1] + axes[2] * force[2])
-        fy = wet * (axes[3] * force[0] + axes[4] * force[1] + axes[5] * force[2])
-        fz = wet * (axes[6] * force[0] + axes[7] * force[1] + axes[8] * force[2])
-        row[_WRENCH] += wet * (
-            axes[0] * force[3] + axes[1] * force[4] + axes[2] * force[5]
-        ) + ry * fz - rz * fy  # fmt: skip
-        row[_WRENCH + 1] += wet * (
-            axes[3] * force[3] + axes[4] * force[4] + axes[5] * force[5]
-        ) + rz * fx - rx * fz  # fmt: skip
-        row[_WRENCH + 2] += wet * (
-            axes[6] * force[3] + axes[7] * force[4] + axes[8] * force[5]
-        ) + rx * fy - ry * fx  # fmt: skip
-        row[_WRENCH + 3] += fx
-        row[_WRENCH + 4] += fy
-        row[_WRENCH + 5] += fz
-
-        if with_mass:
-            _inertia(axes, matrix, rx, ry, rz, turned, row)
+        x = wet * (r00 * fx + r01 * fy + r02 * fz)
+        y = wet * (r10 * fx + r11 * fy + r12 * fz)
+        z = wet * (r20 * fx + r21 * fy + r22 * fz)
+        ax = wet * (r00 * tx + r01 * ty + r02 * tz) + ry * z - rz * y
+        ay = wet * (r10 * tx + r11 * ty + r12 * tz) + rz * x - rx * z
+        az = wet * (r20 * tx + r21 * ty + r22 * tz) + rx * y - ry * x
 
         # buoyancy, at the centre of the submerged part
         mass = wet * table[DISPLACED]
-        bx, by, bz = bx + centre[0], by + centre[1], bz + centre[2]
-        rx += axes[0] * bx + axes[1] * by + axes[2] * bz
-        ry += axes[3] * bx + axes[4] * by + axes[5] * bz
-        rz += axes[6] * bx + axes[7] * by + axes[8] * bz
+        cx = rx + r00 * bx + r01 * by + r02 * bz
+        cy = ry + r10 * bx + r11 * by + r12 * bz
+        cz = rz + r20 * bx + r21 * by + r22 * bz
         fx = mass * (water[3] - weight * gravity[0])
         fy = mass * (water[4] - weight * gravity[1])
         fz = mass * (water[5] - weight * gravity[2])
-        row[_WRENCH] += ry * fz - rz * fy
-        row[_WRENCH + 1] += rz * fx - rx * fz
-        row[_WRENCH + 2] += rx * fy - ry * fx
-        row[_WRENCH + 3] += fx
-        row[_WRENCH + 4] += fy
-        row[_WRENCH + 5] += fz
+        work[base + _WRENCH] += ax + cy * fz - cz * fy
+        work[base + _WRENCH + 1] += ay + cz * fx - cx * fz
+        work[base + _WRENCH + 2] += az + cx * fy - cy * fx
+        work[base + _WRENCH + 3] += x + fx
+        work[base + _WRENCH + 4] += y + fy
+        work[base + _WRENCH + 5] += z + fz
+        if not with_mass:
+            continue
+        if table[KIND] == FULL:
+            _full_inertia(axes, wet, rx, ry, rz, work, base, scratch + 12)
+        else:
+            h = wet * step
+            a = wet * table[ADDED] + h * (table[LINEAR] + 2.0 * table[QUADRATIC] * abs(u))
+            b = wet * table[ADDED + 7]
+            b += h * (table[LINEAR + 7] + 2.0 * table[QUADRATIC + 7] * abs(v))
+            c = wet * table[ADDED + 14]
+            c += h * (table[LINEAR + 14] + 2.0 * table[QUADRATIC + 14] * abs(w))
+            xx = a * r00 * r00 + b * r01 * r01 + c * r02 * r02
+            xy = a * r00 * r10 + b * r01 * r11 + c * r02 * r12
+            xz = a * r00 * r20 + b * r01 * r21 + c * r02 * r22
+            yy = a * r10 * r10 + b * r11 * r11 + c * r12 * r12
+            yz = a * r10 * r20 + b * r11 * r21 + c * r12 * r22
+            zz = a * r20 * r20 + b * r21 * r21 + c * r22 * r22
+            a = wet * table[ADDED + 21]
+            a += h * (table[LINEAR + 21] + 2.0 * table[QUADRATIC + 21] * abs(p))
+            b = wet * table[ADDED + 28]
+            b += h * (table[LINEAR + 28] + 2.0 * table[QUADRATIC + 28] * abs(q))
+            c = wet * table[ADDED + 35]
+            c += h * (table[LINEAR + 35] + 2.0 * table[QUADRATIC + 35] * abs(r))
+            ff, ft, tt = base + _FF, base + _FT, base + _TT
+            work[ff], work[ff + 1], work[ff + 2] = xx, xy, xz
+            work[ff + 3], work[ff + 4], work[ff + 5] = yy, yz, zz
+            # force by rotation: -B11 S(r)
+            f0, f1, f2 = xz * ry - xy * rz, xx * rz - xz * rx, xy * rx - xx * ry
+            f3, f4, f5 = yz * ry - yy * rz, xy * rz - yz * rx, yy * rx - xy * ry
+            f6, f7, f8 = zz * ry - yz * rz, xz * rz - zz * rx, yz * rx - xz * ry
+            work[ft], work[ft + 1], work[ft + 2] = f0, f1, f2
+            work[ft + 3], work[ft + 4], work[ft + 5] = f3, f4, f5
+            work[ft + 6], work[ft + 7], work[ft + 8] = f6, f7, f8
+            # torque by rotation: B22 + S(r) (force by rotation)
+            work[tt] = a * r00 * r00 + b * r01 * r01 + c * r02 * r02 + ry * f6 - rz * f3
+            work[tt + 1] = a * r00 * r10 + b * r01 * r11 + c * r02 * r12 + ry * f7 - rz * f4
+            work[tt + 2] = a * r00 * r20 + b * r01 * r21 + c * r02 * r22 + ry * f8 - rz * f5
+            work[tt + 3] = a * r10 * r10 + b * r11 * r11 + c * r12 * r12 + rz * f1 - rx * f7
+            work[tt + 4] = a * r10 * r20 + b * r11 * r21 + c * r12 * r22 + rz * f2 - rx * f8
+            work[tt + 5] = a * r20 * r20 + b * r21 * r21 + c * r22 * r22 + rx * f5 - ry * f2
 
 
 @njit
-def _into(axes: Floats, x: float, y: float, z: float, vector: Floats, first: int) -> None:
-    """A world vector into body axes."""
-    vector[first] = axes[0] * x + axes[3] * y + axes[6] * z
-    vector[first + 1] = axes[1] * x + axes[4] * y + axes[7] * z
-    vector[first + 2] = axes[2] * x + axes[5] * y + axes[8] * z
+def _full(
+    table: Floats, step: float, work: Floats, at: int,
+    u: float, v: float, w: float, p: float, q: float, r: float,
+    du: float, dv: float, dw: float, dp: float, dq: float, dr: float,
+) -> None:  # fmt: skip
+    """Full 6x6 matrices: -Ma rate - D(nu) nu, Ma nu, and Ma + step D' (symmetric part).
+
+    Left in ``work`` from ``at`` on: 6 forces, 6 momenta, 36 entries.
+    """
+    nu = (u, v, w, p, q, r)
+    rate = (du, dv, dw, dp, dq, dr)
+    for i in range(6):
+        force, momentum = 0.0, 0.0
+        for j in range(6):
+            added = table[ADDED + 6 * i + j]
+            linear = table[LINEAR + 6 * i + j]
+            steep = table[QUADRATIC + 6 * i + j] * abs(nu[j])
+            momentum += added * nu[j]
+            force -= added * rate[j] + (linear + steep) * nu[j]
+            mirrored = table[LINEAR + 6 * j + i] + 2.0 * table[QUADRATIC + 6 * j + i] * abs(nu[i])
+            slope = 0.5 * (linear + 2.0 * steep + mirrored)
+            work[at + 12 + 6 * i + j] = added + step * slope
+        work[at + i], work[at + 6 + i] = force, momentum
 
 
 @njit
-def _turn(axes: Floats, matrix: Floats, first: int, second: int, turned: Floats) -> None:
-    """One 3x3 block of the upper triangle of ``matrix`` into world axes: R B R^T, row by row."""
+def _turn(axes: Floats, work: Floats, block: int, to: int) -> None:
+    """One 3x3 block, at ``block`` in rows of 6, into world axes: R B R^T, in rows of 3."""
     for j in range(3):
         x, y, z = axes[3 * j], axes[3 * j + 1], axes[3 * j + 2]
-        # column j of B R^T
-        if first == second:
-            a = matrix[first, first] * x + matrix[first, first + 1] * y
-            a += matrix[first, first + 2] * z
-            b = matrix[first, first + 1] * x + matrix[first + 1, first + 1] * y
-            b += matrix[first + 1, first + 2] * z
-            c = matrix[first, first + 2] * x + matrix[first + 1, first + 2] * y
-            c += matrix[first + 2, first + 2] * z
-        else:
-            a = matrix[0, 3] * x + matrix[0, 4] * y + matrix[0, 5] * z
-            b = matrix[1, 3] * x + matrix[1, 4] * y + matrix[1, 5] * z
-            c = matrix[2, 3] * x + matrix[2, 4] * y + matrix[2, 5] * z
-        turned[j] = axes[0] * a + axes[1] * b + axes[2] * c
-        turned[3 + j] = axes[3] * a + axes[4] * b + axes[5] * c
-        turned[6 + j] = axes[6] * a + axes[7] * b + axes[8] * c
+        a = work[block] * x + work[block + 1] * y + work[block + 2] * z
+        b = work[block + 6] * x + work[block + 7] * y + work[block + 8] * z
+        c = work[block + 12] * x + work[block + 13] * y + work[block + 14] * z
+        work[to + j] = axes[0] * a + axes[1] * b + axes[2] * c
+        work[to + 3 + j] = axes[3] * a + axes[4] * b + axes[5] * c
+        work[to + 6 + j] = axes[6] * a + axes[7] * b + axes[8] * c
 
 
 @njit
-def _inertia(
-    axes: Floats, matrix: Floats, rx: float, ry: float, rz: float, turned: Floats, row: Floats
+def _full_inertia(
+    axes: Floats, wet: float, rx: float, ry: float, rz: float, work: Floats, base: int, full: int
 ) -> None:
-    """Add a body's 6x6 inertia, moved to the centre of mass of the tree, to its row."""
-    ff, ft, tt = row[_FF:_FT], row[_FT:_TT], row[_TT:_TOUCHED]
-    _turn(axes, matrix, 0, 0, turned)
-    xx, xy, xz, yy, yz, zz = turned[0], turned[1], turned[2], turned[4], turned[5], turned[8]
-    ff[0], ff[1], ff[2], ff[3], ff[4], ff[5] = xx, xy, xz, yy, yz, zz
+    """Move a full 6x6 inertia, at ``full``, to the centre of mass of the tree."""
+    to = full + 36
+    ff, ft, tt = base + _FF, base + _FT, base + _TT
+    _turn(axes, work, full, to)
+    xx, xy, xz = wet * work[to], wet * work[to + 1], wet * work[to + 2]
+    yy, yz, zz = wet * work[to + 4], wet * work[to + 5], wet * work[to + 8]
+    work[ff], work[ff + 1], work[ff + 2] = xx, xy, xz
+    work[ff + 3], work[ff + 4], work[ff + 5] = yy, yz, zz
     # force by rotation: B12 - B11 S(r)
-    _turn(axes, matrix, 0, 3, turned)
-    ft[0] = turned[0] - (xy * rz - xz * ry)
-    ft[1] = turned[1] - (xz * rx - xx * rz)
-    ft[2] = turned[2] - (xx * ry - xy * rx)
-    ft[3] = turned[3] - (yy * rz - yz * ry)
-    ft[4] = turned[4] - (yz * rx - xy * rz)
-    ft[5] = turned[5] - (xy * ry - yy * rx)
-    ft[6] = turned[6] - (yz * rz - zz * ry)
-    ft[7] = turned[7] - (zz * rx - xz * rz)
-    ft[8] = turned[8] - (xz * ry - yz * rx)
+    _turn(axes, work, full + 3, to)
+    a, b, c = wet * work[to], wet * work[to + 1], wet * work[to + 2]
+    d, e, f = wet * work[to + 3], wet * work[to + 4], wet * work[to + 5]
+    g, h, i = wet * work[to + 6], wet * work[to + 7], wet * work[to + 8]
+    f0, f1, f2 = a - xy * rz + xz * ry, b - xz * rx + xx * rz, c - xx * ry + xy * rx
+    f3, f4, f5 = d - yy * rz + yz * ry, e - yz * rx + xy * rz, f - xy * ry + yy * rx
+    f6, f7, f8 = g - yz * rz + zz * ry, h - zz * rx + xz * rz, i - xz * ry + yz * rx
+    work[ft], work[ft + 1], work[ft + 2] = f0, f1, f2
+    work[ft + 3], work[ft + 4], work[ft + 5] = f3, f4, f5
+    work[ft + 6], work[ft + 7], work[ft + 8] = f6, f7, f8
     # torque by rotation: B22 + S(r) (force by rotation) - B12^T S(r)
-    a, b, c, d = turned[0], turned[1], turned[2], turned[3]
-    e, f, g, h = turned[4], turned[5], turned[6], turned[7]
-    _turn(axes, matrix, 3, 3, turned)
-    tt[0] = turned[0] + ry * ft[6] - rz * ft[3] - (d * rz - g * ry)
-    tt[1] = turned[1] + ry * ft[7] - rz * ft[4] - (g * rx - a * rz)
-    tt[2] = turned[2] + ry * ft[8] - rz * ft[5] - (a * ry - d * rx)
-    tt[3] = turned[4] + rz * ft[1] - rx * ft[7] - (h * rx - b * rz)
-    tt[4] = turned[5] + rz * ft[2] - rx * ft[8] - (b * ry - e * rx)
-    tt[5] = turned[8] + rx * ft[5] - ry * ft[2] - (c * ry - f * rx)
+    _turn(axes, work, full + 21, to)
+    work[tt] = wet * work[to] + ry * f6 - rz * f3 - (d * rz - g * ry)
+    work[tt + 1] = wet * work[to + 1] + ry * f7 - rz * f4 - (g * rx - a * rz)
+    work[tt + 2] = wet * work[to + 2] + ry * f8 - rz * f5 - (a * ry - d * rx)
+    work[tt + 3] = wet * work[to + 4] + rz * f1 - rx * f7 - (h * rx - b * rz)
+    work[tt + 4] = wet * work[to + 5] + rz * f2 - rx * f8 - (b * ry - e * rx)
+    work[tt + 5] = wet * work[to + 8] + rx * f5 - ry * f2 - (c * ry - f * rx)

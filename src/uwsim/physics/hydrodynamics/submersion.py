@@ -22,17 +22,33 @@ _PATHS = np.array([[1, 3], [1, 5], [2, 3], [2, 6], [4, 5], [4, 6]])
 
 
 @njit
-def submerged(shape: float, size: Floats, up: Floats, depth: float, centre: Floats) -> float:
-    """Fraction of a shape's volume that is under water.
+def submerged(
+    shape: float, a: float, b: float, c: float, up_x: float, up_y: float, up_z: float, depth: float
+) -> tuple[float, float, float, float]:
+    """Fraction of a shape's volume that is under water, and the centre of that part.
 
     Args:
         shape: which one; see `columns`.
-        size: (3,) [m]: radius; half-axes; edges; radius and length (about z).
-        up: the vertical in the shape's axes, (3,), unit.
+        a: first length [m]: radius; half-axis; edge.
+        b: second length [m]: half-axis; edge; length of a cylinder, about z.
+        c: third length [m].
+        up_x: the vertical in the shape's axes, a unit vector.
+        up_y: its second,
+        up_z: and its third component.
         depth: of the shape's centre below the surface [m].
-        centre: (3,) [m], receives the centre of the submerged part in the shape's axes.
+
+    Returns:
+        Fraction 0..1, and the centre of the submerged part in the shape's axes [m].
     """
-    centre[:] = 0.0
+    size, up, centre = np.empty(3), np.empty(3), np.zeros(3)
+    size[0], size[1], size[2] = a, b, c
+    up[0], up[1], up[2] = up_x, up_y, up_z
+    fraction = _submerged(shape, size, up, depth, centre)
+    return fraction, centre[0], centre[1], centre[2]
+
+
+@njit
+def _submerged(shape: float, size: Floats, up: Floats, depth: float, centre: Floats) -> float:
     if shape == SPHERE:
         return _ball(size[0], size[0], size[0], up, depth, centre)
     if shape == ELLIPSOID:

@@ -62,7 +62,7 @@ def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]
     row = np.zeros(c.BODY_COLUMNS)
     linear, quadratic = matrix(body.linear_damping), matrix(body.quadratic_damping)
     added = matrix(body.added_mass)
-    is_full = any(np.any(m - np.diag(np.diag(m))) for m in (linear, quadratic))
+    is_full = any(np.any(m - np.diag(np.diag(m))) for m in (added, linear, quadratic))
     row[c.KIND] = c.FULL if is_full else c.DIAGONAL
     row[c.THETA] = body.implicitness
     row[c.DISPLACED] = density * body.volume
@@ -71,10 +71,19 @@ def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]
     row[c.SHAPE] = _SHAPES[body.shape]
     size = body.size or (max(0.75 * body.volume / math.pi, 1e-12) ** (1.0 / 3.0),)
     row[c.SIZE : c.SIZE + len(size)] = size
+    row[c.REACH] = _reach(body.shape, size)
     row[c.ADDED : c.ADDED + 36] = (0.5 * (added + added.T)).ravel()
     row[c.LINEAR : c.LINEAR + 36] = linear.ravel()
     row[c.QUADRATIC : c.QUADRATIC + 36] = quadratic.ravel()
     return row
+
+
+def _reach(shape: str, size: tuple[float, ...]) -> float:
+    if shape == "box":
+        return 0.5 * math.hypot(*size)
+    if shape == "cylinder":
+        return math.hypot(size[0], 0.5 * size[1])
+    return max(size)
 
 
 def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:

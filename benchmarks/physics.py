@@ -1,0 +1,237 @@
+"""Rigid bodies in water: DESIGN 9's steps per second, its cost over the dry engine, and a soak.
+
+Run ``python benchmarks/physics.py``. Scenes: a free vehicle with five joints and jaws that holds a
+box between its pads in mid-water (eight contacts), the same without a box, and with the box lying
+on the floor; water on every body, 2 ms, one core. A dry engine step is the same model, with the
+callback removed and gravity off. Targets: at least 60 000 steps/s with the grasped box; with water
+at most 1.35 times the dry step (vehicle + arm, and box on the floor).
+
+The soak (``--soak``, minutes): 64 simulations of 30 s with random thrust, joint targets, jaws and
+currents above a floor with a loose box at 2, 5 and 10 ms: no NaN, no warning of the engine, and a
+median path of the vehicles above 2 m.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from statistics import median
+
+import mujoco
+import numpy as np
+from measure import main
+from mujoco import batch
+
+from uwsim.physics.hydrodynamics import (
+    BodyHydrodynamics,
+    Hydrodynamics,
+    ThrusterSpec,
+    callback,
+    install,
+    prepare,
+)
+
+STEPS_PER_SECOND, RATIO = 60_000, 1.35
+BATCHES, STEPS = 15, 4000
+N_SOAK, SOAK_SECONDS, LEAST_PATH = 64, 30.0, 2.0  # [1], [s], [m]
+BOX = (0.15, 0.10, 0.075)  # half-edges [m]
+ARM = (("slew", (0, 0, 1), 0.05), ("shoulder", (0, 1, 0), 0.35), ("elbow", (0, 1, 0), 0.30),
+       ("wrist", (0, 1, 0), 0.12), ("roll", (0, 0, 1), 0.10))  # fmt: skip
+NEUTRAL = {"added": 1.0, "drag": 1.0}
+
+
+def cylinder_water(link: str, radius: float, length: float, mass: float) -> BodyHydrodynamics:
+    """Strip theory for a cylinder along z."""
+    across = 1000.0 * np.pi * radius**2 * length
+    turn = across * length**2 / 12
+    drag = 0.5 * 1000.0 * 1.1 * 2 * radius * length
+    return BodyHydrodynamics(
+        link=link,
+        reference=(0.0, 0.0, length / 2),
+        added_mass=(across, across, 0.1 * across, turn, turn, 0.001),
+        quadratic_damping=(drag, drag, 0.2 * drag, 0.1 * drag, 0.1 * drag, 0.01),
+        volume=0.5 * mass / 1000.0,
+        centre_of_buoyancy=(0.0, 0.0, length / 2),
+        implicitness=1.0,
+    )
+
+
+def scene(box: str, *, timestep: float = 0.002, neutral_arm: bool = False) -> mujoco.MjModel:
+    """Compile a vehicle with arm and, on the ``floor`` or in the ``grasp``, a box; or ``none``."""
+    spec = mujoco.MjSpec()
+    spec.option.timestep = timestep
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = 10.0
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[50, 50, 0.1], pos=[0, 0, -3])
+    base = spec.worldbody.add_body(name="base", mass=150, ipos=[0, 0, -0.05], inertia=[24, 28, 19])
+    base.explicitinertial = True
+    base.add_freejoint()
+    base.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.7, 0.45, 0.4], contype=2, conaffinity=1)
+    waters = {
+        "base": BodyHydrodynamics(
+            link="base",
+            added_mass=(25.0, 230, 230, 20, 32, 32),
+            linear_damping=(30.0, 60, 60, 20, 20, 20),
+            quadratic_damping=(230.0, 450, 500, 60, 80, 80),
+            volume=0.159,
+            centre_of_buoyancy=(0.0, 0.0, 0.2),
+            shape="box",
+            size=(1.4, 0.9, 0.8),
+        )
+    }
+    node, place = base, [0.4, 0.0, -0.45]
+    turn = [0.0, 1.0, 0.0, 0.0]  # z of the arm points down
+    for name, axis, length in ARM:
+        node = node.add_body(name=name, pos=place, quat=turn, mass=3.0, ipos=[0, 0, length / 2])
+        node.inertia = [0.03, 0.03, 0.01]
+        node.explicitinertial = True
+        node.add_joint(name=name, axis=list(axis), armature=0.05)
+        joint = node.joints[0]
+        joint.range, joint.limited = [-1.5, 1.5], mujoco.mjtLimited.mjLIMITED_TRUE
+        servo = spec.add_actuator(name=name, target=name)
+        servo.trntype = mujoco.mjtTrn.mjTRN_JOINT
+        servo.set_to_position(kp=400.0, kv=60.0)
+        waters[name] = cylinder_water(name, 0.045, length, 3.0)
+        place, turn = [0.0, 0.0, length], [1.0, 0.0, 0.0, 0.0]
+    for name, side in (("left", 1.0), ("right", -1.0)):
+        jaw = node.add_body(name=name, pos=[0.0, side * (BOX[1] + 0.02), 0.2], mass=0.5,
+                            ipos=[0, 0, 0], inertia=[0.001] * 3)  # fmt: skip
+        jaw.explicitinertial = True
+        jaw.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, -side, 0],
+                      range=[-0.1, 0.15], limited=mujoco.mjtLimited.mjLIMITED_TRUE)  # fmt: skip
+        jaw.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.04, 0.01, 0.04], condim=4,
+                     friction=[0.8, 0.01, 0.001], solimp=[0.95, 0.99, 0.001, 0.5, 2])  # fmt: skip
+        clamp = spec.add_actuator(name=name, target=name)
+        clamp.trntype = mujoco.mjtTrn.mjTRN_JOINT
+        clamp.set_to_motor()
+        clamp.ctrlrange, clamp.ctrllimited = [-80, 80], mujoco.mjtLimited.mjLIMITED_TRUE
+        waters[name] = BodyHydrodynamics(
+            link=name, added_mass=(0.1, 0.3, 0.1, 0.001, 0.001, 0.001), volume=0.0002,
+            quadratic_damping=(2.0, 5.0, 2.0, 0.002, 0.002, 0.002), implicitness=1.0,
+        )  # fmt: skip
+    if box != "none":
+        grasped = (0.4, 0.0, -0.45 - sum(length for *_, length in ARM) - 0.2)
+        thing = spec.worldbody.add_body(
+            name="box", pos=grasped if box == "grasp" else (1.5, 0.3, -2.925), mass=14.2,
+            ipos=[0, 0, 0], inertia=[0.08, 0.15, 0.19],
+        )  # fmt: skip
+        thing.explicitinertial = True
+        thing.add_freejoint()
+        thing.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=list(BOX), condim=4,
+                       friction=[0.8, 0.01, 0.001])  # fmt: skip
+        waters["box"] = BodyHydrodynamics(
+            link="box", added_mass=(4.0, 6, 9, 0.05, 0.08, 0.05), volume=0.009,
+            quadratic_damping=(15.0, 25, 35, 0.3, 0.5, 0.4), shape="box",
+            size=(0.3, 0.2, 0.15), implicitness=1.0,
+        )  # fmt: skip
+    places = (((-0.4, 0.3, 0), (1, 0, 0)), ((-0.4, -0.3, 0), (1, 0, 0)), ((0.5, 0, 0), (0, 0, 1)),
+              ((-0.5, 0, 0), (0, 0, 1)), ((0, 0, 0), (0, 1, 0)))  # fmt: skip
+    thrusters = {
+        f"thruster{i}": ("base", ThrusterSpec(
+            name=f"thruster{i}", link="base", position=position, direction=direction,
+            forward=(0.0, 140.0), time_constant=0.2))
+        for i, (position, direction) in enumerate(places)
+    }  # fmt: skip
+    prepare(spec, waters, thrusters, surface=5.0)
+    return spec.compile()
+
+
+def settled(box: str) -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
+    model = scene(box)
+    water, data = install(model), mujoco.MjData(model)
+    for jaw in ("left", "right"):
+        data.ctrl[model.actuator(jaw).id] = 80.0 if box == "grasp" else 0.0
+    water.set_thrusters(data, [0.3, 0.3, 0.1, 0.1, 0.1])
+    water.set_current(data, (0.1, 0.2, 0.0))
+    water.step(data, 300)
+    return model, water, data
+
+
+def microseconds(model: mujoco.MjModel, data: mujoco.MjData) -> list[float]:
+    """CPU microseconds of a step, a batch each, always from the same state."""
+    state = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_INTEGRATION))
+    mujoco.mj_getState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
+    found = []
+    for _ in range(BATCHES):
+        spent = 0.0
+        for _ in range(STEPS // 200):
+            mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
+            began = time.process_time()
+            mujoco.mj_step(model, data, 200)
+            spent += time.process_time() - began
+        found.append(spent * 1e6 / STEPS)
+    return found
+
+
+def speeds() -> dict[str, object]:
+    figures: dict[str, object] = {}
+    for box in ("none", "floor", "grasp"):
+        model, _, data = settled(box)
+        contacts = int(data.ncon)
+        wet = microseconds(model, data)
+        callback.remove()
+        dry = microseconds(model, data)
+        callback.install()
+        figures[f"box: {box}"] = {
+            "dof": int(model.nv),
+            "contacts": contacts,
+            "with_water_us": round(median(wet), 2),
+            "with_water_us_best": round(min(wet), 2),
+            "dry_us": round(median(dry), 2),
+            "dry_us_best": round(min(dry), 2),
+            "ratio": round(median(wet) / median(dry), 3),
+            "ratio_best": round(min(wet) / min(dry), 3),
+            "target_ratio": RATIO,
+            "steps_per_s": round(1e6 / median(wet)),
+            "steps_per_s_best": round(1e6 / min(wet)),
+            "target_steps_per_s": STEPS_PER_SECOND,
+        }
+    return figures
+
+
+def soak() -> dict[str, object]:
+    figures: dict[str, object] = {}
+    for timestep in (0.002, 0.005, 0.010):
+        model = scene("floor", timestep=timestep)
+        install(model)
+        pool = batch.Batch(model, N_SOAK, 2)
+        random = np.random.Generator(np.random.Philox(7))
+        hold = round(1.0 / timestep)
+        path = np.zeros(N_SOAK)
+        last = pool.qpos[:, :3].copy()
+        fastest = 0.0
+        n_servos = len(ARM)
+        for _ in range(round(SOAK_SECONDS)):
+            pool.ctrl[:, :n_servos] = random.uniform(-1.2, 1.2, (N_SOAK, n_servos))
+            pool.ctrl[:, n_servos : n_servos + 2] = random.uniform(-80, 80, (N_SOAK, 2))
+            pool.ctrl[:, n_servos + 2 :] = random.uniform(-1.0, 1.0, (N_SOAK, 5))
+            water = pool.userdata[:, : 8 * model.nbody].reshape(N_SOAK, model.nbody, 8)
+            water[:, :, 0:3] = random.uniform(-0.5, 0.5, (N_SOAK, 1, 3))
+            for _ in range(10):
+                pool.step(nstep=hold // 10)
+                path += np.linalg.norm(pool.qpos[:, :3] - last, axis=1)
+                last = pool.qpos[:, :3].copy()
+                fastest = max(fastest, float(np.abs(pool.qvel).max()))
+        figures[f"{timestep * 1e3:g} ms"] = {
+            "simulations": N_SOAK,
+            "seconds": SOAK_SECONDS,
+            "not_finite": int((~np.isfinite(pool.state).all(axis=1)).sum()),
+            "warnings": int(np.asarray(pool.warning).sum()),
+            "fastest_m_or_rad_per_s": round(fastest, 2),
+            "median_path_m": round(float(np.median(path)), 2),
+            "least_path_m": round(float(path.min()), 2),
+            "target_median_path_m": LEAST_PATH,
+        }
+    return figures
+
+
+def figures() -> dict[str, object]:
+    return {"speed": speeds(), "soak": soak()} if SOAK else {"speed": speeds()}
+
+
+if __name__ == "__main__":
+    SOAK = "--soak" in sys.argv
+    if SOAK:
+        sys.argv.remove("--soak")
+    main(figures)
