@@ -224,10 +224,32 @@ def test_a_sleeping_tree_does_not_grow_heavier() -> None:
     model = robot(extra_as_mass=False)
     model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
     water, data = install(model), mujoco.MjData(model)
-    water.step(data, 2000)
+    water.step(data, 1000)
     full = np.empty((model.nv, model.nv))
     mujoco.mj_fullM(model, data, full)
-    assert full.max() < 200.0
+    before = full.copy()
+    water.step(data, 1000)
+    mujoco.mj_fullM(model, data, full)
+    assert not data.tree_awake.all()
+    assert full == pytest.approx(before, rel=1e-6, abs=1e-6)
+
+
+def test_a_body_on_three_slides_keeps_its_couplings() -> None:
+    """MuJoCo keeps only the diagonal of M for such a body unless it is told not to."""
+    spec = mujoco.MjSpec()
+    set_options(spec, gravity=0.0)
+    body = spec.worldbody.add_body(name="body", mass=1.0, ipos=[0, 0, 0], inertia=[1, 1, 1])
+    for axis in np.eye(3).tolist():
+        body.add_joint(type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
+    prepare(spec, {"body": full_water()}, surface=FAR_BELOW)
+    model = spec.compile()
+    install(model)
+    data, full = mujoco.MjData(model), np.empty((3, 3))
+    mujoco.mj_forward(model, data)
+    mujoco.mj_fullM(model, data, full)
+    added = np.array(full_water().added_mass).reshape(6, 6)[:3, :3]
+    slope = 0.5 * 0.002 * np.diag([5.0, 8.0, 9.0])
+    assert full == pytest.approx(np.eye(3) + added + slope, rel=1e-12)
 
 
 def wrist() -> mujoco.MjModel:

@@ -147,8 +147,8 @@ class Hydrodynamics:
 def install(model: mujoco.MjModel) -> Hydrodynamics:
     """Give a compiled model its water.
 
-    Corrects the model's inverse weights (once: install a model only once), checks MuJoCo's layout
-    and the kernel, and puts the kernel into MuJoCo's slot.
+    Checks MuJoCo's layout and the kernel, puts the kernel into MuJoCo's slot, and corrects the
+    model's inverse weights; a second time changes nothing.
 
     Raises:
         NoWater: the model was not prepared, or its options exclude the callback.
@@ -181,6 +181,6 @@ def _check(model: mujoco.MjModel) -> None:
             continue
         weld = int(model.body_weldid[body])
         dofs = range(model.body_dofadr[weld], model.body_dofadr[weld] + model.body_dofnum[weld])
-        if any(model.dof_simplenum[dof] for dof in dofs):
+        if any(model.dof_simplenum[dof] for dof in dofs) and len(dofs) > 1:
             name = model.body(body).name
             raise NoWater(f"Body {name!r} is 'simple' to MuJoCo; prepare() must see it first.")

@@ -117,7 +117,7 @@ def _check(
 
 def _prepare_body(node: mujoco.MjsBody, body: BodyHydrodynamics, density: float) -> None:
     node.userdata = body_row(body, density)
-    if any(joint.type == mujoco.mjtJoint.mjJNT_FREE for joint in node.joints):
+    if list(node.joints):  # else MuJoCo may keep only the diagonal of M for a lone body
         node.simple = mujoco.mjtLimited.mjLIMITED_FALSE
     if body.mass is not None:
         node.mass = body.mass
