@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from water_models import FAR_BELOW, random_added_mass, set_options
 
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, install, prepare
+from uwsim.physics.hydrodynamics import columns as c
 
 N = 5
 RNG = np.random.default_rng(5)
@@ -105,6 +106,50 @@ def test_five_links_with_full_added_mass_obey_lagrange_to_1e_8() -> None:
         right = lagrange(q, v, torque)
         worst = max(worst, float(np.linalg.norm(data.qacc - right) / np.linalg.norm(right)))
     assert worst < 1e-8
+
+
+@pytest.mark.parametrize("surface", [FAR_BELOW, 0.1])
+def test_the_quick_way_for_diagonal_matrices_is_the_way_for_full_ones(surface: float) -> None:
+    """Links of unequal added mass and drag, about points off their origins, also half wet."""
+    spec = mujoco.MjSpec()
+    set_options(spec)
+    rng = np.random.default_rng(8)
+    node, waters = spec.worldbody, {}
+    for i in range(3):
+        node = node.add_body(
+            name=f"link{i}", pos=OFFSETS[i].tolist(), quat=TURNS[i].as_quat().tolist(), mass=2.0,
+            ipos=CENTRES[i].tolist(), inertia=[0.1, 0.12, 0.15],
+        )  # fmt: skip
+        node.explicitinertial = True
+        if i == 0:
+            node.add_freejoint()
+        else:
+            node.add_joint(type=mujoco.mjtJoint.mjJNT_HINGE, axis=AXES[i].tolist())
+        waters[f"link{i}"] = BodyHydrodynamics(
+            link=f"link{i}",
+            reference=tuple(rng.normal(scale=0.2, size=3)),
+            added_mass=tuple(rng.uniform(1, 9, 6)),
+            linear_damping=tuple(rng.uniform(1, 9, 6)),
+            quadratic_damping=tuple(rng.uniform(1, 9, 6)),
+            volume=0.002,
+            centre_of_buoyancy=tuple(rng.normal(scale=0.2, size=3)),
+            shape="ellipsoid",
+            size=(0.6, 0.5, 0.7),
+        )
+    prepare(spec, waters, surface=surface)
+    model = spec.compile()
+    water = install(model)
+    found, velocity = [], rng.normal(size=model.nv)
+    for kind in (c.DIAGONAL, c.FULL):
+        model.body_user[1:, c.KIND] = kind
+        data = mujoco.MjData(model)
+        data.qvel[:] = velocity
+        water.set_current(data, (0.3, -0.2, 0.1), (0.4, 0.5, -0.6))
+        mujoco.mj_forward(model, data)
+        found.append((data.M.copy(), data.qfrc_passive.copy()))
+    assert found[0][0] == pytest.approx(found[1][0], rel=1e-12, abs=1e-12)
+    assert found[0][1] == pytest.approx(found[1][1], rel=1e-12, abs=1e-12)
+    assert np.abs(found[0][1]).max() > 1.0
 
 
 def energy(model: mujoco.MjModel, data: mujoco.MjData) -> float:
