@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
+import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -89,3 +92,28 @@ def test_every_current_is_a_flow_and_hands_out_its_own_array() -> None:
 @pytest.mark.parametrize("spec", CURRENTS.values(), ids=lambda spec: spec.__name__)
 def test_every_field_of_a_current_is_an_extension_and_says_what_it_is(spec: type) -> None:
     assert [slot.field for slot in slots(spec) if not slot.xml.namespaced or not slot.doc] == []
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "currents.md"
+BLOCKS = re.findall(r"```xml\n(.*?)```", PAGE.read_text(), re.DOTALL)
+
+
+@pytest.mark.parametrize("block", [block for block in BLOCKS if "<oceanState>" in block])
+def test_the_scenes_of_the_page_can_be_read(block: str, tmp_path: Path) -> None:
+    path = tmp_path / "scene.xml"
+    path.write_text(f'<UWSimScene xmlns:u="urn:uwsim:1">{block}</UWSimScene>')
+    assert read_scene(path).ocean_state.currents != ()
+
+
+def test_the_page_names_every_current() -> None:
+    page = PAGE.read_text()
+    assert [name for name in CURRENTS if f"| `u:{name}` |" not in page] == []
+
+
+@pytest.mark.parametrize("name", CURRENTS)
+def test_the_example_of_every_current_is_one(name: str, tmp_path: Path) -> None:
+    doc = sys.modules[CURRENTS[name].__module__].__doc__ or ""
+    block = re.search(r"code-block:: xml\n\n((?:    .*\n|\n)+)", doc)
+    assert block is not None
+    specs = read_scene(scene(tmp_path, inspect.cleandoc(block[1]))).ocean_state.currents
+    assert CURRENTS[name] in {type(spec) for spec in specs}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .collision import CollisionSpec
+from .collision import Collision, CollisionSpec
 from .distance import Distance, DistanceSpec
 from .euclidean_norm import EuclideanNorm, EuclideanNormSpec
 from .measure import Measure, MeasureSpec
@@ -27,6 +27,7 @@ MEASURES: dict[str, type[MeasureSpec]] = {
 
 __all__ = [
     "MEASURES",
+    "Collision",
     "CollisionSpec",
     "Distance",
     "DistanceSpec",
