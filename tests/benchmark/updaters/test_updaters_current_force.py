@@ -11,6 +11,7 @@ from fakes import FakeWorld
 from uwsim.benchmark.updaters import (
     CurrentForceUpdaterSpec,
     Level,
+    RepeatSpec,
     SceneFogUpdaterSpec,
     SphericalSpec,
     apply_level,
@@ -122,6 +123,17 @@ def test_the_vehicle_is_put_back_once_for_all_fogs_within_a_current() -> None:
         before = level
     assert len(world.put_backs) == 2
     assert calms == [2.0, 0.0, 0.0, 2.0, 0.0, 0.0]
+
+
+def test_a_current_that_is_repeated_begins_anew_each_time() -> None:
+    spec = RepeatSpec(iterations=2, interval=9.0, child=tracking(final_value=0.0))
+    world = ship()
+    updaters = bind_updaters(spec, world)
+    first, second = levels(spec)
+    apply_level(updaters, first)
+    apply_level(updaters, second, after=first)
+    assert len(world.put_backs) == 2
+    assert calm(spec, second, after=first) == 2.0
 
 
 def forces(spec: CurrentForceUpdaterSpec, **other: object) -> list[WrenchStamped]:
