@@ -78,6 +78,8 @@ class Inbox(Generic[M]):
 
     def take(self) -> list[M]:
         """Take out all messages that came since the last call, oldest first."""
+        if not self._new:
+            return []
         messages = list(self._new)
         self._new.clear()
         return messages
@@ -210,6 +212,8 @@ class Bus:
 
     def deliver(self) -> None:
         """Hand out everything that is due at the current step, in the order of publishing."""
+        if not self._due_now and not self._due_later:
+            return
         if self._due_later:
             due = sorted(post for post in self._due_later if post[0] <= self.step)
             self._due_later = [post for post in self._due_later if post[0] > self.step]

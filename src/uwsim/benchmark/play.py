@@ -100,7 +100,7 @@ class Gated:
         self._stop = spec.stop_on.bind(world)
         self._began = world.step
         self._was_on = False
-        self._next_log = 0
+        self._log_due = 0 if spec.log is not None else None
 
     def tick(self) -> None:
         """Start or update the measure, whichever the triggers ask for."""
@@ -109,7 +109,7 @@ class Gated:
             self.measure.start()
         elif on:
             self.measure.update()
-        if on:
+        if on and self._log_due is not None and self._world.step - self._began >= self._log_due:
             self._take_log()
         self._was_on = on
 
@@ -120,12 +120,13 @@ class Gated:
         self._stop.close()
 
     def _take_log(self) -> None:
-        if self.spec.log is None:
-            return
-        elapsed = (self._world.step - self._began) * self._world.timestep
-        if elapsed >= self._next_log * self.spec.log - 1e-9:
-            self._next_log = math.floor(elapsed / self.spec.log + 1e-9) + 1
-            self.log.append((elapsed, *self.measure.log_values))
+        """Take a sample; the next is due at the next multiple of the period."""
+        assert self.spec.log is not None
+        timestep = self._world.timestep
+        elapsed = (self._world.step - self._began) * timestep
+        self.log.append((elapsed, *self.measure.log_values))
+        n_next = math.floor(elapsed / self.spec.log + 1e-9) + 1
+        self._log_due = math.ceil(n_next * self.spec.log / timestep - 1e-9)
 
 
 class Verdict:
@@ -140,6 +141,8 @@ class Verdict:
 
     def listen(self, time: float) -> None:
         """Take note of what came in since the last call."""
+        if self._inbox.last is None and self._node.error is None:
+            return
         for message in self._inbox.take():
             state, _, why = message.data.partition(":")
             said = f"{self._node.name} {state.strip()} at {time:g} s: {why.strip()}"

@@ -51,7 +51,9 @@ class ImagePublisher:
         self._blank = black if is_blind else None
         self._publish_image = bus.publisher(spec.image_topic, Image)
         self._publish_info = bus.publisher(spec.info_topic, CameraInfo)
-        self._next_sample = 0
+        self._n_samples = 0
+        self.due = 0
+        """Step of the next sample."""
         self._digest = hashlib.sha256()
 
     @property
@@ -59,13 +61,11 @@ class ImagePublisher:
         """Hash of all pixels published so far, in order."""
         return self._digest.hexdigest()
 
-    def publish_if_due(self) -> None:
-        """Take the sample and publish it, if its step has come."""
-        step = self._bus.step
-        if step < sample_step(self._next_sample, self._rate, self._timestep):
-            return
-        self._next_sample += 1
-        time = step * self._timestep
+    def publish(self) -> None:
+        """Take the sample that is due and publish it."""
+        self._n_samples += 1
+        self.due = sample_step(self._n_samples, self._rate, self._timestep)
+        time = self._bus.step * self._timestep
         if self._bus.has_readers(self._info_topic):
             self._publish_info(self.camera.info(time))
         if not self._bus.has_readers(self._image_topic):

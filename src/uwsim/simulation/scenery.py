@@ -89,6 +89,8 @@ class Scenery:
     ) -> Picture:
         """Draw what a camera sees."""
         renderer = self._open()
+        if not self._handles:
+            self._handles = {part.id: renderer.add(part.model, part.id) for part in self.parts}
         if self._drawn_version != self._state.version:
             for part in self.parts:
                 renderer.place(self._handles[part.id], self.world_from_mesh(part))
@@ -111,8 +113,6 @@ class Scenery:
     def _open(self) -> Renderer:
         if self._renderer is None:
             self._renderer = Renderer()
-            for part in self.parts:
-                self._handles[part.id] = self._renderer.add(part.model, part.id)
         return self._renderer
 
     def close(self) -> None:
@@ -120,6 +120,8 @@ class Scenery:
         if self._renderer is not None:
             self._renderer.close()
             self._renderer = None
+            self._handles = {}
+            self._drawn_version = -1
 
 
 def _parts(

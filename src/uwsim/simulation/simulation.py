@@ -89,6 +89,7 @@ class Simulation:
             fog_distance="clip" if "fog-distance" in compatibility else "ray",
         )
         self._light = Light(rate=scene.sim_params.light_rate)
+        self._swaying = [(i, v) for i, v in enumerate(scene.vehicles) if v.sways]
         robots = [self.robots[i] for i in range(len(scene.vehicles))]
         self._commands = Commands(scene, robots, self._state, self.bus, timestep)
         self._nodes: list[InProcessNode] = []
@@ -137,18 +138,19 @@ class Simulation:
         self._tail()
 
     def _tail(self) -> None:
-        for publisher in self.images.values():
-            publisher.publish_if_due()
+        step = self.bus.step
+        for images in self.images.values():
+            if step >= images.due:
+                images.publish()
         self.bus.deliver()
         for node in self._nodes:
             node.tick()
         self.bus.deliver()
 
     def _move_vehicles(self) -> None:
-        for index, vehicle in enumerate(self._scene.vehicles):
-            if vehicle.sways:
-                localized_from_base = vehicle.localized_from_base_at(self.time)
-                self._state.place_vehicle(index, self.world_from_localized @ localized_from_base)
+        for index, vehicle in self._swaying:
+            localized_from_base = vehicle.localized_from_base_at(self.time)
+            self._state.place_vehicle(index, self.world_from_localized @ localized_from_base)
 
     def attach(
         self, algorithm: Algorithm, *, name: str, parameters: Mapping[str, float | str]

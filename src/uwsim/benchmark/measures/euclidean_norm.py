@@ -92,8 +92,9 @@ class EuclideanNorm(Measure):
         if messages:
             self._score(np.asarray(messages[-1].data, dtype=np.float64))
         if self._waits_since is not None:
-            waited = (self._world.step - self._waits_since, self._waits_since)
-            self._silence = max(self._silence, waited, key=lambda silence: silence[0])
+            waited = self._world.step - self._waits_since
+            if waited > self._silence[0]:
+                self._silence = (waited, self._waits_since)
 
     @property
     def value(self) -> float | None:
