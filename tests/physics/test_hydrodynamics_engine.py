@@ -183,6 +183,20 @@ def test_a_loop_without_the_callback_gives_the_same() -> None:
     assert (results[0] == results[1]).all()
 
 
+def test_where_mujoco_hides_its_slot_the_loop_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(callback, "has_slot", lambda: False)
+    model = robot(extra_as_mass=False)
+    water, data = install(model), mujoco.MjData(model)
+    data.qvel[:6] = 0.3, 0.1, -0.5, 0.2, 0.3, 0.1
+    water.step(data, 100)
+    monkeypatch.undo()
+    assert not callback.is_installed()
+    other = mujoco.MjData(model)
+    other.qvel[:6] = 0.3, 0.1, -0.5, 0.2, 0.3, 0.1
+    install(model).step(other, 100)
+    assert (data.qpos == other.qpos).all()
+
+
 def test_a_model_without_tables_is_not_touched_by_a_neighbour_with_them() -> None:
     plain = mujoco.MjModel.from_xml_string(
         '<mujoco><size nuser_body="128"/><worldbody><body><freejoint/><geom size="0.1"/></body>'
@@ -363,6 +377,9 @@ def test_a_thruster_out_of_the_water_pushes_nothing() -> None:
     water.set_thrusters(data, [1.0])
     mujoco.mj_forward(model, data)
     assert not data.qfrc_passive.any()
+    water.set_elevation(data, 2.0)  # until a wave reaches it
+    mujoco.mj_forward(model, data)
+    assert np.linalg.norm(data.qfrc_passive[:3]) == pytest.approx(18.0)
 
 
 def test_light_things_with_much_drag_stay_calm_when_drag_is_implicit() -> None:
@@ -430,3 +447,57 @@ def test_springs_and_dampers_both_off_is_refused() -> None:
     model.opt.disableflags |= 32 | 64
     with pytest.raises(NoWater, match="both disabled"):
         install(model)
+
+
+def test_jaws_hold_a_heavy_box_that_is_shaken_in_a_current() -> None:
+    """50 N in water, 80 N of clamp, friction 0.8: it creeps a little and does not drop."""
+    spec = mujoco.MjSpec()
+    set_options(spec)
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = 10.0
+    slide = spec.worldbody.add_body(name="slide", mass=5, ipos=[0, 0, 0], inertia=[0.1] * 3)
+    slide.add_joint(name="lift", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, 0, 1])
+    pad = {"size": [0.04, 0.01, 0.04], "condim": 4, "friction": [0.8, 0.01, 0.001]}
+    waters = {}
+    for name, side in (("left", 1.0), ("right", -1.0)):
+        jaw = slide.add_body(
+            name=name, pos=[0, side * 0.11, 0], mass=0.5, ipos=[0, 0, 0], inertia=[0.001] * 3
+        )
+        jaw.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, -side, 0])
+        jaw.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, **pad)
+        waters[name] = BodyHydrodynamics(link=name, added_mass=(0.2,) * 3 + (0.001,) * 3)
+    box = spec.worldbody.add_body(name="box", mass=14.2, ipos=[0, 0, 0], inertia=[0.08, 0.13, 0.15])
+    box.add_freejoint()
+    box.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        size=[0.15, 0.1, 0.075],
+        condim=4,
+        friction=[0.8, 0.01, 0.001],
+    )
+    waters["box"] = BodyHydrodynamics(
+        link="box",
+        added_mass=(4.0, 6, 9, 0.05, 0.08, 0.05),
+        quadratic_damping=(15.0, 25, 35, 0.3, 0.5, 0.4),
+        volume=0.0091,
+        implicitness=1.0,
+    )
+    for name in ("left", "right"):
+        clamp = spec.add_actuator(name=name, target=name)
+        clamp.trntype = mujoco.mjtTrn.mjTRN_JOINT
+        clamp.set_to_motor()
+    servo = spec.add_actuator(name="lift", target="lift")
+    servo.trntype = mujoco.mjtTrn.mjTRN_JOINT
+    servo.set_to_position(kp=20000.0, kv=2000.0)
+    prepare(spec, waters, surface=FAR_BELOW)
+    model = spec.compile()
+    water, data = install(model), mujoco.MjData(model)
+    slips = []
+    for tick in range(200):  # 4 s
+        t = 0.02 * tick
+        data.ctrl[:] = 80.0, 80.0, 0.02 * math.sin(math.pi * t)
+        water.set_current(data, (0.5 * math.sin(t), 0.0, 0.0))
+        water.step(data, 10)
+        slips.append(data.body("box").xpos[2] - data.body("slide").xpos[2])
+    assert data.ncon >= 8
+    assert abs(slips[-1] - slips[50]) < 2e-3
+    assert abs(slips[-1]) < 0.02

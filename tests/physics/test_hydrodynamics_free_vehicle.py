@@ -92,7 +92,7 @@ def errors(data: mujoco.MjData, end: np.ndarray) -> tuple[float, float]:
 
 @pytest.mark.parametrize("damped", [False, True], ids=["conservative", "damped"])
 def test_under_rk4_a_free_vehicle_agrees_with_scipy_to_1e_8(damped: bool) -> None:
-    built = model(damped=damped, integrator="RK4", timestep=0.002)
+    built = model(damped=damped, integrator="RK4", timestep=0.002, theta=0.5)
     water, data, start = begin(built)
     water.set_current(data, steady(0.0))
     water.step(data, round(DURATION / built.opt.timestep))

@@ -20,6 +20,9 @@ wrenches are summed up the tree, as in the composite-rigid-body algorithm, in Mu
 the centre of mass of the tree, world axes.
 
 After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), chapters 6 and 8.
+One file, although long: numba's cache on disk watches only the file of the function it compiled.
+After a change in `columns`, `layout`, `memory` or `submersion`, save this file anew too.
+
 Not modelled: the momentum of water shed when the submerged fraction changes, memory of waves,
 ground effect, flow of one body over another, thrust lost to inflow.
 """
