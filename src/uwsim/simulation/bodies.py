@@ -40,6 +40,17 @@ class SceneBody:
         return self._box
 
 
+def find_file(name: str, scene: SceneSpec, data_path: tuple[Path, ...]) -> Path:
+    """Find a file that a scene names; AssetNotFound names every folder searched."""
+    beside = Path(scene.path).parent if scene.path else None
+    path = find(name, beside=beside, data_path=data_path)
+    if path is None:
+        searched = folders_searched(beside=beside, data_path=data_path)
+        folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
+        raise AssetNotFound(f"{name!r} is in none of the folders searched: {folders}.")
+    return path
+
+
 def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, RobotSpec]:
     """Find and read the URDF of every vehicle, by the vehicle's number.
 
@@ -47,20 +58,10 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
         AssetNotFound: a file is nowhere; names every folder searched.
         SceneError: a file is wrong.
     """
-    beside = Path(scene.path).parent if scene.path else None
-    robots: dict[int, RobotSpec] = {}
-    for index, vehicle in enumerate(scene.vehicles):
-        path = find(vehicle.file, beside=beside, data_path=data_path)
-        if path is None:
-            folders = ", ".join(
-                str(f) for f in folders_searched(beside=beside, data_path=data_path)
-            )
-            raise AssetNotFound(
-                f"The robot file {vehicle.file!r} of vehicle {vehicle.name!r} is in none of the "
-                f"folders searched: {folders}."
-            )
-        robots[index] = read_urdf(path)
-    return robots
+    return {
+        index: read_urdf(find_file(vehicle.file, scene, data_path))
+        for index, vehicle in enumerate(scene.vehicles)
+    }
 
 
 def name_bodies(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +18,20 @@ from ..sensors.virtual_camera import VirtualCamera
 def sample_step(n: int, rate: float, timestep: float) -> int:
     """Step at which sample ``n`` of a sensor with ``rate`` [Hz] is taken (DESIGN 4)."""
     return math.ceil(n / (rate * timestep) - 1e-9)
+
+
+class SampleTimer:
+    """Calls something at the samples of a rate."""
+
+    def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
+        self._start, self._rate, self._timestep, self._call = start, rate, timestep, call
+        self._n_samples = 0
+
+    def tick(self, step: int) -> None:
+        """Call it, if its step has come."""
+        if step >= self._start + sample_step(self._n_samples, self._rate, self._timestep):
+            self._n_samples += 1
+            self._call()
 
 
 class ImagePublisher:

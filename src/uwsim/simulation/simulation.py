@@ -12,7 +12,7 @@ step 0, when the simulation is opened.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
@@ -22,7 +22,8 @@ import numpy.typing as npt
 
 from ..bus import Algorithm, Bus, Inbox
 from ..chance import stream
-from ..errors import UnknownName
+from ..currents import Place, TotalCurrent, bind_currents
+from ..errors import UnknownName, UwsimError
 from ..geometry import Intrinsics, Pose
 from ..physics.state import State
 from ..rendering.grey import grey_truncated
@@ -32,9 +33,10 @@ from ..rendering.water import Light, Water
 from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
 from ..sensors.virtual_camera import VirtualCamera
-from .bodies import SceneBody, find_body, name_bodies, read_robots
+from ..world import Contact, Flow
+from .bodies import SceneBody, find_body, find_file, name_bodies, read_robots
 from .commands import Commands
-from .image_publisher import ImagePublisher
+from .image_publisher import ImagePublisher, SampleTimer
 from .node import InProcessNode
 from .scenery import Scenery
 
@@ -89,6 +91,16 @@ class Simulation:
             fog_distance="clip" if "fog-distance" in compatibility else "ray",
         )
         self._light = Light(rate=scene.sim_params.light_rate)
+        place = Place(
+            stream=self.stream,
+            find=lambda name: find_file(name, scene, data_path),
+            world_from_localized=scene.world_from_localized,
+            surface_height=scene.ocean_state.ocean_surface_height,
+        )
+        self._scene_current = bind_currents(scene.ocean_state.currents, place)
+        self._flow: Flow = self._scene_current
+        self._current: Flow | None = None
+        self._timers: list[SampleTimer] = []
         self._swaying = [(i, v) for i, v in enumerate(scene.vehicles) if v.sways]
         robots = [self.robots[i] for i in range(len(scene.vehicles))]
         self._commands = Commands(scene, robots, self._state, self.bus, timestep)
@@ -134,7 +146,8 @@ class Simulation:
         """Take one step."""
         self.bus.step += 1
         self._commands.carry_out()
-        self._move_vehicles()
+        self._drift()
+        self._sway()
         self._tail()
 
     def _tail(self) -> None:
@@ -142,12 +155,26 @@ class Simulation:
         for images in self.images.values():
             if step >= images.due:
                 images.publish()
+        for timer in self._timers:
+            timer.tick(step)
         self.bus.deliver()
         for node in self._nodes:
             node.tick()
         self.bus.deliver()
 
-    def _move_vehicles(self) -> None:
+    def _drift(self) -> None:
+        """Carry kinematic vehicles with the water: ``p += v dt``, as the original does."""
+        if self._current is None and not self._scene.ocean_state.currents:
+            return
+        localized_from_world = self.world_from_localized.inverse()
+        for index, vehicle in enumerate(self._scene.vehicles):
+            world_from_base = self._state.vehicle_pose(index)
+            point = localized_from_world.transform(world_from_base.position[None])  # (1, 3) [m]
+            velocity = self._flow.velocity(point, self.time, (vehicle.name,))[0]  # (3,) [m/s]
+            moved = self.world_from_localized.transform(point + velocity * self._timestep)[0]
+            self._state.place_vehicle(index, Pose(moved, world_from_base.rotation))
+
+    def _sway(self) -> None:
         for index, vehicle in self._swaying:
             localized_from_base = vehicle.localized_from_base_at(self.time)
             self._state.place_vehicle(index, self.world_from_localized @ localized_from_base)
@@ -193,6 +220,14 @@ class Simulation:
     def body(self, name: str) -> SceneBody:
         """Find a vehicle, link or object by its route (see `name_bodies`)."""
         return find_body(name, self._bodies)
+
+    def contacts(self, name: str) -> Sequence[Contact]:
+        """Where a vehicle or object touches others now.
+
+        Raises:
+            UwsimError: always: contacts are not simulated yet.
+        """
+        raise UwsimError(f"Contacts of {name!r} are asked for; contacts are not simulated yet.")
 
     def camera(self, name: str) -> VirtualCamera:
         """Find a virtual camera."""
@@ -316,3 +351,23 @@ class Simulation:
             if 0 <= number < len(joints):
                 joints[number] = value
         self._state.set_joints(index, joints)
+
+    def set_current(self, current: Flow | None) -> None:
+        """Let the water move so, besides the scene's own currents; None: no more."""
+        self._current = current
+        if current is None:
+            self._flow = self._scene_current
+        else:
+            self._flow = TotalCurrent([self._scene_current, current])
+
+    def put_back(self, vehicle: str) -> None:
+        """Put a vehicle where the scene put it, at rest."""
+        index = self._vehicle(vehicle)
+        localized_from_base = self._scene.vehicles[index].localized_from_base
+        self._state.place_vehicle(index, self.world_from_localized @ localized_from_base)
+
+    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
+        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
+        timer = SampleTimer(self.bus.step, rate, self._timestep, call)
+        self._timers.append(timer)
+        return lambda: self._timers.remove(timer) if timer in self._timers else None
