@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean
+from .control import PI, P
 from .direct import Esm, InverseCompositional, SsdEsm
 from .ecc import Ecc
 from .frozen import Frozen
@@ -21,6 +22,8 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "frozen": Frozen,
     "ic": InverseCompositional,
     "orb": Orb,
+    "p": P,
+    "pi": PI,
     "ssd-esm": SsdEsm,
 }
 

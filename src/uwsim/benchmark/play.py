@@ -28,8 +28,10 @@ from .updaters import (
     apply_level,
     bind_updaters,
     blend,
+    calm,
     initial_level,
     interval,
+    ramp_level,
 )
 
 STATUS_TOPIC = "algorithmStatus"
@@ -208,11 +210,14 @@ def _play(plan: Plan, unit: Unit, simulation: Simulation) -> Iterator[Row | Unit
             raise NeverStarted(_never(benchmark.start_on, plan, node, simulation.time))
         simulation.advance()
     notes: dict[str, None] = {}
+    before: Level | None = None
     for level in unit.levels:
         if unit.is_alone:
             _prelude(plan, level, simulation, updaters)
-        apply_level(updaters, level)
-        yield _play_level(plan, level, simulation, verdict, expression, notes)
+        apply_level(updaters, level, after=before)
+        still = calm(benchmark.scene_updater, level, after=before)
+        before = level
+        yield _play_level(plan, level, still, simulation, verdict, expression, notes)
     yield UnitEnd(
         facts=facts,
         parameters=dict(getattr(algorithm, "parameters", plan.parameters)),
@@ -235,7 +240,7 @@ def _prelude(
         simulation.advance()
         _tick(measures)
     for i in range(1, ramp + 1):
-        apply_level(updaters, blend(plan.benchmark.scene_updater, level, i / ramp))
+        ramp_level(updaters, blend(plan.benchmark.scene_updater, level, i / ramp))
         simulation.advance()
     for gated in measures:
         gated.close()
@@ -244,18 +249,25 @@ def _prelude(
 def _play_level(
     plan: Plan,
     level: Level,
+    still: float,
     simulation: Simulation,
     verdict: Verdict,
     expression: Expression,
     notes: dict[str, None],
 ) -> Row:
-    """Play one level, with triggers and measures that have seen nothing before."""
+    """Play one level, with triggers and measures that have seen nothing before.
+
+    Its first ``still`` seconds are not measured.
+    """
     benchmark = plan.benchmark
+    for _ in range(round(still / plan.timestep)):
+        simulation.advance()
+        verdict.listen(simulation.time)
     began = simulation.step
     stop = benchmark.stop_on.bind(simulation)
     measures = [Gated(spec, simulation) for spec in benchmark.measures]
     length = interval(benchmark.scene_updater)
-    n_steps = round((LONGEST_TASK if length is None else length) / plan.timestep)
+    n_steps = round((LONGEST_TASK if length is None else length - still) / plan.timestep)
     stopped = False
     _tick(measures)
     verdict.listen(simulation.time)
@@ -326,6 +338,7 @@ def _row(
             missing[name] = (why if blank else measure.why) or "nothing to measure"
         for detail, value in measure.details.items():
             unit = "1" if detail.split(".")[-1] == "n" else measure.unit
+            unit = measure.detail_units.get(detail, unit)
             details[f"{name}.{detail}"] = (None if blank else value, unit)
     total = None if status != "ok" else expression.evaluate(values)
     if total is None:

@@ -1,8 +1,8 @@
-"""From a scene to a MuJoCo model: bodies and joints.
+"""From a scene to a MuJoCo model: bodies, joints and, for vehicles with ``u:dynamics``, water.
 
-Every vehicle becomes a free body with its links as a tree of hinges and slides; every object a
-free body. Kinematic vehicles and fixed objects are placed, not simulated: the model then serves
-for forward kinematics only. Not modelled yet: mass, contact, hydrodynamics.
+Every vehicle becomes a free body with its links as a tree of hinges and slides; objects stand
+fixed. A vehicle without ``u:dynamics`` is placed, not simulated. The joints of one that is
+simulated are held by servos. Not modelled yet: contacts, loose objects.
 """
 
 from __future__ import annotations
@@ -10,10 +10,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import mujoco
+import numpy as np
 
-from ..geometry import Pose, quaternion_from_rotation
+from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..scene.spec import SceneSpec
-from ..scene.urdf import JointSpec, RobotSpec
+from ..scene.urdf import LinkSpec, RobotSpec
+from .hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics, prepare
+
+GRAVITY = 9.81
+"""[m/s2]"""
+LEAST_MASS = 0.01
+"""Of a link whose URDF gives none [kg]."""
+LEAST_INERTIA = 1e-4
+"""Of a link whose URDF gives none [kg m2]."""
+SERVO = (400.0, 60.0)
+"""Stiffness [N m/rad or N/m] and damping of the servo that holds a joint."""
 
 
 def vehicle_body(index: int, link: str) -> str:
@@ -26,46 +37,82 @@ def vehicle_joint(index: int, joint: str) -> str:
     return f"vehicle/{index}/joint/{joint}"
 
 
+def vehicle_thruster(index: int, thruster: str) -> str:
+    """Name in the model of a thruster of the vehicle number ``index``."""
+    return f"vehicle/{index}/thruster/{thruster}"
+
+
 def object_body(index: int) -> str:
     """Name in the model of the object number ``index``."""
     return f"object/{index}"
 
 
-def compile_scene(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> mujoco.MjModel:
+def compile_scene(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    dynamics: Mapping[int, VehicleHydrodynamics],
+    timestep: float,
+) -> mujoco.MjModel:
     """Build the MuJoCo model of a scene.
 
     Args:
         scene: what the file says.
         robots: the robot of each vehicle, by its number in the scene.
+        dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
+        timestep: length of a step [s].
+
+    Raises:
+        BadHydrodynamics: with every fault.
     """
     spec = mujoco.MjSpec()
-    spec.option.gravity = [0.0, 0.0, 0.0]
+    spec.option.timestep = timestep
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.gravity = [0.0, 0.0, -GRAVITY if dynamics else 0.0]
     world_from_localized = scene.world_from_localized
     for index, vehicle in enumerate(scene.vehicles):
+        robot = robots[index]
+        links = {link.name: link for link in robot.links}
+        is_dynamic = index in dynamics
         base = _add_body(
             spec.worldbody,
-            vehicle_body(index, robots[index].root),
+            vehicle_body(index, robot.root),
             world_from_localized @ vehicle.localized_from_base,
+            links[robot.root] if is_dynamic else None,
         )
         base.add_freejoint(name=vehicle_joint(index, ""))
-        _add_children(base, robots[index], robots[index].root, index)
+        _add_children(spec, base, robot, robot.root, index, links if is_dynamic else {})
     for index, thing in enumerate(scene.objects):
-        body = _add_body(
-            spec.worldbody, object_body(index), world_from_localized @ thing.localized_from_object
+        _add_body(
+            spec.worldbody,
+            object_body(index),
+            world_from_localized @ thing.localized_from_object,
+            None,
         )
-        body.add_freejoint(name=f"{object_body(index)}/joint")
+    if dynamics:
+        _add_water(spec, scene, dynamics)
     return spec.compile()
 
 
-def _add_children(body: mujoco.MjsBody, robot: RobotSpec, link: str, index: int) -> None:
+def _add_children(
+    spec: mujoco.MjSpec,
+    body: mujoco.MjsBody,
+    robot: RobotSpec,
+    link: str,
+    index: int,
+    links: Mapping[str, LinkSpec],
+) -> None:
+    """Hang the children of a link on its body; ``links`` is empty for a kinematic vehicle."""
     for joint in robot.joints:
         if joint.parent != link:
             continue
         parent_from_child = Pose.from_rpy(joint.position, joint.rpy)
-        child = _add_body(body, vehicle_body(index, joint.child), parent_from_child)
-        if _moves(joint):
+        child = _add_body(
+            body, vehicle_body(index, joint.child), parent_from_child, links.get(joint.child)
+        )
+        if joint.moves:
+            name = vehicle_joint(index, joint.name)
             child.add_joint(
-                name=vehicle_joint(index, joint.name),
+                name=name,
                 type=(
                     mujoco.mjtJoint.mjJNT_SLIDE
                     if joint.kind == "prismatic"
@@ -73,18 +120,59 @@ def _add_children(body: mujoco.MjsBody, robot: RobotSpec, link: str, index: int)
                 ),
                 axis=list(joint.axis),
             )
-        _add_children(child, robot, joint.child, index)
+            if links:
+                _add_servo(spec, name)
+        _add_children(spec, child, robot, joint.child, index, links)
 
 
-def _add_body(parent: mujoco.MjsBody, name: str, parent_from_body: Pose) -> mujoco.MjsBody:
-    return parent.add_body(
+def _add_servo(spec: mujoco.MjSpec, joint: str) -> None:
+    stiffness, damping = SERVO
+    servo = spec.add_actuator(
+        name=f"{joint}/servo", target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT
+    )
+    servo.set_to_position(kp=stiffness, kv=damping)
+
+
+def _add_water(
+    spec: mujoco.MjSpec, scene: SceneSpec, dynamics: Mapping[int, VehicleHydrodynamics]
+) -> None:
+    bodies: dict[str, BodyHydrodynamics] = {}
+    thrusters: dict[str, tuple[str, ThrusterSpec]] = {}
+    for index, vehicle in dynamics.items():
+        for body in vehicle.bodies:
+            bodies[vehicle_body(index, body.link)] = body
+        for thruster in vehicle.thrusters:
+            link = vehicle_body(index, thruster.link)
+            thrusters[vehicle_thruster(index, thruster.name)] = (link, thruster)
+    density = next(iter(dynamics.values())).density
+    surface = scene.ocean_state.ocean_surface_height
+    prepare(spec, bodies, thrusters, surface=surface, density=density)
+
+
+def _add_body(
+    parent: mujoco.MjsBody, name: str, parent_from_body: Pose, link: LinkSpec | None
+) -> mujoco.MjsBody:
+    """Add a body; with a ``link`` its mass is the URDF's, without it stands for a pose alone."""
+    mass, inertia = (1.0, 1.0) if link is None else (LEAST_MASS, LEAST_INERTIA)
+    body = parent.add_body(
         name=name,
         pos=parent_from_body.position.tolist(),
         quat=quaternion_from_rotation(parent_from_body.rotation).tolist(),
-        mass=1.0,
-        inertia=[1.0, 1.0, 1.0],
+        mass=mass,
+        inertia=[inertia] * 3,
+        ipos=[0.0, 0.0, 0.0],  # else MuJoCo takes the body's place for its centre of mass
     )
-
-
-def _moves(joint: JointSpec) -> bool:
-    return joint.kind in ("revolute", "continuous", "prismatic")
+    body.explicitinertial = True
+    if link is None:
+        body.gravcomp = 1.0
+    elif link.mass > 0.0:
+        body.mass = link.mass
+        body.ipos = list(link.centre_of_mass)
+        xx, yy, zz, xy, xz, yz = link.inertia
+        if min(xx, yy, zz) > 0.0:
+            own = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            turn = rotation_from_rpy(*link.inertia_rpy)
+            turned = turn @ own @ turn.T
+            body.fullinertia = [*np.diag(turned), turned[0, 1], turned[0, 2], turned[1, 2]]
+            body.inertia = [0.0, 0.0, 0.0]
+    return body

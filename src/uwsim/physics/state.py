@@ -7,25 +7,44 @@ from collections.abc import Mapping
 import mujoco
 import numpy as np
 
-from ..geometry import Pose, quaternion_from_rotation
+from ..geometry import Array, Pose, quaternion_from_rotation
 from ..scene.kinematics import joint_positions
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
-from .compile import compile_scene, object_body, vehicle_body, vehicle_joint
+from .autopilot import Autopilot
+from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
+from .hydrodynamics import Hydrodynamics, VehicleHydrodynamics, install
+
+PILOT_PERIOD = 0.02
+"""An autopilot thinks this often [s]."""
 
 
 class State:
-    """Where every link and object of a scene is.
+    """Where every link and object of a scene is, and how it moves.
 
     Joint vectors hold the movable, non-mimic joints in UWSim's order; mimic joints follow.
+    Vehicles with hydrodynamics are simulated, the others stay where they are put.
     """
 
-    def __init__(self, scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> None:
-        self._model = compile_scene(scene, robots)
+    def __init__(
+        self,
+        scene: SceneSpec,
+        robots: Mapping[int, RobotSpec],
+        dynamics: Mapping[int, VehicleHydrodynamics],
+        timestep: float,
+    ) -> None:
+        self._model = compile_scene(scene, robots, dynamics, timestep)
         self._data = mujoco.MjData(self._model)
         self._robots = robots
-        self._joints: dict[int, np.ndarray] = {}
+        self._dynamics = dynamics
+        self._timestep = timestep
+        self._joints: dict[int, Array] = {}
         self._is_stale = True
+        self._n_steps = 0
+        self._pilot_steps = max(1, round(PILOT_PERIOD / timestep))
+        self._water: Hydrodynamics | None = install(self._model) if dynamics else None
+        self._over_ground = {i: scene.vehicles[i].velocity_loop == "ground" for i in dynamics}
+        self._kinematic = [i for i in robots if i not in dynamics]
         self.version = 0
         """Grows whenever something was moved."""
         for index, vehicle in enumerate(scene.vehicles):
@@ -34,28 +53,106 @@ class State:
             given = vehicle.joint_values[:n_joints]
             values[: len(given)] = given
             self.set_joints(index, values)
+        self._pilots = {i: self._make_pilot(i) for i in dynamics}
+        self._thrusters = {
+            i: [
+                self._water.thruster(vehicle_thruster(i, thruster.name))
+                for thruster in dynamics[i].thrusters
+            ]
+            for i in dynamics
+            if self._water is not None
+        }
+
+    @property
+    def is_dynamic(self) -> bool:
+        """Whether anything is simulated."""
+        return self._water is not None
+
+    def is_simulated(self, index: int) -> bool:
+        """Whether a vehicle is moved by forces."""
+        return index in self._dynamics
+
+    def body_positions(self) -> Array:
+        """Return where the bodies of the model are, in W, (nbody, 3) [m]."""
+        self._refresh()
+        return np.array(self._data.xpos)
+
+    def body_vehicles(self) -> tuple[int | None, ...]:
+        """Return the number of the vehicle that each body of the model belongs to."""
+        numbers: list[int | None] = []
+        for i in range(self._model.nbody):
+            parts = self._model.body(i).name.split("/")
+            numbers.append(int(parts[1]) if parts[0] == "vehicle" else None)
+        return tuple(numbers)
+
+    def step(self, velocity: Array, acceleration: Array) -> None:
+        """Let the forces act for one step.
+
+        Args:
+            velocity: of the water at each body, in W, (nbody, 3) [m/s].
+            acceleration: of the water there, in W, (nbody, 3) [m/s2].
+        """
+        if self._water is None:
+            return
+        self._water.set_current(self._data, velocity, acceleration)
+        if self._n_steps % self._pilot_steps == 0:
+            for index, pilot in self._pilots.items():
+                self._fly(index, pilot, velocity)
+        before = {i: self._free(i).copy() for i in self._kinematic}
+        self._water.step(self._data)
+        for index, pose in before.items():
+            self._free(index)[:] = pose
+            self._free_velocity(index)[:] = 0.0
+        self._n_steps += 1
+        self._moved()
+
+    def command(self, index: int, linear: Array, angular: Array) -> None:
+        """Give a simulated vehicle's autopilot a twist, base frame [m/s, rad/s]."""
+        self._pilots[index].command(linear.tolist(), angular.tolist())
 
     def vehicle_pose(self, index: int) -> Pose:
         """Return ``world_from_base`` of a vehicle."""
-        return self._free_pose(vehicle_joint(index, ""))
+        qpos = self._free(index).copy()
+        return Pose.from_quaternion(qpos[:3], qpos[3:])
+
+    def vehicle_velocity(self, index: int) -> Array:
+        """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
+        qvel = self._free_velocity(index)
+        rotation = self.vehicle_pose(index).rotation
+        return np.concatenate([rotation.T @ qvel[:3], qvel[3:]])
 
     def place_vehicle(self, index: int, world_from_base: Pose) -> None:
-        """Put a vehicle somewhere."""
-        self._place_free(vehicle_joint(index, ""), world_from_base)
+        """Put a vehicle somewhere, at rest."""
+        qpos = self._free(index)
+        qpos[:3] = world_from_base.position
+        qpos[3:] = quaternion_from_rotation(world_from_base.rotation)
+        if index in self._dynamics:
+            self._free_velocity(index)[:] = 0.0
+            for thruster in self._thrusters[index]:
+                self._stop_thruster(thruster)
+            self._pilots[index].hold(world_from_base)
+        self._moved()
 
-    def joints(self, index: int) -> np.ndarray:
+    def joints(self, index: int) -> Array:
         """Return a copy of the joint vector of a vehicle, (n,) [rad or m]."""
         return self._joints[index].copy()
 
-    def set_joints(self, index: int, values: np.ndarray) -> None:
-        """Set the joint vector of a vehicle (n,) [rad or m]; clamped to the limits."""
+    def set_joints(self, index: int, values: Array) -> None:
+        """Set the joint vector of a vehicle (n,) [rad or m]; clamped to the limits.
+
+        A simulated vehicle's servos hold the joints there from now on.
+        """
         positions = joint_positions(self._robots[index], values.tolist())
         self._joints[index] = np.array(
             [positions[joint.name] for joint in self._robots[index].movable]
         )
         for name, value in positions.items():
-            address = self._model.joint(vehicle_joint(index, name)).qposadr[0]
-            self._data.qpos[address] = value
+            joint = self._model.joint(vehicle_joint(index, name))
+            self._data.qpos[joint.qposadr[0]] = value
+            if index in self._dynamics:
+                self._data.qvel[joint.dofadr[0]] = 0.0
+                servo = self._model.actuator(f"{vehicle_joint(index, name)}/servo").id
+                self._data.ctrl[self._model.actuator_ctrladr[servo]] = value
         self._moved()
 
     def link_pose(self, index: int, link: str) -> Pose:
@@ -66,30 +163,53 @@ class State:
         """Return ``world_from_object`` (before its offsets and its scale)."""
         return self._body_pose(object_body(index))
 
-    def place_object(self, index: int, world_from_object: Pose) -> None:
-        """Put an object somewhere."""
-        self._place_free(f"{object_body(index)}/joint", world_from_object)
+    def _make_pilot(self, index: int) -> Autopilot:
+        base = self._model.body(vehicle_body(index, self._robots[index].root)).id
+        mass = float(self._model.body_subtreemass[base])
+        pilot = Autopilot(self._dynamics[index], self._robots[index].root, mass)
+        pilot.hold(self.vehicle_pose(index))
+        return pilot
 
-    def _free_pose(self, joint: str) -> Pose:
-        address = self._model.joint(joint).qposadr[0]
-        qpos = self._data.qpos[address : address + 7].copy()
-        return Pose.from_quaternion(qpos[:3], qpos[3:])
+    def _fly(self, index: int, pilot: Autopilot, velocity: Array) -> None:
+        """Let an autopilot think and set its thrusters."""
+        assert self._water is not None
+        twist = self.vehicle_velocity(index)
+        pose = self.vehicle_pose(index)
+        if not self._over_ground[index]:
+            base = self._model.body(vehicle_body(index, self._robots[index].root)).id
+            twist[:3] -= pose.rotation.T @ velocity[base]
+        commands = pilot.thrust(pose, twist, self._pilot_steps * self._timestep)
+        for thruster, command in zip(self._thrusters[index], commands, strict=True):
+            self._water.set_thruster(self._data, thruster, float(command))
 
-    def _place_free(self, joint: str, world_from_body: Pose) -> None:
-        address = self._model.joint(joint).qposadr[0]
-        self._data.qpos[address : address + 3] = world_from_body.position
-        self._data.qpos[address + 3 : address + 7] = quaternion_from_rotation(
-            world_from_body.rotation
-        )
-        self._moved()
+    def _stop_thruster(self, thruster: int) -> None:
+        assert self._water is not None
+        self._water.set_thruster(self._data, thruster, 0.0)
+        actuator = self._water.thrusters[thruster]
+        address = int(self._model.actuator_actadr[actuator])
+        if address >= 0:
+            self._data.act[address] = 0.0
+
+    def _free(self, index: int) -> Array:
+        address = self._model.joint(vehicle_joint(index, "")).qposadr[0]
+        view: Array = self._data.qpos[address : address + 7]
+        return view
+
+    def _free_velocity(self, index: int) -> Array:
+        address = self._model.joint(vehicle_joint(index, "")).dofadr[0]
+        view: Array = self._data.qvel[address : address + 6]
+        return view
 
     def _moved(self) -> None:
         self._is_stale = True
         self.version += 1
 
-    def _body_pose(self, name: str) -> Pose:
+    def _refresh(self) -> None:
         if self._is_stale:
             mujoco.mj_kinematics(self._model, self._data)
             self._is_stale = False
+
+    def _body_pose(self, name: str) -> Pose:
+        self._refresh()
         body = self._data.body(name)
         return Pose(np.array(body.xpos), np.array(body.xmat).reshape(3, 3))

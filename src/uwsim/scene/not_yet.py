@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ..dialect import NAMESPACE, Faults
+from ..dialect import Faults
 from .ros_interfaces import INTERFACES
 
 WAVES = (
@@ -47,7 +47,6 @@ NOT_YET: dict[tuple[str, str], str] = {
     ("UWSimScene", "AcousticCommsChannel"): "communication",
     ("vehicle", "CustomCommsDevice"): "communication",
     ("vehicle", "AcousticCommsDevice"): "communication",
-    ("vehicle", f"{{{NAMESPACE}}}dynamics"): "u:dynamics",
     ("virtualCamera", "showpath"): "showpath",
     **{
         ("vehicle", name): name

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from typing import Literal
 
 from ..currents import CURRENTS, CurrentSpec
 from ..devices.comms import (
@@ -275,6 +276,8 @@ class VehicleSpec:
     dynamics: str | None = element(namespaced=True, default=None)
     """Name of the hydrodynamic model, for example g500_physical; without it the vehicle is moved
     by commands alone."""
+    velocity_loop: Literal["water", "ground"] = element(namespaced=True, default="water")
+    """What the velocity loop of a simulated vehicle measures its speed against."""
     sways: tuple[SwaySpec, ...] = element("sway", namespaced=True, default=())
     """Sinusoids about its place, for a vehicle that nobody steers."""
 

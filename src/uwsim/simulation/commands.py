@@ -1,4 +1,4 @@
-"""Commands from topics to vehicles that are moved, not driven: the original's kinematics.
+"""Commands from topics to vehicles: the original's kinematics, or an autopilot.
 
 =====================  ===========================  =============================================
 interface              message                      effect
@@ -12,8 +12,10 @@ ROSJointStateToArm     sensor_msgs/JointState       positions, else one step of 
 
 A velocity is not held: each message moves the vehicle by the time since the one before on its
 interface (nothing for the first, or after more than 1 s). Joints are clamped to their limits. Time
-is simulation time, where the original took the wall's. Not modelled: that a joint command which
-would touch something is refused.
+is simulation time, where the original took the wall's. A vehicle that is simulated
+(``u:dynamics``) hands a twist to its autopilot, which holds it until the next
+(`uwsim.physics.autopilot`). Not modelled: that a joint command which would touch something is
+refused.
 """
 
 from __future__ import annotations
@@ -114,6 +116,9 @@ class Commands:
 
     def _push(self, vehicle: int, twist: Twist, time: float) -> None:
         v, w = twist.linear, twist.angular
+        if self._state.is_simulated(vehicle):
+            self._state.command(vehicle, np.array([v.x, v.y, v.z]), np.array([w.x, w.y, w.z]))
+            return
         before_from_after = Pose(
             np.array([v.x, v.y, v.z]) * time,
             rotation_from_xyz(w.x * time, w.y * time, w.z * time),

@@ -34,7 +34,7 @@ from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import Contact, Flow
-from .bodies import SceneBody, find_body, find_file, name_bodies, read_robots
+from .bodies import SceneBody, find_body, find_file, name_bodies, read_dynamics, read_robots
 from .commands import Commands
 from .image_publisher import ImagePublisher, SampleTimer
 from .node import InProcessNode
@@ -79,7 +79,7 @@ class Simulation:
         """Topics and services of this simulation."""
         self.robots = read_robots(scene, data_path)
         """The robot of each vehicle, by its number in the scene."""
-        self._state = State(scene, self.robots)
+        self._state = State(scene, self.robots, read_dynamics(scene, self.robots), timestep)
         self._scenery = Scenery(scene, self.robots, self._state, data_path=data_path)
         self._bodies = name_bodies(scene, self.robots, self._state, self._scenery.parts)
         self._water = Water(
@@ -101,6 +101,9 @@ class Simulation:
         self._flow: Flow = self._scene_current
         self._current: Flow | None = None
         self._timers: list[SampleTimer] = []
+        self._body_names = tuple(
+            "" if i is None else scene.vehicles[i].name for i in self._state.body_vehicles()
+        )
         self._swaying = [(i, v) for i, v in enumerate(scene.vehicles) if v.sways]
         robots = [self.robots[i] for i in range(len(scene.vehicles))]
         self._commands = Commands(scene, robots, self._state, self.bus, timestep)
@@ -147,6 +150,7 @@ class Simulation:
         self.bus.step += 1
         self._commands.carry_out()
         self._drift()
+        self._push()
         self._sway()
         self._tail()
 
@@ -168,11 +172,25 @@ class Simulation:
             return
         localized_from_world = self.world_from_localized.inverse()
         for index, vehicle in enumerate(self._scene.vehicles):
+            if self._state.is_simulated(index):
+                continue
             world_from_base = self._state.vehicle_pose(index)
             point = localized_from_world.transform(world_from_base.position[None])  # (1, 3) [m]
             velocity = self._flow.velocity(point, self.time, (vehicle.name,))[0]  # (3,) [m/s]
             moved = self.world_from_localized.transform(point + velocity * self._timestep)[0]
             self._state.place_vehicle(index, Pose(moved, world_from_base.rotation))
+
+    def _push(self) -> None:
+        """Let the forces act on what is simulated, in the water as it moves now."""
+        if not self._state.is_dynamic:
+            return
+        world_from_localized = self.world_from_localized
+        points = world_from_localized.inverse().transform(self._state.body_positions())
+        time = self.time - self._timestep
+        velocity = self._flow.velocity(points, time, self._body_names)
+        acceleration = self._flow.acceleration(points, time, self._body_names)
+        turn = world_from_localized.rotation.T
+        self._state.step(velocity @ turn, acceleration @ turn)
 
     def _sway(self) -> None:
         for index, vehicle in self._swaying:

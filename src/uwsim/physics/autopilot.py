@@ -1,0 +1,157 @@
+r"""Autopilot: what a vehicle's own electronics do with a twist command.
+
+*Velocity.* Each of surge, sway, heave and yaw has a loop on the velocity relative to the water
+(what a vehicle without bottom lock can know), or to the ground:
+
+.. math:: \tau = M k_v (\nu_d - \nu) + k_i \int (\nu_d - \nu)\,dt + D(\nu_d)
+
+with M the mass and added mass and D the drag at the wanted velocity, so that a loop without drag
+errors follows with the time constant :math:`1/k_v`. *Depth and heading* are held where the last
+command left them: their loops wish for a heave or yaw rate in proportion to the error. *Pitch and
+roll* are damped and righted as far as the thrusters reach. Forces are shared out by least squares
+and turned into commands by the thrusters' own curves.
+
+The autopilot knows the true state. Not modelled: noise and delay of its sensors.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry import Array, Pose
+from .hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
+
+AXES = (0, 1, 2, 4, 5)
+"""Surge, sway, heave, pitch and yaw: what thrusters usually reach."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gains:
+    """How hard the loops pull."""
+
+    velocity: float = 4.0
+    """k_v [1/s]."""
+    integral: float = 1.0
+    """k_i, per mass [1/s2]."""
+    depth: float = 0.6
+    """Heave wished for per depth error [1/s]."""
+    heading: float = 0.8
+    """Yaw rate wished for per heading error [1/s]."""
+    righting: float = 4.0
+    """Angular acceleration per pitch angle [1/s2]."""
+
+
+class Autopilot:
+    """Velocity loops, depth and heading hold of one vehicle."""
+
+    def __init__(
+        self, vehicle: VehicleHydrodynamics, link: str, mass: float, gains: Gains | None = None
+    ) -> None:
+        """Prepare the loops of a vehicle.
+
+        Args:
+            vehicle: its hydrodynamics.
+            link: its base.
+            mass: of the whole vehicle with its arm [kg].
+            gains: how hard the loops pull.
+        """
+        body = vehicle.body(link)
+        self._gains = gains or Gains()
+        added = matrix(body.added_mass) if body else np.zeros((6, 6))
+        own = [mass, mass, mass, *(body.inertia[:3] if body and body.inertia else (1.0,) * 3)]
+        self._mass = np.array(own) + np.diag(added)  # (6,) [kg, kg m2]
+        self._linear = np.diag(matrix(body.linear_damping)) if body else np.zeros(6)
+        self._quadratic = np.diag(matrix(body.quadratic_damping)) if body else np.zeros(6)
+        self._reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
+        allocation = np.array([_column(t, self._reference) for t in vehicle.thrusters]).T  # (6, n)
+        reached = allocation[list(AXES)]
+        self._share = np.linalg.pinv(reached, rcond=1e-6)  # (n, 5): [N per N or N m]
+        self._curves = [_curve(thruster) for thruster in vehicle.thrusters]
+        self._wanted = np.zeros(6)  # [m/s, rad/s]
+        self._integral = np.zeros(6)
+
+    def hold(self, world_from_base: Pose) -> None:
+        """Hold depth and heading here, at rest, and forget the past."""
+        self._wanted[:] = 0.0
+        self._integral[:] = 0.0
+        self._height = float(world_from_base.position[2])
+        self._heading = world_from_base.rotation.copy()
+
+    def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
+        """Take a twist [m/s, rad/s] in the base frame; it is held until the next."""
+        self._wanted[:] = [*linear, *angular]
+
+    def thrust(self, world_from_base: Pose, velocity: Array, dt: float) -> Array:
+        """Return the commands of the thrusters, (n,) [1].
+
+        Args:
+            world_from_base: where the base is.
+            velocity: of the base, relative to water or ground, base axes, (6,) [m/s, rad/s].
+            dt: time since the last call [s].
+        """
+        base_from_world = world_from_base.rotation.T
+        wanted = self._wanted.copy()
+        self._steer(world_from_base, wanted, base_from_world, dt)
+        lever = np.cross(velocity[3:], self._reference)
+        error = wanted - np.concatenate([velocity[:3] + lever, velocity[3:]])
+        error[3:5] = -velocity[3:5]
+        self._integral += error * dt
+        self._integral[3:5] = 0.0
+        gains = self._gains
+        tau = self._mass * (gains.velocity * error + gains.integral * self._integral)
+        tau += self._linear * wanted + self._quadratic * np.abs(wanted) * wanted
+        up = base_from_world[:, 2]  # W's z in base axes
+        tilt = math.atan2(up[0], -up[2]) if up[2] < 0.0 else -math.atan2(up[0], up[2])
+        tau[4] += self._mass[4] * gains.righting * tilt
+        forces = self._share @ tau[list(AXES)]
+        return np.array(
+            [
+                np.interp(force, thrusts, commands)
+                for force, (thrusts, commands) in zip(forces, self._curves, strict=True)
+            ]
+        )
+
+    def _steer(
+        self, world_from_base: Pose, wanted: Array, base_from_world: Array, dt: float
+    ) -> None:
+        """Add the heave and yaw rate that lead back to depth and heading; move those if asked."""
+        up = base_from_world[2, 2]  # how much of W's z lies along the base's z: +-1 when level
+        self._height += self._wanted[2] * up * dt
+        rate = self._wanted[5] * dt
+        turn = np.array(
+            [
+                [math.cos(rate), -math.sin(rate), 0.0],
+                [math.sin(rate), math.cos(rate), 0.0],
+                [0.0, 0.0, 1.0],
+            ]
+        )
+        self._heading = self._heading @ turn
+        climb = self._gains.depth * (self._height - float(world_from_base.position[2]))
+        wanted[2] += min(max(climb, -0.3), 0.3) * up
+        off = base_from_world @ self._heading  # base_from_wanted
+        wanted[5] += self._gains.heading * math.atan2(off[1, 0], off[0, 0])
+
+
+def _column(thruster: ThrusterSpec, reference: Array) -> Array:
+    """Force and moment about the reference of one newton of a thruster, (6,)."""
+    direction = np.array(thruster.direction, dtype=np.float64)
+    direction /= np.linalg.norm(direction)
+    arm = np.array(thruster.position) - reference
+    return np.concatenate([direction, np.cross(arm, direction)])
+
+
+def _curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
+    """Thrust [N] and the command that gives it [1], both rising."""
+    commands = np.linspace(*thruster.limits, 401)
+    backward = thruster.forward if thruster.backward is None else thruster.backward
+    thrusts = []
+    for command in commands:
+        size = max(0.0, abs(command) - thruster.dead_zone)
+        numbers = thruster.forward if command > 0.0 else backward
+        force = sum(c * size ** (i + 1) for i, c in enumerate(numbers))
+        thrusts.append(math.copysign(force, command))
+    return np.maximum.accumulate(np.array(thrusts)), commands

@@ -1,0 +1,123 @@
+"""A simulated Girona 500 under its autopilot, in still and in moving water."""
+
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uwsim.currents import ConstantSpec, Place
+from uwsim.messages import Twist, TwistStamped, Vector3, header
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
+
+SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
+
+
+def make(velocity_loop: str = "water") -> Simulation:
+    scene = read_scene(SCENE)
+    vehicle = replace(scene.vehicles[0], velocity_loop=velocity_loop, virtual_cameras=())
+    simulation = Simulation(
+        replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=scene.ros_interfaces[1:])
+    )
+    simulation.open()
+    return simulation
+
+
+def run(simulation: Simulation, seconds: float) -> None:
+    for _ in range(round(seconds / simulation.timestep)):
+        simulation.advance()
+
+
+def position(simulation: Simulation) -> np.ndarray:
+    world = simulation.body("girona500").world_from_body
+    return (simulation.world_from_localized.inverse() @ world).position
+
+
+def heading_deg(simulation: Simulation) -> float:
+    world = simulation.body("girona500").world_from_body
+    rotation = (simulation.world_from_localized.inverse() @ world).rotation
+    return float(np.degrees(np.arctan2(rotation[1, 0], rotation[0, 0])))
+
+
+def set_current(simulation: Simulation, velocity: tuple[float, float, float]) -> None:
+    place = Place(stream=simulation.stream)
+    simulation.set_current(ConstantSpec(velocity=velocity).bind(place))
+
+
+def command(simulation: Simulation, surge: float, sway: float) -> None:
+    zero = Vector3(x=0.0, y=0.0, z=0.0)
+    twist = Twist(linear=Vector3(x=surge, y=sway, z=0.0), angular=zero)
+    simulation.bus.publisher("/dataNavigator", TwistStamped)(
+        TwistStamped(header=header(0.0), twist=twist)
+    )
+
+
+def test_in_still_water_it_stays_where_it_is() -> None:
+    simulation = make()
+    run(simulation, 10.0)
+    assert position(simulation) == pytest.approx([3.0, 1.5, 1.515], abs=0.01)
+    assert heading_deg(simulation) == pytest.approx(90.0, abs=0.2)
+
+
+def test_without_bottom_lock_it_drifts_with_the_current_and_holds_depth_and_heading() -> None:
+    simulation = make()
+    set_current(simulation, (0.15, -0.1, 0.0))
+    run(simulation, 10.0)
+    before = position(simulation)
+    run(simulation, 5.0)
+    speed = (position(simulation) - before) / 5.0
+    assert speed[:2] == pytest.approx([0.15, -0.1], abs=0.003)
+    assert position(simulation)[2] == pytest.approx(1.515, abs=0.02)
+    assert heading_deg(simulation) == pytest.approx(90.0, abs=1.0)
+
+
+def test_with_bottom_lock_the_current_takes_it_nowhere() -> None:
+    simulation = make("ground")
+    set_current(simulation, (0.15, -0.1, 0.0))
+    run(simulation, 10.0)
+    before = position(simulation)
+    run(simulation, 5.0)
+    assert position(simulation) == pytest.approx(before, abs=0.01)
+
+
+def test_a_twist_is_held_until_the_next_one() -> None:
+    simulation = make()
+    command(simulation, 0.2, 0.1)
+    run(simulation, 10.0)
+    before = position(simulation)
+    run(simulation, 4.0)
+    # the bow points along L's y, starboard along -x
+    assert (position(simulation) - before) / 4.0 == pytest.approx([-0.1, 0.2, 0.0], abs=0.01)
+
+
+def test_a_twist_is_reached_within_a_second() -> None:
+    simulation = make()
+    run(simulation, 2.0)
+    start = position(simulation)
+    command(simulation, 0.2, 0.0)
+    run(simulation, 5.0)
+    lag = 5.0 - (position(simulation)[1] - start[1]) / 0.2  # of a first-order loop: its constant
+    assert 0.0 < lag < 0.5
+
+
+def test_two_runs_are_the_same_to_the_last_bit() -> None:
+    ends = []
+    for _ in range(2):
+        simulation = make()
+        set_current(simulation, (0.1, 0.0, 0.0))
+        command(simulation, -0.1, 0.05)
+        run(simulation, 3.0)
+        ends.append(position(simulation).tobytes())
+    assert ends[0] == ends[1]
+
+
+def test_a_vehicle_that_is_put_back_is_at_rest() -> None:
+    simulation = make()
+    command(simulation, 0.3, 0.0)
+    run(simulation, 5.0)
+    simulation.put_back("girona500")
+    assert position(simulation) == pytest.approx([3.0, 1.5, 1.515])
+    run(simulation, 5.0)
+    assert position(simulation) == pytest.approx([3.0, 1.5, 1.515], abs=0.02)
