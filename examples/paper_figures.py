@@ -20,7 +20,6 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from uwsim.algorithms import ALGORITHMS
 from uwsim.assets.find import find
 from uwsim.assets.mesh import Mesh, Model
 from uwsim.benchmark.figures import (
@@ -42,6 +41,7 @@ from uwsim.simulation import Simulation
 SCENE, CAMERA, SEED = "visibility-scene.xml", "bowtech1", 1
 EYE, TARGET = (-1.8, 3.8, -2.0), (0.1, 1.9, -3.3)  # of the viewer, in W [m]
 PAPER_FOG, PAPER_DISTANCE = 1.1, 1.36  # [1/m], [m]
+TRACKERS = ("ecc", "esm", "frozen", "ic", "orb", "ssd-esm")
 FOGS_OF_DISTANCE = (0.1, 0.25, 0.5, 0.75, 1.05, 2.0)  # [1/m]
 DISTANCES = (0.2, 0.4, 0.6, 0.8, 1.0, 1.36, 1.7, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0)  # [m]
 FOGS = tuple(0.1 * i for i in range(21))  # [1/m]
@@ -186,7 +186,7 @@ def tracker_figures(folder: Path, *, quick: bool) -> None:
     for benchmark in ("visibility", "visibility-moving"):
         results = [
             play(name, folder / f"{benchmark}-{name}.result", quick=quick, benchmark=benchmark)
-            for name in ALGORITHMS
+            for name in TRACKERS
         ]
         save_plot(compare_plot(results, "corners"), folder / f"trackers-{benchmark}.png")
 
