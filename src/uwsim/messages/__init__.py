@@ -65,6 +65,9 @@ from rosbags.typesys.stores.ros2_jazzy import (
     std_msgs__msg__Float32MultiArray as Float32MultiArray,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__Float64MultiArray as Float64MultiArray,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
     std_msgs__msg__Header as Header,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
@@ -86,6 +89,7 @@ __all__ = [
     "Empty",
     "EmptyResponse",
     "Float32MultiArray",
+    "Float64MultiArray",
     "GTpublish",
     "GTpublishResponse",
     "Header",

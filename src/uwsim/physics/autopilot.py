@@ -1,4 +1,6 @@
-r"""Autopilot: what a vehicle's own electronics do with a twist command.
+r"""Autopilot: what a vehicle's own electronics do with a command.
+
+A command is held until the next, of whatever kind; what it takes over begins at the present place.
 
 *Velocity.* Each of surge, sway, heave and yaw has a loop on the velocity relative to the water
 (what a vehicle without bottom lock can know), or to the ground:
@@ -7,7 +9,10 @@ r"""Autopilot: what a vehicle's own electronics do with a twist command.
 
 with M the mass and added mass and D the drag at the wanted velocity, so that a loop without drag
 errors follows with the time constant :math:`1/k_v`. *Depth and heading* are held where the last
-command left them: their loops wish for a heave or yaw rate in proportion to the error. *Pitch and
+command left them: their loops wish for a heave or yaw rate in proportion to the error. *Position*
+hold wishes for a surge and sway in proportion to the error as well, at most 0.5 m/s, over ground:
+who knows where they are know how they move. *Wrench*: shared out, nothing is held. *Thrusters*:
+their commands as they are. *Pitch and
 roll* are damped and righted as far as the thrusters reach. Forces are shared out by least squares
 and turned into commands by the thrusters' own curves.
 
@@ -19,6 +24,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -39,14 +45,21 @@ class Gains:
     """k_i, per mass [1/s2]."""
     depth: float = 0.6
     """Heave wished for per depth error [1/s]."""
+    position: float = 0.4
+    """Surge and sway wished for per position error [1/s]."""
     heading: float = 0.8
     """Yaw rate wished for per heading error [1/s]."""
     righting: float = 4.0
     """Angular acceleration per pitch angle [1/s2]."""
 
 
+FASTEST = 0.5
+"""What position hold wishes for at most [m/s]."""
+Mode = Literal["velocity", "position", "wrench", "thrusters"]
+
+
 class Autopilot:
-    """Velocity loops, depth and heading hold of one vehicle."""
+    """Velocity loops, holding of depth, heading and position of one vehicle."""
 
     def __init__(
         self, vehicle: VehicleHydrodynamics, link: str, mass: float, gains: Gains | None = None
@@ -73,9 +86,20 @@ class Autopilot:
         self._curves = [_curve(thruster) for thruster in vehicle.thrusters]
         self._wanted = np.zeros(6)  # [m/s, rad/s]
         self._integral = np.zeros(6)
+        self._mode: Mode = "velocity"
+        self._takes_over = False  # whether depth and heading are still to be taken from the pose
+        self._target = np.zeros(3)  # position to hold, W [m]
+        self._wrench = np.zeros(6)  # force and moment about the reference [N, N m]
+        self._commands = np.zeros(len(vehicle.thrusters))
+
+    @property
+    def is_over_ground(self) -> bool:
+        """Whether it wants the velocity over ground now, whatever its loop."""
+        return self._mode == "position"
 
     def hold(self, world_from_base: Pose) -> None:
         """Hold depth and heading here, at rest, and forget the past."""
+        self._mode, self._takes_over = "velocity", False
         self._wanted[:] = 0.0
         self._integral[:] = 0.0
         self._height = float(world_from_base.position[2])
@@ -83,7 +107,31 @@ class Autopilot:
 
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Take a twist [m/s, rad/s] in the base frame; it is held until the next."""
+        if self._mode != "velocity":
+            self._mode, self._takes_over = "velocity", True
+            self._integral[:] = 0.0
         self._wanted[:] = [*linear, *angular]
+
+    def go_to(self, world_from_base: Pose) -> None:
+        """Go to a place and its heading, and stay there; roll and pitch are not followed."""
+        if self._mode != "position":
+            self._mode = "position"
+            self._integral[:] = 0.0
+        self._takes_over = False
+        self._wanted[:] = 0.0
+        self._target = world_from_base.position.copy()
+        self._height = float(world_from_base.position[2])
+        self._heading = world_from_base.rotation.copy()
+
+    def push(self, force: Array, torque: Array) -> None:
+        """Share out a force [N] and a torque about the base's origin [N m], base axes."""
+        self._mode = "wrench"
+        self._wrench = np.concatenate([force, torque - np.cross(self._reference, force)])
+
+    def set_thrusters(self, commands: Array) -> None:
+        """Pass the commands of the thrusters on, (n,) [1]."""
+        self._mode = "thrusters"
+        self._commands = commands.copy()
 
     def thrust(self, world_from_base: Pose, velocity: Array, dt: float) -> Array:
         """Return the commands of the thrusters, (n,) [1].
@@ -93,8 +141,21 @@ class Autopilot:
             velocity: of the base, relative to water or ground, base axes, (6,) [m/s, rad/s].
             dt: time since the last call [s].
         """
+        if self._mode == "thrusters":
+            return self._commands
+        if self._mode == "wrench":
+            return self._shared(self._wrench)
+        if self._takes_over:
+            self._takes_over = False
+            self._height = float(world_from_base.position[2])
+            self._heading = world_from_base.rotation.copy()
         base_from_world = world_from_base.rotation.T
         wanted = self._wanted.copy()
+        if self._mode == "position":
+            way = base_from_world @ (self._target - world_from_base.position)  # (3,) [m]
+            way[2] = 0.0
+            wish = self._gains.position * way
+            wanted[:3] += wish * min(1.0, FASTEST / max(float(np.linalg.norm(wish)), 1e-9))
         self._steer(world_from_base, wanted, base_from_world, dt)
         lever = np.cross(velocity[3:], self._reference)
         error = wanted - np.concatenate([velocity[:3] + lever, velocity[3:]])
@@ -107,6 +168,10 @@ class Autopilot:
         up = base_from_world[:, 2]  # W's z in base axes
         tilt = math.atan2(up[0], -up[2]) if up[2] < 0.0 else -math.atan2(up[0], up[2])
         tau[4] += self._mass[4] * gains.righting * tilt
+        return self._shared(tau)
+
+    def _shared(self, tau: Array) -> Array:
+        """The thrusters' commands that come nearest to a force and moment, (n,) [1]."""
         forces = self._share @ tau[list(AXES)]
         return np.array(
             [

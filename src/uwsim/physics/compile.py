@@ -65,6 +65,7 @@ def compile_scene(
         BadHydrodynamics: with every fault.
     """
     spec = mujoco.MjSpec()
+    spec.compiler.degree = False
     spec.option.timestep = timestep
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.gravity = [0.0, 0.0, -GRAVITY if dynamics else 0.0]
@@ -119,6 +120,8 @@ def _add_children(
                     else mujoco.mjtJoint.mjJNT_HINGE
                 ),
                 axis=list(joint.axis),
+                range=[joint.lower, joint.upper],
+                limited=mujoco.mjtLimited.mjLIMITED_FALSE,  # the servo's targets are
             )
             if links:
                 _add_servo(spec, name)

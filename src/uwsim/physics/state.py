@@ -14,6 +14,7 @@ from ..scene.urdf import RobotSpec
 from .autopilot import Autopilot
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .hydrodynamics import Hydrodynamics, VehicleHydrodynamics, install
+from .servos import Servos
 
 PILOT_PERIOD = 0.02
 """An autopilot thinks this often [s]."""
@@ -39,6 +40,7 @@ class State:
         self._dynamics = dynamics
         self._timestep = timestep
         self._joints: dict[int, Array] = {}
+        self._servos = {i: Servos(self._model, self._data, robots[i], i) for i in dynamics}
         self._is_stale = True
         self._n_steps = 0
         self._pilot_steps = max(1, round(PILOT_PERIOD / timestep))
@@ -98,6 +100,8 @@ class State:
         if self._n_steps % self._pilot_steps == 0:
             for index, pilot in self._pilots.items():
                 self._fly(index, pilot, velocity)
+        for servos in self._servos.values():
+            servos.step(self._timestep)
         before = {i: self._free(i).copy() for i in self._kinematic}
         self._water.step(self._data)
         for index, pose in before.items():
@@ -106,9 +110,24 @@ class State:
         self._n_steps += 1
         self._moved()
 
-    def command(self, index: int, linear: Array, angular: Array) -> None:
-        """Give a simulated vehicle's autopilot a twist, base frame [m/s, rad/s]."""
-        self._pilots[index].command(linear.tolist(), angular.tolist())
+    def pilot(self, index: int) -> Autopilot:
+        """Return the autopilot of a simulated vehicle."""
+        return self._pilots[index]
+
+    def servos(self, index: int) -> Servos:
+        """Return the servos of a simulated vehicle's joints."""
+        return self._servos[index]
+
+    def thrusters(self, index: int) -> tuple[str, ...]:
+        """Names of the thrusters of a vehicle, in the order of its side file."""
+        if index not in self._dynamics:
+            return ()
+        return tuple(thruster.name for thruster in self._dynamics[index].thrusters)
+
+    def set_loss(self, index: int, thruster: int, loss: float) -> None:
+        """Let a thruster lose a part of its thrust: 0 healthy, 1 dead."""
+        assert self._water is not None
+        self._water.set_loss(self._data, self._thrusters[index][thruster], loss)
 
     def vehicle_pose(self, index: int) -> Pose:
         """Return ``world_from_base`` of a vehicle."""
@@ -135,6 +154,8 @@ class State:
 
     def joints(self, index: int) -> Array:
         """Return a copy of the joint vector of a vehicle, (n,) [rad or m]."""
+        if index in self._servos:
+            return self._servos[index].positions
         return self._joints[index].copy()
 
     def set_joints(self, index: int, values: Array) -> None:
@@ -142,17 +163,15 @@ class State:
 
         A simulated vehicle's servos hold the joints there from now on.
         """
-        positions = joint_positions(self._robots[index], values.tolist())
-        self._joints[index] = np.array(
-            [positions[joint.name] for joint in self._robots[index].movable]
-        )
-        for name, value in positions.items():
-            joint = self._model.joint(vehicle_joint(index, name))
-            self._data.qpos[joint.qposadr[0]] = value
-            if index in self._dynamics:
-                self._data.qvel[joint.dofadr[0]] = 0.0
-                servo = self._model.actuator(f"{vehicle_joint(index, name)}/servo").id
-                self._data.ctrl[self._model.actuator_ctrladr[servo]] = value
+        if index in self._servos:
+            self._servos[index].put(values)
+        else:
+            positions = joint_positions(self._robots[index], values.tolist())
+            movable = self._robots[index].movable
+            self._joints[index] = np.array([positions[joint.name] for joint in movable])
+            for name, value in positions.items():
+                joint = self._model.joint(vehicle_joint(index, name))
+                self._data.qpos[joint.qposadr[0]] = value
         self._moved()
 
     def link_pose(self, index: int, link: str) -> Pose:
@@ -175,7 +194,7 @@ class State:
         assert self._water is not None
         twist = self.vehicle_velocity(index)
         pose = self.vehicle_pose(index)
-        if not self._over_ground[index]:
+        if not self._over_ground[index] and not pilot.is_over_ground:
             base = self._model.body(vehicle_body(index, self._robots[index].root)).id
             twist[:3] -= pose.rotation.T @ velocity[base]
         commands = pilot.thrust(pose, twist, self._pilot_steps * self._timestep)

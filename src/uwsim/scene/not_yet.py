@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ..dialect import Faults
+from ..dialect import NAMESPACE, Faults
 from .ros_interfaces import INTERFACES
 
 WAVES = (
@@ -20,11 +20,15 @@ WAVES = (
 )
 
 SIMULATED = (
+    "ArmToROSJointState",
+    "PATToROSOdom",
     "ROSJointStateToArm",
     "ROSOdomToPAT",
     "ROSPoseToPAT",
     "ROSTwistToPAT",
     "VirtualCameraToROSImage",
+    f"{{{NAMESPACE}}}ROSThrustersToPAT",
+    f"{{{NAMESPACE}}}ROSWrenchToPAT",
 )
 """Interfaces that work."""
 

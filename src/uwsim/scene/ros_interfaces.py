@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..dialect import NAMESPACE, element
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -327,6 +327,34 @@ class AcousticCommsDeviceROSSpec(InterfaceSpec):
     """How often [Hz]."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class ROSThrustersToPATSpec(InterfaceSpec):
+    """Commands the thrusters of a simulated vehicle by std_msgs/Float64MultiArray.
+
+    One value from -1 to 1 a thruster, in the order of the vehicle's side file; held until the
+    next command of any kind. The autopilot holds nothing meanwhile.
+    """
+
+    topic: str = element(namespaced=True)
+    """Name of the topic."""
+    vehicle_name: str = element(namespaced=True)
+    """Name of the vehicle; it has ``u:dynamics``."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSWrenchToPATSpec(InterfaceSpec):
+    """Pushes a simulated vehicle with its thrusters by geometry_msgs/WrenchStamped.
+
+    Force and torque at the origin of its base, in its axes, as far as the thrusters reach; held
+    until the next command of any kind. The autopilot holds nothing meanwhile.
+    """
+
+    topic: str = element(namespaced=True)
+    """Name of the topic."""
+    vehicle_name: str = element(namespaced=True)
+    """Name of the vehicle; it has ``u:dynamics``."""
+
+
 INTERFACES: dict[str, type[InterfaceSpec]] = {
     "ROSOdomToPAT": ROSOdomToPATSpec,
     "PATToROSOdom": PATToROSOdomSpec,
@@ -353,5 +381,7 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     "RangeCameraToPCL": RangeCameraToPCLSpec,
     "CustomCommsDeviceROS": CustomCommsDeviceROSSpec,
     "AcousticCommsDeviceROS": AcousticCommsDeviceROSSpec,
+    f"{{{NAMESPACE}}}ROSThrustersToPAT": ROSThrustersToPATSpec,
+    f"{{{NAMESPACE}}}ROSWrenchToPAT": ROSWrenchToPATSpec,
 }
-"""Element -> spec, in the order of the original grammar."""
+"""Element -> spec, in the order of the original grammar; ours last."""

@@ -8,14 +8,20 @@ ROSTwistToPAT          geometry_msgs/TwistStamped   one step of the twist (in th
 ROSOdomToPAT           nav_msgs/Odometry            a pose that is not all zero as ROSPoseToPAT,
                                                     else its twist as ROSTwistToPAT
 ROSJointStateToArm     sensor_msgs/JointState       positions, else one step of the velocities
+u:ROSThrustersToPAT    std_msgs/Float64MultiArray   commands of the thrusters, simulated only
+u:ROSWrenchToPAT       geometry_msgs/WrenchStamped  force and torque, simulated only
 =====================  ===========================  =============================================
 
 A velocity is not held: each message moves the vehicle by the time since the one before on its
 interface (nothing for the first, or after more than 1 s). Joints are clamped to their limits. Time
-is simulation time, where the original took the wall's. A vehicle that is simulated
-(``u:dynamics``) hands a twist to its autopilot, which holds it until the next
-(`uwsim.physics.autopilot`). Not modelled: that a joint command which would touch something is
-refused.
+is simulation time, where the original took the wall's.
+
+A vehicle that is simulated (``u:dynamics``) is never put anywhere by a message: its autopilot
+(`uwsim.physics.autopilot`) takes a pose for the place to go to and stay at, and holds a twist, a
+wrench or thruster commands until the next of any of them. Its joints' servos
+(`uwsim.physics.servos`) take positions, else velocities, else efforts, held likewise. What is not
+finite is passed over. Not modelled: that a joint command of a vehicle that is not simulated is
+refused when it would touch something.
 """
 
 from __future__ import annotations
@@ -25,15 +31,25 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ..bus import Bus
+from ..errors import UwsimError
 from ..geometry import Array, Pose, rotation_from_quaternion, rotation_from_xyz
-from ..messages import JointState, Odometry, Twist, TwistStamped
+from ..messages import (
+    Float64MultiArray,
+    JointState,
+    Odometry,
+    Twist,
+    TwistStamped,
+    WrenchStamped,
+)
 from ..messages import Pose as PoseMessage
 from ..physics.state import State
 from ..scene.ros_interfaces import (
     ROSJointStateToArmSpec,
     ROSOdomToPATSpec,
     ROSPoseToPATSpec,
+    ROSThrustersToPATSpec,
     ROSTwistToPATSpec,
+    ROSWrenchToPATSpec,
 )
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
@@ -41,6 +57,14 @@ from ..scene.urdf import RobotSpec
 LONGEST_GAP = 1.0
 """After a longer silence a velocity moves nothing [s]."""
 Command = Callable[[], None]
+CommandSpec = (
+    ROSPoseToPATSpec
+    | ROSTwistToPATSpec
+    | ROSOdomToPATSpec
+    | ROSJointStateToArmSpec
+    | ROSThrustersToPATSpec
+    | ROSWrenchToPATSpec
+)
 
 
 class Commands:
@@ -59,10 +83,7 @@ class Commands:
         self._waiting: list[Command] = []
         numbers = {vehicle.name: i for i, vehicle in reversed(list(enumerate(scene.vehicles)))}
         for interface in scene.ros_interfaces:
-            if isinstance(
-                interface,
-                ROSPoseToPATSpec | ROSTwistToPATSpec | ROSOdomToPATSpec | ROSJointStateToArmSpec,
-            ):
+            if isinstance(interface, CommandSpec):
                 vehicle = numbers.get(interface.vehicle_name)
                 if vehicle is not None:
                     self._listen(interface, vehicle)
@@ -75,9 +96,16 @@ class Commands:
 
     def _listen(
         self,
-        interface: ROSPoseToPATSpec | ROSTwistToPATSpec | ROSOdomToPATSpec | ROSJointStateToArmSpec,
+        interface: CommandSpec,
         vehicle: int,
     ) -> None:
+        if isinstance(interface, ROSThrustersToPATSpec | ROSWrenchToPATSpec) and not (
+            self._state.is_simulated(vehicle)
+        ):
+            raise UwsimError(
+                f"The vehicle {interface.vehicle_name!r} has no <u:dynamics>: it takes neither "
+                f"thruster commands nor wrenches (topic {interface.topic!r})."
+            )
         gap = _Gap(self._bus, self._timestep)
 
         def later(command: Command) -> None:
@@ -99,6 +127,16 @@ class Commands:
                 Odometry,
                 lambda m: later(lambda: self._follow(vehicle, m, gap.take())),
             )
+        elif isinstance(interface, ROSThrustersToPATSpec):
+            self._bus.subscribe(
+                interface.topic,
+                Float64MultiArray,
+                lambda m: later(lambda: self._thrust(vehicle, m)),
+            )
+        elif isinstance(interface, ROSWrenchToPATSpec):
+            self._bus.subscribe(
+                interface.topic, WrenchStamped, lambda m: later(lambda: self._force(vehicle, m))
+            )
         else:
             self._bus.subscribe(
                 interface.topic,
@@ -112,12 +150,35 @@ class Commands:
         if not np.isfinite(wxyz).all() or not wxyz.any():
             wxyz = np.array([1.0, 0.0, 0.0, 0.0])
         localized_from_base = Pose(np.array([p.x, p.y, p.z]), rotation_from_quaternion(wxyz))
-        self._state.place_vehicle(vehicle, self._scene.world_from_localized @ localized_from_base)
+        world_from_base = self._scene.world_from_localized @ localized_from_base
+        if not self._state.is_simulated(vehicle):
+            self._state.place_vehicle(vehicle, world_from_base)
+        elif np.isfinite(world_from_base.position).all():
+            self._state.pilot(vehicle).go_to(world_from_base)
+
+    def _thrust(self, vehicle: int, message: Float64MultiArray) -> None:
+        names = self._state.thrusters(vehicle)
+        commands: Array = np.array(message.data, dtype=np.float64)  # (n,) [1]
+        if commands.shape != (len(names),):
+            raise UwsimError(
+                f"A message for the thrusters of {self._scene.vehicles[vehicle].name!r} has "
+                f"{commands.size} values; expected {len(names)}: {', '.join(names)}."
+            )
+        if np.isfinite(commands).all():
+            self._state.pilot(vehicle).set_thrusters(commands)
+
+    def _force(self, vehicle: int, message: WrenchStamped) -> None:
+        f, t = message.wrench.force, message.wrench.torque
+        force, torque = np.array([f.x, f.y, f.z]), np.array([t.x, t.y, t.z])
+        if np.isfinite(force).all() and np.isfinite(torque).all():
+            self._state.pilot(vehicle).push(force, torque)
 
     def _push(self, vehicle: int, twist: Twist, time: float) -> None:
         v, w = twist.linear, twist.angular
         if self._state.is_simulated(vehicle):
-            self._state.command(vehicle, np.array([v.x, v.y, v.z]), np.array([w.x, w.y, w.z]))
+            numbers = (v.x, v.y, v.z, w.x, w.y, w.z)
+            if np.isfinite(numbers).all():
+                self._state.pilot(vehicle).command(numbers[:3], numbers[3:])
             return
         before_from_after = Pose(
             np.array([v.x, v.y, v.z]) * time,
@@ -134,23 +195,33 @@ class Commands:
             self._push(vehicle, odometry.twist.twist, time)
 
     def _bend(self, vehicle: int, message: JointState, time: float) -> None:
+        if self._state.is_simulated(vehicle):
+            servos = self._state.servos(vehicle)
+            if message.position.size:
+                servos.aim(self._numbered(vehicle, message, message.position))
+            elif message.velocity.size:
+                servos.drive(self._numbered(vehicle, message, message.velocity))
+            else:
+                servos.push(self._numbered(vehicle, message, message.effort))
+            return
         joints = self._state.joints(vehicle)  # (n,) [rad or m]
-        names = [joint.name for joint in self._robots[vehicle].movable]
-        is_position = message.position.size > 0
-        given: Array = message.position if is_position else message.velocity
-        steps = np.zeros(len(joints))
-        for i, value in enumerate(given.tolist()):
-            if message.name and i < len(message.name):
-                number = names.index(message.name[i]) if message.name[i] in names else None
-            else:
-                number = i if not message.name and i < len(joints) else None
-            if number is None:
-                continue
-            if is_position:
+        if message.position.size:
+            for number, value in self._numbered(vehicle, message, message.position).items():
                 joints[number] = value
-            else:
-                steps[number] = value * time
-        self._state.set_joints(vehicle, joints + steps)
+        else:
+            for number, value in self._numbered(vehicle, message, message.velocity).items():
+                joints[number] += value * time
+        self._state.set_joints(vehicle, joints)
+
+    def _numbered(self, vehicle: int, message: JointState, given: Array) -> dict[int, float]:
+        """Values by the number of their joint; by name, or without names in order."""
+        names = [joint.name for joint in self._robots[vehicle].movable]
+        places = message.name or names
+        return {
+            names.index(name): value
+            for name, value in zip(places, given.tolist(), strict=False)
+            if name in names and np.isfinite(value)
+        }
 
 
 class _Gap:

@@ -39,6 +39,8 @@ from .commands import Commands
 from .image_publisher import ImagePublisher, SampleTimer
 from .node import InProcessNode
 from .scenery import Scenery
+from .state_publishers import state_publishers
+from .thruster_faults import ThrusterFaults
 
 M = TypeVar("M")
 BENCHMARK_FOG_COLOUR = (0.0, 0.05, 0.3)
@@ -107,6 +109,11 @@ class Simulation:
         self._swaying = [(i, v) for i, v in enumerate(scene.vehicles) if v.sways]
         robots = [self.robots[i] for i in range(len(scene.vehicles))]
         self._commands = Commands(scene, robots, self._state, self.bus, timestep)
+        self._thruster_faults = ThrusterFaults(scene, self._state)
+        for rate, tell in state_publishers(
+            scene, self.robots, self._state, self.bus, lambda: self.time
+        ):
+            self.every(rate, tell)
         self._nodes: list[InProcessNode] = []
         self._cameras: dict[str, VirtualCamera] = {}
         for vehicle in scene.vehicles:
@@ -190,6 +197,7 @@ class Simulation:
         velocity = self._flow.velocity(points, time, self._body_names)
         acceleration = self._flow.acceleration(points, time, self._body_names)
         turn = world_from_localized.rotation.T
+        self._thruster_faults.apply(time)
         self._state.step(velocity @ turn, acceleration @ turn)
 
     def _sway(self) -> None:
