@@ -12,17 +12,23 @@ import numpy as np
 SHADERS = Path(__file__).parent / "shaders"
 VERSION = "#version 330 core\n"
 
-_SIZES = {"vec4": (np.float32, (4,)), "uvec4": (np.uint32, (4,)), "mat4": (np.float32, (4, 4))}
+_SIZES = {
+    "vec4": (np.float32, (4,)),
+    "uvec4": (np.uint32, (4,)),
+    "mat4": (np.float32, (4, 4)),
+    "vec4[4]": (np.float32, (4, 4)),
+    "mat4[4]": (np.float32, (4, 4, 4)),
+}
 
 _INCLUDE = re.compile(r'^#include "([\w.]+)"$', re.MULTILINE)
 _BLOCK = re.compile(r"uniform (\w+) \{(.*?)\n\};", re.DOTALL)
-_MEMBER = re.compile(r"^\s*(\w+) (\w+);", re.MULTILINE)
+_MEMBER = re.compile(r"^\s*([\w\[\]]+) (\w+);", re.MULTILINE)
 
 
 class Block:
     """A uniform block: its members declared once, here, in the order of the shader.
 
-    Members are ``vec4``, ``uvec4`` or ``mat4``, so that std140 needs no padding.
+    Members are ``vec4``, ``uvec4``, ``mat4`` or four of a kind, so that std140 needs no padding.
     """
 
     def __init__(self, name: str, binding: int, members: Mapping[str, str]) -> None:

@@ -17,6 +17,8 @@ from .context import create_context
 from .frame import FRAME, Frame
 from .gpu_model import GpuModels
 from .instance import INSTANCE, Instance, Slots, in_view
+from .lamp import Lamp
+from .lamps import LAMPS, MOST_LAMPS, Lamps
 from .picture import Picture
 from .program import build
 from .projection import clip_from_camera, frustum
@@ -26,8 +28,11 @@ from .water import Light, Water, sun_direction
 
 __all__ = ["Picture", "Renderer"]
 
-SAMPLERS = {"base_map": 0, "shadow_map": 1}
+SAMPLERS = {"base_map": 0, "shadow_map": 1, "lamp_maps": 2}
 """Texture unit of every sampler in the shaders."""
+
+Switches = tuple[tuple[str, int], ...]
+"""Preprocessor switches of a shader and their values."""
 
 
 class Renderer:
@@ -48,12 +53,13 @@ class Renderer:
         self._instances: dict[int, Instance] = {}
         self._next_handle = 1
         self._version = 0  # counts changes of anything that may cast a shadow
-        self._programs: dict[tuple[str, ...], moderngl.Program] = {}
+        self._programs: dict[tuple[object, ...], moderngl.Program] = {}
         self._empty: dict[int, moderngl.VertexArray] = {}
         self._targets: dict[tuple[object, ...], Targets] = {}
         self._frame = Frame(self._context)
         self._slots = Slots(self._context)
         self._shadow = SunShadow(self._context)
+        self._lamps: Lamps | None = None
 
     def add(self, model: Model, id: int) -> int:
         """Put a model at the origin of W; returns the handle for `place` and `remove`.
@@ -95,6 +101,7 @@ class Renderer:
         targets: Iterable[str] = TARGETS,
         hidden: frozenset[int] = frozenset(),
         colour: str = "uint8",
+        lamps: Sequence[Lamp] = (),
     ) -> Picture:
         """Draw one picture.
 
@@ -106,19 +113,25 @@ class Renderer:
             targets: Some of ``colour``, ``range``, ``ids``; nothing else is computed.
             hidden: Ids of instances that this camera does not see, nor their shadows.
             colour: ``uint8``, or ``linear16`` for noise to be added before the 8-bit store.
+            lamps: What shines besides the sun, at most four.
         """
         wanted = frozenset(targets)
         if not wanted or not wanted <= set(TARGETS) or colour not in STORES:
             raise ValueError(f"cannot draw {sorted(wanted)} as {colour!r}: {TARGETS}, {STORES}")
+        if len(lamps) > MOST_LAMPS:
+            raise ValueError(f"{len(lamps)} lamps are more than {MOST_LAMPS}")
         seen = [i for i in self._instances.values() if i.id not in hidden]
         clip = clip_from_camera(intrinsics)
         with self._context:
             target = self._target(intrinsics, wanted, colour)
-            switches: tuple[str, ...] = ()
+            switches: Switches = ()
             if "colour" in wanted and light.shadows and self._cast(seen, light, hidden):
-                switches += ("SHADOWS",)
+                switches += (("SHADOWS", 1),)
             if water.fog_distance == "clip":
-                switches += ("FOG_CLIP",)
+                switches += (("FOG_CLIP", 1),)
+            if lamps and "colour" in wanted:
+                switches += (("LAMPS", len(lamps)),)
+                self._shine(lamps, seen, world_from_camera, hidden)
             self._frame.fill(world_from_camera, intrinsics, clip, water, light, self._shadow)
             self._slots.fill(seen, world_from_camera.inverse().matrix)
             self._draw_into(target, seen, world_from_camera, frustum(clip), switches)
@@ -140,13 +153,27 @@ class Renderer:
             self._shadow.update(casters, sun_direction(light.sun), (self._version, hidden))
         return bool(casters)
 
+    def _shine(
+        self,
+        lamps: Sequence[Lamp],
+        seen: Sequence[Instance],
+        world_from_camera: Pose,
+        hidden: frozenset[int],
+    ) -> None:
+        """Bring the lamps and their maps up to date."""
+        if self._lamps is None:
+            self._lamps = Lamps(self._context)
+        self._lamps.update(lamps, seen, (self._version, hidden))
+        self._lamps.fill(lamps, world_from_camera)
+        self._lamps.texture.use(SAMPLERS["lamp_maps"])
+
     def _draw_into(
         self,
         target: Targets,
         seen: Sequence[Instance],
         world_from_camera: Pose,
         planes: Array,
-        switches: tuple[str, ...],
+        switches: Switches,
     ) -> None:
         """Draw what is in view, near and small first, terrain last, then the emptiness."""
         context = self._context
@@ -162,10 +189,10 @@ class Renderer:
                 context.enable(moderngl.CULL_FACE)
             # The picture is upside down for OpenGL, so outside is clockwise unless mirrored.
             context.front_face = "ccw" if seen[slot].is_mirrored else "cw"
-            textured: tuple[str, ...] = ()
+            textured: Switches = ()
             if batch.texture is not None:
                 batch.texture.use(SAMPLERS["base_map"])
-                textured = ("TEXTURED",)
+                textured = (("TEXTURED", 1),)
             self._slots.bind(slot)
             batch.draw(self._program("surface", target, switches + textured))
         context.disable(moderngl.CULL_FACE)
@@ -174,15 +201,15 @@ class Renderer:
             self._empty[program.glo] = context.vertex_array(program, [])
         self._empty[program.glo].render(moderngl.TRIANGLES, vertices=3)
 
-    def _program(self, effect: str, target: Targets, switches: tuple[str, ...]) -> moderngl.Program:
+    def _program(self, effect: str, target: Targets, switches: Switches) -> moderngl.Program:
         key = (effect, *target.places, *switches)
         if key not in self._programs:
             defines = {name.upper(): place for name, place in target.places.items()}
             self._programs[key] = build(
                 self._context,
                 effect,
-                defines=defines | dict.fromkeys(switches, 1),
-                blocks=(FRAME, INSTANCE),
+                defines=defines | dict(switches),
+                blocks=(FRAME, INSTANCE, LAMPS),
                 samplers=SAMPLERS,
             )
         return self._programs[key]

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
 
 from ..devices.force_sensor import ForceSensorSpec
+from ..devices.lamp import MOST_LAMPS, LampSpec
 from ..dialect import Faults, slots
 from .ros_interfaces import (
     INTERFACES,
@@ -60,6 +61,9 @@ def check_names(scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Fault
     for interface in _interfaces(scene):
         _check_interface(interface, known, scene, faults)
     _check_sources(scene, faults)
+    lamps = [lamp for vehicle in scene.vehicles if not vehicle.vr for lamp in vehicle.lamps]
+    for lamp in lamps[MOST_LAMPS:]:
+        faults.add(faults.node_of(lamp), f"<u:lamp> {lamp.name!r}: more than {MOST_LAMPS} lamps")
     for thing in scene.objects:
         _check_physics(thing, faults)
     if scene.sim_params.physics_solver.lower() not in SOLVERS:
@@ -86,10 +90,11 @@ def _check_links(vehicle: VehicleSpec, robot: RobotSpec, scene: SceneSpec, fault
         if link is None:
             continue
         if link not in links:
-            severity = "fault" if isinstance(part, ForceSensorSpec) else "notice"
+            is_fault = isinstance(part, ForceSensorSpec | LampSpec)
+            severity = "fault" if is_fault else "notice"
             near = faults.near(link, links, severity)
             said = f"<{element}>: {link!r} is no link of {vehicle.file}.{near}"
-            if isinstance(part, ForceSensorSpec):
+            if is_fault:
                 faults.add(faults.node_of(part), said)
             else:
                 faults.notice(faults.node_of(part), f"{said} It is left out, as in the original")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,9 +12,12 @@ import numpy.typing as npt
 
 from ..assets import load_model, primitive, unknown_model
 from ..assets.mesh import Model
-from ..errors import AssetNotFound
+from ..devices.lamp import LampSpec
+from ..errors import AssetNotFound, UnknownName, UwsimError
 from ..geometry import Intrinsics, Pose
 from ..physics.state import State
+from ..rendering.lamp import Lamp
+from ..rendering.lamps import MOST_LAMPS
 from ..rendering.renderer import Picture, Renderer
 from ..rendering.water import Light, Water
 from ..scene.spec import SceneSpec
@@ -60,6 +64,8 @@ class Scenery:
         self._drawn_version = -1
         self.parts = tuple(_parts(scene, robots, data_path))
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
+        self._mounted_lamps = _mounted_lamps(scene, robots)
+        self._lamps: tuple[Lamp, ...] = ()
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
         """Where a part stands now, with its scale, (4, 4) [m]."""
@@ -94,6 +100,7 @@ class Scenery:
         if self._drawn_version != self._state.version:
             for part in self.parts:
                 renderer.place(self._handles[part.id], self.world_from_mesh(part))
+            self._lamps = tuple(self._lamp(*mounted) for mounted in self._mounted_lamps)
             self._drawn_version = self._state.version
         return renderer.draw(
             world_from_camera,
@@ -103,12 +110,25 @@ class Scenery:
             targets=targets,
             colour=colour,
             hidden=self._hidden,
+            lamps=self._lamps,
         )
 
     @property
     def renderer_name(self) -> str:
         """What draws the pictures."""
         return self._open().description
+
+    def _lamp(self, vehicle: int, spec: LampSpec) -> Lamp:
+        """The lamp as it shines now."""
+        link_from_lamp = Pose.from_rpy(spec.position, spec.orientation)
+        return Lamp(
+            world_from_lamp=self._state.link_pose(vehicle, spec.relative_to) @ link_from_lamp,
+            half_angle=math.radians(spec.fov / 2.0),
+            softness=spec.softness,
+            colour=spec.color,
+            intensity=spec.intensity,
+            casts_shadow=spec.shadow,
+        )
 
     def _open(self) -> Renderer:
         if self._renderer is None:
@@ -122,6 +142,25 @@ class Scenery:
             self._renderer = None
             self._handles = {}
             self._drawn_version = -1
+
+
+def _mounted_lamps(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec]
+) -> tuple[tuple[int, LampSpec], ...]:
+    """Number of the vehicle and spec of every lamp that shines."""
+    mounted = [
+        (index, lamp)
+        for index, vehicle in enumerate(scene.vehicles)
+        if not vehicle.vr
+        for lamp in vehicle.lamps
+    ]
+    for index, lamp in mounted:
+        links = [link.name for link in robots[index].links]
+        if lamp.relative_to not in links:
+            raise UnknownName("link", lamp.relative_to, links)
+    if len(mounted) > MOST_LAMPS:
+        raise UwsimError(f"{len(mounted)} lamps shine in the scene; at most {MOST_LAMPS} may.")
+    return tuple(mounted)
 
 
 def _parts(

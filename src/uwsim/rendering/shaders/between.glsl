@@ -1,5 +1,5 @@
 // Provides: what the vertices of a surface hand to its pixels; BETWEEN is out there and in here.
-// Needs: the switches COLOUR, TEXTURED, SHADOWS.
+// Needs: the switches COLOUR, TEXTURED, SHADOWS, and LAMPS, how many there are.
 // Flat members carry the frame's constants: on llvmpipe a uniform costs far more to read in a pixel.
 BETWEEN vec3 position;  // camera frame [m]
 #ifdef COLOUR
@@ -15,5 +15,8 @@ BETWEEN vec2 place;         // on the texture
 #endif
 #ifdef SHADOWS
 BETWEEN vec3 shadow_place;  // texture coordinates and depth in the shadow map, 0..1
+#endif
+#ifdef LAMPS
+BETWEEN vec4[LAMPS] on_lamp_map;  // texture coordinates and depth in the lamps' maps, times w
 #endif
 #endif

@@ -1,5 +1,5 @@
 // Provides: colour, range and id of a surface seen through water, whichever are asked for.
-// Needs: between.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, targets.glsl.
+// Needs: between.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, lamplight.glsl, targets.glsl.
 // lit -> attenuation -> fog, on stored values; noise and 8 bit come later (noise.py).
 #define BETWEEN in
 #include "between.glsl"
@@ -15,6 +15,10 @@ uniform sampler2D base_map;
 #endif
 #ifdef SHADOWS
 #include "shadow.glsl"
+#endif
+#ifdef LAMPS
+#include "lamps.glsl"
+#include "lamplight.glsl"
 #endif
 #endif
 
@@ -41,6 +45,9 @@ void main() {
     float fog_range = range;
 #endif
     vec3 dry = sunlit(colour, facing, mirrored, lit);
+#ifdef LAMPS
+    dry += lamplight(colour, normal * unit);
+#endif
     colour_out = vec4(through_water(dry, range, fog_range, along.z), 1.0);
 #endif
 #ifdef RANGE

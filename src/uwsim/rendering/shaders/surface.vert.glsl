@@ -1,10 +1,13 @@
 // Provides: the vertices of a model, in the camera frame and on the picture.
-// Needs: frame.glsl, instance.glsl, between.glsl.
+// Needs: frame.glsl, instance.glsl, between.glsl, lamps.glsl.
 // Whatever is linear in space is computed here and interpolated, exactly.
 #define BETWEEN out
 #include "frame.glsl"
 #include "instance.glsl"
 #include "between.glsl"
+#if defined(COLOUR) && defined(LAMPS)
+#include "lamps.glsl"
+#endif
 
 in vec3 vertex;
 #ifdef COLOUR
@@ -36,6 +39,14 @@ void main() {
 #ifdef SHADOWS
     vec3 lifted = position + normal * (sun.w * inversesqrt(max(dot(normal, normal), 1e-12)));
     shadow_place = (shadow_from_camera * vec4(lifted, 1.0)).xyz;
+#endif
+#ifdef LAMPS
+    vec3 unit_normal = normal * inversesqrt(max(dot(normal, normal), 1e-12));
+    for (int i = 0; i < LAMPS; ++i) {
+        vec3 towards = lamp_place[i].xyz - position;
+        float lift = lamp_light[i].w * dot(towards, lamp_axis[i].xyz) * sign(dot(unit_normal, towards));
+        on_lamp_map[i] = lamp_from_camera[i] * vec4(position + unit_normal * lift, 1.0);
+    }
 #endif
 #endif
 }

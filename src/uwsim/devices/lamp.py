@@ -1,0 +1,51 @@
+"""A lamp that lights what its vehicle's cameras see; an extension of the dialect.
+
+.. code-block:: xml
+
+    <u:lamp>
+      <u:name>headlight</u:name> <u:relativeTo>base_link</u:relativeTo>
+      <u:position> <x>0.7</x> <y>0</y> <z>0</z> </u:position>
+      <u:orientation> <r>0</r> <p>M_PI</p> <y>M_PI_2</y> </u:orientation>
+      <u:fov>60</u:fov> <u:intensity>2</u:intensity>
+    </u:lamp>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..dialect import element
+
+MOST_LAMPS = 4
+"""So many lamps may shine in a scene."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LampSpec:
+    """A ``<u:lamp>``: a round cone of light along -z, as cameras look; at most four in a scene.
+
+    The light rate of the scene does not dim it. The lamp of a ghost (``vr``) does not shine.
+    """
+
+    name: str = element(namespaced=True)
+    """Its name."""
+    relative_to: str = element(namespaced=True)
+    """The link it rides on; its place counts from the link's kinematic frame."""
+    position: tuple[float, float, float] = element(namespaced=True, default=(0.0, 0.0, 0.0))
+    """Of the lamp in the link's frame [m]; what is nearer than 0.1 m to it casts no shadow."""
+    orientation: tuple[float, float, float] = element(
+        namespaced=True, default=(0.0, 0.0, 0.0), parts="rpy"
+    )
+    """Of the lamp in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    fov: float = element(namespaced=True, default=60.0, above=0, maximum=160)
+    """Angle of the whole cone [deg]."""
+    softness: float = element(namespaced=True, default=0.2, minimum=0, maximum=1)
+    """Share of the half angle over which the light fades towards the edge [1]."""
+    intensity: float = element(namespaced=True, default=1.0, minimum=0)
+    """What it gives to a white surface facing it at 1 m, without water [1: full scale]."""
+    color: tuple[float, float, float] = element(
+        namespaced=True, default=(1.0, 1.0, 1.0), parts="rgb"
+    )
+    """Of its light [0..1]."""
+    shadow: bool = element(namespaced=True, default=True)
+    """Whether what stands in its light casts a shadow."""

@@ -1,0 +1,138 @@
+"""The lamps of a picture as the shaders read them, and their shadow maps.
+
+All maps are tiles of one depth texture, so that the shaders need a single sampler. A tile is drawn
+anew only when its lamp or anything in the scene moved, and serves all cameras.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import moderngl
+import numpy as np
+
+from ..geometry import Array, Intrinsics, Pose
+from .instance import INSTANCE, Instance, Slots, in_view
+from .lamp import Lamp
+from .program import Block, build
+from .projection import clip_from_camera, frustum
+
+MOST_LAMPS = 4
+"""So many shine in one picture."""
+
+TILE = 512
+"""Edge of one lamp's shadow map [texels]."""
+
+NEAR, FAR = 0.1, 20.0
+"""What is nearer to the lamp, its own housing, casts no shadow, nor what is farther [m]."""
+
+MARGIN = 1.02
+"""The map's view over the cone's, so that no look-up reaches into the next tile."""
+
+LAMPS = Block(
+    "Lamps",
+    2,
+    {
+        "lamp_from_camera": "mat4[4]",
+        "lamp_place": "vec4[4]",
+        "lamp_axis": "vec4[4]",
+        "lamp_light": "vec4[4]",
+    },
+)
+
+
+class Lamps:
+    """The buffer behind the block, and the maps; made when the first lamp shines."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._values = np.zeros((), dtype=LAMPS.dtype)
+        self._buffer = context.buffer(reserve=LAMPS.dtype.itemsize, dynamic=True)
+        self.texture = context.depth_texture((2 * TILE, 2 * TILE))
+        """The maps, two by two."""
+        self.texture.compare_func = "<="
+        self.texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+        self.texture.repeat_x = self.texture.repeat_y = False
+        self._framebuffer = context.framebuffer(depth_attachment=self.texture)
+        self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
+        self._slots = [Slots(context) for _ in range(MOST_LAMPS)]
+        self._drawn: list[object] = [None] * MOST_LAMPS
+        self.n_drawn = 0
+        """How many maps were drawn since the beginning."""
+
+    def update(self, lamps: Sequence[Lamp], casters: Sequence[Instance], version: object) -> None:
+        """Draw the maps that are no longer right.
+
+        Args:
+            lamps: What shines, in the order of the tiles.
+            casters: What may stand in the light; terrain, too.
+            version: Changes whenever a caster moved, came or went.
+        """
+        for tile, lamp in enumerate(lamps):
+            pose = lamp.world_from_lamp
+            key: object = lamp.casts_shadow and (
+                version,
+                lamp.half_angle,
+                pose.position.tobytes(),
+                pose.rotation.tobytes(),
+            )
+            if key != self._drawn[tile]:
+                self._drawn[tile] = key
+                self._draw(tile, lamp, casters if lamp.casts_shadow else ())
+
+    def fill(self, lamps: Sequence[Lamp], world_from_camera: Pose) -> None:
+        """Write what the shaders read and bind it."""
+        values, camera_from_world = self._values, world_from_camera.inverse()
+        for tile, lamp in enumerate(lamps):
+            lamp_from_world = lamp.world_from_lamp.inverse()
+            map_from_lamp = _tile_from_clip(tile) @ clip_from_camera(_map_camera(lamp))
+            map_from_camera = map_from_lamp @ lamp_from_world.matrix @ world_from_camera.matrix
+            camera_from_lamp = camera_from_world @ lamp.world_from_lamp
+            outer, steepness = lamp.edge
+            texel = 2.0 * MARGIN * np.tan(lamp.half_angle) / TILE  # at 1 m [m]
+            values["lamp_from_camera"][tile] = map_from_camera.T  # OpenGL counts columns first
+            values["lamp_place"][tile] = *camera_from_lamp.position, outer
+            values["lamp_axis"][tile] = *camera_from_lamp.rotation[:, 2], steepness
+            strength = [lamp.intensity * channel for channel in lamp.colour]
+            values["lamp_light"][tile] = *strength, 1.5 * texel
+        self._buffer.write(values.tobytes())
+        self._buffer.bind_to_uniform_block(LAMPS.binding)
+
+    def _draw(self, tile: int, lamp: Lamp, casters: Sequence[Instance]) -> None:
+        context, view = self._context, _map_camera(lamp)
+        clip_from_lamp = clip_from_camera(view)
+        place = TILE * (tile % 2), TILE * (tile // 2), TILE, TILE
+        self.n_drawn += 1
+        self._framebuffer.viewport = place
+        self._framebuffer.use()
+        self._framebuffer.clear(depth=1.0, viewport=place)
+        context.enable_only(moderngl.DEPTH_TEST)
+        context.depth_func = "<="
+        context.polygon_offset = 1.5, 2.0
+        slots = self._slots[tile]
+        slots.fill(casters, clip_from_lamp @ lamp.world_from_lamp.inverse().matrix)
+        for slot, batch in in_view(casters, lamp.world_from_lamp, frustum(clip_from_lamp)):
+            if batch.two_sided:
+                context.disable(moderngl.CULL_FACE)
+            else:
+                context.enable(moderngl.CULL_FACE)
+            # As in the renderer's pictures: upside down for OpenGL, so outside is clockwise.
+            context.front_face = "ccw" if casters[slot].is_mirrored else "cw"
+            slots.bind(slot)
+            batch.draw(self._program)
+        context.polygon_offset = 0.0, 0.0
+
+
+def _map_camera(lamp: Lamp) -> Intrinsics:
+    focal = TILE / 2.0 / (MARGIN * np.tan(lamp.half_angle))
+    half = TILE / 2.0
+    return Intrinsics(
+        width=TILE, height=TILE, fx=focal, fy=focal, cx=half, cy=half, near=NEAR, far=FAR
+    )
+
+
+def _tile_from_clip(tile: int) -> Array:
+    """Clip space of a tile's camera to texture coordinates and depth, (4, 4)."""
+    matrix = np.diag([0.25, 0.25, 0.5, 1.0])
+    matrix[:3, 3] = 0.25 + 0.5 * (tile % 2), 0.25 + 0.5 * (tile // 2), 0.5
+    return matrix
