@@ -36,6 +36,7 @@ from ..devices.lamp import LampSpec
 from ..devices.led_array import LedArraySpec
 from ..devices.object_picker import ObjectPickerSpec
 from ..devices.sway import SwaySpec, swayed
+from ..devices.thruster_fault import ThrusterFaultSpec
 from ..dialect import NAMESPACE, element
 from ..geometry import Pose, rotation_from_xyz
 from ..sensors.dvl_sensor import DvlSensorSpec
@@ -281,6 +282,8 @@ class VehicleSpec:
     """What the velocity loop of a simulated vehicle measures its speed against."""
     sways: tuple[SwaySpec, ...] = element("sway", namespaced=True, default=())
     """Sinusoids about its place, for a vehicle that nobody steers."""
+    faults: tuple[ThrusterFaultSpec, ...] = element("fault", namespaced=True, default=())
+    """Thrusters of a simulated vehicle that fail; of several on one the greatest loss counts."""
     lamps: tuple[LampSpec, ...] = element("lamp", namespaced=True, default=())
     """Lamps that light what cameras see."""
 
