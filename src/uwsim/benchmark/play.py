@@ -235,8 +235,10 @@ def _prelude(
     """Let the algorithm settle at the initial values, then ramp in the level's."""
     measures = [Gated(spec, simulation) for spec in plan.benchmark.measures]
     settling, ramp = round(SETTLING / plan.timestep), round(RAMP / plan.timestep)
+    initial = initial_level(plan.benchmark.scene_updater)
     _tick(measures)
     for _ in range(settling):
+        ramp_level(updaters, initial)
         simulation.advance()
         _tick(measures)
     for i in range(1, ramp + 1):

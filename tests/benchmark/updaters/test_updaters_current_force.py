@@ -102,11 +102,12 @@ def test_the_reset_service_is_called_if_somebody_offers_it() -> None:
     assert asked == [Empty()]
 
 
-def test_on_the_way_to_a_level_nothing_is_put_back() -> None:
+def test_on_the_way_to_a_level_the_vehicle_is_held_in_its_place_in_still_water() -> None:
     world = ship()
     updaters = bind_updaters(tracking(), world)
-    ramp_level(updaters, Level((("current", 0.1),)))
-    assert world.put_backs == []
+    for _ in range(3):
+        ramp_level(updaters, Level((("current", 0.1),)))
+    assert [name for name, _ in world.put_backs] == ["girona500"] * 3
     assert world.current is None
 
 

@@ -156,7 +156,8 @@ class CurrentForceUpdater(SceneUpdater):
             stage.call(RESET, Empty())
 
     def ramp(self, value: float) -> None:
-        """Do nothing: a level begins in still water, so there is nothing to lead over to."""
+        """Hold the vehicle in its place: else the level would begin with a jump in the picture."""
+        self._stage.put_back(self._spec.target)
 
 
 class ForcePublisher:
