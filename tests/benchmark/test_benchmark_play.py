@@ -293,3 +293,59 @@ def test_a_setting_of_the_scene_reaches_the_camera(benchmark: Path, tmp_path: Pa
     quiet = run(benchmark, tmp_path / "a", settings=[path], levels=["fog=0"])
     assert json.loads((tmp_path / "a" / "result.json").read_text())["run"]["settings"]
     assert max(v for v in quiet.numbers("corners") if v is not None) < 0.01
+
+
+class Leaves:
+    """Ends the process, or means to."""
+
+    def start(self, node: Node) -> None:
+        node.subscribe("/uwsim/camera1", Image, lambda image: sys.exit(0))
+        node.call("startBench", Empty())
+
+
+class Shouts:
+    """Raises with colours and a second line."""
+
+    def start(self, node: Node) -> None:
+        node.subscribe("/uwsim/camera1", Image, self.look)
+        node.call("startBench", Empty())
+
+    def look(self, image: Image) -> None:
+        raise ValueError("\x1b[31mred\nnext")
+
+
+class Unmakeable:
+    """Wants what nobody gives."""
+
+    def __init__(self, wish: str) -> None:
+        self.wish = wish
+
+    def start(self, node: Node) -> None:
+        pass
+
+
+def test_an_algorithm_that_calls_exit_fails_alone(benchmark: Path, tmp_path: Path) -> None:
+    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Leaves", levels=["fog=0"])
+    assert result.values("status") == ("algorithm error",)
+    assert "SystemExit" in str(result.why(0, "corners"))
+
+
+def test_what_an_algorithm_says_is_one_printable_line(benchmark: Path, tmp_path: Path) -> None:
+    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Shouts", levels=["fog=0"])
+    why = str(result.why(0, "corners"))
+    assert why.isprintable()
+    assert r"\x1b[31mred\nnext" in why
+
+
+def test_an_algorithm_that_cannot_be_made_is_named(benchmark: Path, tmp_path: Path) -> None:
+    with pytest.raises(NeverStarted, match=r"Unmakeable.*cannot be made: TypeError"):
+        run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Unmakeable")
+
+
+@pytest.mark.parametrize("latency", ["-1", "soon"])
+def test_a_latency_that_is_no_time_is_refused_before_anything_is_written(
+    benchmark: Path, tmp_path: Path, latency: str
+) -> None:
+    with pytest.raises(BadSetting, match="latency_s"):
+        run(benchmark, tmp_path / "a", settings=[f"algorithm.latency_s={latency}"])
+    assert not (tmp_path / "a").exists()

@@ -105,3 +105,34 @@ def test_a_hostile_file_costs_little_time_and_less_than_500_mb(
         preexec_fn=limit,
         check=True,
     )
+
+
+def test_names_of_a_benchmark_that_its_scene_does_not_have_are_faults(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (DATA / "benchmarks" / "visibility.xml").read_text()
+    text = text.replace("<camera>bowtech1", "<camera>bowtec", 1).replace(
+        "<target>blackbox", "<target>blakbox"
+    )
+    file = tmp_path / "wrong.xml"
+    file.write_text(text.replace('u:algorithm="esm"', 'u:algorithm="emm"'))
+    assert status(str(file)) == 2
+    said = capsys.readouterr().out
+    assert "No virtual camera is called 'bowtec'. Did you mean 'bowtech1'?" in said
+    assert "No body is called 'blakbox'. Did you mean 'blackbox'?" in said
+    assert "No algorithm is called 'emm'. Did you mean 'esm'?" in said
+    assert f"{file}:10: No virtual camera" in said
+
+
+def test_a_benchmark_whose_scene_is_nowhere_is_a_fault(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (DATA / "benchmarks" / "visibility.xml").read_text()
+    file = tmp_path / "wrong.xml"
+    file.write_text(text.replace("visibility-scene.xml", "nope.xml"))
+    assert status(str(file)) == 2
+    assert "'nope.xml' is neither a file nor one of the bundled scenes" in capsys.readouterr().out
+
+
+def test_bundled_files_are_checked_by_their_bare_names() -> None:
+    assert status("visibility-scene", "visibility", "--scene", "visibility-scene") == 0

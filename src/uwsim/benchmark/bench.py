@@ -10,6 +10,8 @@ import hashlib
 import json
 import multiprocessing
 import os
+import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -111,7 +113,9 @@ class Bench:
         os.environ.setdefault("LP_NUM_THREADS", "1")
         seen = self.n_finished()
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(workers, mp_context=context) as pool:
+        with ProcessPoolExecutor(
+            workers, mp_context=context, initializer=_leave_with, initargs=(os.getpid(),)
+        ) as pool:
             pending = {pool.submit(play_unit, self, unit) for unit in units}
             try:
                 while pending:
@@ -128,6 +132,17 @@ class Bench:
             finally:
                 for future in pending:
                     future.cancel()
+
+
+def _leave_with(parent: int) -> None:
+    """Have this worker end when its parent is gone, however that came to its end."""
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(1.0)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def play_unit(bench: Bench, unit: Unit, on_level: OnLevel = lambda: None) -> None:

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..bus import Inbox
+from ..bus import Algorithm, Inbox
 from ..errors import NeverStarted
 from ..messages import String
 from ..simulation import InProcessNode, Simulation
@@ -147,13 +147,13 @@ class Verdict:
             return
         for message in self._inbox.take():
             state, _, why = message.data.partition(":")
-            said = f"{self._node.name} {state.strip()} at {time:g} s: {why.strip()}"
+            said = legible(f"{self._node.name} {state.strip()} at {time:g} s: {why.strip()}")
             if state.strip() == "lost" and self.lost is None:
                 self.lost = said
             elif state.strip() == "failed" and self.failed is None:
                 self.failed = said
         if self._node.error is not None and self.failed is None:
-            self.failed = f"{self._node.name} raised at {time:g} s: {self._node.error}"
+            self.failed = legible(f"{self._node.name} raised at {time:g} s: {self._node.error}")
 
 
 def play(plan: Plan, unit: Unit) -> Iterator[Row | UnitEnd]:
@@ -198,7 +198,7 @@ def _play(plan: Plan, unit: Unit, simulation: Simulation) -> Iterator[Row | Unit
     apply_level(updaters, initial_level(benchmark.scene_updater))
     start = benchmark.start_on.bind(simulation)
     status = simulation.inbox(STATUS_TOPIC, String)
-    algorithm = plan.algorithm()
+    algorithm = _make(plan)
     node = simulation.attach(algorithm, name=plan.algorithm_name, parameters=plan.parameters)
     verdict = Verdict(node, status, plan.timestep)
     simulation.open()
@@ -227,6 +227,23 @@ def _play(plan: Plan, unit: Unit, simulation: Simulation) -> Iterator[Row | Unit
         ),
         notes=tuple(notes),
     )
+
+
+def _make(plan: Plan) -> Algorithm:
+    """Make the algorithm; what its constructor raises keeps the benchmark from starting."""
+    try:
+        return plan.algorithm()
+    except (Exception, SystemExit) as error:
+        raise NeverStarted(
+            f"Algorithm {plan.algorithm_name!r} cannot be made: "
+            f"{legible(f'{type(error).__name__}: {error}')}"
+        ) from error
+
+
+def legible(text: str) -> str:
+    """Return what an algorithm says as one printable line of at most 300 characters."""
+    line = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+    return line if len(line) <= 300 else line[:297] + "..."
 
 
 def _prelude(
@@ -372,7 +389,7 @@ def _row(
 
 def _never(start: TriggerSpec, plan: Plan, node: InProcessNode, time: float) -> str:
     if node.error is not None:
-        return f"Algorithm {node.name!r} raised before the benchmark started: {node.error}"
+        return f"Algorithm {node.name!r} raised before the benchmark started: {legible(node.error)}"
     return (
         f"The benchmark never started: its startOn ({start}) did not go on within "
         f"{plan.patience:g} s of simulation time. Does algorithm {node.name!r} call it?"

@@ -5,9 +5,10 @@ from __future__ import annotations
 import datetime
 import os
 import platform
-import shutil
+import signal
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -32,18 +33,11 @@ if TYPE_CHECKING:
     from ..benchmark.result import Result
 
 CONTROL = "frozen"
-CONTROL_FOLDER = "control"
-OURS = (
-    "control",
-    "result.json",
-    "result.dat",
-    "provenance.json",
-    "report.html",
-    "units",
-    "plots",
-    "pictures",
-)
-"""What a result directory holds, beside its logs."""
+SAY_EVERY = 10.0
+"""Time between two lines of progress where there is no terminal [s]."""
+MAX_REPEATS = 10_000
+LONGEST = 1e8
+"""A benchmark that would simulate longer than this is a slip of the pen [s]."""
 
 
 def bench(
@@ -120,17 +114,25 @@ def bench(
         data_path=tuple(data_path or ()),
     )
     directory = out or Path(f"{Path(plan.benchmark.path).stem}.result")
-    prepare(directory, resume=resume, overwrite=overwrite)
 
     from ..benchmark.bench import Bench, open_once
+    from ..benchmark.directory import alone_in, prepare
 
     began = time.time()
     inputs, renderer = open_once(plan)
-    run = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
-    result = play_with_progress(run, workers)
-    if plan.wants_control and plan.algorithm_name != CONTROL:
-        play_control(run)
-    finish(run, result, began=began, workers=workers)
+    signal.signal(signal.SIGTERM, interrupt)
+    prepare(directory, resume=resume, overwrite=overwrite)
+    with alone_in(directory):
+        run = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
+        result = play_with_progress(run, workers)
+        if plan.wants_control and plan.algorithm_name != CONTROL:
+            play_control(run)
+        finish(run, result, began=began, workers=workers)
+
+
+def interrupt(number: int, frame: object) -> None:
+    """Stop as for Ctrl-C: what is finished is kept, and workers are told."""
+    raise KeyboardInterrupt
 
 
 def make_plan(
@@ -199,9 +201,26 @@ def make_plan(
         compatibility=compatibility([*spec.compatibility, *asked]),
         data_path=data_path,
     )
-    plan.levels()
+    check_length(plan)
     check_parameters(plan.algorithm, plan.parameters)
+    latency = parameters.get("latency_s", 0.0)
+    if isinstance(latency, str) or latency < 0.0:
+        raise BadSetting(f"algorithm.latency_s is {latency!r}; expected a time >= 0 [s].")
     return plan
+
+
+def check_length(plan: Plan) -> None:
+    """Refuse what nobody can mean to wait for; raises BadSetting."""
+    from ..benchmark.updaters import interval
+
+    if plan.repeats > MAX_REPEATS:
+        raise BadSetting(f"--repeat {plan.repeats}: at most {MAX_REPEATS}.")
+    length = interval(plan.benchmark.scene_updater) or 0.0
+    total = length * len(plan.levels()) * plan.repeats
+    if total > LONGEST:
+        raise BadSetting(
+            f"The benchmark would simulate {total:.3g} s; at most {LONGEST:g} s can be asked for."
+        )
 
 
 def split(setting: str, option: str) -> tuple[str, str]:
@@ -230,40 +249,6 @@ def number_or_text(text: str) -> float | str:
     return number if abs(number) < float("inf") else text
 
 
-def prepare(directory: Path, *, resume: bool, overwrite: bool) -> None:
-    """See to it that a result may be written into ``directory``.
-
-    Raises:
-        BadSetting: it is not empty, and nothing was said; or it holds what is not ours.
-    """
-    if resume and overwrite:
-        raise BadSetting("--resume and --overwrite exclude each other.")
-    if directory.exists() and not directory.is_dir():
-        raise BadSetting(f"--out {directory}: is a file, not a directory.")
-    if not directory.is_dir() or not any(directory.iterdir()) or resume:
-        return
-    if not overwrite:
-        raise BadSetting(
-            f"--out {directory}: not empty. Use --resume to go on, or --overwrite to start anew."
-        )
-    found = sorted(path.name for path in directory.iterdir())
-    strange = [name for name in found if not is_ours(name)]
-    if strange:
-        raise BadSetting(
-            f"--out {directory}: holds {strange[0]!r}, which is no part of a result; "
-            "not overwritten."
-        )
-    for name in found:
-        path = directory / name
-        shutil.rmtree(path) if path.is_dir() else path.unlink()
-
-
-def is_ours(name: str) -> bool:
-    """Whether a name in a result directory is one that uwsim writes."""
-    is_log = name.startswith("measure-") and name.endswith(".csv")
-    return name in OURS or is_log or (name.startswith(".") and name.endswith(".part"))
-
-
 def play_with_progress(run: Bench, workers: int) -> Result:
     """Play, with a bar that says how many levels are done and how long the rest will take."""
     total = sum(len(unit.levels) for unit in run.plan.units())
@@ -276,16 +261,36 @@ def play_with_progress(run: Bench, workers: int) -> Result:
         TimeRemainingColumn(),
     )
     console = Console(stderr=True)
-    with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
-        title = f"{Path(run.plan.benchmark.path).stem} ({run.plan.algorithm_name})"
+    title = f"{Path(run.plan.benchmark.path).stem} ({run.plan.algorithm_name})"
+    if not console.is_terminal:
+        return run.run(workers=workers, on_level=plain_progress(title, run.n_finished(), total))
+    with Progress(*columns, console=console) as progress:
         task = progress.add_task(title, total=total, completed=run.n_finished())
         return run.run(workers=workers, on_level=lambda: progress.advance(task))
+
+
+def plain_progress(title: str, done: int, total: int) -> Callable[[], None]:
+    """Say now and then, on lines of their own, how far the run is: for logs."""
+    began = said = time.monotonic()
+    first = done
+
+    def on_level() -> None:
+        nonlocal done, said
+        done += 1
+        now = time.monotonic()
+        if now - said >= SAY_EVERY and done < total:
+            said = now
+            left = (now - began) / (done - first) * (total - done)
+            print(f"{title}: {done} of {total} levels, {left:.0f} s left", file=sys.stderr)
+
+    return on_level
 
 
 def play_control(run: Bench) -> None:
     """Play the same with `frozen`, which looks at no image, into ``control/``."""
     from ..algorithms import load_algorithm
     from ..benchmark.bench import Bench
+    from ..benchmark.directory import CONTROL as FOLDER_OF_CONTROL
 
     plan = replace(
         run.plan,
@@ -294,7 +299,7 @@ def play_control(run: Bench) -> None:
         parameters={},
         is_blind=True,
     )
-    control = Bench(plan=plan, out=run.out / CONTROL_FOLDER, inputs=run.inputs, renderer="none")
+    control = Bench(plan=plan, out=run.out / FOLDER_OF_CONTROL, inputs=run.inputs, renderer="none")
     control.run()
 
 

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import dataclasses
+from functools import partial
 from pathlib import Path, PurePosixPath
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..errors import Fault, FileError
+from ..errors import BadSetting, Fault, FileError, UnknownName, UwsimError
 from .faults import WRONG_INPUT, printable
+from .files import bundled, scene_file
+
+if TYPE_CHECKING:
+    from ..simulation import Simulation
 
 
 def check(
@@ -32,10 +38,11 @@ def check(
     Exit status 0 without faults, else 2; what is read and not simulated yet is a notice.
     """
     folders = tuple(data_path or ())
-    asked = [*files, *([scene] if scene is not None and scene not in files else [])]
+    named = [bundled_or(file) for file in files]
+    scene = None if scene is None else bundled_or(scene)
     n_faults = 0
-    for file in asked:
-        found = faults_of(file, strict=strict, data_path=folders)
+    for file in [*named, *([scene] if scene is not None and scene not in named else [])]:
+        found = faults_of(file, strict=strict, data_path=folders, scene=scene)
         wrong = [fault for fault in found if fault.severity == "fault"]
         n_faults += len(wrong)
         for fault in found:
@@ -46,8 +53,24 @@ def check(
         raise typer.Exit(WRONG_INPUT)
 
 
-def faults_of(file: Path, *, strict: bool = False, data_path: tuple[Path, ...] = ()) -> list[Fault]:
-    """Return everything wrong or worth knowing about a file; its root element says its kind."""
+def bundled_or(file: Path) -> Path:
+    """Return the bundled scene or benchmark of that bare name, where there is no such file."""
+    if file.exists():
+        return file
+    return {**bundled("scenes"), **bundled("benchmarks")}.get(str(file), file)
+
+
+def faults_of(
+    file: Path,
+    *,
+    strict: bool = False,
+    data_path: tuple[Path, ...] = (),
+    scene: Path | None = None,
+) -> list[Fault]:
+    """Return everything wrong or worth knowing about a file; its root element says its kind.
+
+    A benchmark is held against ``scene``, or against the scene that it names itself.
+    """
     from ..dialect import parse
     from ..scene.reader import ROOT, check_robot, check_scene
 
@@ -61,11 +84,83 @@ def faults_of(file: Path, *, strict: bool = False, data_path: tuple[Path, ...] =
     if root == "benchmark":
         from ..benchmark.reader import check_benchmark
 
-        return check_benchmark(file, strict=strict)
+        found = check_benchmark(file, strict=strict)
+        if not any(fault.severity == "fault" for fault in found):
+            found += unknown_names(file, scene, data_path)
+        return found
     if root == ROOT:
         return check_scene(file, strict=strict, library=library)
     message = f"the root element is <{root[:60]}>; expected <{ROOT}>, <benchmark> or <robot>"
     return [Fault(file=str(file), line=1, message=message)]
+
+
+def unknown_names(file: Path, scene: Path | None, data_path: tuple[Path, ...]) -> list[Fault]:
+    """Look up every name of a benchmark in its scene, and the algorithm in the table."""
+    from ..algorithms import load_algorithm
+    from ..benchmark.not_simulated import NotSimulatedYet
+    from ..benchmark.reader import read_benchmark
+    from ..benchmark.updaters import chain
+    from ..dialect import parse
+    from ..scene.reader import read_scene
+    from ..simulation import Simulation
+
+    benchmark = read_benchmark(file)
+    root = parse(file).root
+    said: dict[str, int | None] = {}
+
+    def add(error: UwsimError, name: str) -> None:
+        where = [
+            int(str(node.sourceline))
+            for node in root.iter("*")
+            if name
+            and ((node.text or "").strip() == name or name in map(str, node.attrib.values()))
+        ]
+        said.setdefault(str(error), where[0] if where else None)
+
+    if benchmark.algorithm is not None and ":" not in benchmark.algorithm:
+        try:
+            load_algorithm(benchmark.algorithm)
+        except BadSetting as error:
+            add(error, benchmark.algorithm)
+    wanted = scene or benchmark.scene
+    simulation = None
+    try:
+        if wanted is not None:
+            path = scene_file(str(wanted), (file.parent, *data_path))
+            simulation = Simulation(read_scene(path), data_path=data_path, is_blind=True)
+    except FileError:
+        if scene is None:
+            add(
+                BadSetting(f"the scene {str(wanted)!r} has faults: uwsim check {wanted}"),
+                str(wanted),
+            )
+    except UwsimError as error:
+        add(error, str(wanted))
+    if simulation is not None:
+        parts: list[Any] = [*benchmark.measures, benchmark.start_on, benchmark.stop_on]
+        parts += [trigger for m in benchmark.measures for trigger in (m.start_on, m.stop_on)]
+        for part in [*parts, *chain(benchmark.scene_updater)]:
+            for look in (partial(look_for_cameras, part), part.bind):
+                try:
+                    look(simulation)
+                except UnknownName as error:
+                    add(error, error.name)
+                except NotSimulatedYet:
+                    continue  # a notice of the reader
+                except UwsimError as error:
+                    add(error, "")
+    return [Fault(file=str(file), line=line, message=text) for text, line in said.items()]
+
+
+def look_for_cameras(part: object, simulation: Simulation) -> None:
+    """Look up every field called ``camera`` of a spec and of the specs in it."""
+    if not dataclasses.is_dataclass(part):
+        return
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        if field.name == "camera" and isinstance(value, str):
+            simulation.camera(value)
+        look_for_cameras(value, simulation)
 
 
 class Folders:

@@ -70,7 +70,7 @@ class InProcessNode:
             algorithm.start(self)
         except BadSetting:
             raise
-        except Exception as error:  # whatever a stranger's program raises is its own failure
+        except (Exception, SystemExit) as error:  # a stranger's program fails on its own
             self.error = f"{type(error).__name__}: {error}"
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
@@ -124,6 +124,6 @@ class InProcessNode:
             return None
         try:
             return callback(*arguments)
-        except Exception as error:  # whatever a stranger's program raises is its own failure
+        except (Exception, SystemExit) as error:  # a stranger's program fails on its own
             self.error = f"{type(error).__name__}: {error}"
             return None

@@ -1,0 +1,89 @@
+"""The directory of a result: what may stand in it, and who may write into it."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import re
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import BadSetting
+
+CONTROL = "control"
+"""Folder of the control's own result."""
+OURS = re.compile(
+    r"""(?x) (control/)? (
+        result\.json | result\.dat | provenance\.json | report\.html
+      | measure-[^/]+\.csv
+      | units/\d+\.(jsonl|part)
+      | plots/[^/]+\.png
+      | pictures/\d+-[^/]+\.png(\.part)?
+      | (plots/|units/|pictures/)?\.[^/]+\.part
+    )"""
+)
+"""Files that uwsim writes into a result directory."""
+FOLDERS = ("units", "plots", "pictures", CONTROL)
+
+
+def prepare(directory: Path, *, resume: bool, overwrite: bool) -> None:
+    """See to it that a result may be written into ``directory``.
+
+    Raises:
+        BadSetting: it is not empty and nothing was said; or it is to be overwritten and holds
+            anything that uwsim did not write.
+    """
+    if resume and overwrite:
+        raise BadSetting("--resume and --overwrite exclude each other.")
+    if directory.exists() and not directory.is_dir():
+        raise BadSetting(f"--out {directory}: is a file, not a directory.")
+    if not directory.is_dir() or not any(directory.iterdir()) or resume:
+        return
+    if not overwrite:
+        raise BadSetting(
+            f"--out {directory}: not empty. Use --resume to go on, or --overwrite to start anew."
+        )
+    strange = next(_strange(directory), None)
+    if strange is not None:
+        raise BadSetting(
+            f"--out {directory}: holds {strange!r}, which is no part of a result; "
+            "nothing was overwritten."
+        )
+    for name in [path.name for path in directory.iterdir()]:
+        path = directory / name
+        shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
+
+
+def _strange(directory: Path) -> Iterator[str]:
+    """Names, relative to the directory, of what uwsim did not write."""
+    for folder, folders, files in os.walk(directory):
+        here = Path(folder).relative_to(directory)
+        for name in sorted(folders):
+            path = here / name
+            if name not in FOLDERS or (directory / path).is_symlink():
+                yield str(path)
+        for name in sorted(files):
+            path = here / name
+            if not OURS.fullmatch(path.as_posix()) or (directory / path).is_symlink():
+                yield str(path)
+
+
+@contextmanager
+def alone_in(directory: Path) -> Iterator[None]:
+    """Keep other runs out of a result directory, which is made if need be.
+
+    Raises:
+        BadSetting: another run is writing into it.
+    """
+    directory.mkdir(parents=True, exist_ok=True)
+    handle = os.open(directory, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            raise BadSetting(f"--out {directory}: another run is writing into it.") from None
+        yield
+    finally:
+        os.close(handle)

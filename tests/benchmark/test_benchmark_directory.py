@@ -1,0 +1,63 @@
+from pathlib import Path
+
+import pytest
+
+from uwsim.benchmark.directory import alone_in, prepare
+from uwsim.errors import BadSetting
+
+RESULT = (
+    "result.json", "result.dat", "provenance.json", "report.html", "measure-corners.csv",
+    "units/00000.jsonl", "plots/total.png", "pictures/00000-bowtech1.png", "control/result.json",
+    "control/units/00000.jsonl",
+)  # fmt: skip
+
+
+def make(directory: Path, *names: str) -> Path:
+    for name in names:
+        path = directory / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("x")
+    return directory
+
+
+def test_a_result_is_overwritten_whole(tmp_path: Path) -> None:
+    prepare(make(tmp_path, *RESULT), resume=False, overwrite=True)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "name", ["notes.txt", "pictures/holiday.png", "control/thesis.txt", "units/x/y", "mine/a"]
+)
+def test_what_is_not_ours_is_never_deleted(tmp_path: Path, name: str) -> None:
+    make(tmp_path, *RESULT, name)
+    with pytest.raises(BadSetting, match="nothing was overwritten"):
+        prepare(tmp_path, resume=False, overwrite=True)
+    assert all((tmp_path / each).exists() for each in (*RESULT, name))
+
+
+def test_a_link_is_not_followed(tmp_path: Path) -> None:
+    elsewhere = make(tmp_path / "elsewhere", "00000.jsonl")
+    result = make(tmp_path / "result", "result.json")
+    (result / "units").symlink_to(elsewhere)
+    with pytest.raises(BadSetting, match="units"):
+        prepare(result, resume=False, overwrite=True)
+    assert (elsewhere / "00000.jsonl").exists()
+
+
+def test_a_directory_that_is_not_empty_needs_a_word(tmp_path: Path) -> None:
+    with pytest.raises(BadSetting, match="--resume to go on, or --overwrite"):
+        prepare(make(tmp_path, *RESULT), resume=False, overwrite=False)
+    with pytest.raises(BadSetting, match="exclude each other"):
+        prepare(tmp_path, resume=True, overwrite=True)
+    prepare(tmp_path, resume=True, overwrite=False)
+
+
+def test_two_runs_at_once_do_not_share_a_directory(tmp_path: Path) -> None:
+    with (
+        alone_in(tmp_path / "a"),
+        pytest.raises(BadSetting, match="another run"),
+        alone_in(tmp_path / "a"),
+    ):
+        pass
+    with alone_in(tmp_path / "a"):
+        assert (tmp_path / "a").is_dir()
