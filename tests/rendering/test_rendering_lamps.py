@@ -81,6 +81,34 @@ def test_what_a_lamp_shines_on_has_no_acne(renderer: Renderer) -> None:
     assert (change > 8.0).mean() < 0.004
 
 
+def test_a_round_body_under_a_lamp_has_no_acne(renderer: Renderer) -> None:
+    renderer.place(renderer.add(ball(0.5), 1), placed(*EYE.transform(np.array([[0, 0, -1.5]]))[0]))
+    pictures = [
+        shot(
+            renderer,
+            Lamp(world_from_lamp=EYE, half_angle=0.4, intensity=9.0, casts_shadow=casts),
+        )
+        for casts in (True, False)
+    ]
+    assert pictures[1].max() > 100.0
+    assert (np.abs(pictures[0] - pictures[1]) > 4.0).sum() <= 1
+
+
+@pytest.mark.parametrize("height", [0.1, 0.3])
+def test_grazing_light_has_no_acne(renderer: Renderer, height: float) -> None:
+    renderer.place(renderer.add(plate(20.0, 20.0), 1), placed())
+    low = Pose.from_rpy((0.0, -1.0, height), (math.radians(80.0), 0.0, 0.0))
+    pictures = [
+        shot(
+            renderer,
+            Lamp(world_from_lamp=low, half_angle=1.2, intensity=9.0, casts_shadow=casts),
+        )
+        for casts in (True, False)
+    ]
+    assert pictures[1].max() > 100.0
+    assert np.abs(pictures[0] - pictures[1]).max() <= 1.0
+
+
 def test_terrain_and_great_things_cast_lamplight_shadows(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(20.0, 20.0), 1), placed())
     renderer.place(renderer.add(block((12.0, 12.0, 0.1)), 2), placed(y=6.5, z=1.0))
@@ -89,7 +117,7 @@ def test_terrain_and_great_things_cast_lamplight_shadows(renderer: Renderer) -> 
 
 def test_a_lamps_own_housing_does_not_shade_it(stage: Renderer) -> None:
     alone = shot(stage, lamp())
-    stage.place(stage.add(ball(0.05), 3), placed(z=2.0))
+    stage.place(stage.add(plate(0.3, 0.3, two_sided=True), 3), placed(z=1.95))
     assert at(shot(stage, lamp()), 0.6, 0.6) == at(alone, 0.6, 0.6) > 50.0
 
 
