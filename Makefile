@@ -9,7 +9,7 @@ install:
 	@scripts/setup
 
 demo: install
-	.venv/bin/uwsim bench visibility --out demo.result --overwrite
+	.venv/bin/uwsim bench visibility --seed 1 --out demo.result --overwrite
 	@echo "The report: $(CURDIR)/demo.result/report.html"
 
 test: install
