@@ -146,13 +146,14 @@ class Track:
     tracker: Array
     """Distance of estimate and truth in the picture (n,) [px]; NaN without an estimate."""
 
-    def reference(self, *, after: float = SETTLED) -> Array:
+    def reference(self, *, after: float = SETTLED, period: float = PERIOD) -> Array:
         """Return where the vehicle is when the tracked centroid is in the middle (2,) [m].
 
         A target that is seen d to the right is reached by a move of d to the right: every sample
-        says ``vehicle + seen``. The mean is taken over whole periods; the attitude is as it was.
+        says ``vehicle + seen``. The mean is taken over whole periods [s] after ``after`` [s]; the
+        attitude is as it was.
         """
-        chosen = whole_periods(self.time, after=after)
+        chosen = whole_periods(self.time, period=period, after=after)
         places = (self.vehicle + self.seen)[chosen]
         known = ~np.isnan(places).any(axis=1)
         if not known.any():
@@ -191,7 +192,7 @@ def amplitude(time: Array, values: Array, period: float) -> float:
 def measured(track: Track) -> Station:
     """Say how well the station was kept: the vehicle's position over whole periods after 30 s.
 
-    Along is up in the picture (bow against the current), across is right.
+    Along is up in the picture (the current flows from stern to bow), across is right.
     """
     chosen = whole_periods(track.time)
     time, error = track.time[chosen], track.error()[chosen]

@@ -1,0 +1,237 @@
+"""The figures of the second experiment of the UWSim benchmarking paper: P and PI in a current.
+
+    python examples/currents_figures.py FOLDER                      five minutes on two cores
+    python examples/currents_figures.py FOLDER --quick              short levels, for CI
+    python examples/currents_figures.py FOLDER --sweep DIR DIR ...  error over the current, too,
+                                     from results of ``uwsim bench currents``, any number of seeds
+
+2: the scene, the current as an arrow, the camera's picture as an inset. 12: distance to the
+objective. 13, 14: its two components, right and up in the camera's picture. 15: the tracker's
+error. The objective is the place at which the tracked centroid is in the middle of the picture.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from uwsim.assets.find import find
+from uwsim.benchmark.figures import picture_with_inset
+from uwsim.benchmark.logs import load_log
+from uwsim.benchmark.plots import save_plot
+from uwsim.benchmark.result import Result, load
+from uwsim.benchmark.station_figures import Line, over_current, over_time
+from uwsim.benchmark.station_keeping import (
+    Loop,
+    Station,
+    Swing,
+    Track,
+    measured,
+    predicted,
+    steady,
+    track,
+)
+from uwsim.cli import main as uwsim
+from uwsim.cli.files import benchmark_file
+from uwsim.errors import ResultError
+from uwsim.geometry import Intrinsics, Pose
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
+
+Array = npt.NDArray[np.float64]
+BENCHMARK, SCENE, CAMERA, SEED = "currents-figures.xml", "currents-scene.xml", "bowtech1", 1
+FOVY = math.radians(50.0)
+LEVELS = {0.0: "no current", 0.2: "0.2 m/s"}
+EYE, TARGET = (-1.4, -0.2, -1.2), (1.5, 2.9, -2.7)  # of the viewer, in W [m]
+CALM = 2.0  # of a level, before anything is measured [s]
+HALF = "vehicle[girona500].virtualCamera[bowtech1]"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Draw the figures of the currents experiment.")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--quick", action="store_true", help="short levels, for CI")
+    parser.add_argument("--sweep", type=Path, nargs="+", default=[], help="result directories")
+    asked = parser.parse_args()
+    folder: Path = asked.folder
+    folder.mkdir(parents=True, exist_ok=True)
+    scene_figure(folder)
+    time_figures(folder, quick=asked.quick)
+    if asked.sweep:
+        sweep_figure(folder, asked.sweep)
+
+
+# ------------------------------------------------------------------ 2: the scene
+
+
+def scene_figure(folder: Path) -> None:
+    path = find(SCENE)
+    assert path is not None
+    simulation = Simulation(read_scene(path), seed=SEED)
+    viewer = Intrinsics.from_fovy(1320, 990, math.radians(60.0), near=0.1)
+    eye = looking(EYE, TARGET)
+    try:
+        camera = simulation.camera(CAMERA)
+        outside = simulation.picture(eye, viewer).colour[..., :3]
+        inside = simulation.picture(camera.world_from_camera, camera.intrinsics).colour[..., :3]
+        # the mean current flows along y of the scene's frame, from stern to bow
+        base = simulation.world_from_localized.inverse().transform(
+            simulation.body("girona500").world_from_body.position[None]
+        )[0]
+        ends = base + np.array([[0.0, -0.9, -0.75], [0.0, 0.9, -0.75]])  # above the vehicle
+        world = simulation.world_from_localized.transform(ends)
+    finally:
+        simulation.close()
+    figure = picture_with_inset(outside, inside, share=0.30)
+    tail, tip = (pixel(eye, viewer, point) for point in world)
+    figure.axes[0].annotate(
+        "", tip, tail, arrowprops={"arrowstyle": "-|>,head_width=0.5,head_length=0.9",
+                                   "color": "#E69F00", "linewidth": 3.0},
+    )  # fmt: skip
+    figure.axes[0].annotate(
+        "current", tail, xytext=(0, 7), textcoords="offset points", color="#E69F00", ha="center"
+    )
+    save_plot(figure, folder / "figure-02-scene.png")
+
+
+def looking(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
+    """W from a camera at ``eye`` that looks at ``target``, upright [m]."""
+    back = np.subtract(eye, target) / np.linalg.norm(np.subtract(eye, target))
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    return Pose(np.array(eye), np.stack([right, np.cross(back, right), back], axis=1))
+
+
+def pixel(eye: Pose, viewer: Intrinsics, point: Array) -> tuple[float, float]:
+    """Where a point of W [m] stands in the viewer's picture [px]."""
+    x, y, z = eye.inverse().transform(point[None])[0]
+    return viewer.cx - viewer.fx * x / z, viewer.cy + viewer.fy * y / z
+
+
+# ------------------------------------------------------------------ 12-15: over time
+
+
+def time_figures(folder: Path, *, quick: bool) -> None:
+    results = {name: play(name, folder, quick=quick) for name in ("p", "pi")}
+    runs: dict[tuple[str, float], tuple[Loop, Track]] = {}
+    for name, result in results.items():
+        for level in LEVELS:
+            runs[name, level] = loop_of(result), taken(result, folder / f"{name}.result", level)
+    if not quick:
+        print(table({key: (loop, measured(kept)) for key, (loop, kept) in runs.items()}))
+    window = {"after": 5.0, "period": 4.0} if quick else {}
+    note = "thin lines: theory, once settled"
+
+    def draw(number: int, name: str, label: str, what: Callable[[Array], Array]) -> None:
+        panels = {}
+        for level, title in LEVELS.items():
+            lines = []
+            for controller in results:
+                loop, kept = runs[controller, level]
+                along, across = steady(loop, Swing(speed=level), kept.time + CALM)
+                theory = what(np.stack([across, along], axis=1))
+                theory = np.where(kept.time >= 30.0, theory, np.nan)
+                values = what(kept.error(kept.reference(**window)))
+                lines.append(
+                    Line(name=controller.upper(), time=kept.time, values=values, theory=theory)
+                )
+            panels[title] = lines
+        save_plot(over_time(panels, label=label, note=note), folder / f"figure-{number}-{name}.png")
+
+    draw(12, "distance", "distance to the objective [m]", lambda e: np.hypot(e[:, 0], e[:, 1]))
+    draw(13, "error-x", "X error, right in the picture [m]", lambda e: e[:, 0])
+    draw(14, "error-y", "Y error, up in the picture [m]", lambda e: e[:, 1])
+    panels = {}
+    for level, title in LEVELS.items():
+        seen = {name.upper(): runs[name, level][1] for name in results}
+        panels[title] = [
+            Line(name=name, time=kept.time, values=kept.tracker) for name, kept in seen.items()
+        ]
+    note = "estimate and projected origin of the box, in the picture"
+    drawn = over_time(panels, label="error of the tracked centroid [px]", note=note)
+    save_plot(drawn, folder / "figure-15-tracker.png")
+
+
+def play(controller: str, folder: Path, *, quick: bool) -> Result:
+    """Play a benchmark as ``uwsim bench`` does."""
+    benchmark, settings = BENCHMARK.removesuffix(".xml"), []
+    if quick:
+        text = (
+            benchmark_file(benchmark, ()).read_text().replace("<interval>120<", "<interval>12.2<")
+        )
+        benchmark = str(folder / BENCHMARK)
+        Path(benchmark).write_text(text)
+        settings = ["--set", f"{HALF}.resw=320", "--set", f"{HALF}.resh=240"]
+    out = folder / f"{controller}.result"
+    command = ["bench", benchmark, "--scene", SCENE, "--algorithm", controller, *settings]
+    command += ["--seed", str(SEED), "--workers", "2", "--out", str(out), "--overwrite"]
+    status = uwsim(command)
+    if status != 0:
+        raise SystemExit(status)
+    return load(out)
+
+
+def taken(result: Result, directory: Path, level: float, seed: int | None = None) -> Track:
+    """One level of a run, from the logs in its directory."""
+    names = ("centroid", "objectCentered", "offset")
+    logs = {name: load_log(directory / f"measure-{name}.csv") for name in names}
+    height = float(dict(map(tuple, result.run["settings"])).get(f"{HALF}.resh", 480))
+    focal = height / 2.0 / math.tan(FOVY / 2.0)
+    return track(result, logs, level=level, focal=focal, seed=seed)
+
+
+def loop_of(result: Result) -> Loop:
+    """The gains that a result says were in force."""
+    parameters = result.run["parameters"]
+    return Loop(kp=float(parameters["kp"]), ki=float(parameters.get("ki", 0.0)))
+
+
+def table(kept: dict[tuple[str, float], tuple[Loop, Station]]) -> str:
+    """Measured beside theory."""
+    head = ("controller", "current", "along: mean", "theory", "across: amplitude", "theory")
+    rows: list[Sequence[str]] = [head]
+    for (name, level), (loop, found) in kept.items():
+        theory = predicted(loop, Swing(speed=level))
+        numbers = (found.along_mean, theory.along_mean)
+        numbers += (found.across_amplitude, theory.across_amplitude)
+        rows.append((name, f"{level:g} m/s", *(f"{number:.4f} m" for number in numbers)))
+    return "\n".join("  ".join(f"{cell:>17}" for cell in row) for row in rows)
+
+
+# ------------------------------------------------------------------ error over the current
+
+
+def sweep_figure(folder: Path, directories: Sequence[Path]) -> None:
+    """Mean along and amplitude across at every level that was played to its end."""
+    kept: dict[str, dict[float, list[Station]]] = {}
+    loops: dict[str, Loop] = {}
+    known = set()
+    for directory in directories:
+        result = load(directory)
+        name = str(result.run["algorithm"]).upper()
+        if loops.setdefault(name, loop_of(result)) != loop_of(result):
+            raise SystemExit(f"{directory}: other gains than the results of {name} before it.")
+        seeds = result.numbers("seed") if result.run["repeats"] > 1 else [None] * len(result.rows)
+        for level, seed in zip(result.numbers("current"), seeds, strict=True):
+            assert level is not None
+            which = name, level, result.run["seed"] if seed is None else seed
+            if which in known:
+                continue
+            known.add(which)
+            try:
+                one = taken(result, directory, level, None if seed is None else int(seed))
+                found = measured(one)
+            except ResultError as error:
+                print(f"{directory}: current {level:g}: {error}")
+                continue
+            kept.setdefault(name, {}).setdefault(level, []).append(found)
+    save_plot(over_current(kept, loops), folder / "error-over-current.png")
+
+
+if __name__ == "__main__":
+    main()
