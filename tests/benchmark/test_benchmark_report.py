@@ -90,7 +90,7 @@ def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
         "measure-corners.csv",
         "reef",
         "packages.x",
-        "0.25 0.5 1.0",
+        "0.25 0.5 1",
         "about 1 px",
         "This scene cannot tell trackers apart",
         "gives 0.893, not 0.86, which needs fog 1.031",
@@ -224,3 +224,23 @@ def test_uwsim_report_of_nothing_is_one_clean_line(
     assert capsys.readouterr().err.count("\n") == 1
     with pytest.raises(ResultError, match="no result here"):
         write_report(tmp_path)
+
+
+def test_parameters_are_written_as_people_write_them_and_empty_ones_not_at_all(
+    tmp_path: Path,
+) -> None:
+    said = {"parameters": {"levels": 3.0, "threshold": 0.25}, "notes": (), "levels": None}
+    page_of(replace(visibility(), run=said), tmp_path)
+    text = (tmp_path / "report.html").read_text()
+    assert "<td>parameters.levels</td><td>3</td>" in text
+    assert "<td>parameters.threshold</td><td>0.25</td>" in text
+    assert "<td>notes</td>" not in text
+    assert "<td>levels</td>" not in text
+
+
+def test_the_floor_of_another_benchmark_is_not_said(tmp_path: Path) -> None:
+    assert "5 px" not in page_of(visibility(), tmp_path).text
+    inputs = {"benchmark": ("currents.xml", "sha256:0")}
+    text = page_of(replace(visibility(), inputs=inputs), tmp_path).text
+    assert "about 5 px" in text
+    assert "about 1 px" not in text

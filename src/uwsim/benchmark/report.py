@@ -28,7 +28,7 @@ from .overlay import overlay
 from .plots import LEVEL_WORDS, OVERVIEW, algorithm_of, draw_plots, written_unit
 from .provenance import load_provenance
 from .result import Column, Result, TakenPicture, file_of, load, write_whole
-from .table import exact_decimals, lines, shown_columns
+from .table import exact_decimals, lines, shown_columns, unit_of
 
 MAX_PICTURES = 60
 """More are thinned out evenly; the report says so."""
@@ -36,6 +36,8 @@ MAX_ROWS = 2000
 """More rows of the full table are left to result.json; the report says so."""
 PAPER_FOG, PAPER_DISTANCE, PAPER_VISIBILITY = 1.1, 1.36, 0.86
 """What the UWSim benchmarking paper (Perez et al.) states: [1/m], [m], 1."""
+FLOORS = {"visibility": "about 1 px", "currents": "about 5 px"}
+"""What a perfect tracker scores in the bundled benchmarks, by the first word of their names."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,7 +112,7 @@ def render(
         algorithm=algorithm_of(result) or "no algorithm",
         lead=_lead(result),
         cards=_cards(result),
-        columns=[_heading(column) for column in shown_columns(result)],
+        columns=[_heading(result, column) for column in shown_columns(result)],
         table=lines(result),
         repeats=_n_repeats(result),
         full=_full_table(result),
@@ -131,6 +133,7 @@ def render(
         streams=result.image_streams,
         logs=[(log.name, log.stat().st_size) for log in logs_of(directory)],
         is_static=_is_static(result),
+        floor=FLOORS.get(_title(result).partition("-")[0], "a few px"),
         optics=_optics(result),
         provenance=_pairs(load_provenance(directory)),
         version=str(result.run.get("version", "?")),
@@ -190,7 +193,8 @@ def _cards(result: Result) -> list[Card]:
             if len(entries) < 2
             else (f"at {_level_text(result, first.level)} and {_level_text(result, last.level)}")
         )
-        cards.append(Card(label=column.name, value=value + _space(column.unit), note=at))
+        unit = unit_of(result, column)
+        cards.append(Card(label=column.name, value=value + _space(unit), note=at))
     return cards[:8]
 
 
@@ -269,10 +273,10 @@ def _control(directory: Path) -> Result | None:
 # ---------------------------------------------------------------------------- how it is said
 
 
-def _heading(column: Column) -> tuple[str, str]:
+def _heading(result: Result, column: Column) -> tuple[str, str]:
     """Name and unit of a column."""
     name = {"time": "time", "score": "total"}.get(column.kind, column.name)
-    return name, column.unit or ""
+    return name, unit_of(result, column)
 
 
 def _full_table(result: Result) -> tuple[list[tuple[str, str]], list[list[tuple[str, str]]]]:
@@ -287,7 +291,7 @@ def _full_table(result: Result) -> tuple[list[tuple[str, str]], list[list[tuple[
         [_cell(result, row, column, decimals.get(column.name)) for column in result.columns]
         for row in range(min(len(result.rows), MAX_ROWS))
     ]
-    return [(column.name, column.unit or "") for column in result.columns], rows
+    return [(column.name, unit_of(result, column)) for column in result.columns], rows
 
 
 def _cell(result: Result, row: int, column: Column, decimals: int | None) -> tuple[str, str]:
@@ -333,16 +337,25 @@ def _fact(result: Result, name: str) -> str:
 
 
 def _pairs(mapping: Mapping[str, object], prefix: str = "") -> list[tuple[str, str]]:
-    """Flatten nested mappings into (dotted name, text); (value, unit) becomes one text."""
+    """Flatten nested mappings into (dotted name, text); (value, unit) becomes one text.
+
+    What is empty is left out.
+    """
     found: list[tuple[str, str]] = []
     for name, value in mapping.items():
         if isinstance(value, Mapping):
             found += _pairs(value, f"{prefix}{name}.")
-        elif isinstance(value, tuple | list):
-            found.append((f"{prefix}{name}", " ".join(str(v) for v in value) or "none"))
         else:
-            found.append((f"{prefix}{name}", "none" if value is None else str(value)))
-    return found
+            words = [_word(v) for v in (value if isinstance(value, tuple | list) else (value,))]
+            found.append((f"{prefix}{name}", " ".join(words)))
+    return [(name, text) for name, text in found if text]
+
+
+def _word(value: object) -> str:
+    """A value as a person writes it: ``3`` for 3.0."""
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    return "" if value is None else str(value)
 
 
 def _hashes(inputs: Mapping[str, object]) -> list[tuple[str, str, str]]:

@@ -2,8 +2,8 @@
 
 .. code-block:: text
 
-      fog  corners  total  time  status
-    [1/m]     [px]          [s]
+      fog  corners  total  time
+    [1/m]     [px]   [px]   [s]  status
      0.00     1.83   4.24   2.0  ok
      1.20        -      -  50.0  lost    tracker lost at 48.6 s: ZNCC 0.43 on 5 frames
 
@@ -27,6 +27,10 @@ from .result import Column, Result
 GAP = "-"
 ROOM_FOR_REASONS = 30
 """Columns of a terminal below which reasons stand under the table."""
+MOST_DECIMALS = 4
+"""Of a measure."""
+BIG = 1e7
+"""Numbers from here on are written with an exponent."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +62,7 @@ def lines(result: Result) -> tuple[Line, ...]:
         if column.kind == "level":
             numbers = [level[i] for level in levels]
             decimals = exact_decimals(numbers)
-            texts.append([f"{value:.{decimals}f}" for value in numbers])
+            texts.append([number_text(value, decimals) for value in numbers])
         else:
             intervals = [entry.interval for entry in per_level(result, column.name)]
             decimals = sensible_decimals([i.mean for i in intervals if i.mean is not None])
@@ -78,41 +82,73 @@ def lines(result: Result) -> tuple[Line, ...]:
 def table(result: Result, *, width: int = 80) -> Table:
     """Return the table for a terminal of ``width`` columns.
 
-    Reasons stand behind their line where there is room, else below the table.
+    Measures that do not fit are left out and named below, levels and status never. Reasons stand
+    behind their line where there is room, else below the table.
     """
     shown = lines(result)
-    heads = [_head(column) for column in shown_columns(result)]
+    columns = shown_columns(result)
+    heads = [_head(result, column) for column in columns]
+    wide = [
+        max([len(name), len(unit), *(len(line.cells[i]) for line in shown)])
+        for i, (name, unit) in enumerate(heads)
+    ]
+    last = max([len("status"), *(len(line.status) for line in shown)])
+    fitting = _fitting(columns, wide, width - last)
     drawn = Table(box=None, pad_edge=False, header_style="bold", caption_justify="left")
-    taken = 0
-    for i, (name, unit) in enumerate(heads):
-        wide = max([len(name), len(unit), *(len(line.cells[i]) for line in shown)])
-        head = Text(f"{name}\n{unit}", justify="right")
-        drawn.add_column(head, justify="right", no_wrap=True, min_width=wide)
-        taken += wide + 2
-    wide = max([len("status"), *(len(line.status) for line in shown)])
-    drawn.add_column(Text("status"), no_wrap=True, min_width=wide)
-    is_roomy = width - taken - wide - 2 >= ROOM_FOR_REASONS
+    for i in fitting:
+        head = Text("\n".join(heads[i]), justify="right")
+        drawn.add_column(head, justify="right", no_wrap=True, min_width=wide[i])
+    drawn.add_column(Text("status"), overflow="fold", min_width=min(last, width))
+    taken = sum(wide[i] + 2 for i in fitting) + last
+    is_roomy = width - taken - 2 >= ROOM_FOR_REASONS
     if is_roomy and any(line.why for line in shown):
         drawn.add_column(Text(""), overflow="fold")
     above = ""
     for line in shown:
-        cells = [*line.cells, line.status]
+        cells = [*(line.cells[i] for i in fitting), line.status]
         if len(drawn.columns) > len(cells):
             cells.append("as above" if line.why and line.why == above else line.why)
             above = line.why
         drawn.add_row(*map(Text, cells), style="" if line.ok else "yellow")
-    if not is_roomy:
-        notes = _notes(shown, len(result.of_kind("level")))
-        drawn.caption = Text("\n".join(notes), style="yellow") if notes else None
+    notes = [] if is_roomy else _notes(shown, len(result.of_kind("level")))
+    if left_out := [name for i, (name, _) in enumerate(heads) if i not in fitting]:
+        notes.append(f"not shown for want of room: {', '.join(left_out)}")
+    drawn.caption = Text("\n".join(notes), style="yellow") if notes else None
     return drawn
+
+
+def _fitting(columns: Sequence[Column], wide: Sequence[int], room: int) -> list[int]:
+    """Which columns fit beside the status: levels all, then total, time and measures in turn."""
+    order = ("level", "score", "time", "measure")
+    fitting: list[int] = []
+    for i in sorted(range(len(columns)), key=lambda i: order.index(columns[i].kind)):
+        if columns[i].kind == "level" or wide[i] + 2 <= room:
+            fitting.append(i)
+            room -= wide[i] + 2
+    return sorted(fitting)
+
+
+def unit_of(result: Result, column: Column) -> str:
+    """Return the unit of a column; a total that only adds measures of one unit has that unit."""
+    if column.unit or column.kind != "score" or not column.expression:
+        return column.unit or ""
+    units = {measure.name: measure.unit for measure in result.of_kind("measure")}
+    added = {units.get(name.strip()) for name in column.expression.split("+")}
+    return added.pop() or "" if len(added) == 1 else ""
 
 
 def interval_text(interval: Interval, decimals: int) -> str:
     """Return ``1.83 ± 0.12``, ``1.83`` when there is one value, ``-`` when there is none."""
     if interval.mean is None:
         return GAP
-    text = f"{interval.mean:.{decimals}f}"
-    return text if not interval.half else f"{text} ± {interval.half:.{decimals}f}"
+    text = number_text(interval.mean, decimals)
+    return text if not interval.half else f"{text} ± {number_text(interval.half, decimals)}"
+
+
+def number_text(value: float, decimals: int) -> str:
+    """Return ``1.83``; ``1e+38`` and ``2.5e-09`` where decimals would drown or hide the number."""
+    is_small = decimals >= MOST_DECIMALS and 0 < abs(value) < 0.5 * 10**-decimals
+    return f"{value:.3g}" if abs(value) >= BIG or is_small else f"{value:.{decimals}f}"
 
 
 def exact_decimals(values: Sequence[float]) -> int:
@@ -126,12 +162,13 @@ def sensible_decimals(values: Sequence[float]) -> int:
     sizes = sorted(abs(value) for value in values if value != 0)
     if not sizes:
         return 2
-    return min(4, max(0, 2 - math.floor(math.log10(sizes[len(sizes) // 2]))))
+    return min(MOST_DECIMALS, max(0, 2 - math.floor(math.log10(sizes[len(sizes) // 2]))))
 
 
-def _head(column: Column) -> tuple[str, str]:
+def _head(result: Result, column: Column) -> tuple[str, str]:
     name = "time" if column.kind == "time" else column.name
-    return name, f"[{column.unit}]" if column.unit else ""
+    unit = unit_of(result, column)
+    return name, f"[{unit}]" if unit else ""
 
 
 def _notes(shown: Sequence[Line], n_levels: int) -> list[str]:

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 CONTROL = "frozen"
 SAY_EVERY = 10.0
 """Time between two lines of progress where there is no terminal [s]."""
+UNWRAPPED = 1000
+"""Columns for a reader that is a program: wide enough to leave every line whole."""
 MAX_REPEATS = 10_000
 LONGEST = 1e8
 """A benchmark that would simulate longer than this is a slip of the pen [s]."""
@@ -312,7 +314,7 @@ def finish(run: Bench, result: Result, *, began: float, workers: int) -> None:
     wall = time.time() - began
     save_provenance(provenance(run, began, wall, workers), run.out)
     report = write_report(run.out)
-    console = Console()
+    console = Console(width=None if sys.stdout.isatty() else UNWRAPPED)
     console.print(table(result, width=console.width))
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
 
