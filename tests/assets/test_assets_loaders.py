@@ -151,3 +151,57 @@ def test_a_fan_of_very_many_faces_does_not_cost_their_square(tmp_path: Path) -> 
     (tmp_path / "fan.obj").write_text(f"v 0 0 0\n{rim}\n{faces}\n")
     (mesh,) = read_model(tmp_path / "fan.obj", name="fan").meshes
     assert np.allclose(mesh.normals[:, 2], 1.0)
+
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+ASCII_STL = """solid {0}
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 1 0
+endloop
+endfacet
+endsolid
+"""
+ASCII_PLY = """ply
+format ascii 1.0
+comment {0}
+element vertex 3
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+0 1 0
+3 0 1 2
+"""
+
+
+@pytest.mark.parametrize("word", ["bo\u00eete", "bo\u00eete".encode().decode("latin-1"), "box"])
+@pytest.mark.parametrize(
+    ("suffix", "text"),
+    [(".obj", "# {0}\n" + TRIANGLE), (".stl", ASCII_STL), (".ply", ASCII_PLY)],
+)
+def test_a_comment_in_latin_1_does_not_spoil_a_mesh(
+    suffix: str, text: str, word: str, tmp_path: Path
+) -> None:
+    file = tmp_path / f"mesh{suffix}"
+    file.write_bytes(text.format(word).encode("latin-1"))
+    assert read_model(file, name="m").box.upper == (1.0, 1.0, 0.0)
+
+
+def test_a_binary_mesh_with_a_header_in_latin_1_is_read(tmp_path: Path) -> None:
+    file = written(tmp_path, ".stl")
+    data = file.read_bytes()
+    file.write_bytes("Bo\u00eete".encode("latin-1").ljust(80) + data[80:])
+    assert read_model(file, name="m").box.upper == pytest.approx((0.5, 1.0, 1.5))
+
+
+def test_materials_in_latin_1_keep_their_colour(tmp_path: Path) -> None:
+    (tmp_path / "m.mtl").write_bytes("# peint\u00e9\nnewmtl m\nKd 1 0 0\n".encode("latin-1"))
+    (tmp_path / "m.obj").write_text(f"mtllib m.mtl\nusemtl m\n{TRIANGLE}")
+    assert read_model(tmp_path / "m.obj", name="m").meshes[0].colour == (1.0, 0.0, 0.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import logging
 import warnings
 from pathlib import Path
@@ -22,6 +23,9 @@ LARGEST_MODEL = 4_000_000
 
 LARGEST_PICTURE = 2048
 """Textures are reduced to this many pixels a side."""
+
+STL_HEADER = 80
+"""Length [bytes] of what a binary STL file says of itself."""
 
 FARTHEST = 1e6
 """Vertices farther out than this [m] are taken for a broken file."""
@@ -87,20 +91,49 @@ def _geometries(path: Path, beside: Path | None) -> list[Any]:
             for folder in (path.parent, beside):
                 for place in (wanted, Path(wanted.name)):
                     if folder is not None and (folder / place).is_file():
-                        return (folder / place).read_bytes()
+                        return in_utf8((folder / place).read_bytes(), place.suffix.lower())
             raise FileNotFoundError(name)
 
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
-    with warnings.catch_warnings(), path.open("rb") as file:
+    suffix = path.suffix.lower()
+    with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         scene = trimesh.load_scene(
-            file,
-            file_type=path.suffix.lower().lstrip("."),
+            io.BytesIO(in_utf8(path.read_bytes(), suffix)),
+            file_type=suffix.lstrip("."),
             resolver=Folders(str(path)),
             process=False,
         )
         dumped = scene.dump(concatenate=False)
     return [part for part in dumped if isinstance(part, trimesh.Trimesh)]
+
+
+def in_utf8(data: bytes, suffix: str) -> bytes:
+    """What is text in a mesh file or its materials, as UTF-8; other than that it is Latin-1.
+
+    Old modellers write the comments and names of their users' languages so.
+    """
+    text, rest = data, b""
+    if suffix == ".stl" and _is_binary_stl(data):
+        text, rest = data[:STL_HEADER], data[STL_HEADER:]
+    elif suffix == ".ply":
+        head, mark, body = data.partition(b"end_header")
+        text, rest = head, mark + body
+    elif suffix not in (".obj", ".mtl", ".stl"):
+        return data
+    try:
+        text.decode("utf-8")
+    except UnicodeDecodeError:
+        if rest and suffix == ".stl":  # a header of fixed length
+            return text.decode("ascii", "replace").replace("\ufffd", "?").encode() + rest
+        return text.decode("latin-1").encode("utf-8") + rest
+    return data
+
+
+def _is_binary_stl(data: bytes) -> bool:
+    """Whether the file is as long as the number of triangles behind its header says."""
+    count = int.from_bytes(data[STL_HEADER : STL_HEADER + 4], "little")
+    return len(data) == STL_HEADER + 4 + 50 * count
 
 
 def _mesh(part: Any, path: Path, keep: float) -> Mesh | None:
