@@ -9,9 +9,13 @@ import moderngl
 
 from ..errors import NoGraphics
 
-ENVIRONMENT = {"LP_NUM_THREADS": str(min(4, os.cpu_count() or 1))}
+ENVIRONMENT = {
+    "LP_NUM_THREADS": str(min(4, os.cpu_count() or 1)),
+    "EGL_LOG_LEVEL": "fatal",
+}
 """Switches of Mesa, set where the user has not: pictures of cameras are too small for more
-than a few threads of the software rasteriser. They do not change a byte of a picture."""
+than a few threads of the software rasteriser, and what is wrong is said once, by `NoGraphics`.
+They do not change a byte of a picture."""
 
 N_DEVICES = 4
 """How many of EGL's devices are tried, in its order: graphics cards come before llvmpipe."""
