@@ -222,7 +222,7 @@ def test_every_finite_float_is_read_as_it_was_written(value: float) -> None:
 
 
 TEXT = st.text(st.characters(min_codepoint=33, max_codepoint=0x2FFF, categories=["L", "P", "N"]))
-NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
+NUMBERS = st.floats(-dialect.LARGEST, dialect.LARGEST)
 NAMES = TEXT.filter(bool)
 SPECS = st.builds(
     ThingSpec,
@@ -311,3 +311,22 @@ def test_no_bytes_raise_anything_but_a_file_error(data: bytes) -> None:
         file.flush()
         with contextlib.suppress(FileError):
             parse(Path(file.name))
+
+
+@pytest.mark.parametrize("text", ["1e300", "-1e308", "1000000001"])
+def test_numbers_beyond_any_quantity_are_faults(text: str, tmp_path: Path) -> None:
+    _, said = read_text(f"<thing><name>a</name><lean>{text}</lean></thing>", tmp_path)
+    assert said == [f"thing.xml:1: <lean> is '{text}'; no quantity is beyond 1e+09"]
+
+
+def test_a_file_that_was_cut_off_is_one_fault_in_whole_words(tmp_path: Path) -> None:
+    file = tmp_path / "thing.xml"
+    whole = "<thing>\n  <name>a</name>\n  <fogDensity>0.5</fogDensity>\n</thing>"
+    for n in range(len("<thing>\n"), len(whole)):
+        file.write_text(whole[:n])
+        with pytest.raises(FileError) as caught:
+            parse(file)
+        (fault,) = caught.value.faults
+        cut = "the file ends in the middle; it was cut off"
+        if not whole[:n].rstrip().endswith(">"):
+            assert fault.message == f"not well-formed XML: {cut}"

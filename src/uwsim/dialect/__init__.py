@@ -30,13 +30,15 @@ never asked. `Faults` in strict mode also holds a file against the order of the 
 
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
 from .faults import MAX_FAULTS, Faults
-from .grammar import Slot, camel, element, field_docs, slots
+from .grammar import FARTHEST, LARGEST, Slot, camel, element, field_docs, slots
 from .names import NAMESPACE
 from .reading import read, read_choice, text_of
 from .values import TOKENS, number
 from .writing import uses_extensions, write
 
 __all__ = [
+    "FARTHEST",
+    "LARGEST",
     "MAX_BYTES",
     "MAX_DEPTH",
     "MAX_FAULTS",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -58,9 +59,11 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as problem:
-        for entry in list(parser.error_log)[:10]:
-            message = re.sub(r",? (use|try) XML_PARSE_HUGE( option)?", "", entry.message).strip()
-            faults.add(entry.line, f"not well-formed XML: {message[:200]}")
+        said: dict[int, str] = {}  # of several in a line the others follow from the first
+        for entry in parser.error_log:
+            said.setdefault(entry.line, _said(entry, data))
+        for line, message in list(said.items())[:10]:
+            faults.add(line, f"not well-formed XML: {message}")
         if not faults.any:
             faults.add(problem.lineno, f"not well-formed XML: {str(problem)[:200]}")
     except (ValueError, LookupError) as problem:
@@ -68,6 +71,19 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
     faults.check(error)
     assert root is not None
     return Document(path, root, root.getroottree().docinfo.internalDTD is not None)
+
+
+def _said(entry: etree._LogEntry, data: bytes) -> str:
+    """What the parser found wrong, in whole words."""
+    text = data.rstrip()
+    if (
+        entry.line > text.count(b"\n")
+        and not text.endswith(b">")
+        and not entry.message.startswith(("Extra content", "Start tag expected"))
+    ):
+        return "the file ends in the middle; it was cut off"
+    message = re.sub(r",? (use|try) XML_PARSE_HUGE( option)?", "", entry.message)
+    return textwrap.shorten(message, 200, placeholder=" ...")
 
 
 def _bytes(path: Path, faults: Faults) -> bytes:

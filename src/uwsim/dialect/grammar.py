@@ -17,6 +17,11 @@ from typing import Any, Literal, cast
 
 from .names import NAMESPACE, local
 
+FARTHEST = 1e6
+"""Greatest length that a scene needs [m]."""
+LARGEST = 1e9
+"""Greatest number that any quantity needs, in whatever unit; larger ones are slips."""
+
 
 @dataclass(frozen=True)
 class Xml:

@@ -10,7 +10,7 @@ from lxml import etree
 
 from ..errors import did_you_mean
 from .faults import Faults
-from .grammar import Slot
+from .grammar import LARGEST, Slot
 from .names import cut
 
 TOKENS = {
@@ -68,6 +68,9 @@ def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: s
         value = text
     if value is not BAD and slot.kind in ("float", "int", "triple") and not _within(slot, value):
         value = BAD
+    if slot.kind in ("float", "triple") and value is not BAD and abs(value) > LARGEST:
+        faults.add(node, f"{shown} is {cut(text)}; no quantity is beyond {LARGEST:g}")
+        return BAD
     if value is BAD:
         near = did_you_mean(text, slot.type) if slot.kind == "word" and len(text) < 80 else ""
         faults.add(node, f"{shown} is {cut(text)}; expected {slot.expected}.{near}".rstrip("."))
