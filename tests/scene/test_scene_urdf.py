@@ -12,9 +12,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from uwsim.dialect import Faults
 from uwsim.errors import SceneError
 from uwsim.scene.kinematics import joint_positions, link_poses
-from uwsim.scene.urdf import RobotSpec, read_urdf
+from uwsim.scene.urdf import RobotSpec, read_robot, read_urdf
 
 G500 = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "scenes" / "g500ARM5.urdf"
 
@@ -189,7 +190,7 @@ def test_every_fault_of_a_robot_is_said_at_once(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("inside", "said"),
     [
-        ("", "found a loop"),
+        ("", "the robot has no <link>"),
         (LINKS, "3 links hang on none"),
         (LINKS + joint("1", of="a b") + joint("2", of="b c") + joint("3", of="c a"), "a loop"),
         ('<link name="d"/>' + LINKS + joint("1", of="b c") + joint("2", of="c b")
@@ -217,3 +218,56 @@ def test_no_mutation_of_a_robot_raises_anything_but_a_scene_error(
         file.write_bytes(text)
         with contextlib.suppress(SceneError):
             link_poses(read_urdf(file), (0.1, 0.2, 0.3))
+
+
+def chain(n: int) -> str:
+    links = "".join(f'<link name="{i}"/>' for i in range(n + 1))
+    return links + "".join(joint(f"j{i}", kind="fixed", of=f"{i} {i + 1}") for i in range(n))
+
+
+def test_a_chain_of_3000_links_is_a_fault_and_no_recursion_error(tmp_path: Path) -> None:
+    assert len(robot_of(chain(256), tmp_path).joints) == 256
+    assert refused(chain(3000), tmp_path) == ["joint 'j256' ends a chain of more than 256 joints"]
+
+
+def test_joints_that_mimic_each_other_are_a_loop(tmp_path: Path) -> None:
+    joints = joint("j", '<mimic joint="k"/>') + joint("k", '<mimic joint="j"/>', of="b c")
+    assert refused(LINKS + joints, tmp_path) == [
+        "joint 'j' mimics 'k' mimics 'j': a loop",
+        "joint 'k' mimics 'j' mimics 'k': a loop",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("shape", "said"),
+    [
+        ('<sphere radius="-3"/>', "radius of <sphere> is '-3'; expected 0 to 1e+06"),
+        ('<cylinder radius="1" length="-1"/>', "length of <cylinder> is '-1'; expected 0"),
+        ('<box size="1 -1 1"/>', "size of <box> is '1 -1 1'; expected numbers >= 0"),
+        ('<box size="1 1e300 1"/>', "expected numbers up to 1e+06"),
+    ],
+)
+def test_negative_and_endless_sizes_are_faults(shape: str, said: str, tmp_path: Path) -> None:
+    (message,) = refused(
+        f'<link name="a"><visual><geometry>{shape}</geometry></visual></link>', tmp_path
+    )
+    assert said in message
+
+
+@pytest.mark.parametrize(
+    ("inside", "said"),
+    [
+        ('<axis xyz="0 0 0"/><limit lower="-1" upper="1"/>', "has the axis 0 0 0; held fixed"),
+        ('<limit lower="1" upper="-1"/>', "lower 1 is above upper -1"),
+    ],
+)
+def test_joints_that_cannot_move_are_noticed_with_their_line(
+    inside: str, said: str, tmp_path: Path
+) -> None:
+    file, pair = tmp_path / "robot.urdf", '<link name="a"/><link name="b"/>'
+    file.write_text(f'<robot name="r">\n{pair}\n{joint("j", inside, kind="revolute")}</robot>')
+    faults = Faults(file)
+    read_robot(file, faults)
+    (notice,) = faults.all()
+    assert (notice.line, notice.severity) == (3, "notice")
+    assert said in notice.message

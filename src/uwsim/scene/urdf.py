@@ -29,13 +29,16 @@ from typing import Literal, cast
 
 from lxml import etree
 
-from ..dialect import Faults, number, parse
+from ..dialect import FARTHEST, Faults, number, parse
 from ..errors import SceneError
 
 Triple = tuple[float, float, float]
 Colour = tuple[float, float, float, float]
 
 ZERO: Triple = (0.0, 0.0, 0.0)
+LONGEST_CHAIN = 256
+"""Most joints between the root and a link."""
+
 MOVABLE = ("revolute", "continuous", "prismatic")
 STIFF = ("floating", "planar")
 
@@ -188,6 +191,8 @@ def read_robot(path: Path, faults: Faults) -> RobotSpec | None:
                 faults.remember(joint, node)
     for joint in joints.values():
         _check_mimic(joint, joints, faults)
+    if not links:
+        faults.add(root, "the robot has no <link>")
     if faults.any:
         return None
     return _tree(root, path, links, joints, faults)
@@ -218,10 +223,18 @@ def _tree(
         faults.add(root, f"the joints are no tree with one root; found {what}")
         return None
     ordered: list[JointSpec] = []
+    depths = {roots[0]: 0}
     waiting = list(reversed(children.get(roots[0], [])))
     while waiting:
         joint = waiting.pop()
         ordered.append(joint)
+        depths[joint.child] = depths[joint.parent] + 1
+        if depths[joint.child] > LONGEST_CHAIN:
+            faults.add(
+                faults.node_of(joint),
+                f"joint {joint.name!r} ends a chain of more than {LONGEST_CHAIN} joints",
+            )
+            return None
         waiting += reversed(children.get(joint.child, []))
     if len(ordered) < len(joints):
         lost = sorted(set(joints) - {joint.name for joint in ordered})
@@ -243,7 +256,7 @@ def _link(node: etree._Element, materials: dict[str, Colour], faults: Faults) ->
     if inertial is not None:
         centre, turn = _origin(inertial, faults)
         if (weight := inertial.find("mass")) is not None:
-            mass = _number(weight, "value", faults, 0.0)
+            mass = _size(weight, "value", faults, 0.0)
         if (tensor := inertial.find("inertia")) is not None:
             xx, yy, zz, xy, xz, yz = (
                 _number(tensor, f"i{axes}", faults, 0.0)
@@ -284,9 +297,12 @@ def _shape(
         scale = _triple(shape, "scale", faults, scale)
     elif kind == "box":
         size = _triple(shape, "size", faults, None)
+        if min(size) < 0:
+            said = shape.get("size", "")
+            faults.add(shape, f"size of <box> is {said[:60]!r}; expected numbers >= 0")
     elif kind in ("cylinder", "sphere"):
-        wide = 2 * _number(shape, "radius", faults, None)
-        tall = _number(shape, "length", faults, None) if kind == "cylinder" else wide
+        wide = 2 * _size(shape, "radius", faults, None)
+        tall = _size(shape, "length", faults, None) if kind == "cylinder" else wide
         size = (wide, wide, tall)
     else:
         kinds = ("mesh", "box", "cylinder", "sphere")
@@ -380,6 +396,14 @@ def _check_mimic(joint: JointSpec, joints: dict[str, JointSpec], faults: Faults)
             f"joint {joint.name!r} mimics {source[:60]!r}, which is no joint"
             f".{faults.near(source, joints)}",
         )
+        return
+    passed: list[str] = []
+    while joint.mimic is not None and joint.name not in passed and joint.mimic.joint in joints:
+        passed.append(joint.name)
+        joint = joints[joint.mimic.joint]
+    if passed and joint.name == passed[0]:
+        loop = " mimics ".join(repr(name) for name in (*passed, joint.name))
+        faults.add(faults.node_of(joint), f"joint {loop[:200]}: a loop")
 
 
 def _end(node: etree._Element, end: str, links: dict[str, LinkSpec], faults: Faults) -> str | None:
@@ -416,7 +440,26 @@ def _triple(node: etree._Element, attribute: str, faults: Faults, default: Tripl
     if attribute not in node.attrib and default is not None:
         return default
     values = _numbers(node, attribute, 3, faults)
+    if values is not None and not max(map(abs, values)) <= FARTHEST:
+        said = node.get(attribute, "")
+        faults.add(
+            node,
+            f"{attribute} of <{node.tag}> is {said[:60]!r}; expected numbers up to {FARTHEST:g}",
+        )
+        return ZERO
     return ZERO if values is None else (values[0], values[1], values[2])
+
+
+def _size(node: etree._Element, attribute: str, faults: Faults, default: float | None) -> float:
+    """A length or mass: not below 0."""
+    value = _number(node, attribute, faults, default)
+    if not 0 <= value <= FARTHEST:
+        said = node.get(attribute, "")
+        faults.add(
+            node, f"{attribute} of <{node.tag}> is {said[:60]!r}; expected 0 to {FARTHEST:g}"
+        )
+        return 0.0
+    return value
 
 
 def _number(node: etree._Element, attribute: str, faults: Faults, default: float | None) -> float:
