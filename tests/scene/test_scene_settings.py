@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Literal
 
@@ -10,6 +11,8 @@ import pytest
 from uwsim.dialect import element
 from uwsim.errors import BadSetting
 from uwsim.scene.settings import apply_setting
+from uwsim.scene.spec import ObjectSpec, SceneSpec, VehicleSpec
+from uwsim.sensors.virtual_camera import VirtualCameraSpec
 
 Triple = tuple[float, float, float]
 
@@ -141,3 +144,29 @@ def test_a_setting_that_leads_nowhere_says_what_would_be_right(setting: str, sai
     with pytest.raises(BadSetting) as caught:
         with_set(setting)
     assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("setting", "said"),
+    [
+        ("oceanState.fog.density=-1", "expected a number >= 0 and <= 1e+06 [1/m]"),
+        ("vehicle.virtualCamera.std=1e308", "expected a number >= 0 and <= 10"),
+        ("object.position=1e300 0 0", "expected a number >= -1e+06 and <= 1e+06 [m]"),
+        ("object.scaleFactor=0 1 1", "expected a number >= 1e-06 and <= 1e+06"),
+        ("vehicle.orientation=1e300 0 0", "no quantity is beyond 1e+09"),
+    ],
+)
+def test_extreme_numbers_are_refused_on_the_command_line_too(setting: str, said: str) -> None:
+    scene = SceneSpec(
+        vehicles=(
+            VehicleSpec(
+                name="v",
+                file="v.urdf",
+                virtual_cameras=(VirtualCameraSpec(name="c", relative_to="base"),),
+            ),
+        ),
+        objects=(ObjectSpec(name="o", file="o.obj"),),
+    )
+    path, _, value = setting.partition("=")
+    with pytest.raises(BadSetting, match=re.escape(said)):
+        apply_setting(scene, path, value)

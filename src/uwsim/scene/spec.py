@@ -37,7 +37,7 @@ from ..devices.led_array import LedArraySpec
 from ..devices.object_picker import ObjectPickerSpec
 from ..devices.sway import SwaySpec, swayed
 from ..devices.thruster_fault import ThrusterFaultSpec
-from ..dialect import NAMESPACE, element
+from ..dialect import FARTHEST, NAMESPACE, element
 from ..geometry import Pose, rotation_from_xyz
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.gps_sensor import GpsSensorSpec
@@ -62,7 +62,7 @@ NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
 class FogSpec:
     """A ``<fog>``: how visibility falls with distance."""
 
-    density: float = element(default=0.1, required_by_dtd=True)
+    density: float = element(default=0.1, required_by_dtd=True, minimum=0, maximum=1e6)
     """At a distance d the share ``1 - exp(-(density d)^2)`` of what is there is lost [1/m]."""
     color: Triple = element(default=NIGHT_BLUE, parts="rgb", required_by_dtd=True)
     """What replaces what cannot be seen [0..1]."""
@@ -90,13 +90,15 @@ class OceanStateSpec:
     """How far waves move points sideways [1]."""
     crest_foam_height: float = 2.2
     """Height from which crests foam; read and not used, as in the original [m]."""
-    ocean_surface_height: float = 0.0
+    ocean_surface_height: float = element(default=0.0, minimum=-FARTHEST, maximum=FARTHEST)
     """Height of the water surface in the world, z up [m]."""
     fog: FogSpec = element(default_factory=FogSpec)
     """How visibility falls with distance."""
     color: Triple = element(default=NIGHT_BLUE, parts="rgb")
     """Light scattered into the view by the water [0..1]."""
-    attenuation: Triple = element(default=(0.015, 0.0075, 0.005), parts="rgb")
+    attenuation: Triple = element(
+        default=(0.015, 0.0075, 0.005), parts="rgb", minimum=0, maximum=1e6
+    )
     """Loss of red, green and blue light on its way [1/m]."""
     currents: tuple[CurrentSpec, ...] = element(
         "current", namespaced=True, default=(),
@@ -129,7 +131,7 @@ class SimParamsSpec:
     """Width of the window [px]."""
     resh: int = element(default=600, minimum=1)
     """Height of the window [px]."""
-    offsetp: Triple = ZERO
+    offsetp: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
     """Origin of the file's frame in the world [m]."""
     offsetr: Triple = ZERO
     """Turn of the file's frame in the world, about x, y, z: Rx Ry Rz [rad]."""
@@ -145,7 +147,7 @@ class SimParamsSpec:
     """Dantzig, SolveProjectedGauss or SequentialImpulse."""
     show_trajectory: tuple[ShowTrajectorySpec, ...] = ()
     """Trails to draw in the viewer."""
-    light_rate: float = element(default=1.0, minimum=0)
+    light_rate: float = element(default=1.0, minimum=0, maximum=1e6)
     """Factor on the light of the scene [1]."""
 
 
@@ -165,9 +167,9 @@ class ViewerCameraSpec:
     """Near plane; automatic unless both planes are given [m]."""
     far: float = -1.0
     """Far plane; automatic unless both planes are given [m]."""
-    position: Triple = (-5.0, -5.0, 8.0)
+    position: Triple = element(default=(-5.0, -5.0, 8.0), minimum=-FARTHEST, maximum=FARTHEST)
     """Of the viewer in the world [m]."""
-    look_at: Triple = ZERO
+    look_at: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
     """Where it looks, in the world [m]."""
 
 
@@ -203,7 +205,7 @@ class TfSpec:
 
     tf_id: str
     """The frame it follows."""
-    position: Triple = ZERO
+    position: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
     """Of the vehicle in that frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy")
     """Of the vehicle in that frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
@@ -225,11 +227,11 @@ class VehicleSpec:
     """Whether it is a ghost: drawn in the viewer, unseen by cameras."""
     joint_values: tuple[float, ...] = element(item="joint", default=())
     """Of the movable joints that mimic no other, in the order of the tree [rad or m]."""
-    position: Triple = ZERO
+    position: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
     """Of its base in the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy")
     """Of its base in the file's frame, in UWSim's vehicle order: Rx Ry Rz [rad]."""
-    scale_factor: Triple = ONE
+    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6)
     """Scale of the whole vehicle along x, y, z [1]."""
     virtual_cameras: tuple[VirtualCameraSpec, ...] = element("virtualCamera", default=())
     """Colour cameras."""
@@ -333,13 +335,15 @@ class ObjectSpec:
     """Its name; several may share one, searches find the first."""
     file: str
     """Its mesh."""
-    position: Triple = element(default=ZERO, required_by_dtd=True)
+    position: Triple = element(
+        default=ZERO, required_by_dtd=True, minimum=-FARTHEST, maximum=FARTHEST
+    )
     """In the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy", required_by_dtd=True)
     """In the file's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    scale_factor: Triple = ONE
+    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6)
     """Scale along x, y, z [1]."""
-    offsetp: Triple = ZERO
+    offsetp: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
     """Point of the mesh that becomes the origin of the object [m]."""
     offsetr: Triple = ZERO
     """Turn of the mesh in the object, about x, y, z: Rx Ry Rz [rad]."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..dialect import FARTHEST, element
 from .sensor import SensorSpec
 
 
@@ -23,7 +23,9 @@ class MultibeamSensorSpec(SensorSpec):
 
     visible: bool = False
     """Whether the viewer draws the beams."""
-    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    position: tuple[float, float, float] = element(
+        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+    )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
@@ -33,7 +35,7 @@ class MultibeamSensorSpec(SensorSpec):
     """Angle of the last beam [deg]."""
     angle_incr: float = element(above=0)
     """Angle between beams [deg]."""
-    range: float = element(above=0)
+    range: float = element(above=0, maximum=FARTHEST)
     """Longest distance measured; the value of a beam that hits nothing [m]."""
     underwater_particles: bool = element(attribute=True, default=False)
     """Whether particles drifting in the water are seen."""

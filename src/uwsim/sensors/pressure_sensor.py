@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..dialect import FARTHEST, element
 from .sensor import SensorSpec
 
 
@@ -19,9 +19,11 @@ from .sensor import SensorSpec
 class PressureSensorSpec(SensorSpec):
     """A ``<pressureSensor>``."""
 
-    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    position: tuple[float, float, float] = element(
+        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+    )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    std: float = element(default=0.0, minimum=0)
+    std: float = element(default=0.0, minimum=0, maximum=10)
     """Noise of the depth, standard deviation [m]."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..dialect import FARTHEST, element
 from .sensor import SensorSpec
 
 
@@ -19,11 +19,13 @@ from .sensor import SensorSpec
 class RangeSensorSpec(SensorSpec):
     """A ``<rangeSensor>``."""
 
-    range: float = element(minimum=0)
+    range: float = element(minimum=0, maximum=FARTHEST)
     """Length of the ray; the value when nothing is hit [m]."""
     visible: bool = False
     """Whether the viewer draws the ray."""
-    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    position: tuple[float, float, float] = element(
+        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+    )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""

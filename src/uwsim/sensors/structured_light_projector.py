@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..dialect import FARTHEST, element
 from .sensor import SensorSpec
 
 
@@ -26,7 +26,9 @@ class StructuredLightProjectorSpec(SensorSpec):
     """The image: transparent and pure white pixels shine nothing."""
     laser: bool = True
     """1: laser, neither lit nor attenuated on its way; 0: lamp, falling off with distance."""
-    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    position: tuple[float, float, float] = element(
+        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+    )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..dialect import element
+from ..dialect import FARTHEST, element
 from ..geometry import Intrinsics, Pose
 from ..messages import CameraInfo, RegionOfInterest, header
 from ..world import Body, SensorWorld
@@ -29,17 +29,17 @@ from .sensor import SensorSpec, link_from_sensor
 class CameraParametersSpec:
     """The pinhole of a camera from a calibration; overrides ``fovy``."""
 
-    fx: float = element(above=0)
+    fx: float = element(above=0, maximum=FARTHEST)
     """Focal length along the columns [px]."""
-    fy: float = element(above=0)
+    fy: float = element(above=0, maximum=FARTHEST)
     """Focal length along the rows [px]."""
     x0: float
     """Principal point from the left edge [px]."""
     y0: float
     """Principal point from the top edge [px]; the original counts it from the bottom."""
-    f: float = element(above=0)
+    f: float = element(above=0, maximum=FARTHEST)
     """Far plane [m]."""
-    n: float = element(above=0)
+    n: float = element(above=0, maximum=FARTHEST)
     """Near plane [m]."""
     k: float
     """Skew [px]."""
@@ -73,11 +73,13 @@ class VirtualCameraSpec(SensorSpec):
     """Columns of the picture [px]."""
     resh: int = element(default=120, minimum=1, maximum=16384)
     """Rows of the picture [px]."""
-    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    position: tuple[float, float, float] = element(
+        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+    )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    baseline: float = 0.0
+    baseline: float = element(default=0.0, minimum=-FARTHEST, maximum=FARTHEST)
     """Distance to the first camera of a stereo pair [m]; Tx = -fx * baseline in CameraInfo."""
     frame_id: str = ""
     """Name of the frame in the headers of image and info."""
@@ -89,7 +91,7 @@ class VirtualCameraSpec(SensorSpec):
     """Period at which the viewer marks the outline of what the camera sees [s]; 0 is off."""
     grayscale: bool = False
     """Whether it gives mono8 instead of rgb8."""
-    std: float = element(default=0.005, minimum=0)
+    std: float = element(default=0.005, minimum=0, maximum=10)
     """Noise of each channel of each pixel, standard deviation [1: full scale]."""
 
     def intrinsics(self, compatibility: frozenset[str] = frozenset()) -> Intrinsics:

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..dialect import FARTHEST, element
 from ..geometry import Intrinsics
 from .sensor import SensorSpec
 from .virtual_camera import CameraParametersSpec
@@ -27,7 +27,9 @@ class VirtualRangeImageSpec(SensorSpec):
     """Columns of the picture [px]."""
     resh: int = element(default=120, minimum=1, maximum=16384)
     """Rows of the picture [px]."""
-    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    position: tuple[float, float, float] = element(
+        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+    )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
