@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .controller import ControllerNode, StationKeeper
+from .controller import ControllerNode, Law, StationKeeper
 from .p import P
 from .pi import PI
 
-__all__ = ["PI", "ControllerNode", "P", "StationKeeper"]
+__all__ = ["PI", "ControllerNode", "Law", "P", "StationKeeper"]

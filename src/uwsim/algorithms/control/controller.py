@@ -15,7 +15,7 @@ it further (clamping). Time is that between two estimates. Not modelled: that d 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -45,6 +45,16 @@ PARAMETERS: Mapping[str, float | str] = {
     "twist_topic": "/dataNavigator",
 }
 """Gains [1/s, 1/s^2], distance d to the target [m], largest speed [m/s], topics."""
+
+
+class Law(Protocol):
+    """A control law: errors in, speeds out."""
+
+    def step(self, error: Array, dt: float) -> Array:
+        """Return surge and sway (2,) [m/s] for the error forward and to starboard (2,) [m].
+
+        ``dt`` is the time since the last call [s], 0 at the first.
+        """
 
 
 class StationKeeper:
@@ -92,15 +102,19 @@ class ControllerNode:
         """Take the parameters, go on the bus, start the tracker."""
         self._parameters = chosen(self.PARAMETERS, node.parameters)
         self._node = node
-        self._keeper = StationKeeper(
-            kp=self._number("kp"), ki=self._number("ki"), limit=self._number("limit")
-        )
+        self._law = self.law()
         self._say = node.publisher(str(self._parameters["twist_topic"]), TwistStamped)
         node.subscribe(str(self._parameters["info_topic"]), CameraInfo, self._on_info)
         node.subscribe("centroidTopic", Float32MultiArray, self._on_centroid)
         node.subscribe("algorithmStatus", String, self._on_status)
         tracking = {name: self._parameters[name] for name in Esm.PARAMETERS}
         self._tracker.start(NodeView(node, tracking))
+
+    def law(self) -> Law:
+        """Return the law that turns errors into speeds; one of your own goes here."""
+        return StationKeeper(
+            kp=self._number("kp"), ki=self._number("ki"), limit=self._number("limit")
+        )
 
     def _number(self, name: str) -> float:
         return float(self._parameters[name])
@@ -117,7 +131,7 @@ class ControllerNode:
         right, up = (u - cx) * distance / fx, (cy - v) * distance / fy  # [m]
         dt = 0.0 if self._last is None else self._node.now - self._last
         self._last = self._node.now
-        surge_sway = self._keeper.step(np.array([up, right]), dt)
+        surge_sway = self._law.step(np.array([up, right]), dt)
         self._command(*surge_sway.tolist())
 
     def _on_status(self, status: String) -> None:
