@@ -12,7 +12,7 @@ string says what it means and, in brackets, its unit:
 annotation                 in the file
 =========================  ====================================================================
 ``str``                    text, trimmed
-``float``                  a number, or ``M_PI``, ``-M_PI_2`` ...; never NaN nor infinite
+``float``                  a number up to 1e9, or ``M_PI``, ``-M_PI_2`` ...; never NaN
 ``int``                    a whole number; ``320.5`` is read as 320 with a notice, as atoi did
 ``bool``                   0 or 1 (attributes: true or false); else the default, with a notice
 ``Literal["a", "b"]``      one of these words
