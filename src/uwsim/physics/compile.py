@@ -1,13 +1,14 @@
 """From a scene to a MuJoCo model: bodies, joints and, for vehicles with ``u:dynamics``, water.
 
-Every vehicle becomes a free body with its links as a tree of hinges and slides; objects stand
-fixed. A vehicle without ``u:dynamics`` is placed, not simulated. The joints of one that is
-simulated are held by servos. Not modelled yet: contacts, loose objects.
+Every vehicle becomes a free body with its links as a tree of hinges and slides. A vehicle without
+``u:dynamics`` is placed, not simulated. The joints of one that is simulated are held by servos.
+Objects stand fixed, but for those that have a shape and are loose. Contacts are elliptic with
+friction `FRICTION`, soft enough to take a few steps.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import mujoco
 import numpy as np
@@ -16,6 +17,8 @@ from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..scene.spec import SceneSpec
 from ..scene.urdf import LinkSpec, RobotSpec
 from .hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics, prepare
+from .loose import loose_hydrodynamics, loose_link
+from .shapes import Shape
 
 GRAVITY = 9.81
 """[m/s2]"""
@@ -25,6 +28,22 @@ LEAST_INERTIA = 1e-4
 """Of a link whose URDF gives none [kg m2]."""
 SERVO = (400.0, 60.0)
 """Stiffness [N m/rad or N/m] and damping of the servo that holds a joint."""
+
+FRICTION = (0.8, 0.005, 0.0001)
+"""Sliding [1], spinning [m] and rolling [m]; of two shapes the greater counts."""
+SOFTNESS = (0.95, 0.99, 0.001, 0.5, 2.0)
+"""MuJoCo's solimp."""
+IMPRATIO = 10.0
+"""How much stiffer friction is than the normal force: less creep of what is held."""
+OBJECTS = 1
+"""Collision bit of objects; every vehicle has another."""
+ALL = 2**31 - 1
+SHAPES = {
+    "box": mujoco.mjtGeom.mjGEOM_BOX,
+    "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
+    "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
+    "hull": mujoco.mjtGeom.mjGEOM_MESH,
+}
 
 
 def vehicle_body(index: int, link: str) -> str:
@@ -52,6 +71,7 @@ def compile_scene(
     robots: Mapping[int, RobotSpec],
     dynamics: Mapping[int, VehicleHydrodynamics],
     timestep: float,
+    shapes: Mapping[str, Sequence[Shape]],
 ) -> mujoco.MjModel:
     """Build the MuJoCo model of a scene.
 
@@ -60,6 +80,7 @@ def compile_scene(
         robots: the robot of each vehicle, by its number in the scene.
         dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
         timestep: length of a step [s].
+        shapes: what can be touched, by the name of its body.
 
     Raises:
         BadHydrodynamics: with every fault.
@@ -82,16 +103,49 @@ def compile_scene(
         )
         base.add_freejoint(name=vehicle_joint(index, ""))
         _add_children(spec, base, robot, robot.root, index, links if is_dynamic else {})
+    loose: dict[str, BodyHydrodynamics] = {}
     for index, thing in enumerate(scene.objects):
-        _add_body(
-            spec.worldbody,
-            object_body(index),
-            world_from_localized @ thing.localized_from_object,
-            None,
-        )
+        name = object_body(index)
+        world_from_object = world_from_localized @ thing.localized_from_object
+        if name in shapes and thing.physics is not None and thing.physics.is_loose:
+            link = loose_link(name, thing.physics, shapes[name])
+            body = _add_body(spec.worldbody, name, world_from_object, link)
+            body.add_freejoint(name=f"{name}/joint")
+            density = next(iter(dynamics.values())).density
+            loose[name] = loose_hydrodynamics(name, thing.physics, shapes[name], density)
+        else:
+            _add_body(spec.worldbody, name, world_from_object, None)
+    for name, parts in shapes.items():
+        _add_shapes(spec, name, parts)
     if dynamics:
-        _add_water(spec, scene, dynamics)
+        _add_water(spec, scene, dynamics, loose)
     return spec.compile()
+
+
+def _add_shapes(spec: mujoco.MjSpec, name: str, shapes: Sequence[Shape]) -> None:
+    """Give a body its shapes; those of one vehicle do not touch each other."""
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = IMPRATIO
+    kind, owner = name.split("/")[:2]
+    bit = OBJECTS if kind == "object" else 2 << (int(owner) % 29)
+    for i, shape in enumerate(shapes):
+        place = shape.body_from_shape
+        geom = spec.body(name).add_geom(
+            type=SHAPES[shape.kind],
+            pos=place.position.tolist(),
+            quat=quaternion_from_rotation(place.rotation).tolist(),
+            contype=bit,
+            conaffinity=ALL if kind == "object" else ALL & ~bit,
+            condim=4,
+            friction=list(FRICTION),
+            solimp=list(SOFTNESS),
+        )
+        if shape.corners is None:
+            geom.size[: len(shape.size)] = shape.size
+        else:
+            mesh = f"{name}/{i}"
+            spec.add_mesh(name=mesh, uservert=shape.corners.ravel().tolist())
+            geom.meshname = mesh
 
 
 def _add_children(
@@ -137,9 +191,12 @@ def _add_servo(spec: mujoco.MjSpec, joint: str) -> None:
 
 
 def _add_water(
-    spec: mujoco.MjSpec, scene: SceneSpec, dynamics: Mapping[int, VehicleHydrodynamics]
+    spec: mujoco.MjSpec,
+    scene: SceneSpec,
+    dynamics: Mapping[int, VehicleHydrodynamics],
+    loose: Mapping[str, BodyHydrodynamics],
 ) -> None:
-    bodies: dict[str, BodyHydrodynamics] = {}
+    bodies: dict[str, BodyHydrodynamics] = dict(loose)
     thrusters: dict[str, tuple[str, ThrusterSpec]] = {}
     for index, vehicle in dynamics.items():
         for body in vehicle.bodies:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Literal
 
 import mujoco
 import numpy as np
@@ -11,10 +12,13 @@ from ..geometry import Array, Pose, quaternion_from_rotation
 from ..scene.kinematics import joint_positions
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
+from ..world import Contact
 from .autopilot import Autopilot
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
+from .contacts import contacts_of
 from .hydrodynamics import Hydrodynamics, VehicleHydrodynamics, install
 from .servos import Servos
+from .shapes import Shape
 
 PILOT_PERIOD = 0.02
 """An autopilot thinks this often [s]."""
@@ -33,8 +37,15 @@ class State:
         robots: Mapping[int, RobotSpec],
         dynamics: Mapping[int, VehicleHydrodynamics],
         timestep: float,
+        shapes: Mapping[str, Sequence[Shape]],
     ) -> None:
-        self._model = compile_scene(scene, robots, dynamics, timestep)
+        self._model = compile_scene(scene, robots, dynamics, timestep, shapes)
+        self._owners = np.array(
+            [_owner(self._model.body(i).name) for i in range(self._model.nbody)]
+        )
+        self._owner_names = [_named(scene, owner) for owner in self._owners.tolist()]
+        self._touchable = frozenset(_owner(name) for name in shapes)
+        self._contacts_hold = False  # whether the contacts are those of the state
         self._data = mujoco.MjData(self._model)
         self._robots = robots
         self._dynamics = dynamics
@@ -104,11 +115,21 @@ class State:
             servos.step(self._timestep)
         before = {i: self._free(i).copy() for i in self._kinematic}
         self._water.step(self._data)
+        self._contacts_hold = True
         for index, pose in before.items():
             self._free(index)[:] = pose
             self._free_velocity(index)[:] = 0.0
         self._n_steps += 1
         self._moved()
+
+    def contacts(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
+        """Where a vehicle or object touches others; None if it has no shape to be touched."""
+        owner = f"{kind}/{index}"
+        if owner not in self._touchable:
+            return None
+        if not self._contacts_hold:
+            return []
+        return contacts_of(self._model, self._data, self._owners == owner, self._owner_names)
 
     def pilot(self, index: int) -> Autopilot:
         """Return the autopilot of a simulated vehicle."""
@@ -150,6 +171,7 @@ class State:
             for thruster in self._thrusters[index]:
                 self._stop_thruster(thruster)
             self._pilots[index].hold(world_from_base)
+            self._contacts_hold = False
         self._moved()
 
     def joints(self, index: int) -> Array:
@@ -232,3 +254,16 @@ class State:
         self._refresh()
         body = self._data.body(name)
         return Pose(np.array(body.xpos), np.array(body.xmat).reshape(3, 3))
+
+
+def _owner(body: str) -> str:
+    """``vehicle/1`` or ``object/1``, what the body of that name belongs to."""
+    return "/".join(body.split("/")[:2])
+
+
+def _named(scene: SceneSpec, owner: str) -> str:
+    """How the scene calls it."""
+    kind, _, index = owner.partition("/")
+    if kind == "vehicle":
+        return scene.vehicles[int(index)].name
+    return scene.objects[int(index)].name if kind == "object" else ""

@@ -172,8 +172,14 @@ def _check_interface(
             faults.add(
                 node, f"<{element}>: <depth> 1 wants a virtualRangeImage; {wanted!r} is none"
             )
-    elif isinstance(interface, ContactSensorToROSSpec) and not scene.sim_params.enable_physics:
-        faults.notice(node, f"<{element}> says nothing without <enablePhysics> 1")
+    elif (
+        isinstance(interface, ContactSensorToROSSpec)
+        and not scene.sim_params.enable_physics
+        and all(vehicle.dynamics is None for vehicle in scene.vehicles)
+    ):
+        faults.notice(
+            node, f"<{element}> says nothing without <enablePhysics> 1 or a vehicle's <u:dynamics>"
+        )
 
 
 def _check_sources(scene: SceneSpec, faults: Faults) -> None:

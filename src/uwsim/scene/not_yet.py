@@ -83,6 +83,11 @@ NOT_YET: dict[tuple[str, str], str] = {
 }
 """(parent, element) -> what it belongs to."""
 
+CONTACTS = (("object", "physics"), ("rosInterfaces", "contactSensorToROS"))
+"""Simulated where a vehicle has ``u:dynamics``."""
+LIMITS = ("minLinearLimit", "maxLinearLimit", "minAngularLimit", "maxAngularLimit")
+"""Of an object's physics; not simulated."""
+
 OFF = {"disableShaders": "0", "enablePhysics": "0", "fdm": "-1", "showpath": "0"}
 """An element with this text asks for nothing."""
 
@@ -90,11 +95,17 @@ OFF = {"disableShaders": "0", "enablePhysics": "0", "fdm": "-1", "showpath": "0"
 def not_simulated(root: etree._Element, faults: Faults) -> None:
     """Name every kind of thing that is read and not simulated yet, with its lines."""
     lines: dict[str, list[int]] = {}
+    is_dynamic = root.find(f"vehicle/{{{NAMESPACE}}}dynamics") is not None
     for node in root.iter("*"):
         parent = node.getparent()
         if parent is None:
             continue
-        kind = NOT_YET.get((str(parent.tag), str(node.tag)))
+        place = (str(parent.tag), str(node.tag))
+        kind = NOT_YET.get(place)
+        if is_dynamic and place in CONTACTS:
+            kind = None
+        elif is_dynamic and parent.tag == "physics" and node.tag in LIMITS:
+            kind = "limits of objects"
         if kind is not None and OFF.get(str(node.tag)) != (node.text or "").strip():
             lines.setdefault(kind, []).append(_line(node))
         if node.tag == "object" and node.get("buried", "0").strip() not in ("0", "0.0"):

@@ -325,6 +325,13 @@ class PhysicsSpec:
     """Where a turn may go from; min above max is free [rad]."""
     max_angular_limit: Triple = ZERO
     """Where a turn may go to; min above max is free [rad]."""
+    volume: float | None = element(namespaced=True, default=None, minimum=0.0)
+    """Water it displaces; without it the volume of the box around it [m3]."""
+
+    @property
+    def is_loose(self) -> bool:
+        """Whether forces move it, in a scene where anything is simulated."""
+        return self.mass > 0.0 and not self.is_kinematic
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from ..assets import find, folders_searched
-from ..errors import AssetNotFound, UnknownName
+from ..errors import AssetNotFound, UnknownName, UwsimError
 from ..geometry import Pose
 from ..physics.hydrodynamics import VehicleHydrodynamics
 from ..physics.state import State
 from ..physics.vehicle_file import find_vehicle, read_vehicle
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec, read_urdf
-from ..world import Box
+from ..world import Box, Contact
 from .scenery import Part
 
 
@@ -140,6 +140,29 @@ def find_body(route: str, bodies: Mapping[str, SceneBody]) -> SceneBody:
     if name not in bodies:
         raise UnknownName("body", route, bodies)
     return bodies[name]
+
+
+def find_contacts(name: str, scene: SceneSpec, state: State) -> list[Contact]:
+    """Find where the vehicle or object of that name touches others.
+
+    Raises:
+        UnknownName: there is none.
+        UwsimError: it cannot be touched.
+    """
+    vehicles = [vehicle.name for vehicle in scene.vehicles]
+    objects = [thing.name for thing in scene.objects]
+    if name in vehicles:
+        contacts = state.contacts("vehicle", vehicles.index(name))
+    elif name in objects:
+        contacts = state.contacts("object", objects.index(name))
+    else:
+        raise UnknownName("vehicle or object", name, [*vehicles, *objects])
+    if contacts is None:
+        raise UwsimError(
+            f"{name!r} cannot be touched: contacts are simulated between vehicles with "
+            "<u:dynamics> and objects with <physics>, where a scene has both."
+        )
+    return contacts
 
 
 def _attached(pose: Callable[[], Pose], a_from_b: Pose) -> Pose:

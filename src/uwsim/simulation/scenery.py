@@ -177,7 +177,7 @@ def _parts(
                 Part(
                     len(parts) + 1,
                     f"{vehicle.name}/{link.name}",
-                    _visual_model(link.visual, Path(robot.path).parent, data_path),
+                    visual_model(link.visual, Path(robot.path).parent, data_path),
                     index,
                     link.name,
                     None,
@@ -192,7 +192,7 @@ def _parts(
             Part(
                 len(parts) + 1,
                 thing.name,
-                _object_model(thing.file, scene, beside, data_path),
+                object_model(thing.file, scene, beside, data_path),
                 None,
                 "",
                 index,
@@ -204,7 +204,8 @@ def _parts(
     return parts
 
 
-def _visual_model(visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]) -> Model:
+def visual_model(visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]) -> Model:
+    """Load or make what a link looks like; a labelled box when its mesh is nowhere."""
     if visual.kind == "mesh":
         try:
             return load_model(visual.file, beside=beside, data_path=data_path)
@@ -215,9 +216,10 @@ def _visual_model(visual: VisualSpec, beside: Path, data_path: tuple[Path, ...])
     return primitive(visual.kind, visual.size, visual.colour)
 
 
-def _object_model(
+def object_model(
     name: str, scene: SceneSpec, beside: Path | None, data_path: tuple[Path, ...]
 ) -> Model:
+    """Load what an object looks like; in a scene of the original a labelled box if need be."""
     try:
         return load_model(name, beside=beside, data_path=data_path)
     except AssetNotFound:

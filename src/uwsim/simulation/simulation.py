@@ -23,7 +23,7 @@ import numpy.typing as npt
 from ..bus import Algorithm, Bus, Inbox
 from ..chance import stream
 from ..currents import Place, TotalCurrent, bind_currents
-from ..errors import UnknownName, UwsimError
+from ..errors import UnknownName
 from ..geometry import Intrinsics, Pose
 from ..physics.state import State
 from ..rendering.grey import grey_truncated
@@ -34,7 +34,16 @@ from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import Contact, Flow
-from .bodies import SceneBody, find_body, find_file, name_bodies, read_dynamics, read_robots
+from .bodies import (
+    SceneBody,
+    find_body,
+    find_contacts,
+    find_file,
+    name_bodies,
+    read_dynamics,
+    read_robots,
+)
+from .collision_shapes import collision_shapes
 from .commands import Commands
 from .image_publisher import ImagePublisher, SampleTimer
 from .node import InProcessNode
@@ -81,7 +90,9 @@ class Simulation:
         """Topics and services of this simulation."""
         self.robots = read_robots(scene, data_path)
         """The robot of each vehicle, by its number in the scene."""
-        self._state = State(scene, self.robots, read_dynamics(scene, self.robots), timestep)
+        dynamics = read_dynamics(scene, self.robots)
+        shapes = collision_shapes(scene, self.robots, dynamics, data_path)
+        self._state = State(scene, self.robots, dynamics, timestep, shapes)
         self._scenery = Scenery(scene, self.robots, self._state, data_path=data_path)
         self._bodies = name_bodies(scene, self.robots, self._state, self._scenery.parts)
         self._water = Water(
@@ -248,12 +259,13 @@ class Simulation:
         return find_body(name, self._bodies)
 
     def contacts(self, name: str) -> Sequence[Contact]:
-        """Where a vehicle or object touches others now.
+        """Where a vehicle (all its links) or object touches others now.
 
         Raises:
-            UwsimError: always: contacts are not simulated yet.
+            UnknownName: there is none of that name.
+            UwsimError: it cannot be touched.
         """
-        raise UwsimError(f"Contacts of {name!r} are asked for; contacts are not simulated yet.")
+        return find_contacts(name, self._scene, self._state)
 
     def camera(self, name: str) -> VirtualCamera:
         """Find a virtual camera."""

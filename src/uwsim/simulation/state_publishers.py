@@ -1,4 +1,4 @@
-"""Poses and joints of vehicles on topics, at a rate.
+"""Poses, joints and contacts on topics, at a rate.
 
 =====================  =======================  =================================================
 interface              message                  what is in it
@@ -7,6 +7,7 @@ PATToROSOdom           nav_msgs/Odometry        the base in L; of a simulated ve
                                                 twist over ground, base axes
 ArmToROSJointState     sensor_msgs/JointState   the joint vector; of a simulated vehicle also the
                                                 joints' velocities and efforts
+contactSensorToROS     std_msgs/Bool            whether a vehicle or object touches another
 =====================  =======================  =================================================
 
 As in the original the frames have no name, the covariances are zero, the twist of a vehicle that
@@ -21,8 +22,10 @@ from functools import partial
 import numpy as np
 
 from ..bus import Bus
+from ..errors import UwsimError
 from ..geometry import quaternion_from_rotation
 from ..messages import (
+    Bool,
     JointState,
     Odometry,
     Point,
@@ -35,9 +38,10 @@ from ..messages import (
     header,
 )
 from ..physics.state import State
-from ..scene.ros_interfaces import ArmToROSJointStateSpec, PATToROSOdomSpec
+from ..scene.ros_interfaces import ArmToROSJointStateSpec, ContactSensorToROSSpec, PATToROSOdomSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
+from .bodies import find_contacts
 
 
 class OdometryPublisher:
@@ -111,6 +115,21 @@ class JointPublisher:
         )
 
 
+class ContactPublisher:
+    """One ``<contactSensorToROS>`` at work."""
+
+    def __init__(
+        self, spec: ContactSensorToROSSpec, scene: SceneSpec, state: State, bus: Bus
+    ) -> None:
+        self._name, self._scene, self._state = spec.name, scene, state
+        self._publish = bus.publisher(spec.topic, Bool)
+
+    def publish(self, time: float) -> None:
+        """Publish the state; the message has no time."""
+        touches = bool(find_contacts(self._name, self._scene, self._state))
+        self._publish(Bool(data=touches))
+
+
 def state_publishers(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
@@ -122,6 +141,9 @@ def state_publishers(
     numbers = {vehicle.name: i for i, vehicle in reversed(list(enumerate(scene.vehicles)))}
     found: list[tuple[int, Callable[[], None]]] = []
     for interface in scene.ros_interfaces:
+        if isinstance(interface, ContactSensorToROSSpec) and _can_touch(interface, scene, state):
+            contact = ContactPublisher(interface, scene, state, bus)
+            found.append((interface.rate, partial(_at, clock, contact.publish)))
         if not isinstance(interface, PATToROSOdomSpec | ArmToROSJointStateSpec):
             continue
         vehicle = numbers.get(interface.vehicle_name)
@@ -137,3 +159,12 @@ def state_publishers(
 
 def _at(clock: Callable[[], float], publish: Callable[[float], None]) -> None:
     publish(clock())
+
+
+def _can_touch(interface: ContactSensorToROSSpec, scene: SceneSpec, state: State) -> bool:
+    """Without a shape the sensor says nothing, as the original's without physics."""
+    try:
+        find_contacts(interface.name, scene, state)
+    except UwsimError:
+        return False
+    return True

@@ -1,0 +1,62 @@
+"""Where bodies touch, as MuJoCo found it at the beginning of the last step.
+
+At the first step of a contact the approach speed is the one at which the two met; later ones are
+what is left of it while they press into each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array
+from ..world import Contact
+
+
+def contacts_of(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    is_own: npt.NDArray[np.bool_],
+    names: Sequence[str],
+) -> list[Contact]:
+    """Return the contacts of some bodies with others.
+
+    Args:
+        model: the model.
+        data: its state after a step.
+        is_own: which bodies are asked for, (nbody,).
+        names: name of what each body belongs to, (nbody,).
+    """
+    if data.ncon == 0:
+        return []
+    found = data.contact
+    bodies = model.geom_bodyid[found.geom]  # (n, 2)
+    own = is_own[bodies]  # (n, 2)
+    presses = (np.asarray(found.efc_address) >= 0) & (np.asarray(found.dist) < 0.0)
+    contacts: list[Contact] = []
+    for i in np.flatnonzero(presses & (own[:, 0] != own[:, 1])).tolist():
+        first, second = bodies[i].tolist()
+        normal = found.frame[i][:3]  # from the first to the second, W
+        v_first = float(normal @ _velocity(model, data, first, found.pos[i]))
+        v_second = float(normal @ _velocity(model, data, second, found.pos[i]))
+        is_first = bool(own[i, 0])
+        contacts.append(
+            Contact(
+                approach_speed=v_first - v_second,
+                own_speed=v_first if is_first else -v_second,
+                is_first=is_first,
+                other=names[second if is_first else first],
+            )
+        )
+    return contacts
+
+
+def _velocity(model: mujoco.MjModel, data: mujoco.MjData, body: int, point: Array) -> Array:
+    """Velocity of a body's point, W, (3,) [m/s]."""
+    twist = data.cvel[body]
+    lever = point - data.subtree_com[model.body_rootid[body]]
+    velocity: Array = twist[3:] + np.cross(twist[:3], lever)
+    return velocity

@@ -1,0 +1,119 @@
+r"""Loose objects in water: mass, buoyancy and drag from a box.
+
+The coefficients of an object are those of the box around its shape: drag
+:math:`\tfrac12\rho C_d A v|v|` on each pair of faces with :math:`C_d` = 1.05, added mass that of
+the ellipsoid of the same proportions and volume (Lamb), buoyancy its volume unless ``u:volume``
+says another. A ball has :math:`C_d` = 0.47. ``linearDamping`` and ``angularDamping`` come on top,
+per mass and inertia.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..geometry import Array
+from ..scene.spec import PhysicsSpec
+from ..scene.urdf import LinkSpec
+from .hydrodynamics import BodyHydrodynamics
+from .shapes import Shape, bounds
+
+BOX_DRAG = 1.05
+"""Of a cube face on [1]."""
+BALL_DRAG = 0.47
+"""Of a ball [1]."""
+
+
+def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[Shape]) -> LinkSpec:
+    """Mass and inertia of an object, about the middle of its box."""
+    box = bounds(shapes)
+    x, y, z = (2.0 * half for half in box.size)
+    given = physics.inertia
+    if not any(given):
+        share = physics.mass / 12.0
+        given = (share * (y * y + z * z), share * (x * x + z * z), share * (x * x + y * y))
+    mx, my, mz = box.body_from_shape.position.tolist()
+    return LinkSpec(
+        name=name,
+        mass=physics.mass,
+        centre_of_mass=(mx, my, mz),
+        inertia=(*given, 0.0, 0.0, 0.0),
+    )
+
+
+def loose_hydrodynamics(
+    name: str, physics: PhysicsSpec, shapes: Sequence[Shape], density: float
+) -> BodyHydrodynamics:
+    """What the water does to an object.
+
+    Args:
+        name: of its body in the model.
+        physics: what the file says.
+        shapes: what is touched of it.
+        density: of the water [kg/m3].
+    """
+    box = bounds(shapes)
+    edges = 2.0 * np.array(box.size)  # (3,) [m]
+    is_ball = len(shapes) == 1 and shapes[0].kind == "sphere"
+    drag = density * (_ball_drag(box.size[0]) if is_ball else box_drag(edges))
+    volume = float(np.prod(edges)) * (math.pi / 6.0 if is_ball else 1.0)
+    half = 0.5 * edges * (1.0 if is_ball else (6.0 / math.pi) ** (1.0 / 3.0))
+    mx, my, mz = box.body_from_shape.position.tolist()
+    link = loose_link(name, physics, shapes)
+    own = np.array([physics.mass] * 3 + list(link.inertia[:3]))
+    rates = np.array([physics.linear_damping] * 3 + [physics.angular_damping] * 3)
+    return BodyHydrodynamics(
+        link=name,
+        reference=(mx, my, mz),
+        added_mass=tuple((density * ellipsoid_added_mass(half)).tolist()),
+        linear_damping=tuple((own * np.maximum(rates, 0.0)).tolist()),
+        quadratic_damping=tuple(drag.tolist()),
+        volume=volume if physics.volume is None else physics.volume,
+        centre_of_buoyancy=(mx, my, mz),
+        shape="sphere" if is_ball else "box",
+        size=(box.size[0],) if is_ball else tuple(edges.tolist()),
+        implicitness=1.0,
+    )
+
+
+def box_drag(edges: Array) -> Array:
+    """Quadratic drag of a box per density of the water, (6,) [m2, m5]."""
+    x, y, z = edges.tolist()
+    faces = [y * z, x * z, x * y]
+    # strips of a face at distance r from the axis resist with r^2 at the lever r
+    turning = [
+        x * (y**4 + z**4) / 32.0,
+        y * (x**4 + z**4) / 32.0,
+        z * (x**4 + y**4) / 32.0,
+    ]
+    return 0.5 * BOX_DRAG * np.array(faces + turning)
+
+
+def _ball_drag(radius: float) -> Array:
+    return np.array([0.5 * BALL_DRAG * math.pi * radius**2] * 3 + [0.0] * 3)
+
+
+def ellipsoid_added_mass(half: Array) -> Array:
+    """Added mass of an ellipsoid with these half-axes, per density, (6,) [m3, m5] (Lamb)."""
+    from scipy.special import elliprd
+
+    a2, b2, c2 = (half**2).tolist()
+    volume = 4.0 / 3.0 * math.pi * float(np.prod(half))
+    factor = 2.0 / 3.0 * float(np.prod(half))
+    alpha = factor * np.array(
+        [elliprd(b2, c2, a2), elliprd(c2, a2, b2), elliprd(a2, b2, c2)]
+    )  # (3,) [1]
+    squares = (a2, b2, c2)
+    turning = []
+    for axis in range(3):
+        j, k = (axis + 1) % 3, (axis + 2) % 3
+        gap, total = squares[j] - squares[k], squares[j] + squares[k]
+        slope = alpha[j] - alpha[k]
+        below = 2.0 * gap + total * slope
+        if abs(gap) < 1e-9 * total:
+            turning.append(0.0)
+        else:
+            turning.append(max(0.0, volume / 5.0 * gap * gap * -slope / below))
+    return np.array([*(volume * alpha / (2.0 - alpha)), *turning])

@@ -1,0 +1,72 @@
+"""Which bodies of a scene can be touched, and with what shapes.
+
+Nothing, unless a vehicle is simulated and an object has a ``<physics>``. Then that object can be
+touched, it is loose if it has a mass and is not ``isKinematic``, and so can every link of a
+simulated vehicle, as the box around its collision geometry, else around what is seen of it. Not
+modelled: contacts of vehicles that are not simulated, of objects without ``<physics>``, of a
+vehicle with itself; limits of objects; hollows between the hulls of a link.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ..geometry import Pose
+from ..physics.compile import object_body, vehicle_body
+from ..physics.shapes import Shape, shapes_of
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec
+from .scenery import object_model, visual_model
+
+
+def collision_shapes(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    simulated: Iterable[int],
+    data_path: tuple[Path, ...],
+) -> dict[str, tuple[Shape, ...]]:
+    """Make the shapes of a scene, by the name of their body in the model.
+
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle, by its number.
+        simulated: numbers of the vehicles with hydrodynamics.
+        data_path: folders in which files are looked for.
+    """
+    vehicles = list(simulated)
+    if not vehicles or all(thing.physics is None for thing in scene.objects):
+        return {}
+    shapes: dict[str, tuple[Shape, ...]] = {}
+    beside = Path(scene.path).parent if scene.path else None
+    for index, thing in enumerate(scene.objects):
+        if thing.physics is None:
+            continue
+        file = thing.physics.collision_shape or thing.file
+        placed = np.diag([*thing.scale_factor, 1.0]) @ thing.object_from_mesh.matrix
+        shapes[object_body(index)] = shapes_of(
+            object_model(file, scene, beside, data_path),
+            placed,
+            thing.physics.collision_shape_type,
+            is_fixed=not thing.physics.is_loose,
+        )
+    for index in vehicles:
+        robot = robots[index]
+        for link in robot.links:
+            solid = link.collision or link.visual
+            if solid is None:
+                continue
+            model = visual_model(solid, Path(robot.path).parent, data_path)
+            link_from_mesh = np.diag([*solid.scale, 1.0])
+            shapes[vehicle_body(index, link.name)] = tuple(
+                replace(
+                    shape,
+                    body_from_shape=Pose.from_rpy(solid.position, solid.rpy)
+                    @ shape.body_from_shape,
+                )
+                for shape in shapes_of(model, link_from_mesh, "box", is_fixed=False)
+            )
+    return shapes
