@@ -1,6 +1,6 @@
 """The figures of the second experiment of the UWSim benchmarking paper: P and PI in a current.
 
-    python examples/currents_figures.py FOLDER                      five minutes on two cores
+    python examples/currents_figures.py FOLDER                      two minutes on two cores
     python examples/currents_figures.py FOLDER --quick              short levels, for CI
     python examples/currents_figures.py FOLDER --sweep DIR DIR ...  error over the current, too,
                                      from results of ``uwsim bench currents``, any number of seeds
