@@ -211,9 +211,11 @@ def visual_model(visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]) 
             return load_model(visual.file, beside=beside, data_path=data_path)
         except AssetNotFound:  # `uwsim check` says so
             return unknown_model(visual.file)
+    wide, _, tall = visual.size
+    size = {"cylinder": (0.5 * wide, tall), "sphere": (0.5 * wide,)}.get(visual.kind, visual.size)
     if visual.colour is None:
-        return primitive(visual.kind, visual.size)
-    return primitive(visual.kind, visual.size, visual.colour)
+        return primitive(visual.kind, size)
+    return primitive(visual.kind, size, visual.colour)
 
 
 def object_model(
