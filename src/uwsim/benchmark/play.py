@@ -224,6 +224,7 @@ def _play(plan: Plan, unit: Unit, simulation: Simulation) -> Iterator[Row | Unit
         streams=tuple(
             (topic, images.n_frames, images.sha256)
             for topic, images in sorted(simulation.images.items())
+            if not plan.is_blind
         ),
         notes=tuple(notes),
     )

@@ -86,8 +86,11 @@ class ImagePublisher:
         if not self._bus.has_readers(self._image_topic):
             self.camera.skip()
             return
-        pixels = self.camera.shoot() if self._blank is None else self._blank
-        self._digest.update(pixels.tobytes())
+        if self._blank is None:
+            pixels = self.camera.shoot()
+            self._digest.update(pixels.tobytes())
+        else:
+            pixels = self._blank
         self.last = pixels
         self.n_frames += 1
         self._publish_image(image(pixels, time=time, frame_id=self.camera.frame_id))
