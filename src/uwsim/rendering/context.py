@@ -10,7 +10,7 @@ import moderngl
 from ..errors import NoGraphics
 
 ENVIRONMENT = {
-    "LP_NUM_THREADS": str(min(4, os.cpu_count() or 1)),
+    "LP_NUM_THREADS": str(min(4, 2 * (os.cpu_count() or 1))),
     "EGL_LOG_LEVEL": "fatal",
 }
 """Switches of Mesa, set where the user has not: pictures of cameras are too small for more
