@@ -94,12 +94,7 @@ class Bench:
 
     def write(self) -> Result:
         """Put together what is on disk, and write ``result.json``, ``result.dat`` and the logs."""
-        result, logs = collect(self)
-        self.simulated_s = sum(
-            float(record["duration"])
-            for unit in self.plan.units()
-            for record in self._stored(unit).rows
-        )
+        result, logs, self.simulated_s = collect(self)
         save(result, self.out)
         save_dat(result, self.out, compatibility=self.plan.compatibility)
         for log in logs:
@@ -199,8 +194,12 @@ def _record(played: Row, pictures: list[dict[str, object]]) -> unit_file.Record:
     }
 
 
-def collect(bench: Bench) -> tuple[Result, list[Log]]:
-    """Put together the rows on disk, in the order of the plan."""
+def collect(bench: Bench) -> tuple[Result, list[Log], float]:
+    """Put together the rows on disk, in the order of the plan.
+
+    Returns:
+        The result, its logs, and the length of all levels together [s].
+    """
     plan = bench.plan
     several = plan.repeats > 1
     units = plan.units()
@@ -266,10 +265,11 @@ def collect(bench: Bench) -> tuple[Result, list[Log]]:
         ),
         pictures=tuple(pictures),
     )
+    simulated_s = sum(elapsed.values())
     if not records:
-        return result, []
+        return result, [], simulated_s
     levels = [column.label for column in columns if column.kind in ("run", "level")]
-    return result, [
+    logs = [
         Log(
             measure=name,
             header=(*levels, "time [s]", *records[0][1]["log_headers"][name]),
@@ -277,6 +277,7 @@ def collect(bench: Bench) -> tuple[Result, list[Log]]:
         )
         for name, taken in samples.items()
     ]
+    return result, logs, simulated_s
 
 
 def _columns(plan: Plan, record: unit_file.Record | None) -> list[Column]:

@@ -161,6 +161,7 @@ def make_plan(
     from ..compatibility import compatibility
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting
+    from ..simulation import latency_of
 
     path = benchmark_file(benchmark, data_path)
     spec = read_benchmark(path)
@@ -205,9 +206,7 @@ def make_plan(
     )
     check_length(plan)
     check_parameters(plan.algorithm, plan.parameters)
-    latency = parameters.get("latency_s", 0.0)
-    if isinstance(latency, str) or latency < 0.0:
-        raise BadSetting(f"algorithm.latency_s is {latency!r}; expected a time >= 0 [s].")
+    latency_of(parameters)
     return plan
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .image_publisher import ImagePublisher, sample_step
-from .node import InProcessNode
+from .node import InProcessNode, latency_of
 from .simulation import Simulation
 
-__all__ = ["ImagePublisher", "InProcessNode", "Simulation", "sample_step"]
+__all__ = ["ImagePublisher", "InProcessNode", "Simulation", "latency_of", "sample_step"]

@@ -13,6 +13,14 @@ from ..errors import BadSetting
 M = TypeVar("M")
 
 
+def latency_of(parameters: Mapping[str, float | str]) -> float:
+    """Return the parameter ``latency_s`` [s], 0 if not given; BadSetting if it is no time."""
+    latency = parameters.get("latency_s", 0.0)
+    if isinstance(latency, str) or latency < 0.0:
+        raise BadSetting(f"algorithm.latency_s is {latency!r}; expected a time >= 0 [s].")
+    return latency
+
+
 class InProcessNode:
     """A `uwsim.bus.Node` in lock-step: callbacks run inside the step, time waits for them.
 
@@ -35,10 +43,8 @@ class InProcessNode:
         self._parameters = dict(parameters)
         self._timers: list[tuple[int, float, Callable[[], None]]] = []
         self._fired: list[int] = []
-        latency = self._parameters.pop("latency_s", 0.0)
-        if not isinstance(latency, float | int) or latency < 0.0:
-            raise BadSetting(f"algorithm.latency_s is {latency!r}; expected a time >= 0 [s].")
-        self._delay_steps = round(latency / timestep)
+        self._delay_steps = round(latency_of(self._parameters) / timestep)
+        self._parameters.pop("latency_s", None)
         self._close: list[Callable[[], None]] = []
         self.name = name
         """Name of the algorithm."""
