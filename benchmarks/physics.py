@@ -22,14 +22,8 @@ import numpy as np
 from measure import main
 from mujoco import batch
 
-from uwsim.physics.hydrodynamics import (
-    BodyHydrodynamics,
-    Hydrodynamics,
-    ThrusterSpec,
-    callback,
-    install,
-    prepare,
-)
+from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec, callback, prepare
+from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 
 STEPS_PER_SECOND, RATIO = 60_000, 1.35
 BATCHES, STEPS = 15, 4000

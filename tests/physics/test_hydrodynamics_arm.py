@@ -8,8 +8,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 from water_models import FAR_BELOW, random_added_mass, set_options
 
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, install, prepare
+from uwsim.physics.hydrodynamics import BodyHydrodynamics, prepare
 from uwsim.physics.hydrodynamics import columns as c
+from uwsim.physics.hydrodynamics.hydrodynamics import install
 
 N = 5
 RNG = np.random.default_rng(5)

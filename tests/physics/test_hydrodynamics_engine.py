@@ -10,15 +10,9 @@ import numpy as np
 import pytest
 from water_models import FAR_BELOW, free_body, random_added_mass, set_options
 
-from uwsim.physics.hydrodynamics import (
-    BodyHydrodynamics,
-    CallbackTaken,
-    NoWater,
-    ThrusterSpec,
-    callback,
-    install,
-    prepare,
-)
+from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec, callback, prepare
+from uwsim.physics.hydrodynamics.callback import CallbackTaken
+from uwsim.physics.hydrodynamics.hydrodynamics import NoWater, install
 
 LINKS = ("base", "upper", "fore")
 EXTRA = {"base": 40.0, "upper": 3.0, "fore": 2.0, "box": 4.0}  # isotropic added mass [kg]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from water_models import bundled
 
-from uwsim.physics.hydrodynamics import Hydrodynamics, install
+from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 
 THRUST = 153.7875  # of one thruster of the original's Girona 500 at full command [N]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import mujoco
 import numpy as np
@@ -16,9 +16,12 @@ from ..world import Contact
 from .autopilot import Autopilot
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .contacts import contacts_of
-from .hydrodynamics import Hydrodynamics, VehicleHydrodynamics, install
+from .hydrodynamics import VehicleHydrodynamics
 from .servos import Servos
 from .shapes import Shape
+
+if TYPE_CHECKING:
+    from .hydrodynamics.hydrodynamics import Hydrodynamics
 
 PILOT_PERIOD = 0.02
 """An autopilot thinks this often [s]."""
@@ -55,7 +58,7 @@ class State:
         self._is_stale = True
         self._n_steps = 0
         self._pilot_steps = max(1, round(PILOT_PERIOD / timestep))
-        self._water: Hydrodynamics | None = install(self._model) if dynamics else None
+        self._water: Hydrodynamics | None = _water_of(self._model) if dynamics else None
         self._over_ground = {i: scene.vehicles[i].velocity_loop == "ground" for i in dynamics}
         self._kinematic = [i for i in robots if i not in dynamics]
         self.version = 0
@@ -254,6 +257,13 @@ class State:
         self._refresh()
         body = self._data.body(name)
         return Pose(np.array(body.xpos), np.array(body.xmat).reshape(3, 3))
+
+
+def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
+    """Put the water round the bodies of a model."""
+    from .hydrodynamics.hydrodynamics import install
+
+    return install(model)
 
 
 def _owner(body: str) -> str:

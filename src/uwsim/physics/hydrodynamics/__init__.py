@@ -1,10 +1,11 @@
-"""Hydrodynamics: added mass in the mass matrix, Coriolis, damping, buoyancy, current, thrust."""
+"""Hydrodynamics: added mass in the mass matrix, Coriolis, damping, buoyancy, current, thrust.
+
+Here is what can be said of bodies and thrusters; the water itself is in `hydrodynamics.py`, which
+compiles a kernel when it is imported: who simulates nothing does not wait for it.
+"""
 
 from __future__ import annotations
 
-from .callback import CallbackTaken
-from .hydrodynamics import Hydrodynamics, NoWater, install
-from .layout import MujocoChanged
 from .spec import (
     BadHydrodynamics,
     BodyHydrodynamics,
@@ -17,13 +18,8 @@ from .table import prepare
 __all__ = [
     "BadHydrodynamics",
     "BodyHydrodynamics",
-    "CallbackTaken",
-    "Hydrodynamics",
-    "MujocoChanged",
-    "NoWater",
     "ThrusterSpec",
     "VehicleHydrodynamics",
-    "install",
     "prepare",
     "vehicle_faults",
 ]
