@@ -7,13 +7,13 @@ then for our stand-in of that relative name (`STAND_INS`).
 from __future__ import annotations
 
 import hashlib
-from functools import cache
 from pathlib import Path, PurePosixPath
 
 from ..errors import AssetNotFound, did_you_mean
 from .find import UNDER, candidates, find, folders_searched, plain_name, roots
 from .loaders import BY_OSGCONV, READABLE, can_read, read_model
 from .mesh import Mesh, Model, Texture
+from .model_cache import made
 from .primitives import primitive
 from .procedural.placeholder import labelled_box
 from .stand_ins import STAND_INS, StandIn
@@ -61,7 +61,7 @@ def load_model(
         return read_model(path, name=name, max_triangles=max_triangles)
     stand_in = _stand_in_name(stem)
     if stand_in is not None:
-        return _made(stand_in)
+        return made(stand_in)
     raise AssetNotFound(
         f"There is no file {name!r}, nor a stand-in of that name."
         f"{did_you_mean(stem.removeprefix('data/'), STAND_INS)} Searched, in order: "
@@ -89,17 +89,3 @@ def _stand_in_name(stem: str) -> str | None:
         if tail in STAND_INS:
             return tail
     return None
-
-
-@cache
-def _made(name: str) -> Model:
-    """Our model of that name, made once."""
-    stand_in = STAND_INS[name]
-    meshes = stand_in.make()
-    digest = hashlib.sha256()
-    for mesh in meshes:
-        for array in (mesh.vertices, mesh.normals, mesh.uvs, mesh.triangles):
-            digest.update(array.tobytes())
-        if mesh.texture is not None:
-            digest.update(mesh.texture.pixels.tobytes())
-    return Model(name=name, meshes=meshes, source=stand_in.source, sha256=digest.hexdigest())
