@@ -9,6 +9,7 @@ import pytest
 
 from uwsim.assets import model_cache as room
 from uwsim.assets.mesh import Model
+from uwsim.assets.stand_ins import STAND_INS
 
 TANK = "terrain/CIRS/cirs_trident"
 
@@ -22,6 +23,10 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def fresh(name: str) -> Model:
     """Ask as a new process would."""
     return room.made.__wrapped__(name)
+
+
+def models(cache: Path) -> list[Path]:
+    return [file for file in cache.rglob("*.npz") if not file.name.startswith("texture-")]
 
 
 def assert_equal(a: Model, b: Model) -> None:
@@ -42,7 +47,7 @@ def assert_equal(a: Model, b: Model) -> None:
 @pytest.mark.parametrize("name", [TANK, "objects/blackbox_uib_trimesh", "robot/PA10/pa10link0"])
 def test_read_back_as_made(cache: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     first = fresh(name)
-    assert len(list(cache.rglob("*.npz"))) == 1
+    assert models(cache)
     monkeypatch.setattr(room, "_make", lambda _: pytest.fail("was made again"))
     assert_equal(fresh(name), first)
 
@@ -50,7 +55,7 @@ def test_read_back_as_made(cache: Path, name: str, monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize("damage", [b"", b"PK", b"not a zip at all"])
 def test_damaged_file_is_replaced(cache: Path, damage: bytes) -> None:
     first = fresh("objects/hook")
-    (file,) = cache.rglob("*.npz")
+    (file,) = models(cache)
     whole = file.read_bytes()
     file.write_bytes(damage or whole[: len(whole) // 2])
     assert_equal(fresh("objects/hook"), first)
@@ -61,10 +66,35 @@ def test_other_sources_are_another_model(cache: Path, monkeypatch: pytest.Monkey
     fresh("objects/hook")
     monkeypatch.setattr(room, "_key", lambda: "another")
     fresh("objects/hook")
-    assert len(list(cache.rglob("*.npz"))) == 2
+    assert len(models(cache)) == 2
 
 
 def test_without_a_place_to_keep(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").touch()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
     assert fresh("objects/hook").n_triangles > 0
+
+
+def test_meshes_share_their_texture(cache: Path) -> None:
+    """Meshes of one texture object are drawn in one go, read back or not."""
+    for read_back in (False, True):
+        parts = [fresh(f"robot/ARM5E/ARM5E_part{i}") for i in range(5)]
+        textures = {mesh.texture.name: set() for p in parts for mesh in p.meshes if mesh.texture}
+        for part in parts:
+            for mesh in part.meshes:
+                if mesh.texture:
+                    textures[mesh.texture.name].add(id(mesh.texture.pixels))
+        assert textures
+        assert {name: len(found) for name, found in textures.items()} == dict.fromkeys(
+            textures, 1
+        ), read_back
+
+
+def test_equal_names_mean_equal_pixels() -> None:
+    seen: dict[str, np.ndarray] = {}
+    for name in STAND_INS:
+        for mesh in room._make(name).meshes:
+            if mesh.texture is not None:
+                pixels = seen.setdefault(mesh.texture.name, mesh.texture.pixels)
+                assert np.array_equal(pixels, mesh.texture.pixels), (name, mesh.texture.name)
+    assert len(seen) > 10

@@ -69,9 +69,9 @@ def _key() -> str:
 
 
 def _keep(model: Model, file: Path) -> None:
-    """Write a model, whole or not at all."""
+    """Write a model and its textures; each file whole or not at all."""
+    file.parent.mkdir(parents=True, exist_ok=True)
     arrays: dict[str, Any] = {"sha256": np.array(model.sha256)}
-    pictures: dict[int, str] = {}  # equal pixels are kept once
     for i, mesh in enumerate(model.meshes):
         for name in _ARRAYS:
             arrays[f"{i}/{name}"] = getattr(mesh, name)
@@ -79,11 +79,14 @@ def _keep(model: Model, file: Path) -> None:
         arrays[f"{i}/two_sided"] = np.array(mesh.two_sided)
         texture = mesh.texture
         if texture is not None:
-            key = pictures.setdefault(id(texture.pixels), f"{i}/pixels")
-            arrays[key] = texture.pixels
-            arrays[f"{i}/texture"] = np.array([key, texture.name])
-            arrays[f"{i}/repeats"] = np.array(texture.repeats)
-    file.parent.mkdir(parents=True, exist_ok=True)
+            arrays[f"{i}/texture"] = np.array(texture.name)
+            picture = _picture(file, texture.name)
+            if not picture.exists():
+                _write(picture, pixels=texture.pixels, repeats=np.array(texture.repeats))
+    _write(file, **arrays)
+
+
+def _write(file: Path, **arrays: Any) -> None:
     with NamedTemporaryFile(dir=file.parent, suffix=".part", delete=False) as draft:
         try:
             np.savez(draft, **arrays)
@@ -94,24 +97,35 @@ def _keep(model: Model, file: Path) -> None:
             raise
 
 
+def _picture(file: Path, texture: str) -> Path:
+    """Where a texture is kept: beside the models, for several of them share it."""
+    return file.parent / ("texture-" + texture.replace("/", "-") + ".npz")
+
+
 def _read(name: str, file: Path) -> Model:
     with file.open("rb") as stream, np.load(stream, allow_pickle=False) as kept:
-        pixels = {key: kept[key] for key in kept.files if key.endswith("/pixels")}
         n = sum(key.endswith("/vertices") for key in kept.files)
-        meshes = tuple(_mesh(kept, i, pixels) for i in range(n))
+        meshes = tuple(_mesh(kept, i, file) for i in range(n))
         sha256 = str(kept["sha256"])
     return Model(name=name, meshes=meshes, source=STAND_INS[name].source, sha256=sha256)
 
 
-def _mesh(kept: Any, i: int, pixels: dict[str, Any]) -> Mesh:
+def _mesh(kept: Any, i: int, file: Path) -> Mesh:
     red, green, blue = kept[f"{i}/colour"].tolist()
     texture = None
     if f"{i}/texture" in kept.files:
-        key, called = kept[f"{i}/texture"].tolist()
-        texture = Texture(name=called, pixels=pixels[key], repeats=bool(kept[f"{i}/repeats"]))
+        called = str(kept[f"{i}/texture"])
+        texture = _texture(called, _picture(file, called))
     return Mesh(
         **{array: kept[f"{i}/{array}"] for array in _ARRAYS},
         colour=(red, green, blue),
         texture=texture,
         two_sided=bool(kept[f"{i}/two_sided"]),
     )
+
+
+@cache
+def _texture(name: str, file: Path) -> Texture:
+    """One object a texture, however many meshes wear it: they are drawn together."""
+    with file.open("rb") as stream, np.load(stream, allow_pickle=False) as kept:
+        return Texture(name=name, pixels=kept["pixels"], repeats=bool(kept["repeats"]))
