@@ -36,6 +36,24 @@ def test_publishing_without_readers_touches_nothing() -> None:
     assert inbox.take() == []
 
 
+def test_a_reader_of_any_type_hears_whatever_the_topic_carries_and_types_nothing() -> None:
+    bus = Bus()
+    early = bus.inbox("a", object)
+    publish = bus.publisher("a", String)
+    late = bus.inbox("/a", object)
+    typed = bus.inbox("a", String)
+    publish(String(data="x"))
+    bus.deliver()
+    assert early.take() == late.take() == typed.take() == [String(data="x")]
+    with pytest.raises(BadSetting, match="carries std_msgs/msg/String"):
+        bus.inbox("a", Bool)
+
+
+def test_a_publisher_says_what_it_publishes() -> None:
+    with pytest.raises(BadSetting, match="'a' is published without a message type"):
+        Bus().publisher("a", object)
+
+
 def test_a_topic_has_one_type() -> None:
     bus = Bus()
     bus.inbox("a", String)

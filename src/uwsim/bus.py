@@ -126,7 +126,11 @@ class Bus:
     def subscribe(
         self, topic: str, type: type[M], callback: Callable[[M], None]
     ) -> Callable[[], None]:
-        """Call ``callback`` with every message on ``topic``; returns the way to stop it."""
+        """Call ``callback`` with every message on ``topic``; returns the way to stop it.
+
+        ``object`` as the type stands for any: such a reader hears whatever the topic carries, and
+        leaves it to others to say what that is.
+        """
         entry = self._typed(topic, type)
         entry.readers.append(callback)
         return lambda: entry.readers.remove(callback) if callback in entry.readers else None
@@ -140,6 +144,8 @@ class Bus:
 
     def publisher(self, topic: str, type: type[M], *, delay_steps: int = 0) -> Callable[[M], None]:
         """Return ``publish(message)`` for ``topic``, delayed by ``delay_steps``."""
+        if type is object:
+            raise BadSetting(f"Topic {topic!r} is published without a message type.")
         name = _plain(topic)
         entry = self._typed(topic, type)
 
@@ -241,6 +247,8 @@ class Bus:
 
     def _typed(self, topic: str, type: type[M]) -> _Topic:
         entry = self._topics.setdefault(_plain(topic), _Topic())
+        if type is object:
+            return entry
         if entry.type is None:
             entry.type = type
         elif entry.type is not type:

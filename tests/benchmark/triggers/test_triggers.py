@@ -17,7 +17,7 @@ from uwsim.benchmark.triggers import (
 )
 from uwsim.errors import UnknownName
 from uwsim.geometry import Pose, rotation_from_xyz, rotation_z
-from uwsim.messages import Bool, Empty, EmptyResponse
+from uwsim.messages import Bool, Empty, EmptyResponse, String, floats, header
 
 LEGACY = frozenset({"thresholds"})
 
@@ -76,6 +76,29 @@ def test_a_topic_trigger_is_what_the_last_message_said() -> None:
             publish(Bool(data=value))
         world.advance()
         assert trigger.is_on() is expected
+
+
+@pytest.mark.parametrize("message", [floats([0.0]), String(data=""), header(0.0)])
+def test_any_message_that_is_no_bool_sets_a_topic_trigger_on(message: object) -> None:
+    world = FakeWorld()
+    trigger = TopicSpec(target="goal").bind(world)
+    publish = world.publisher("goal", type(message))
+    world.advance()
+    assert not trigger.is_on()
+    publish(message)
+    world.advance()
+    assert trigger.is_on()
+    world.advance()
+    assert trigger.is_on()
+
+
+def test_a_topic_trigger_lets_the_publisher_choose_the_type() -> None:
+    world = FakeWorld()
+    world.publisher("goal", String)
+    trigger = TopicSpec(target="goal").bind(world)
+    assert world.bus.topics == {"goal": "std_msgs/msg/String"}
+    trigger.close()
+    assert not world.bus.has_readers("goal")
 
 
 def test_a_closed_topic_trigger_hears_nothing_more() -> None:

@@ -20,24 +20,28 @@ class TopicSpec(TriggerSpec):
     """A trigger of type ``topic``."""
 
     target: str
-    """Topic (std_msgs/Bool)."""
+    """Topic, of any type: a std_msgs/Bool says on or off, any other message on."""
 
     def bind(self, world: World) -> Topic:
         """Listen to the topic."""
-        return Topic(world.inbox(self.target, Bool))
+        return Topic(world.inbox(self.target, object))
 
 
 class Topic(Trigger):
-    """What the newest message on its topic said; off until there is one."""
+    """What the newest message on its topic said; off until there is one.
 
-    def __init__(self, inbox: Inbox[Bool]) -> None:
+    A std_msgs/Bool says what it holds. A message of any other type is an event, such as the first
+    picture of a camera or a goal that was sent: it says on. (The original reads a Bool only.)
+    """
+
+    def __init__(self, inbox: Inbox[object]) -> None:
         self._inbox = inbox
         self._is_on = False
 
     def is_on(self) -> bool:
-        """Whether the last message was true."""
+        """Whether the last message was true, or no Bool."""
         for message in self._inbox.take():
-            self._is_on = bool(message.data)
+            self._is_on = bool(message.data) if isinstance(message, Bool) else True
         return self._is_on
 
     def close(self) -> None:
