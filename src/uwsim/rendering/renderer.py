@@ -91,6 +91,11 @@ class Renderer:
         del self._instances[handle]
         self._version += 1
 
+    def clear(self) -> None:
+        """Take every instance out of the scene; what was uploaded stays, for whoever adds next."""
+        self._instances.clear()
+        self._version += 1
+
     def draw(
         self,
         world_from_camera: Pose,

@@ -5,5 +5,13 @@ from __future__ import annotations
 from .image_publisher import ImagePublisher, sample_step
 from .node import InProcessNode, latency_of
 from .simulation import Simulation
+from .studio import Studio
 
-__all__ = ["ImagePublisher", "InProcessNode", "Simulation", "latency_of", "sample_step"]
+__all__ = [
+    "ImagePublisher",
+    "InProcessNode",
+    "Simulation",
+    "Studio",
+    "latency_of",
+    "sample_step",
+]

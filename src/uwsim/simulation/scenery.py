@@ -22,6 +22,7 @@ from ..rendering.renderer import Picture, Renderer
 from ..rendering.water import Light, Water
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec, VisualSpec
+from .studio import Studio
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,17 +49,19 @@ class Part:
 
 
 class Scenery:
-    """The models of a scene; makes a renderer when the first picture is asked for."""
+    """The models of a scene; borrows a renderer when the first picture is asked for."""
 
     def __init__(
         self,
         scene: SceneSpec,
         robots: Mapping[int, RobotSpec],
         state: State,
-        *,
         data_path: tuple[Path, ...],
+        studio: Studio | None,
     ) -> None:
         self._state = state
+        self._own_studio = Studio()
+        self._studio = studio or self._own_studio
         self._renderer: Renderer | None = None
         self._handles: dict[int, int] = {}
         self._drawn_version = -1
@@ -132,16 +135,17 @@ class Scenery:
 
     def _open(self) -> Renderer:
         if self._renderer is None:
-            self._renderer = Renderer()
+            self._renderer = self._studio.borrow()
         return self._renderer
 
     def close(self) -> None:
-        """Give the graphics context back."""
+        """Give the renderer back."""
         if self._renderer is not None:
-            self._renderer.close()
+            self._studio.give_back(self._renderer)
             self._renderer = None
             self._handles = {}
             self._drawn_version = -1
+        self._own_studio.close()
 
 
 def _mounted_lamps(

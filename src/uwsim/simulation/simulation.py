@@ -49,6 +49,7 @@ from .image_publisher import ImagePublisher, SampleTimer
 from .node import InProcessNode
 from .scenery import Scenery
 from .state_publishers import state_publishers
+from .studio import Studio
 from .thruster_faults import ThrusterFaults
 
 M = TypeVar("M")
@@ -68,6 +69,7 @@ class Simulation:
         data_path: folders in which files are looked for.
         compatibility: the original's slips asked for.
         is_blind: publish black images, drawing nothing.
+        studio: lends the renderer; without one the simulation has a renderer of its own.
     """
 
     def __init__(
@@ -80,6 +82,7 @@ class Simulation:
         data_path: tuple[Path, ...] = (),
         compatibility: frozenset[str] = frozenset(),
         is_blind: bool = False,
+        studio: Studio | None = None,
     ) -> None:
         self._scene = scene
         self._seed = seed
@@ -93,7 +96,7 @@ class Simulation:
         dynamics = read_dynamics(scene, self.robots)
         shapes = collision_shapes(scene, self.robots, dynamics, data_path)
         self._state = State(scene, self.robots, dynamics, timestep, shapes)
-        self._scenery = Scenery(scene, self.robots, self._state, data_path=data_path)
+        self._scenery = Scenery(scene, self.robots, self._state, data_path, studio)
         self._bodies = name_bodies(scene, self.robots, self._state, self._scenery.parts)
         self._water = Water(
             fog=scene.ocean_state.fog.density,

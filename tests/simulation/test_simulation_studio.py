@@ -1,0 +1,65 @@
+"""One renderer for several simulations: what they see must not depend on who drew before."""
+
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+
+from uwsim.scene.reader import read_scene
+from uwsim.scene.spec import SceneSpec
+from uwsim.simulation import Simulation, Studio
+
+SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
+
+
+def pictures(scene: SceneSpec, studio: Studio | None) -> list[np.ndarray]:
+    simulation = Simulation(scene, seed=3, studio=studio)
+    camera = simulation.camera("bowtech1")
+    exact = simulation.picture(camera.world_from_camera, camera.intrinsics)
+    assert exact.colour is not None
+    assert exact.range is not None
+    assert exact.ids is not None
+    seen = [camera.shoot(), exact.colour, exact.range, exact.ids]
+    simulation.close()
+    return [array.copy() for array in seen]
+
+
+def test_pictures_are_the_same_whoever_had_the_renderer_before() -> None:
+    scene = read_scene(SCENES / "visibility-scene.xml")
+    other = replace(read_scene(SCENES / "currents-scene.xml"), objects=())
+    studio = Studio()
+    pictures(other, studio)
+    first, second = pictures(scene, studio), pictures(scene, studio)
+    for ours, again, alone in zip(first, second, pictures(scene, None), strict=True):
+        np.testing.assert_array_equal(ours, alone)
+        np.testing.assert_array_equal(again, alone)
+    studio.close()
+
+
+def test_two_simulations_at_once_do_not_see_each_other() -> None:
+    scene = read_scene(SCENES / "visibility-scene.xml")
+    studio = Studio()
+    emptier = Simulation(replace(scene, objects=scene.objects[:1]), studio=studio)
+    whole = Simulation(scene, studio=studio)
+    camera = emptier.camera("bowtech1")
+    with_all = whole.picture(camera.world_from_camera, camera.intrinsics).ids
+    with_one = emptier.picture(camera.world_from_camera, camera.intrinsics).ids
+    assert with_all is not None
+    assert with_one is not None
+    assert set(np.unique(with_one)) < set(np.unique(with_all))
+    for simulation in (emptier, whole):
+        simulation.close()
+    first, second = studio.borrow(), studio.borrow()
+    assert first is not second
+    for renderer in (first, second):
+        studio.give_back(renderer)
+    studio.close()
+
+
+def test_a_second_simulation_in_a_studio_gets_the_same_renderer() -> None:
+    studio = Studio()
+    first = studio.borrow()
+    studio.give_back(first)
+    assert studio.borrow() is first
+    first.close()
