@@ -6,6 +6,7 @@
       FileError            a file is wrong: all its faults at once, each with its place
         SceneError         ... a scene or robot file
         BenchmarkError     ... a benchmark file
+        PluginError        ... a plugin
       UnknownName          a name that nothing has; names the nearest right one
       AssetNotFound        a file that is nowhere; names every folder searched
       AssetError           a file that was found and cannot be used
@@ -23,11 +24,17 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 
 class UwsimError(Exception):
-    """Anything uwsim refuses to do, with a message for the user."""
+    """Anything uwsim refuses to do, with a message for the user.
+
+    Comes out of a pickle as it went in, whatever its ``__init__`` takes: workers send it home.
+    """
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self).__new__, (type(self), *self.args), self.__dict__
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,6 +69,10 @@ class SceneError(FileError):
 
 class BenchmarkError(FileError):
     """A benchmark file is wrong."""
+
+
+class PluginError(FileError):
+    """A plugin is wrong, or raised while it was asked something."""
 
 
 class UnknownName(UwsimError):
