@@ -14,6 +14,8 @@ from ..errors import BadSetting
 
 CONTROL = "control"
 """Folder of the control's own result."""
+REPORT = "report.html"
+"""What a reader opens first."""
 OURS = re.compile(
     r"""(?x) (control/)? (
         result\.json | result\.dat | provenance\.json | report\.html

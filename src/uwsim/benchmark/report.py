@@ -22,6 +22,7 @@ import numpy as np
 from PIL import Image
 
 from ..errors import ResultError
+from .directory import CONTROL, REPORT
 from .interval import binomial_interval, per_level, rows_by_level
 from .logs import logs_of
 from .overlay import overlay
@@ -90,7 +91,7 @@ def write_report(path: Path) -> Path:
     result = load(path)
     control = _control(directory)
     plots = draw_plots(result, directory / "plots", control=control)
-    target = directory / "report.html"
+    target = directory / REPORT
     write_whole(target, render(result, directory, plots=plots, control=control))
     return target
 
@@ -265,7 +266,7 @@ def _is_static(result: Result) -> bool:
 
 def _control(directory: Path) -> Result | None:
     try:
-        return load(directory / "control")
+        return load(directory / CONTROL)
     except ResultError:
         return None
 

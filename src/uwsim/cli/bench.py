@@ -29,6 +29,7 @@ from .files import benchmark_file, scene_file
 
 if TYPE_CHECKING:
     from ..benchmark.bench import Bench
+    from ..benchmark.beside import Beside
     from ..benchmark.plan import Plan
     from ..benchmark.result import Result
 
@@ -118,18 +119,20 @@ def bench(
     directory = out or Path(f"{Path(plan.benchmark.path).stem}.result")
 
     from ..benchmark.bench import Bench, open_once
+    from ..benchmark.beside import Beside
     from ..benchmark.directory import alone_in, prepare
 
     began = time.time()
     inputs, renderer = open_once(plan)
     signal.signal(signal.SIGTERM, interrupt)
     prepare(directory, resume=resume, overwrite=overwrite)
-    with alone_in(directory):
+    with alone_in(directory), Beside() as beside:
         run = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
+        wants_control = plan.wants_control and plan.algorithm_name != CONTROL
+        if wants_control:
+            beside.ask(control_of(run))
         result = play_with_progress(run, workers)
-        if plan.wants_control and plan.algorithm_name != CONTROL:
-            play_control(run)
-        finish(run, result, began=began, workers=workers)
+        finish(run, result, beside, wants_control, began=began, workers=workers)
 
 
 def interrupt(number: int, frame: object) -> None:
@@ -287,8 +290,8 @@ def plain_progress(title: str, done: int, total: int) -> Callable[[], None]:
     return on_level
 
 
-def play_control(run: Bench) -> None:
-    """Play the same with `frozen`, which looks at no image, into ``control/``."""
+def control_of(run: Bench) -> Bench:
+    """Return the same with `frozen`, which looks at no image, into ``control/``."""
     from ..algorithms import load_algorithm
     from ..benchmark.bench import Bench
     from ..benchmark.directory import CONTROL as FOLDER_OF_CONTROL
@@ -300,21 +303,33 @@ def play_control(run: Bench) -> None:
         parameters={},
         is_blind=True,
     )
-    control = Bench(plan=plan, out=run.out / FOLDER_OF_CONTROL, inputs=run.inputs, renderer="none")
-    control.run()
+    out = run.out / FOLDER_OF_CONTROL
+    return Bench(plan=plan, out=out, inputs=run.inputs, renderer="none")
 
 
-def finish(run: Bench, result: Result, *, began: float, workers: int) -> None:
+def finish(
+    run: Bench,
+    result: Result,
+    beside: Beside,
+    wants_control: bool,
+    *,
+    began: float,
+    workers: int,
+) -> None:
     """Write provenance, plots and report, and print the table."""
+    from ..benchmark.directory import REPORT
     from ..benchmark.provenance import save_provenance
-    from ..benchmark.report import write_report
     from ..benchmark.table import table
 
+    if wants_control:
+        beside.wait()
     wall = time.time() - began
     save_provenance(provenance(run, began, wall, workers), run.out)
-    report = write_report(run.out)
+    beside.ask(run.out)
     console = Console(width=None if sys.stdout.isatty() else UNWRAPPED)
     console.print(table(result, width=console.width))
+    beside.wait()
+    report = run.out / REPORT
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
 
 

@@ -1,0 +1,106 @@
+"""A second process beside a run: it plays the control and draws the report.
+
+Both need no picture and no OpenGL, and a run in one process leaves a core half idle. Started early,
+this one has loaded what it needs by the time it is asked.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+import time
+from multiprocessing.connection import Connection
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from ..errors import RunFailed, UwsimError
+from .bench import Bench
+
+Job = Bench | Path
+"""A benchmark is played; of a result directory the report is drawn."""
+
+
+class Beside:
+    """Does jobs one after the other in a process of its own, which ends with this one.
+
+    A context manager: whatever the process was about when the block is left, it is stopped.
+    """
+
+    def __init__(self) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._here, there = context.Pipe()
+        self._process = context.Process(target=_serve, args=(there, os.getpid()), daemon=True)
+        self._process.start()
+        there.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._process.kill()
+        self._process.join()
+        self._here.close()
+
+    def ask(self, job: Job) -> None:
+        """Give it something to do."""
+        try:
+            self._here.send(job)
+        except OSError:
+            raise RunFailed(_GONE) from None
+
+    def wait(self) -> None:
+        """Wait until the oldest job that was not waited for is done.
+
+        Raises:
+            RunFailed: it could not be done, or the process died.
+        """
+        try:
+            why = self._here.recv()
+        except (EOFError, OSError):
+            raise RunFailed(_GONE) from None
+        if why is not None:
+            raise RunFailed(why)
+
+
+_GONE = (
+    "The process that plays the control and draws the report died. "
+    "Finished rows are kept; go on with --resume."
+)
+
+
+def _serve(there: Connection, parent: int) -> None:
+    """Do what comes, until the parent is gone or wants no more."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent decides
+    threading.Thread(target=_leave_with, args=(parent,), daemon=True).start()
+    while True:
+        try:
+            job = there.recv()
+        except EOFError:
+            return
+        try:
+            if isinstance(job, Bench):
+                job.run()
+                from .report import write_report  # while the levels are played
+            else:
+                from .report import write_report
+
+                write_report(job)
+        except UwsimError as error:
+            there.send(str(error))
+        else:
+            there.send(None)
+
+
+def _leave_with(parent: int) -> None:
+    """End when the parent is gone, however that came to its end."""
+    while os.getppid() == parent:
+        time.sleep(0.1)
+    os._exit(1)
