@@ -16,6 +16,7 @@ COMPATIBILITY: dict[str, str] = {
     "fog-distance": "fog uses the clip-space z of the camera, not the distance along the ray",
     "last-norm": "an estimate of any age is scored; without a new one the last norm stands",
     "rows": "a row with a measure in error is left out of result.dat",
+    "stop-once": "the benchmark's stopOn is never reset: after it, no further level begins",
     "thresholds": "trigger distances are compared squared: onMove 0.447 m, position 0.548 m",
     "visual-frames": "sensors hang on the visual frame of their link (scenes before July 2014)",
     "y0": "the camera parameter y0 counts from the bottom edge, but is published as it is",

@@ -27,10 +27,11 @@ from .. import __version__
 from ..errors import RunFailed
 from ..simulation import Simulation
 from . import unit_file
-from .logs import Log, save_log
-from .original_format import save_dat
+from .logs import TIME, Log, save_log
+from .original_format import save_dat, save_data
 from .plan import Plan, Unit
 from .play import Row, UnitEnd, bind_all, play
+from .plugin import blamed, hashes
 from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture, save
 from .updaters import chain, references
 
@@ -97,8 +98,10 @@ class Bench:
         result, logs, self.simulated_s = collect(self)
         save(result, self.out)
         save_dat(result, self.out, compatibility=self.plan.compatibility)
+        measures = {spec.name: spec for spec in self.plan.benchmark.measures}
         for log in logs:
             save_log(log, self.out)
+            save_data(log, measures[log.measure], self.out)
         return result
 
     def _stored(self, unit: Unit) -> unit_file.Stored:
@@ -272,7 +275,7 @@ def collect(bench: Bench) -> tuple[Result, list[Log], float]:
     logs = [
         Log(
             measure=name,
-            header=(*levels, "time [s]", *records[0][1]["log_headers"][name]),
+            header=(*levels, TIME, *records[0][1]["log_headers"][name]),
             samples=tuple(taken),
         )
         for name, taken in samples.items()

@@ -19,7 +19,7 @@ REPORT = "report.html"
 OURS = re.compile(
     r"""(?x) (control/)? (
         result\.json | result\.dat | provenance\.json | report\.html
-      | measure-[^/]+\.csv
+      | measure-[^/]+\.csv | benchmark-[^/]+\.data
       | units/\d+\.(jsonl|part)
       | plots/[^/]+\.png
       | pictures/\d+-[^/]+\.png(\.part)?

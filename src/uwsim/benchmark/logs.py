@@ -24,6 +24,9 @@ from .result import write_whole
 
 Sample = tuple[float | int | None, ...]
 
+TIME = "time [s]"
+"""The column between the levels and the values."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Log:
@@ -38,8 +41,13 @@ class Log:
 
 
 def file_of(directory: Path, measure: str) -> Path:
-    """Return where the log of a measure lies; what is no letter, digit, . or - becomes _."""
-    return directory / f"measure-{re.sub(r'[^A-Za-z0-9_.-]', '_', measure)}.csv"
+    """Return where the log of a measure lies."""
+    return directory / f"measure-{file_name(measure)}.csv"
+
+
+def file_name(measure: str) -> str:
+    """Return the name of a measure in a file's; what is no letter, digit, . or - becomes _."""
+    return re.sub(r"[^A-Za-z0-9_.-]", "_", measure)
 
 
 def save_log(log: Log, directory: Path) -> Path:

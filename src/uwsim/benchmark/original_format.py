@@ -1,4 +1,4 @@
-r"""The original's result file: ``benchmarkOutput.dat``, here ``result.dat``.
+r"""The original's files: its result, here ``result.dat``, and its logs, ``benchmark-<name>.data``.
 
 .. code-block:: text
 
@@ -9,12 +9,34 @@ r"""The original's result file: ``benchmarkOutput.dat``, here ``result.dat``.
 Every field is followed by a tab, numbers have C++'s default format (``%g``, six digits). A value
 that is missing is ``nan`` and no row is dropped; the compatibility ``rows`` has the original back:
 a row with a measure in error is left out, and a function that fails leaves its field out.
+
+A measure with ``<log>`` has a file of its own, beside our CSV of the same samples. Its first column
+has the outermost updater's name and holds, in the original too, the running time; the details of
+the measure follow, and one blank line at the end. Levels are not told apart.
+
+.. code-block:: text
+
+    Fog\tcorners_total\tcorners[]\tcorners[]\t
+    0.1\t1.83\t0.2\t-0.1\t
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
+from .logs import TIME, Log, file_name
+from .measures import (
+    CollisionSpec,
+    DistanceSpec,
+    EuclideanNormSpec,
+    Measure,
+    MeasureSpec,
+    ObjectCenteredOnCamSpec,
+    PathFollowingSpec,
+    PositionErrorSpec,
+    Reconstruction3DSpec,
+    TimeSpec,
+)
 from .result import Cell, Column, Result, write_whole
 
 LEVEL_NAMES = {
@@ -50,6 +72,59 @@ def save_dat(
     """Write ``result.dat`` into the result directory, whole or not at all."""
     path = directory / "result.dat"
     write_whole(path, dat_text(result, compatibility=compatibility))
+    return path
+
+
+def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
+    """Return what the original calls the details of a measure: its log's columns after the time.
+
+    Args:
+        spec: the measure; one that the original does not have gives all that it logs.
+        n_logged: number of values in a sample of its log.
+    """
+    name = spec.name
+    match spec:
+        case TimeSpec() | DistanceSpec() | CollisionSpec():
+            names: tuple[str, ...] = (name,)
+        case EuclideanNormSpec():
+            names = (f"{name}_total", *[f"{name}[]"] * (n_logged - 1))
+        case ObjectCenteredOnCamSpec():
+            names = (f"{name}_total", f"{name}_x", f"{name}_y")
+        case PositionErrorSpec():
+            names = ("total", "x", "y", "z", "rx", "ry", "rz", "rw")
+        case Reconstruction3DSpec():
+            names = ("mean error", "error variance", "coverage %", "outliers %")
+        case PathFollowingSpec():
+            names = ("ISE", "distanceToPath", "waypoint")
+        case _:
+            names = (name, *(f"{name}[]" for _ in range(n_logged - 1)))
+    return names[:n_logged]
+
+
+def details(spec: MeasureSpec, measure: Measure) -> tuple[float | None, ...]:
+    """Return the details of a measure as of now, in the order of `detail_names`."""
+    values = measure.log_values
+    return values[: len(detail_names(spec, len(values)))]
+
+
+def data_text(log: Log, spec: MeasureSpec) -> str:
+    """Return the text of ``benchmark-<name>.data``; ``repeat`` and ``seed`` lead as in the CSV."""
+    time = log.header.index(TIME)
+    led = [name for name in log.header[:time] if name in ("repeat", "seed")]
+    reference = log.header[len(led)].partition(" ")[0]
+    outermost = LEVEL_NAMES.get(reference, reference)
+    names = detail_names(spec, len(log.header) - time - 1)
+    lines = ["".join(f"{field}\t" for field in (*led, outermost, *names))]
+    for sample in log.samples:
+        cells = (*sample[: len(led)], *sample[time : time + 1 + len(names)])
+        lines.append("".join(f"{_number(cell)}\t" for cell in cells))
+    return "\n".join(lines) + "\n\n"
+
+
+def save_data(log: Log, spec: MeasureSpec, directory: Path) -> Path:
+    """Write ``benchmark-<name>.data`` into the result directory, whole or not at all."""
+    path = directory / f"benchmark-{file_name(spec.name)}.data"
+    write_whole(path, data_text(log, spec))
     return path
 
 

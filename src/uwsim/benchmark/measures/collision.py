@@ -2,7 +2,7 @@ r"""Collision: how hard a body has hit others.
 
 .. code-block:: xml
 
-    <collision> <name>hits</name> <target>girona500</target> </collision>
+    <collision u:stopOnContact="true"> <name>hits</name> <target>girona500</target> </collision>
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...dialect import element
 from ...world import Contact, World
 from .measure import Measure, MeasureSpec
 
@@ -24,6 +25,8 @@ class CollisionSpec(MeasureSpec):
 
     target: str
     """Name of the vehicle or object."""
+    stop_on_contact: bool = element(default=False, attribute=True, namespaced=True)
+    """Whether the first contact ends the level, in status ``collision`` (``u:stopOnContact``)."""
 
     def bind(self, world: World) -> Collision:
         """Watch the target; raises UnknownName if it is not there."""
@@ -52,6 +55,8 @@ class Collision(Measure):
     def __init__(self, spec: CollisionSpec, world: World) -> None:
         self._world, self._target = world, spec.target
         self._is_original = "collision" in world.compatibility
+        self._stops = spec.stop_on_contact
+        self._stopped_for: str | None = None
         self._n_steps = 0
         self._n_in_contact = 0
         self._sum = 0.0  # of s [m/s]
@@ -72,6 +77,9 @@ class Collision(Measure):
             self._n_in_contact += 1
             self._sum += speed
             self._highest = max(self._highest, speed)
+            if self._stops and self._stopped_for is None:
+                what = f" {contacts[0].other!r}" if contacts[0].other else ""
+                self._stopped_for = f"{self._target!r} touched{what} at {self._world.time:g} s"
 
     def _speed(self, contacts: Sequence[Contact]) -> float:
         """Mean over the contacts that close [m/s]."""
@@ -97,6 +105,11 @@ class Collision(Measure):
             "mean_speed": self._sum / n if n else 0.0,
             "contact_share": n / self._n_steps,
         }
+
+    @property
+    def ends_level(self) -> str | None:
+        """The first contact, if the file asks to stop there."""
+        return self._stopped_for
 
     @property
     def log_header(self) -> tuple[str, ...]:

@@ -96,5 +96,10 @@ class Measure(abc.ABC):
         """Longest time without an estimate while it was on [s]; 0 if it awaits none."""
         return 0.0
 
+    @property
+    def ends_level(self) -> str | None:
+        """What it ends the level for, in status ``collision``; None: nothing."""
+        return None
+
     def close(self) -> None:  # noqa: B027 - most measures hold nothing
         """Give back what it held (a subscription)."""

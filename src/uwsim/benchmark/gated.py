@@ -1,0 +1,52 @@
+"""A measure behind its triggers: on from its startOn until its stopOn, and logged on the way."""
+
+from __future__ import annotations
+
+import math
+
+from ..world import World
+from .measures import MeasureSpec
+
+Sample = tuple[float | None, ...]
+
+
+class Gated:
+    """A measure that is on from its start trigger until its stop trigger."""
+
+    def __init__(self, spec: MeasureSpec, world: World) -> None:
+        self.spec = spec
+        self.measure = spec.bind(world)
+        self.log: list[Sample] = []
+        """Samples taken so far: time in the level [s], then the measure's `log_values`."""
+        self._world = world
+        self._start = spec.start_on.bind(world)
+        self._stop = spec.stop_on.bind(world)
+        self._began = world.step
+        self._was_on = False
+        self._log_due = 0 if spec.log is not None else None
+
+    def tick(self) -> None:
+        """Start or update the measure, whichever the triggers ask for."""
+        on = self._start.is_on() and not self._stop.is_on()
+        if on and not self._was_on:
+            self.measure.start()
+        elif on:
+            self.measure.update()
+        if on and self._log_due is not None and self._world.step - self._began >= self._log_due:
+            self._take_log()
+        self._was_on = on
+
+    def close(self) -> None:
+        """Let go of the measure's and the triggers' subscriptions and services."""
+        self.measure.close()
+        self._start.close()
+        self._stop.close()
+
+    def _take_log(self) -> None:
+        """Take a sample; the next is due at the next multiple of the period."""
+        assert self.spec.log is not None
+        timestep = self._world.timestep
+        elapsed = (self._world.step - self._began) * timestep
+        self.log.append((elapsed, *self.measure.log_values))
+        n_next = math.floor(elapsed / self.spec.log + 1e-9) + 1
+        self._log_due = math.ceil(n_next * self.spec.log / timestep - 1e-9)

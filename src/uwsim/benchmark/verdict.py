@@ -1,0 +1,69 @@
+"""The status of a row: what the algorithm says of itself, and what befell it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..bus import Inbox
+from ..messages import String
+from ..simulation import InProcessNode
+from .gated import Gated
+
+SILENCE = 1.0
+"""A measure that waits longer than this for an estimate ends in ``timeout`` [s]."""
+
+
+class Verdict:
+    """What the algorithm says of itself, and what befell it."""
+
+    def __init__(self, node: InProcessNode, inbox: Inbox[String]) -> None:
+        self._node, self._inbox = node, inbox
+        self.lost: str | None = None
+        """Why and when it said it was lost."""
+        self.failed: str | None = None
+        """Why and when it failed or raised."""
+
+    def listen(self, time: float) -> None:
+        """Take note of what came in since the last call."""
+        if self._inbox.last is None and self._node.error is None:
+            return
+        for message in self._inbox.take():
+            state, _, why = message.data.partition(":")
+            said = legible(f"{self._node.name} {state.strip()} at {time:g} s: {why.strip()}")
+            if state.strip() == "lost" and self.lost is None:
+                self.lost = said
+            elif state.strip() == "failed" and self.failed is None:
+                self.failed = said
+        if self._node.error is not None and self.failed is None:
+            self.failed = legible(f"{self._node.name} raised at {time:g} s: {self._node.error}")
+
+    def status(
+        self, measures: Sequence[Gated], *, overran: float | None, ended: str | None
+    ) -> tuple[str, str | None]:
+        """Status of a row and, unless it is ``ok``, why: the first that applies (DESIGN 5).
+
+        An algorithm that declared itself lost or failed owes no more estimates.
+
+        Args:
+            measures: those of the level.
+            overran: a level without an interval was cut off after this [s].
+            ended: what a measure ended the level for.
+        """
+        if self.failed is not None:
+            return "algorithm error", self.failed
+        if overran is not None:
+            return "timeout", f"stopOn did not go on within {overran:g} s"
+        if self.lost is None:
+            for gated in measures:
+                if gated.measure.longest_silence > SILENCE:
+                    why = gated.measure.why
+                    return "timeout", why or f"no estimate for more than {SILENCE:g} s"
+        if ended is not None:
+            return "collision", ended
+        return ("ok", None) if self.lost is None else ("lost", self.lost)
+
+
+def legible(text: str) -> str:
+    """Return what an algorithm says as one printable line of at most 300 characters."""
+    line = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+    return line if len(line) <= 300 else line[:297] + "..."
