@@ -31,7 +31,6 @@ from .logs import TIME, Log, save_log
 from .original_format import save_dat, save_data
 from .plan import Plan, Unit
 from .play import Row, UnitEnd, bind_all, play
-from .plugin import blamed, hashes
 from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture, save
 from .updaters import chain, references
 
