@@ -137,8 +137,8 @@ class FakeWorld:
             raise UnknownName("camera", name, self.cameras)
         return self.cameras[name]
 
-    def inbox(self, topic: str, type: type[M]) -> Inbox[M]:
-        return self.bus.inbox(topic, type)
+    def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
+        return self.bus.inbox(topic, type, latched=latched)
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         return self.bus.publisher(topic, type)

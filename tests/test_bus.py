@@ -91,3 +91,20 @@ def test_a_closed_inbox_costs_the_publisher_nothing() -> None:
     assert not bus.has_readers("a")
     assert inbox.last is None
     assert np.array_equal(floats([1.0]).data, [1.0])
+
+
+def test_a_latched_inbox_begins_with_the_newest_message() -> None:
+    bus = Bus()
+    publish = bus.publisher("path", String)
+    publish(String(data="before anybody asked"))
+    bus.deliver()
+    assert bus.inbox("path", String, latched=True).take() == []
+    for word in ("first", "second"):
+        publish(String(data=word))
+    bus.deliver()
+    inbox = bus.inbox("/path", String, latched=True)
+    assert [m.data for m in inbox.take()] == ["second"]
+    publish(String(data="third"))
+    bus.deliver()
+    assert [m.data for m in inbox.take()] == ["third"]
+    assert bus.inbox("path", String).take() == []

@@ -104,6 +104,8 @@ class Inbox(Generic[M]):
 class _Topic:
     type: type | None = None
     readers: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
+    kept: deque[Any] | None = None
+    """The newest message, once somebody asked for it to be kept."""
 
 
 class Bus:
@@ -135,9 +137,20 @@ class Bus:
         entry.readers.append(callback)
         return lambda: entry.readers.remove(callback) if callback in entry.readers else None
 
-    def inbox(self, topic: str, type: type[M]) -> Inbox[M]:
-        """Return an inbox that collects the messages of ``topic`` from now on."""
+    def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
+        """Return an inbox that collects the messages of ``topic`` from now on.
+
+        A ``latched`` one begins with the newest message there was, as a subscriber of ROS does on
+        a latched topic. The bus keeps that message from the first time it is asked so.
+        """
         inbox: Inbox[M] = Inbox()
+        if latched:
+            entry = self._typed(topic, type)
+            if entry.kept is None:
+                entry.kept = deque(maxlen=1)
+                entry.readers.append(entry.kept.append)
+            for message in entry.kept:
+                inbox.receive(message, self.step)
         stop = self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
         inbox.stop_with(stop)
         return inbox

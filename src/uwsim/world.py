@@ -128,8 +128,8 @@ class World(Protocol):
     def camera(self, name: str) -> Camera:
         """Find a virtual camera; UnknownName if none."""
 
-    def inbox(self, topic: str, type: type[M]) -> Inbox[M]:
-        """Collect the messages of a topic from now on."""
+    def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
+        """Collect the messages of a topic from now on; latched: beginning with the newest."""
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``."""

@@ -47,6 +47,9 @@ from rosbags.typesys.stores.ros2_jazzy import (
     nav_msgs__msg__Odometry as Odometry,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
+    nav_msgs__msg__Path as Path,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
     sensor_msgs__msg__CameraInfo as CameraInfo,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
@@ -54,6 +57,12 @@ from rosbags.typesys.stores.ros2_jazzy import (
 )
 from rosbags.typesys.stores.ros2_jazzy import (
     sensor_msgs__msg__JointState as JointState,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    sensor_msgs__msg__PointCloud2 as PointCloud2,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    sensor_msgs__msg__PointField as PointField,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
     sensor_msgs__msg__RegionOfInterest as RegionOfInterest,
@@ -81,6 +90,7 @@ from rosbags.typesys.stores.ros2_jazzy import (
 )
 
 from .build import floats, header, image, picture, seconds, time_from_seconds
+from .point_cloud import point_cloud, points
 from .services import Empty, EmptyResponse, GTpublish, GTpublishResponse, Service
 
 __all__ = [
@@ -98,7 +108,10 @@ __all__ = [
     "MultiArrayDimension",
     "MultiArrayLayout",
     "Odometry",
+    "Path",
     "Point",
+    "PointCloud2",
+    "PointField",
     "Pose",
     "PoseStamped",
     "PoseWithCovariance",
@@ -117,6 +130,8 @@ __all__ = [
     "header",
     "image",
     "picture",
+    "point_cloud",
+    "points",
     "seconds",
     "time_from_seconds",
 ]

@@ -276,9 +276,9 @@ class Simulation:
             raise UnknownName("virtual camera", name, self._cameras)
         return self._cameras[name]
 
-    def inbox(self, topic: str, type: type[M]) -> Inbox[M]:
-        """Collect the messages of a topic from now on."""
-        return self.bus.inbox(topic, type)
+    def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
+        """Collect the messages of a topic from now on; latched: beginning with the newest."""
+        return self.bus.inbox(topic, type, latched=latched)
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``."""

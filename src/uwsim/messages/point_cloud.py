@@ -1,0 +1,94 @@
+"""Point clouds: sensor_msgs/PointCloud2 to and from arrays, whatever its layout.
+
+A cloud is ``height`` rows of ``width`` points; a row takes ``row_step`` bytes, a point
+``point_step``, and its fields lie anywhere in it: padding, colours and other fields between them
+are stepped over. x, y, z may each be float32 or float64, in either byte order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import numpy.typing as npt
+from rosbags.typesys.stores.ros2_jazzy import (
+    sensor_msgs__msg__PointCloud2 as PointCloud2,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
+    sensor_msgs__msg__PointField as PointField,
+)
+
+from ..errors import BadSetting
+from .build import header
+
+FLOATS = {7: "f4", 8: "f8"}
+"""PointField.FLOAT32 and FLOAT64 -> numpy's name of it, without the byte order."""
+KINDS = {1: "int8", 2: "uint8", 3: "int16", 4: "uint16", 5: "int32", 6: "uint32"}
+"""The other kinds of PointField -> what they are called."""
+
+
+def points(cloud: PointCloud2) -> npt.NDArray[np.float64]:
+    """Return x, y, z of every point, row by row, (n, 3) [m]; NaN as it stands there.
+
+    Raises:
+        BadSetting: it has no x, y, z, one of them is no float, or its bytes are not all there.
+    """
+    try:
+        return _points(cloud)
+    except (AttributeError, TypeError, ValueError) as error:  # a message made by hand
+        raise BadSetting(f"it cannot be read: {error}") from error
+
+
+def _points(cloud: PointCloud2) -> npt.NDArray[np.float64]:
+    data = np.ascontiguousarray(cloud.data, dtype=np.uint8).reshape(-1)
+    height, width = int(cloud.height), int(cloud.width)
+    step, row = int(cloud.point_step), int(cloud.row_step)
+    order = ">" if cloud.is_bigendian else "<"
+    places = [_place(cloud.fields, axis, step) for axis in "xyz"]
+    if height <= 0 or width <= 0:
+        return np.empty((0, 3))
+    if height > 1 and row < width * step:
+        raise BadSetting(f"its row_step is {row}, too short for {width} points of {step} bytes")
+    needed = (height - 1) * row + width * step  # [byte]; the padding of the last row may be missing
+    if data.size < needed:
+        raise BadSetting(f"it has {data.size} bytes, {height} x {width} points need {needed}")
+    xyz = np.empty((height, width, 3))
+    for axis, (offset, kind) in enumerate(places):
+        xyz[..., axis] = np.ndarray(
+            (height, width), np.dtype(order + kind), data, offset, (row, step)
+        )
+    return xyz.reshape(-1, 3)
+
+
+def _place(fields: Iterable[PointField], axis: str, step: int) -> tuple[int, str]:
+    """Where a coordinate begins in a point [byte], and what kind of float it is."""
+    found = next((field for field in fields if field.name == axis), None)
+    if found is None:
+        names = ", ".join(repr(field.name[:20]) for field in list(fields)[:8]) or "none"
+        raise BadSetting(f"it has no field {axis!r}; its fields: {names}")
+    kind = FLOATS.get(int(found.datatype))
+    if kind is None:
+        what = KINDS.get(int(found.datatype), f"of type {int(found.datatype)}")
+        raise BadSetting(f"its field {axis!r} is {what}; expected float32 or float64")
+    offset = int(found.offset)
+    if offset < 0 or offset + int(kind[1]) > step:
+        raise BadSetting(f"its field {axis!r} at byte {offset} lies outside a point of {step}")
+    return offset, kind
+
+
+def point_cloud(
+    places: npt.NDArray[np.float64], *, time: float = 0.0, frame_id: str = ""
+) -> PointCloud2:
+    """Build an unordered cloud of points (n, 3) [m], as float32 x, y, z."""
+    n = len(places)
+    return PointCloud2(
+        header=header(time, frame_id),
+        height=1,
+        width=n,
+        fields=[PointField(name=a, offset=4 * i, datatype=7, count=1) for i, a in enumerate("xyz")],
+        is_bigendian=False,
+        point_step=12,
+        row_step=12 * n,
+        data=np.frombuffer(np.ascontiguousarray(places, dtype="<f4").tobytes(), dtype=np.uint8),
+        is_dense=bool(np.isfinite(places).all()),
+    )
