@@ -12,7 +12,7 @@ from uwsim import chance
 from uwsim.bus import Bus, Inbox
 from uwsim.errors import UnknownName
 from uwsim.geometry import Intrinsics, Pose
-from uwsim.world import Body, Box, Camera, Contact, Flow
+from uwsim.world import Actuators, Body, Box, Camera, Contact, Flow
 
 M = TypeVar("M")
 
@@ -72,11 +72,23 @@ class FakeCamera:
         self._pose = Pose(np.array(position, dtype=float), self._pose.rotation)
 
 
+class FakeActuators:
+    """Thrusters and joints that draw what they are told to."""
+
+    def __init__(self, *, thrusters: tuple[str, ...] = (), joints: tuple[str, ...] = ()) -> None:
+        self.thrusters, self.joints = thrusters, joints
+        self.draws = np.zeros(len(thrusters) + len(joints))  # (n,) [W]
+
+    def powers(self) -> np.ndarray:
+        return self.draws.copy()
+
+
 class FakeWorld:
     """A `uwsim.world.Stage`: bodies, cameras and a bus; time moves only by `advance`.
 
     What updaters do to it is kept in ``fog``, ``light_rate``, ``camera_noise``, ``joints``,
-    ``current`` and ``put_backs``; what touches what stands in ``touching``.
+    ``current`` and ``put_backs``; what touches what stands in ``touching``, what drives a vehicle
+    in ``driven``.
     """
 
     def __init__(
@@ -102,6 +114,7 @@ class FakeWorld:
         self.current: Flow | None = None
         self.put_backs: list[tuple[str, float]] = []
         self.touching: dict[str, list[Contact]] = {}
+        self.driven: dict[str, Actuators] = {}
         self._timers: list[tuple[float, Callable[[], None]]] = []
         self._seed = seed
 
@@ -132,10 +145,19 @@ class FakeWorld:
         self.body(name)
         return tuple(self.touching.get(name, ()))
 
+    def actuators(self, name: str) -> Actuators | None:
+        known = {*self.driven, *self.vehicles}
+        if name not in known:
+            raise UnknownName("vehicle", name, sorted(known))
+        return self.driven.get(name)
+
     def camera(self, name: str) -> Camera:
         if name not in self.cameras:
             raise UnknownName("camera", name, self.cameras)
         return self.cameras[name]
+
+    def message_type(self, topic: str) -> type | None:
+        return self.bus.message_type(topic)
 
     def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
         return self.bus.inbox(topic, type, latched=latched)

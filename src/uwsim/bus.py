@@ -179,6 +179,11 @@ class Bus:
 
         return publish
 
+    def message_type(self, topic: str) -> type | None:
+        """What ``topic`` carries; None while nobody has said."""
+        entry = self._topics.get(_plain(topic))
+        return entry.type if entry else None
+
     def has_readers(self, topic: str) -> bool:
         """Whether anybody would see a message on ``topic``."""
         entry = self._topics.get(_plain(topic))

@@ -82,6 +82,21 @@ class Contact:
     """Name of what it touches."""
 
 
+class Actuators(Protocol):
+    """What drives a simulated vehicle: its thrusters, then the motors of its joints."""
+
+    @property
+    def thrusters(self) -> tuple[str, ...]:
+        """Names of its thrusters."""
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of its joints, those that mimic included."""
+
+    def powers(self) -> npt.NDArray[np.float64]:
+        """What the thrusters draw from the battery now, then the joints, (n,) [W]."""
+
+
 class Flow(Protocol):
     """Moving water, such as those in `uwsim.currents`; everything in L."""
 
@@ -125,8 +140,14 @@ class World(Protocol):
     def contacts(self, name: str) -> Sequence[Contact]:
         """Where a vehicle (all its links) or object touches others now; UnknownName if none."""
 
+    def actuators(self, name: str) -> Actuators | None:
+        """What drives a vehicle; None if it is not simulated; UnknownName if there is none."""
+
     def camera(self, name: str) -> Camera:
         """Find a virtual camera; UnknownName if none."""
+
+    def message_type(self, topic: str) -> type | None:
+        """What a topic carries; None while nobody has said."""
 
     def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
         """Collect the messages of a topic from now on; latched: beginning with the newest."""

@@ -13,6 +13,7 @@ from ..scene.kinematics import joint_positions
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..world import Contact
+from .actuators import Actuators
 from .autopilot import Autopilot
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .contacts import contacts_of
@@ -141,6 +142,20 @@ class State:
     def servos(self, index: int) -> Servos:
         """Return the servos of a simulated vehicle's joints."""
         return self._servos[index]
+
+    def actuators(self, index: int) -> Actuators | None:
+        """Return what drives a vehicle; None if it is not simulated."""
+        if self._water is None or index not in self._dynamics:
+            return None
+        return Actuators(
+            self._model,
+            self._data,
+            self._water,
+            self._dynamics[index],
+            self._robots[index],
+            index,
+            self._refresh,
+        )
 
     def thrusters(self, index: int) -> tuple[str, ...]:
         """Names of the thrusters of a vehicle, in the order of its side file."""

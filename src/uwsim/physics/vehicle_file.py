@@ -17,7 +17,9 @@
         <direction> <x>1</x> <y>0</y> <z>0</z> </direction>
         <forward>0 40</forward>
         <timeConstant>0.1</timeConstant>
+        <radius>0.04</radius> <efficiency>0.35</efficiency>
       </thruster>
+      <joint name="elbow"> <efficiency>0.5</efficiency> <copperLoss>0.02</copperLoss> </joint>
     </hydrodynamics>
 
 One file is one named set, keyed by the links of the URDF. ``<include>`` takes the bodies and
@@ -38,13 +40,16 @@ from lxml import etree
 from ..dialect import Faults, element, number, parse, read
 from ..errors import FileError, UnknownName, did_you_mean
 from .hydrodynamics.spec import (
+    BEST_EFFICIENCY,
     BodyHydrodynamics,
+    JointDrive,
     Numbers,
     ThrusterSpec,
     VehicleHydrodynamics,
     body_faults,
     thruster_faults,
 )
+from .power import power_faults
 
 Triple = tuple[float, float, float]
 ZERO: Triple = (0.0, 0.0, 0.0)
@@ -115,7 +120,26 @@ class ThrusterElement:
     torque: float = 0.0
     """Torque about the direction per thrust, positive right-handed [m]."""
     radius: float = element(default=0.05, above=0.0)
-    """Of the propeller; at the surface its thrust is lost over this height [m]."""
+    """Of the propeller: at the surface its thrust is lost over this height, and the power it
+    draws is that of its disc [m]."""
+    efficiency: float | None = element(default=None, above=0.0, maximum=BEST_EFFICIENCY)
+    """From the battery to the ideal propeller of that radius; without: 0.4 [1]."""
+    power: str = ""
+    """What it draws instead, c1 |T| + c2 |T|^2 + ... of its thrust T, up to nine [W]."""
+    power_backward: str = ""
+    """The same for a thrust below 0; without: as power [W]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class JointElement:
+    """A ``<joint>``: what moves a joint of the URDF."""
+
+    name: str = element(attribute=True)
+    """The joint of the URDF."""
+    efficiency: float = element(default=0.6, above=0.0, maximum=1.0)
+    """Mechanical power per electrical power, copper loss aside [1]."""
+    copper_loss: float = element(default=0.0, minimum=0.0)
+    """Power per effort squared, moving or held [W/(N m)2, W/N2]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,12 +158,19 @@ class HydrodynamicsElement:
     """One a link, at most."""
     thruster: tuple[ThrusterElement, ...] = ()
     """In the order of the command vector."""
+    joint: tuple[JointElement, ...] = ()
+    """What moves the joints, one each, at most."""
 
 
 @dataclass
 class _Parts:
+    links: list[str] | None
+    """What the robot has; None to take any."""
+    movable: list[str] | None
+    """Joints that it can move; None to take any."""
     bodies: list[BodyHydrodynamics] = field(default_factory=list)
     thrusters: list[ThrusterSpec] = field(default_factory=list)
+    joints: list[JointDrive] = field(default_factory=list)
 
 
 def vehicle_sets() -> dict[str, Path]:
@@ -162,29 +193,35 @@ def find_vehicle(name: str, beside: Path | None = None) -> Path:
     return known[name]
 
 
-def read_vehicle(path: Path, links: Iterable[str] | None = None) -> VehicleHydrodynamics:
+def read_vehicle(
+    path: Path, links: Iterable[str] | None = None, joints: Iterable[str] | None = None
+) -> VehicleHydrodynamics:
     """Read a side file.
 
     Args:
         path: the file.
         links: names of the robot's links; None to take any.
+        joints: names of the joints that it can move; None to take any.
 
     Raises:
         VehicleError: with every fault of the file.
     """
     faults = Faults(path)
-    vehicle = read_vehicle_into(path, links, faults)
+    vehicle = read_vehicle_into(path, links, faults, joints)
     faults.check(VehicleError)
     assert vehicle is not None
     return vehicle
 
 
 def read_vehicle_into(
-    path: Path, links: Iterable[str] | None, faults: Faults
+    path: Path,
+    links: Iterable[str] | None,
+    faults: Faults,
+    joints: Iterable[str] | None = None,
 ) -> VehicleHydrodynamics | None:
     """Read a side file into ``faults``; None when it has some."""
-    parts = _Parts()
-    head = _read_file(path, None if links is None else list(links), faults, parts, ())
+    parts = _Parts(None if links is None else list(links), None if joints is None else list(joints))
+    head = _read_file(path, faults, parts, ())
     if head is None or faults.any:
         return None
     return VehicleHydrodynamics(
@@ -193,11 +230,12 @@ def read_vehicle_into(
         density=head.density,
         bodies=tuple(parts.bodies),
         thrusters=tuple(parts.thrusters),
+        joints=tuple(parts.joints),
     )
 
 
 def _read_file(
-    path: Path, links: list[str] | None, faults: Faults, parts: _Parts, above: tuple[Path, ...]
+    path: Path, faults: Faults, parts: _Parts, above: tuple[Path, ...]
 ) -> HydrodynamicsElement | None:
     root = parse(path, error=VehicleError).root
     if root.tag != "hydrodynamics":
@@ -211,33 +249,44 @@ def _read_file(
         assert node is not None
         if any(one.link == known.link for known in parts.bodies):
             faults.add(node, f"two <body> for the link {one.link!r}; only one may be")
-        _check_link(node, one.link, links, faults)
+        _check_name(node, "link", one.link, parts.links, faults)
         parts.bodies.append(_body(one, node, faults))
     for propeller in head.thruster:
         node = faults.node_of(propeller)
         assert node is not None
         if any(propeller.name == known.name for known in parts.thrusters):
             faults.add(node, f"two thrusters are called {propeller.name!r}")
-        _check_link(node, propeller.link, links, faults)
+        _check_name(node, "link", propeller.link, parts.links, faults)
         parts.thrusters.append(_thruster(propeller, node, faults))
+    for joint in head.joint:
+        node = faults.node_of(joint)
+        assert node is not None
+        if any(joint.name == known.name for known in parts.joints):
+            faults.add(node, f"two <joint> for the joint {joint.name!r}; only one may be")
+        _check_name(node, "movable joint", joint.name, parts.movable, faults)
+        parts.joints.append(
+            JointDrive(name=joint.name, efficiency=joint.efficiency, copper_loss=joint.copper_loss)
+        )
     for name in head.include:
         other = path.parent / name
         if other in (*above, path):
             faults.add(root, f"<include> {name!r} includes itself")
         else:
             inner = Faults(other)
-            _read_file(other, links, inner, parts, (*above, path))
+            _read_file(other, inner, parts, (*above, path))
             for fault in inner.all():
                 faults.add(root, f"in {name}, line {fault.line}: {fault.message}")
     return head
 
 
-def _check_link(node: etree._Element, link: str, links: list[str] | None, faults: Faults) -> None:
-    if links is not None and link not in links:
+def _check_name(
+    node: etree._Element, what: str, name: str, known: list[str] | None, faults: Faults
+) -> None:
+    if known is not None and name not in known:
         faults.add(
             node,
-            f"the robot has no link {link!r}.{did_you_mean(link, links)} "
-            f"Links: {', '.join(links) or 'none'}",
+            f"the robot has no {what} {name!r}.{did_you_mean(name, known)} "
+            f"{what.split()[-1].capitalize()}s: {', '.join(known) or 'none'}",
         )
 
 
@@ -278,8 +327,16 @@ def _thruster(one: ThrusterElement, node: etree._Element, faults: Faults) -> Thr
         time_constant=one.time_constant,
         torque=one.torque,
         radius=one.radius,
+        efficiency=ThrusterSpec.efficiency if one.efficiency is None else one.efficiency,
+        power=_numbers(one.power, "power", node, faults) or None,
+        power_backward=_numbers(one.power_backward, "powerBackward", node, faults) or None,
     )
-    for message in thruster_faults(found):
+    if one.efficiency is not None and one.power:
+        faults.add(
+            node,
+            f"thruster {one.name!r}: <efficiency> and <power> both say what it draws; give one",
+        )
+    for message in thruster_faults(found) or power_faults(found):
         faults.add(node, message)
     return found
 

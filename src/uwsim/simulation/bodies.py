@@ -78,7 +78,9 @@ def read_dynamics(
     beside = Path(scene.path) if scene.path else None
     return {
         index: read_vehicle(
-            find_vehicle(vehicle.dynamics, beside), [link.name for link in robots[index].links]
+            find_vehicle(vehicle.dynamics, beside),
+            [link.name for link in robots[index].links],
+            [joint.name for joint in robots[index].joints if joint.moves],
         )
         for index, vehicle in enumerate(scene.vehicles)
         if vehicle.dynamics is not None

@@ -33,7 +33,7 @@ from ..rendering.water import Light, Water
 from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
 from ..sensors.virtual_camera import VirtualCamera
-from ..world import Contact, Flow
+from ..world import Actuators, Contact, Flow
 from .bodies import (
     SceneBody,
     find_body,
@@ -270,11 +270,19 @@ class Simulation:
         """
         return find_contacts(name, self._scene, self._state)
 
+    def actuators(self, name: str) -> Actuators | None:
+        """What drives a vehicle; None if it is not simulated; UnknownName if there is none."""
+        return self._state.actuators(self._vehicle(name))
+
     def camera(self, name: str) -> VirtualCamera:
         """Find a virtual camera."""
         if name not in self._cameras:
             raise UnknownName("virtual camera", name, self._cameras)
         return self._cameras[name]
+
+    def message_type(self, topic: str) -> type | None:
+        """What a topic carries; None while nobody has said."""
+        return self.bus.message_type(topic)
 
     def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
         """Collect the messages of a topic from now on; latched: beginning with the newest."""

@@ -27,6 +27,8 @@ SIZES: dict[str, int] = {
 }  # fmt: skip
 """Shape -> how many lengths it has."""
 N_CURVE = 9
+BEST_EFFICIENCY = 1.41
+"""Of a thruster, sqrt(2): an ideal propeller in an ideal duct [1]."""
 
 
 class BadHydrodynamics(UwsimError):
@@ -101,7 +103,25 @@ class ThrusterSpec:
     torque: float = 0.0
     """Torque about the direction per thrust, positive right-handed [m]."""
     radius: float = 0.05
-    """Of the propeller, for the loss of thrust at the surface [m]."""
+    """Of the propeller, for the loss of thrust at the surface and the power it draws [m]."""
+    efficiency: float = 0.4
+    """From the battery to the ideal propeller of that radius (`uwsim.physics.power`) [1]."""
+    power: Numbers | None = None
+    """What it draws instead: c1 |T| + c2 |T|^2 + ... of its thrust T, up to nine [W]."""
+    power_backward: Numbers | None = None
+    """The same for T < 0; without: as forward [W]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class JointDrive:
+    """What the motor of a joint draws (`uwsim.physics.power`)."""
+
+    name: str
+    """Of the joint."""
+    efficiency: float = 0.6
+    """Mechanical power per electrical power, copper loss aside [1]."""
+    copper_loss: float = 0.0
+    """Power per effort squared, moving or not [W/(N m)2 or W/N2]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,12 +136,19 @@ class VehicleHydrodynamics:
     """One a link, at most."""
     thrusters: tuple[ThrusterSpec, ...] = ()
     """In the order of the command vector."""
+    joints: tuple[JointDrive, ...] = ()
+    """Joints whose drives are known; any other is as `JointDrive` has it."""
     density: float = 1000.0
     """Of the water that the numbers were given for [kg/m3]."""
 
     def body(self, link: str) -> BodyHydrodynamics | None:
         """Find the entry of a link."""
         return next((body for body in self.bodies if body.link == link), None)
+
+    def drive(self, joint: str) -> JointDrive:
+        """What moves a joint."""
+        known = (drive for drive in self.joints if drive.name == joint)
+        return next(known, JointDrive(name=joint))
 
 
 def matrix(numbers: Numbers) -> npt.NDArray[np.float64]:
@@ -177,10 +204,18 @@ def thruster_faults(thruster: ThrusterSpec) -> list[str]:
     faults = []
     if not math.hypot(*thruster.direction) > 1e-9:
         faults.append(f"{who}: direction is 0 0 0; expected a direction")
-    for side in ("forward", "backward"):
+    for side in ("forward", "backward", "power", "power_backward"):
         curve = getattr(thruster, side)
         if curve is not None and not 1 <= len(curve) <= N_CURVE:
-            faults.append(f"{who}: {side} has {len(curve)} coefficients; expected 1 to {N_CURVE}")
+            faults.append(
+                f"{who}: {_words(side)} has {len(curve)} coefficients; expected 1 to {N_CURVE}"
+            )
+    if thruster.power is None and thruster.power_backward is not None:
+        faults.append(f"{who}: power backward is given without power")
+    if not 0.0 < thruster.efficiency <= BEST_EFFICIENCY:
+        faults.append(
+            f"{who}: efficiency is {thruster.efficiency:g}; expected > 0 and <= {BEST_EFFICIENCY:g}"
+        )
     if not thruster.dead_zone >= 0.0:
         faults.append(f"{who}: dead zone is {thruster.dead_zone:g}; expected >= 0")
     for name in ("limits", "saturation"):
@@ -196,12 +231,27 @@ def thruster_faults(thruster: ThrusterSpec) -> list[str]:
     return faults
 
 
+def drive_faults(drive: JointDrive) -> list[str]:
+    """Everything that is wrong with the numbers of a joint's drive."""
+    who = f"joint {drive.name!r}"
+    faults = []
+    if not 0.0 < drive.efficiency <= 1.0:
+        faults.append(f"{who}: efficiency is {drive.efficiency:g}; expected > 0 and <= 1")
+    if not drive.copper_loss >= 0.0:
+        faults.append(f"{who}: copper loss is {drive.copper_loss:g}; expected >= 0")
+    return faults
+
+
 def vehicle_faults(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[str]:
     """Everything that is wrong with a set, for a robot with these links."""
     known = list(links)
     faults = []
     links_named = [body.link for body in vehicle.bodies]
-    for kind, names in (("link", links_named), ("thruster", [t.name for t in vehicle.thrusters])):
+    for kind, names in (
+        ("link", links_named),
+        ("thruster", [thruster.name for thruster in vehicle.thrusters]),
+        ("joint", [drive.name for drive in vehicle.joints]),
+    ):
         faults += [
             f"two entries for the {kind} {name!r}; only one may be"
             for name in sorted({name for name in names if names.count(name) > 1})
@@ -210,6 +260,8 @@ def vehicle_faults(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[
         faults += body_faults(body)
     for thruster in vehicle.thrusters:
         faults += thruster_faults(thruster)
+    for drive in vehicle.joints:
+        faults += drive_faults(drive)
     places = [("", link) for link in links_named]
     places += [(f"thruster {one.name!r}: ", one.link) for one in vehicle.thrusters]
     for who, link in places:
