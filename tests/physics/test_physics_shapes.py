@@ -64,11 +64,20 @@ def test_a_flat_rectangle_becomes_one_slab_behind_its_face() -> None:
 
 def test_a_ring_is_not_closed() -> None:
     plates = shapes_of(ring(), SAME, "trimesh", is_fixed=True)
-    assert len(plates) == 8
-    for plate in plates:
-        assert plate.corners is not None
-        middle = plate.corners[:3].mean(axis=0)
-        assert max(abs(middle[0]), abs(middle[1])) > 1.0
+    assert len(plates) == 4
+    assert not any(holds(plate, (x, y, -0.05)) for plate in plates for x in INNER for y in INNER)
+    assert all(any(holds(plate, (x, 1.5, -0.05)) for plate in plates) for x in INNER)
+
+
+INNER = (-0.9, 0.0, 0.9)  # within the ring's hole [m]
+
+
+def test_a_flat_patch_that_is_no_rectangle_becomes_a_prism_behind_its_face() -> None:
+    corners = [(0, 0, 0), (3, 0, 0), (2, 1, 0), (0, 1, 0), (0, 0, 4)]
+    (prism,) = shapes_of(mesh_of(corners, [(0, 1, 2), (0, 2, 3)]), SAME, "trimesh", is_fixed=True)
+    assert prism.corners is not None
+    assert prism.corners.shape == (8, 3)
+    assert sorted(set(prism.corners[:, 2].round(6).tolist())) == [-0.1, 0.0]
 
 
 def test_the_tank_is_open_in_its_middle_and_has_a_floor() -> None:

@@ -9,6 +9,7 @@ from simulated import SCENE, TWIST, command, make, position, run, set_current
 from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.messages import Bool
+from uwsim.physics.loose import ellipsoid_added_mass
 from uwsim.scene.reader import read_scene
 from uwsim.scene.ros_interfaces import ContactSensorToROSSpec
 from uwsim.scene.spec import ObjectSpec, PhysicsSpec
@@ -56,6 +57,65 @@ def test_a_box_dropped_above_the_floor_comes_to_rest_on_it() -> None:
     assert {contact.other for contact in touched} == {"terrain"}
     assert len(touched) >= 3
     assert all(abs(contact.approach_speed) < 0.01 for contact in touched)
+
+
+RAMP = np.arctan2(4.2, 4.0)  # steepness of the tank's ramps, rad
+RAMP_FOOT = 3.49  # where the floor ends and the eastern ramp begins, m
+
+
+def on_slope(steepness: float, east: float, depth: float, mass: float) -> ObjectSpec:
+    """A box that lies flat on a slope that rises to the east, over the slope's point named."""
+    lift = 0.5 * EDGES[2]
+    place = (3.0, east - lift * np.sin(steepness), depth - lift * np.cos(steepness))
+    return replace(box(*place, mass), orientation=(-steepness, 0.0, 0.0))
+
+
+def test_a_box_slides_down_a_ramp_with_what_friction_leaves_of_its_weight() -> None:
+    mass = 20.0
+    thing = on_slope(RAMP, RAMP_FOOT + 2.0 * np.cos(RAMP), 4.85 - 2.0 * np.sin(RAMP), mass)
+    simulation = make(objects=(FLOOR, thing))
+    run(simulation, 0.1)
+    start = position(simulation, "blackbox")
+    run(simulation, 0.2)
+    middle = position(simulation, "blackbox")
+    run(simulation, 0.2)
+    end = position(simulation, "blackbox")
+    along = np.array([0.0, -np.cos(RAMP), np.sin(RAMP)])
+    found = (end - 2.0 * middle + start) @ along / 0.2**2
+    in_water = mass - 1000.0 * float(np.prod(EDGES))
+    added = 1000.0 * ellipsoid_added_mass(0.5 * EDGES * (6.0 / np.pi) ** (1 / 3))[1]
+    expected = 9.81 * in_water * (np.sin(RAMP) - 0.8 * np.cos(RAMP)) / (mass + added)
+    assert found == pytest.approx(expected, rel=0.1)  # drag takes a few percent
+    run(simulation, 8.0)
+    _, east, down = position(simulation, "blackbox")
+    assert east < RAMP_FOOT + 0.3  # its end leans on the ramp
+    assert down == pytest.approx(4.85 - EDGES[2] / 2, abs=0.06)
+
+
+def test_a_box_stays_on_a_slope_that_friction_can_hold() -> None:
+    steepness = 0.6  # tan 0.68 < 0.8
+    slope = replace(wall(3.0, 4.0, 4.0), scale_factor=(20.0, 20.0, 2.0))  # EDGES[2] high each way
+    top = (4.0 - EDGES[2] * np.sin(steepness), 4.0 - EDGES[2] * np.cos(steepness))
+    slope = replace(slope, orientation=(-steepness, 0.0, 0.0))
+    thing = on_slope(steepness, *top, 20.0)
+    simulation = make(objects=(slope, thing))
+    run(simulation, 1.0)
+    before = position(simulation, "blackbox")
+    run(simulation, 3.0)
+    assert position(simulation, "blackbox") == pytest.approx(before, abs=0.005)
+
+
+def test_a_heavy_box_at_full_speed_does_not_go_through_the_floor() -> None:
+    simulation = make(objects=(FLOOR, box(1.0, 1.5, 1.0, 80.0)))
+    lowest, fastest, last = 0.0, 0.0, 1.0
+    for _ in range(round(4.0 / simulation.timestep)):
+        simulation.advance()
+        depth = position(simulation, "blackbox")[2]
+        fastest = max(fastest, (depth - last) / simulation.timestep)
+        lowest, last = max(lowest, depth), depth
+    assert fastest > 3.0
+    assert lowest < FLOOR_DEPTH - EDGES[2] / 2 + 0.03
+    assert last == pytest.approx(FLOOR_DEPTH - EDGES[2] / 2, abs=0.003)
 
 
 def test_a_light_box_rises_and_floats() -> None:

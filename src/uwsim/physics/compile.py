@@ -19,6 +19,7 @@ from ..scene.urdf import LinkSpec, RobotSpec
 from .hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics, prepare
 from .loose import loose_hydrodynamics, loose_link
 from .shapes import Shape
+from .world_tree import rebuild_world_tree
 
 GRAVITY = 9.81
 """[m/s2]"""
@@ -115,22 +116,34 @@ def compile_scene(
             loose[name] = loose_hydrodynamics(name, thing.physics, shapes[name], density)
         else:
             _add_body(spec.worldbody, name, world_from_object, None)
+            if name in shapes:  # on the world's body the engine need not sort them every step
+                _add_shapes(spec, spec.worldbody, name, shapes[name], world_from_object)
     for name, parts in shapes.items():
-        _add_shapes(spec, name, parts)
+        if name in loose or not name.startswith("object/"):
+            _add_shapes(spec, spec.body(name), name, parts, Pose.identity())
     if dynamics:
         _add_water(spec, scene, dynamics, loose)
-    return spec.compile()
+    model = spec.compile()
+    rebuild_world_tree(model)
+    return model
 
 
-def _add_shapes(spec: mujoco.MjSpec, name: str, shapes: Sequence[Shape]) -> None:
-    """Give a body its shapes; those of one vehicle do not touch each other."""
+def _add_shapes(
+    spec: mujoco.MjSpec,
+    body: mujoco.MjsBody,
+    name: str,
+    shapes: Sequence[Shape],
+    body_from_owner: Pose,
+) -> None:
+    """Hang the shapes of the owner ``name`` on a body; those of one vehicle do not touch."""
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = IMPRATIO
     kind, owner = name.split("/")[:2]
     bit = OBJECTS if kind == "object" else 2 << (int(owner) % 29)
     for i, shape in enumerate(shapes):
-        place = shape.body_from_shape
-        geom = spec.body(name).add_geom(
+        place = body_from_owner @ shape.body_from_shape
+        geom = body.add_geom(
+            name=f"{name}/shape/{i}",
             type=SHAPES[shape.kind],
             pos=place.position.tolist(),
             quat=quaternion_from_rotation(place.rotation).tolist(),

@@ -27,14 +27,14 @@ def contacts_of(
     Args:
         model: the model.
         data: its state after a step.
-        is_own: which bodies are asked for, (nbody,).
-        names: name of what each body belongs to, (nbody,).
+        is_own: which shapes are asked for, (ngeom,).
+        names: name of what each shape belongs to, (ngeom,).
     """
     if data.ncon == 0:
         return []
     found = data.contact
     bodies = model.geom_bodyid[found.geom]  # (n, 2)
-    own = is_own[bodies]  # (n, 2)
+    own = is_own[found.geom]  # (n, 2)
     presses = (np.asarray(found.efc_address) >= 0) & (np.asarray(found.dist) < 0.0)
     contacts: list[Contact] = []
     for i in np.flatnonzero(presses & (own[:, 0] != own[:, 1])).tolist():
@@ -48,7 +48,7 @@ def contacts_of(
                 approach_speed=v_first - v_second,
                 own_speed=v_first if is_first else -v_second,
                 is_first=is_first,
-                other=names[second if is_first else first],
+                other=names[found.geom[i][1 if is_first else 0]],
             )
         )
     return contacts

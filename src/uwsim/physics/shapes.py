@@ -11,14 +11,14 @@ trimesh            loose: the convex hull of each material; fixed: the faces the
 compound trimesh   as trimesh
 =================  ======================================================================
 
-A fixed trimesh becomes plates behind its faces: a flat rectangle of triangles one slab, every
-other triangle a prism, `THICKNESS` deep, away from the side the triangle is seen from. Not
-modelled: hollows of loose things, faces seen from both sides.
+A fixed trimesh becomes plates behind its flat faces (`convex_faces`): a rectangle a slab, any other
+polygon a prism, `THICKNESS` deep, away from the side the face is seen from. Not modelled: hollows
+of loose things, faces seen from both sides.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -28,6 +28,7 @@ import numpy.typing as npt
 from ..assets.mesh import Model
 from ..errors import UwsimError
 from ..geometry import Array, Pose
+from .convex_faces import convex_faces
 
 THICKNESS = 0.1
 """Of the plates of a fixed trimesh; not more than its shortest extent, unless it is `FLAT` [m]."""
@@ -37,8 +38,8 @@ MOST_PIECES = 3000
 """Plates of one fixed trimesh."""
 THINNEST = 1e-3
 """Least edge of a box [m]."""
-SAME = 1e-4
-"""Corners nearer than this are one [m]."""
+SQUARE = 1e-3
+"""How far a rectangle may be from one: cosine of its corner, share of its edge."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -110,84 +111,36 @@ def _hull(points: Array) -> Shape:
 
 
 def _plates(triangles: Array, name: str) -> tuple[Shape, ...]:
-    """Slabs and prisms behind the faces, (n, 3, 3) [m]."""
-    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    areas = 0.5 * np.linalg.norm(normals, axis=1)  # (n,) [m2]
-    real = areas > SAME**2
-    triangles, normals, areas = triangles[real], normals[real], areas[real]
-    if not len(triangles):
-        return ()
-    normals = normals / (2.0 * areas[:, None])
-    flat = triangles.reshape(-1, 3)
-    thinnest = float(np.min(np.ptp(flat, axis=0)))
-    depth = THICKNESS if thinnest < FLAT else min(THICKNESS, thinnest)
-    plates: list[Shape] = []
-    for patch in _patches(triangles, normals):
-        normal = normals[patch[0]]
-        slab = _slab(triangles[patch], normal, float(areas[patch].sum()), depth)
-        if slab is not None:
-            plates.append(slab)
-            continue
-        for corners in triangles[patch]:
-            prism = np.concatenate([corners, corners - depth * normal])
-            plates.append(Shape(kind="hull", body_from_shape=Pose.identity(), corners=prism))
-    if len(plates) > MOST_PIECES:
+    """Slabs and prisms behind the faces of triangles (n, 3, 3) [m]."""
+    faces = convex_faces(triangles)
+    if len(faces) > MOST_PIECES:
         raise UwsimError(
-            f"{name!r} as a fixed trimesh would be {len(plates)} plates; at most {MOST_PIECES}. "
+            f"{name!r} as a fixed trimesh would be {len(faces)} plates; at most {MOST_PIECES}. "
             "Name a simpler mesh in <collisionShape>, or another <collisionShapeType>."
         )
-    return tuple(plates)
+    if not faces:
+        return ()
+    thinnest = float(np.min(np.ptp(triangles.reshape(-1, 3), axis=0)))
+    depth = THICKNESS if thinnest < FLAT else min(THICKNESS, thinnest)
+    return tuple(_plate(face, depth) for face in faces)
 
 
-def _patches(triangles: Array, normals: Array) -> list[list[int]]:
-    """Numbers of triangles that lie in one plane and hang together, in the mesh's order."""
-    offsets = np.einsum("ij,ij->i", normals, triangles[:, 0])
-    planes = np.round(np.column_stack([normals, offsets]) / 1e-3).astype(np.int64)
-    corners = np.round(triangles / SAME).astype(np.int64)
-    leader = list(range(len(triangles)))
-
-    def find(i: int) -> int:
-        while leader[i] != i:
-            leader[i] = leader[leader[i]]
-            i = leader[i]
-        return i
-
-    seen: dict[tuple[int, ...], int] = {}
-    for i in range(len(triangles)):
-        plane = tuple(planes[i].tolist())
-        for corner in corners[i].tolist():
-            first = seen.setdefault((*plane, *corner), i)
-            leader[find(i)] = find(first)
-    patches: dict[int, list[int]] = {}
-    for i in range(len(triangles)):
-        patches.setdefault(find(i), []).append(i)
-    return list(patches.values())
-
-
-def _slab(triangles: Array, normal: Array, area: float, depth: float) -> Shape | None:
-    """The slab behind a flat rectangle; None for any other patch (n, 3, 3) [m]."""
-    points = triangles.reshape(-1, 3)
-    for edge in _directions(triangles):
-        frame = np.column_stack([edge, np.cross(normal, edge), normal])  # body_from_plane
-        low, high = _ends(points @ frame)
-        if abs((high[0] - low[0]) * (high[1] - low[1]) - area) <= 1e-3 * area:
-            middle = 0.5 * (low + high)
-            middle[2] = high[2] - 0.5 * depth
-            half = (0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1]), 0.5 * depth)
-            return Shape(kind="box", body_from_shape=Pose(frame @ middle, frame), size=half)
-    return None
-
-
-def _directions(triangles: Array) -> Iterable[Array]:
-    """Directions of the first triangle's edges."""
-    first = triangles[0]
-    for a, b in ((0, 1), (1, 2), (2, 0)):
-        edge = first[b] - first[a]
-        yield edge / np.linalg.norm(edge)
-
-
-def _ends(points: Array) -> tuple[Array, Array]:
-    return points.min(axis=0), points.max(axis=0)
+def _plate(face: Array, depth: float) -> Shape:
+    """What stands behind a flat convex polygon, (k, 3) [m]: a slab if it is a rectangle."""
+    edges = np.roll(face, -1, axis=0) - face
+    normal = np.cross(face[1:-1] - face[0], face[2:] - face[0]).sum(axis=0)
+    normal /= np.linalg.norm(normal)
+    lengths = np.linalg.norm(edges, axis=1)
+    is_square = abs(edges[0] @ edges[1]) <= SQUARE * lengths[0] * lengths[1]
+    is_even = np.linalg.norm(edges[0] + edges[2]) <= SQUARE * lengths[0]
+    if len(face) == 4 and is_square and is_even:
+        along = edges[0] / lengths[0]
+        turn = np.column_stack([along, np.cross(normal, along), normal])  # body_from_shape
+        middle = face.mean(axis=0) - 0.5 * depth * normal
+        half = (0.5 * float(lengths[0]), 0.5 * float(lengths[1]), 0.5 * depth)
+        return Shape(kind="box", body_from_shape=Pose(middle, turn), size=half)
+    prism = np.concatenate([face, face - depth * normal])
+    return Shape(kind="hull", body_from_shape=Pose.identity(), corners=prism)
 
 
 def bounds(shapes: Sequence[Shape]) -> Shape:

@@ -45,7 +45,7 @@ class State:
     ) -> None:
         self._model = compile_scene(scene, robots, dynamics, timestep, shapes)
         self._owners = np.array(
-            [_owner(self._model.body(i).name) for i in range(self._model.nbody)]
+            [_owner(self._model.geom(i).name) for i in range(self._model.ngeom)]
         )
         self._owner_names = [_named(scene, owner) for owner in self._owners.tolist()]
         self._touchable = frozenset(_owner(name) for name in shapes)
@@ -281,9 +281,9 @@ def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
     return install(model)
 
 
-def _owner(body: str) -> str:
-    """``vehicle/1`` or ``object/1``, what the body of that name belongs to."""
-    return "/".join(body.split("/")[:2])
+def _owner(name: str) -> str:
+    """``vehicle/1`` or ``object/1``, what the body or shape of that name belongs to."""
+    return "/".join(name.split("/")[:2])
 
 
 def _named(scene: SceneSpec, owner: str) -> str:

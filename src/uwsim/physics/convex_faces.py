@@ -1,0 +1,224 @@
+"""The faces of a mesh as few flat convex polygons: what a fixed trimesh is touched by.
+
+Triangles that lie in one plane and share corners are a patch. A patch as large as its convex hull
+is one polygon. Any other is cut along the line of that edge of its border whose halves have the
+smallest hulls, and so on with what is left; where that gives no fewer pieces than there are
+triangles, the triangles stay. The union of the polygons is that of the triangles, holes and all.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array
+
+SAME = 1e-4
+"""Corners nearer than this are one, and triangles lower than this are none [m]."""
+LEVEL = 1e-3
+"""How far the corners of a patch may lie off the plane of its first triangle [m]."""
+PARALLEL = 1.0 - 1e-6
+"""Least cosine between the normals of a patch."""
+SPARE = 1e-3
+"""Share of a convex polygon that may lie beside its triangles."""
+MOST_LINES = 64
+"""Lines tried for a cut: those of the longest border edges."""
+
+Ints = npt.NDArray[np.int64]
+
+
+def convex_faces(triangles: Array) -> list[Array]:
+    """Join triangles to convex polygons.
+
+    Args:
+        triangles: counter-clockwise from where they are seen, (n, 3, 3) [m].
+
+    Returns:
+        The corners of each polygon, turning as its triangles do, (k, 3) [m].
+    """
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    doubled = np.linalg.norm(normals, axis=1)  # (n,) [m2]
+    real = doubled > SAME * _longest(triangles)
+    triangles, normals = triangles[real], normals[real] / doubled[real, None]
+    polygons: list[Array] = []
+    for patch in _patches(triangles, normals):
+        frame = _frame(triangles[patch[0]], normals[patch[0]])  # mesh_from_plane
+        flat = triangles[patch] @ frame  # (m, 3, 3)
+        height = float(flat[0, 0, 2])
+        pieces = _pieces(flat[:, :, :2], len(patch))
+        if pieces is None or len(pieces) >= len(patch):
+            polygons += list(triangles[patch])
+            continue
+        for piece in pieces:
+            polygons.append(np.column_stack([piece, np.full(len(piece), height)]) @ frame.T)
+    return polygons
+
+
+def _frame(triangle: Array, normal: Array) -> Array:
+    """Axes whose first is the longest edge of a triangle and whose third is its normal, (3, 3)."""
+    edges = np.roll(triangle, -1, axis=0) - triangle
+    along = edges[int(np.argmax(np.linalg.norm(edges, axis=1)))]
+    along = along / np.linalg.norm(along)
+    return np.column_stack([along, np.cross(normal, along), normal])
+
+
+def _corners(points: Array) -> Ints:
+    """Number the corners (n, 3, d) so that equal ones have equal numbers, (n, 3)."""
+    rounded = np.round(points.reshape(-1, points.shape[-1]) / SAME).astype(np.int64)
+    numbers: Ints = np.unique(rounded, axis=0, return_inverse=True)[1].reshape(-1, 3)
+    return numbers
+
+
+def _groups(corners: Ints) -> list[list[int]]:
+    """Triangles that hang together by corners, in the mesh's order."""
+    everywhere = np.ones((len(corners), 1)), np.zeros((len(corners), 3, 1))
+    return _grown(corners, *everywhere)
+
+
+def _patches(triangles: Array, normals: Array) -> list[list[int]]:
+    """Numbers of the triangles that lie in one plane and hang together, in the mesh's order."""
+    return _grown(_corners(triangles), normals, triangles)
+
+
+def _grown(corners: Ints, normals: Array, points: Array) -> list[list[int]]:
+    """Grow groups over shared corners, within the plane of each group's first triangle."""
+    at_corner: dict[int, list[int]] = {}
+    for i, three in enumerate(corners.tolist()):
+        for corner in three:
+            at_corner.setdefault(corner, []).append(i)
+    free = np.ones(len(corners), dtype=bool)
+    groups: list[list[int]] = []
+    for first in range(len(corners)):
+        if not free[first]:
+            continue
+        normal, origin = normals[first], points[first, 0]
+        free[first] = False
+        group, waiting = [first], deque([first])
+        while waiting:
+            for corner in corners[waiting.popleft()].tolist():
+                for i in at_corner[corner]:
+                    if (
+                        free[i]
+                        and normals[i] @ normal >= PARALLEL
+                        and np.abs((points[i] - origin) @ normal).max() <= LEVEL
+                    ):
+                        free[i] = False
+                        group.append(i)
+                        waiting.append(i)
+        groups.append(sorted(group))
+    return groups
+
+
+def _pieces(flat: Array, most: int) -> list[Array] | None:
+    """Cut triangles of a plane (n, 3, 2) into convex polygons; None if it takes over ``most``."""
+    pieces: list[Array] = []
+    waiting = deque([flat])
+    while waiting:
+        part = waiting.popleft()
+        area = float(_areas(part).sum())
+        hull, hull_area = _hull(part)
+        if area > hull_area * (1.0 + SPARE):
+            return None  # faces lie on one another
+        if hull_area - area <= SPARE * hull_area:
+            pieces.append(hull)
+        else:
+            halves = _cut(part)
+            if halves is None:
+                return None
+            for half in halves:
+                waiting.extend(half[group] for group in _groups(_corners(half)))
+        if len(pieces) + len(waiting) > most:
+            return None
+    return pieces
+
+
+def _hull(part: Array) -> tuple[Array, float]:
+    """Corners of the convex hull, counter-clockwise, (k, 2) [m], and its area [m2]."""
+    from scipy.spatial import ConvexHull
+
+    hull = ConvexHull(part.reshape(-1, 2))
+    corners = hull.points[hull.vertices]
+    before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
+    turn = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    reach = np.linalg.norm(before, axis=1) + np.linalg.norm(after, axis=1)
+    return corners[turn > 0.1 * SAME * reach], float(hull.volume)
+
+
+def _areas(part: Array) -> Array:
+    a, b = part[:, 1] - part[:, 0], part[:, 2] - part[:, 0]
+    areas: Array = 0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    return areas
+
+
+def _longest(part: Array) -> Array:
+    """Longest edge of each triangle (n, 3, d), (n,) [m]."""
+    longest: Array = np.linalg.norm(np.roll(part, -1, axis=1) - part, axis=2).max(axis=1)
+    return longest
+
+
+def _cut(part: Array) -> tuple[Array, Array] | None:
+    """Cut along the border line whose halves have the smallest hulls; None if no line cuts."""
+    best, halves = np.inf, None
+    for normal, offset in _border_lines(part):
+        left, right = (_clipped(part, sign * normal, sign * offset) for sign in (1.0, -1.0))
+        if len(left) and len(right):
+            size = _hull(left)[1] + _hull(right)[1]
+            if size < best * (1.0 - 1e-6):
+                best, halves = size, (left, right)
+    return halves
+
+
+def _border_lines(part: Array) -> list[tuple[Array, float]]:
+    """Lines ``normal @ x = offset`` of the edges that one triangle has alone, longest first."""
+    corners = _corners(part)
+    n_triangles: dict[tuple[int, int], int] = {}
+    edges = [(i, k, (k + 1) % 3) for i in range(len(part)) for k in range(3)]
+    keys = [(int(min(corners[i, [a, b]])), int(max(corners[i, [a, b]]))) for i, a, b in edges]
+    for key in keys:
+        n_triangles[key] = n_triangles.get(key, 0) + 1
+    found: dict[tuple[int, ...], tuple[float, Array, float]] = {}
+    for (i, a, b), key in zip(edges, keys, strict=True):
+        if n_triangles[key] > 1:
+            continue
+        way = part[i, b] - part[i, a]
+        length = float(np.linalg.norm(way))
+        if length <= SAME:
+            continue
+        normal = np.array([-way[1], way[0]]) / length
+        if (normal[0], normal[1]) < (0.0, 0.0):
+            normal = -normal
+        offset = float(normal @ part[i, a])
+        line = tuple(np.round(np.array([*normal, offset]) / LEVEL).astype(np.int64).tolist())
+        if length > found.get(line, (0.0,))[0]:
+            found[line] = (length, normal, offset)
+    ranked = sorted(found.values(), key=lambda one: -round(one[0] / LEVEL))
+    return [(normal, offset) for _, normal, offset in ranked[:MOST_LINES]]
+
+
+def _clipped(part: Array, normal: Array, offset: float) -> Array:
+    """What of the triangles (n, 3, 2) lies where ``normal @ x >= offset``, (m, 3, 2)."""
+    kept: list[Array] = []
+    heights = part @ normal - offset  # (n, 3)
+    heights[np.abs(heights) < SAME] = 0.0
+    for triangle, height in zip(part, heights, strict=True):
+        if height.max() <= 0.0:
+            continue
+        if height.min() >= 0.0:
+            kept.append(triangle)
+            continue
+        outline: list[Array] = []
+        for k in range(3):
+            here, there = height[k], height[(k + 1) % 3]
+            if here >= 0.0:
+                outline.append(triangle[k])
+            if here * there < 0.0:
+                way = triangle[(k + 1) % 3] - triangle[k]
+                outline.append(triangle[k] + here / (here - there) * way)
+        kept += [np.array([outline[0], *outline[k : k + 2]]) for k in range(1, len(outline) - 1)]
+    if not kept:
+        return np.zeros((0, 3, 2))
+    found = np.array(kept)
+    real: Array = found[2.0 * _areas(found) > SAME * _longest(found)]
+    return real

@@ -1,0 +1,82 @@
+r"""The engine's tree of boxes over the fixed shapes, cut where it pays most.
+
+MuJoCo halves its shapes at the median. The shapes of a tank or a wreck are large plates around a
+hollow, and halves of them overlap in the hollow, just where the vehicles are. Here a node is cut
+where the surface area heuristic is least,
+
+.. math:: A_{left}\,n_{left} + A_{right}\,n_{right}
+
+with A the area of a half's box and n its number of shapes (MacDonald and Booth, Heuristics for
+ray tracing using space subdivision, The Visual Computer 6, 1990). The tree holds the same shapes;
+only fewer of its boxes are looked into.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array
+
+WORLD = 0
+"""The engine's number of the body that fixed shapes hang on."""
+DEEPEST = 40
+"""Nodes below this are halved at the median; the engine allows 50."""
+
+Ints = npt.NDArray[np.int64]
+
+
+def rebuild_world_tree(model: mujoco.MjModel) -> None:
+    """Rebuild the tree over the shapes of the world's body, in the place of the engine's."""
+    first, count = int(model.body_bvhadr[WORLD]), int(model.body_bvhnum[WORLD])
+    rows = slice(first, first + count)
+    leaves = np.flatnonzero(model.bvh_nodeid[rows] >= 0)
+    if len(leaves) < 3:
+        return
+    shapes = model.bvh_nodeid[rows][leaves].copy()
+    boxes = model.bvh_aabb[rows][leaves].copy()  # (n, 6): middle, half edges [m]
+    low, high = boxes[:, :3] - boxes[:, 3:], boxes[:, :3] + boxes[:, 3:]
+    node = 0
+    waiting: list[tuple[Ints, int, int, int]] = [(np.arange(len(leaves)), -1, 0, 0)]
+    while waiting:
+        members, parent, side, depth = waiting.pop()
+        lower, upper = low[members].min(axis=0), high[members].max(axis=0)
+        at = first + node
+        model.bvh_aabb[at] = [*(0.5 * (lower + upper)), *(0.5 * (upper - lower))]
+        model.bvh_depth[at] = depth
+        model.bvh_child[at] = -1
+        model.bvh_nodeid[at] = shapes[members[0]] if len(members) == 1 else -1
+        if parent >= 0:
+            model.bvh_child[first + parent, side] = node
+        if len(members) > 1:
+            left, right = _cut(members, low, high, depth)
+            waiting += [(right, node, 1, depth + 1), (left, node, 0, depth + 1)]
+        node += 1
+
+
+def _cut(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, Ints]:
+    """Share out the shapes of a node."""
+    middles = low[members] + high[members]
+    orders = [members[np.argsort(middles[:, axis], kind="stable")] for axis in range(3)]
+    if depth >= DEEPEST:
+        order = orders[int(np.argmax(np.ptp(middles, axis=0)))]
+        half = len(order) // 2
+        return order[:half], order[half:]
+    best, halves = np.inf, (members[:1], members[1:])
+    for order in orders:
+        below = _areas(low[order], high[order])[:-1]
+        above = _areas(low[order[::-1]], high[order[::-1]])[-2::-1]
+        counts = np.arange(1, len(order))
+        costs = below * counts + above * counts[::-1]
+        place = int(np.argmin(costs))
+        if costs[place] < best:
+            best, halves = float(costs[place]), (order[: place + 1], order[place + 1 :])
+    return halves
+
+
+def _areas(low: Array, high: Array) -> Array:
+    """Half the surface of the box around the first 1, 2, ... of some boxes, (n,) [m2]."""
+    x, y, z = (np.maximum.accumulate(high, axis=0) - np.minimum.accumulate(low, axis=0)).T
+    areas: Array = x * y + y * z + z * x
+    return areas
