@@ -11,11 +11,12 @@ from uwsim.benchmark.measures import MEASURES
 from uwsim.cli import main
 from uwsim.cli.files import bundled
 from uwsim.cli.list import KINDS, first_line, head_comment, without_title
+from uwsim.cli.plugins import bundled_tables
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_everything_that_has_a_name_has_a_sentence_about_it(kind: str) -> None:
-    entries = KINDS[kind]()
+    entries = KINDS[kind](bundled_tables())
     assert entries
     assert [name for name, said in entries.items() if not said.endswith(".")] == []
 

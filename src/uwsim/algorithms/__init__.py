@@ -33,19 +33,19 @@ def summary(algorithm: type[Algorithm]) -> str:
     return (algorithm.__doc__ or "").strip().partition("\n")[0]
 
 
-def load_algorithm(name: str) -> type[Algorithm]:
-    """Find a bundled algorithm by its name, or a stranger's by ``module:Class``.
+def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS) -> type[Algorithm]:
+    """Find an algorithm by its name in ``table``, or a stranger's by ``module:Class``.
 
     Raises:
         BadSetting: there is no such algorithm; says what there is.
     """
     if ":" not in name:
-        if name not in ALGORITHMS:
+        if name not in table:
             raise BadSetting(
-                f"No algorithm is called {name!r}.{did_you_mean(name, ALGORITHMS)} "
-                f"Bundled: {', '.join(ALGORITHMS)}; your own: module:Class."
+                f"No algorithm is called {name!r}.{did_you_mean(name, table)} "
+                f"Known: {', '.join(table)}; your own: module:Class, or of a --plugin."
             )
-        return ALGORITHMS[name]
+        return table[name]
     module_name, _, class_name = name.partition(":")
     try:
         module = importlib.import_module(module_name)

@@ -31,6 +31,7 @@ from .logs import TIME, Log, save_log
 from .original_format import save_dat, save_data
 from .plan import Plan, Unit
 from .play import Row, UnitEnd, bind_all, play
+from .plugin import blamed, check_bound, hashes
 from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture, save
 from .updaters import chain, references
 
@@ -351,7 +352,9 @@ def open_once(plan: Plan) -> tuple[dict[str, object], str]:
         compatibility=plan.compatibility,
     )
     try:
-        bind_all(plan, simulation)
+        with blamed(plan.plugins):
+            check_bound(plan.plugins, plan.benchmark.parts, simulation)
+            bind_all(plan, simulation)
         robots = {
             vehicle.file: _file_hash(Path(simulation.robots[i].path))
             for i, vehicle in enumerate(plan.scene.vehicles)
@@ -361,10 +364,12 @@ def open_once(plan: Plan) -> tuple[dict[str, object], str]:
     finally:
         simulation.close()
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
+    plugins = {"plugins": hashes(plan.plugins)} if plan.plugins else {}
     return {
         "benchmark": [benchmark.name, _file_hash(benchmark)],
         "scene": [scene.name, _file_hash(scene)],
         "assets": {**robots, **assets},
+        **plugins,
     }, renderer
 
 

@@ -6,15 +6,16 @@ sequential, one seed's one level when it is independent (DESIGN 5).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from ..bus import Algorithm
 from ..errors import BadSetting
 from ..scene.spec import SceneSpec
 from .measures import EuclideanNormSpec
+from .plugin import Plugin
 from .spec import BenchmarkSpec
 from .updaters import Level, chain
 from .updaters import levels as levels_of
@@ -80,6 +81,13 @@ class Plan:
     """Folders in which files are looked for."""
     is_blind: bool = False
     """Whether images are black: for a control that does not look at them."""
+    plugins: tuple[Plugin, ...] = ()
+    """What was read with ``--plugin``."""
+
+    def __reduce__(self) -> tuple[Callable[..., Plan], tuple[object, ...]]:
+        """Travel with the plugins first: what comes behind them may be of their classes."""
+        others = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "plugins"}
+        return _unpacked, (self.plugins, others)
 
     @property
     def wants_control(self) -> bool:
@@ -139,6 +147,10 @@ class Plan:
             for repeat in range(self.repeats)
             for i, group in enumerate(groups)
         )
+
+
+def _unpacked(plugins: tuple[Plugin, ...], others: dict[str, Any]) -> Plan:
+    return Plan(plugins=plugins, **others)
 
 
 def _same(a: float, b: float) -> bool:

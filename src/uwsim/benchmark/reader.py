@@ -16,6 +16,7 @@ them than the package has.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,6 +31,7 @@ from . import score
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, EuclideanNormSpec, MeasureSpec
 from .original_grammar import check_order
+from .plugin import PREFIX
 from .spec import BenchmarkSpec, FunctionSpec
 from .triggers import TRIGGERS, NeverSpec, TriggerSpec
 from .updaters import MAX_LEVELS, UPDATERS, NoneSpec, SceneUpdaterSpec, chain, references
@@ -37,6 +39,7 @@ from .updaters import MAX_LEVELS, UPDATERS, NoneSpec, SceneUpdaterSpec, chain, r
 RESERVED = ("repeat", "seed", "total", "status", "ended_at")
 """Columns of a result that no measure may be called by."""
 NOT_YET = "read, not simulated yet"
+OF_A_PLUGIN = ", nor of a plugin that was given (--plugin FILE.py)"
 
 T = TypeVar("T")
 
@@ -183,9 +186,10 @@ class _Reader:
             self.faults.add(node, f"<{node.tag}> lacks <type>: one of {', '.join(self.triggers)}")
         elif kind not in self.triggers:
             near = did_you_mean(kind, self.triggers) if len(kind) < 80 else ""
+            own = OF_A_PLUGIN * (kind.startswith(PREFIX) and not near)
             self.faults.add(
                 kinds[0],
-                f"<type> is {kind[:60]!r}; expected one of {', '.join(self.triggers)}.{near}",
+                f"<type> is {kind[:60]!r}; expected one of {', '.join(self.triggers)}{own}.{near}",
             )
         cls = self.triggers.get(kind)
         if len(kinds) > 1:
@@ -255,10 +259,17 @@ class _Reader:
         count = 1
         for updater in chain(outermost):
             node = self.faults.node_of(updater)
+            values: tuple[float, ...] = ()
             try:
-                count *= len(updater.values())
+                values = updater.values()
             except BadSetting as fault:
                 self.faults.add(node, str(fault))
+            else:
+                if not values or not all(
+                    isinstance(value, int | float) and math.isfinite(value) for value in values
+                ):
+                    self.faults.add(node, "a sweep needs at least one level, and finite values")
+            count *= max(1, len(values))
             if count > MAX_LEVELS:
                 self.faults.add(node, f"with this, there are more than {MAX_LEVELS} levels")
                 return
@@ -318,7 +329,9 @@ class _Reader:
 
     def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
         name = _name(node)
-        self.faults.unknown(node, f"<{name[:60]}> is not an element of <{box.tag}>", name, known)
+        said = f"<{name[:60]}> is not an element of <{box.tag}>"
+        own = name.startswith(PREFIX) and not did_you_mean(name, known)
+        self.faults.unknown(node, said + OF_A_PLUGIN * own, name, known)
 
 
 def _name(node: etree._Element) -> str:

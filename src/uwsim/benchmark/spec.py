@@ -8,7 +8,7 @@ from typing import Literal
 from ..dialect import element
 from .measures import MeasureSpec
 from .triggers import TriggerSpec
-from .updaters import SceneUpdaterSpec
+from .updaters import SceneUpdaterSpec, chain
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,3 +51,10 @@ class BenchmarkSpec:
     """How long the start is waited for, in simulation time [s]; None: 10 s."""
     path: str = field(default="", compare=False, metadata={"path": True})
     """The file as the user named it."""
+
+    @property
+    def parts(self) -> tuple[MeasureSpec | TriggerSpec | SceneUpdaterSpec, ...]:
+        """Every measure, trigger and updater in it."""
+        gates = [gate for spec in self.measures for gate in (spec.start_on, spec.stop_on)]
+        updaters = chain(self.scene_updater)
+        return (*self.measures, *gates, self.start_on, self.stop_on, *updaters)

@@ -8,7 +8,7 @@ import platform
 import signal
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -26,6 +26,7 @@ from rich.progress import (
 
 from ..errors import BadSetting
 from .files import benchmark_file, scene_file
+from .plugins import PluginOption, read_plugins
 
 if TYPE_CHECKING:
     from ..benchmark.bench import Bench
@@ -98,6 +99,7 @@ def bench(
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace an earlier result in --out.")
     ] = False,
+    plugin: PluginOption = None,
     data_path: Annotated[
         list[Path] | None,
         typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
@@ -115,6 +117,7 @@ def bench(
         settings=settings or [],
         compat=compat or [],
         data_path=tuple(data_path or ()),
+        plugins=plugin or [],
     )
     directory = out or Path(f"{Path(plan.benchmark.path).stem}.result")
 
@@ -152,6 +155,7 @@ def make_plan(
     settings: list[str],
     compat: list[str],
     data_path: tuple[Path, ...],
+    plugins: Sequence[Path] = (),
 ) -> Plan:
     """Read the files and put together what is to be played.
 
@@ -160,14 +164,19 @@ def make_plan(
     """
     from ..algorithms import check_parameters, load_algorithm
     from ..benchmark.plan import Plan
+    from ..benchmark.plugin import blamed
     from ..benchmark.reader import read_benchmark
     from ..compatibility import compatibility
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting
     from ..simulation import latency_of
 
+    own, tables = read_plugins(plugins)
     path = benchmark_file(benchmark, data_path)
-    spec = read_benchmark(path)
+    with blamed(own):
+        spec = read_benchmark(
+            path, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
+        )
     if scene is None and spec.scene is None:
         raise BadSetting(
             f"{path}: the benchmark does not name its scene (u:scene); give it with --scene."
@@ -196,7 +205,7 @@ def make_plan(
     plan = Plan(
         benchmark=spec,
         scene=scene_spec,
-        algorithm=load_algorithm(wanted),
+        algorithm=load_algorithm(wanted, tables.algorithms),
         algorithm_name=wanted,
         parameters=parameters,
         settings=tuple(pairs),
@@ -206,6 +215,7 @@ def make_plan(
         chosen=tuple(chosen_level(text) for text in levels),
         compatibility=compatibility([*spec.compatibility, *asked]),
         data_path=data_path,
+        plugins=own,
     )
     check_length(plan)
     check_parameters(plan.algorithm, plan.parameters)

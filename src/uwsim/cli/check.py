@@ -5,15 +5,17 @@ from __future__ import annotations
 import dataclasses
 from functools import partial
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BadSetting, Fault, FileError, UnknownName, UwsimError
+from ..errors import BadSetting, Fault, FileError, PluginError, UnknownName, UwsimError
 from .faults import WRONG_INPUT, printable
 from .files import bundled, scene_file
+from .plugins import PluginOption, read_plugins
 
 if TYPE_CHECKING:
+    from ..benchmark.plugin import Plugin, Tables
     from ..simulation import Simulation
 
 
@@ -28,6 +30,7 @@ def check(
     strict: Annotated[
         bool, typer.Option("--strict", help="Also hold files against the original's order.")
     ] = False,
+    plugin: PluginOption = None,
     data_path: Annotated[
         list[Path] | None,
         typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
@@ -38,11 +41,12 @@ def check(
     Exit status 0 without faults, else 2; what is read and not simulated yet is a notice.
     """
     folders = tuple(data_path or ())
+    own = read_plugins(plugin)
     named = [bundled_or(file) for file in files]
     scene = None if scene is None else bundled_or(scene)
     n_faults = 0
     for file in [*named, *([scene] if scene is not None and scene not in named else [])]:
-        found = faults_of(file, strict=strict, data_path=folders, scene=scene)
+        found = faults_of(file, strict=strict, data_path=folders, scene=scene, own=own)
         wrong = [fault for fault in found if fault.severity == "fault"]
         n_faults += len(wrong)
         for fault in found:
@@ -66,10 +70,12 @@ def faults_of(
     strict: bool = False,
     data_path: tuple[Path, ...] = (),
     scene: Path | None = None,
+    own: tuple[tuple[Plugin, ...], Tables] | None = None,
 ) -> list[Fault]:
     """Return everything wrong or worth knowing about a file; its root element says its kind.
 
-    A benchmark is held against ``scene``, or against the scene that it names itself.
+    A benchmark is held against ``scene``, or against the scene that it names itself; it may use
+    what plugins have brought (``own``: they, and the tables with what they add).
     """
     from ..dialect import parse
     from ..scene.reader import ROOT, check_robot, check_scene
@@ -82,29 +88,56 @@ def faults_of(
     if root == "robot":
         return check_robot(file, library=library)
     if root == "benchmark":
-        from ..benchmark.reader import check_benchmark
-
-        found = check_benchmark(file, strict=strict)
-        if not any(fault.severity == "fault" for fault in found):
-            found += unknown_names(file, scene, data_path)
-        return found
+        plugins, tables = own or read_plugins(())
+        return faults_of_benchmark(file, strict, scene, data_path, plugins, tables)
     if root == ROOT:
         return check_scene(file, strict=strict, library=library)
     message = f"the root element is <{root[:60]}>; expected <{ROOT}>, <benchmark> or <robot>"
     return [Fault(file=str(file), line=1, message=message)]
 
 
-def unknown_names(file: Path, scene: Path | None, data_path: tuple[Path, ...]) -> list[Fault]:
+def faults_of_benchmark(
+    file: Path,
+    strict: bool,
+    scene: Path | None,
+    data_path: tuple[Path, ...],
+    plugins: tuple[Plugin, ...],
+    tables: Tables,
+) -> list[Fault]:
+    """Return everything wrong or worth knowing about a benchmark and about plugins in it."""
+    from ..benchmark.plugin import blamed
+    from ..benchmark.reader import check_benchmark
+
+    try:
+        with blamed(plugins):
+            found = check_benchmark(
+                file,
+                strict=strict,
+                measures=tables.measures,
+                triggers=tables.triggers,
+                updaters=tables.updaters,
+            )
+            if not any(fault.severity == "fault" for fault in found):
+                found += unknown_names(file, scene, data_path, tables)
+    except PluginError as error:
+        return list(error.faults)
+    return found
+
+
+def unknown_names(
+    file: Path, scene: Path | None, data_path: tuple[Path, ...], tables: Tables
+) -> list[Fault]:
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
     from ..algorithms import load_algorithm
     from ..benchmark.not_simulated import NotSimulatedYet
     from ..benchmark.reader import read_benchmark
-    from ..benchmark.updaters import chain
     from ..dialect import parse
     from ..scene.reader import read_scene
     from ..simulation import Simulation
 
-    benchmark = read_benchmark(file)
+    benchmark = read_benchmark(
+        file, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
+    )
     root = parse(file).root
     said: dict[str, int | None] = {}
 
@@ -119,7 +152,7 @@ def unknown_names(file: Path, scene: Path | None, data_path: tuple[Path, ...]) -
 
     if benchmark.algorithm is not None and ":" not in benchmark.algorithm:
         try:
-            load_algorithm(benchmark.algorithm)
+            load_algorithm(benchmark.algorithm, tables.algorithms)
         except BadSetting as error:
             add(error, benchmark.algorithm)
     wanted = scene or benchmark.scene
@@ -137,9 +170,7 @@ def unknown_names(file: Path, scene: Path | None, data_path: tuple[Path, ...]) -
     except UwsimError as error:
         add(error, str(wanted))
     if simulation is not None:
-        parts: list[Any] = [*benchmark.measures, benchmark.start_on, benchmark.stop_on]
-        parts += [trigger for m in benchmark.measures for trigger in (m.start_on, m.stop_on)]
-        for part in [*parts, *chain(benchmark.scene_updater)]:
+        for part in benchmark.parts:
             for look in (partial(look_for_cameras, part), part.bind):
                 try:
                     look(simulation)

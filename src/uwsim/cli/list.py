@@ -6,7 +6,8 @@ import re
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated
+from types import ModuleType
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
@@ -14,6 +15,10 @@ from rich.table import Table
 
 from ..errors import UnknownName
 from .files import bundled
+from .plugins import PluginOption, read_plugins
+
+if TYPE_CHECKING:
+    from ..benchmark.plugin import Tables
 
 UNWRAPPED = 200
 """Columns for a reader that is a program: wide enough to leave every line whole."""
@@ -27,16 +32,18 @@ def list_names(
             "sensors; all of them when left out."
         ),
     ] = None,
+    plugin: PluginOption = None,
 ) -> None:
     """List what can be named on the command line and in files, with a line about each."""
     if kind is not None and kind not in KINDS:
         raise UnknownName("kind of thing to list", kind, KINDS)
+    _, tables = read_plugins(plugin)
     console = Console(highlight=False, width=None if sys.stdout.isatty() else UNWRAPPED)
     for name in KINDS if kind is None else (kind,):
         table = Table(box=None, show_header=False, padding=(0, 2, 0, 0), pad_edge=False)
         table.add_column(no_wrap=True, style="bold")
         table.add_column()
-        for entry, description in KINDS[name]().items():
+        for entry, description in KINDS[name](tables).items():
             table.add_row(entry, description)
         if kind is None:
             console.print(name, style="underline")
@@ -45,57 +52,49 @@ def list_names(
             console.print()
 
 
-def scenes() -> dict[str, str]:
+def scenes(tables: Tables) -> dict[str, str]:
     """Bundled scenes, with the first sentence of the comment at their head."""
     return {name: head_comment(path) for name, path in bundled("scenes").items()}
 
 
-def benchmarks() -> dict[str, str]:
+def benchmarks(tables: Tables) -> dict[str, str]:
     """Bundled benchmarks, with the first sentence of the comment at their head."""
     return {name: head_comment(path) for name, path in bundled("benchmarks").items()}
 
 
-def vehicles() -> dict[str, str]:
+def vehicles(tables: Tables) -> dict[str, str]:
     """Bundled robots, with the first sentence of the comment at their head."""
     return {name: head_comment(path) for name, path in bundled("scenes", ".urdf").items()}
 
 
-def algorithms() -> dict[str, str]:
-    """Algorithms under test that come with uwsim."""
-    from ..algorithms import ALGORITHMS
-
-    return {name: first_line(algorithm.__doc__) for name, algorithm in ALGORITHMS.items()}
+def algorithms(tables: Tables) -> dict[str, str]:
+    """Algorithms under test: those that come with uwsim, and those of plugins."""
+    return {name: first_line(algorithm.__doc__) for name, algorithm in tables.algorithms.items()}
 
 
-def measures() -> dict[str, str]:
+def measures(tables: Tables) -> dict[str, str]:
     """Measures that a benchmark file may use."""
-    from ..benchmark.measures import MEASURES
-
-    return {name: without_title(line) for name, line in family(MEASURES).items()}
+    return {name: without_title(line) for name, line in family(tables.measures).items()}
 
 
-def triggers() -> dict[str, str]:
+def triggers(tables: Tables) -> dict[str, str]:
     """Triggers that a benchmark file may use."""
-    from ..benchmark.triggers import TRIGGERS
-
-    return {name: without_title(line) for name, line in family(TRIGGERS).items()}
+    return {name: without_title(line) for name, line in family(tables.triggers).items()}
 
 
-def updaters() -> dict[str, str]:
+def updaters(tables: Tables) -> dict[str, str]:
     """Scene updaters that a benchmark file may use."""
-    from ..benchmark.updaters import UPDATERS
-
-    return {name: without_title(line) for name, line in family(UPDATERS).items()}
+    return {name: without_title(line) for name, line in family(tables.updaters).items()}
 
 
-def sensors() -> dict[str, str]:
+def sensors(tables: Tables) -> dict[str, str]:
     """Sensors that a scene file may use."""
     from ..sensors import SENSORS
 
     return family(SENSORS)
 
 
-KINDS: dict[str, Callable[[], dict[str, str]]] = {
+KINDS: dict[str, Callable[[Tables], dict[str, str]]] = {
     "scenes": scenes,
     "benchmarks": benchmarks,
     "algorithms": algorithms,
@@ -108,8 +107,26 @@ KINDS: dict[str, Callable[[], dict[str, str]]] = {
 
 
 def family(table: Mapping[str, type]) -> dict[str, str]:
-    """Describe a family by the first line of each member's module: there it says what it is."""
-    return {name: first_line(sys.modules[spec.__module__].__doc__) for name, spec in table.items()}
+    """Describe a family by the first line of each member's module: there it says what it is.
+
+    A plugin may have several members in its one module, so they are described by their own.
+    """
+    return {
+        name: first_line(spec.__doc__ if is_of_a_plugin(spec) else module_of(spec).__doc__)
+        for name, spec in table.items()
+    }
+
+
+def is_of_a_plugin(spec: type) -> bool:
+    """Tell whether a class came with ``--plugin``."""
+    from ..benchmark.plugin import MODULE
+
+    return spec.__module__.startswith(MODULE)
+
+
+def module_of(spec: type) -> ModuleType:
+    """Return the module a class stands in."""
+    return sys.modules[spec.__module__]
 
 
 def without_title(line: str) -> str:

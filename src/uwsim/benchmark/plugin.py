@@ -1,0 +1,340 @@
+"""Plugins: a user's own measures, triggers, updaters and algorithms, in one Python file.
+
+.. code-block:: python
+
+    MEASURES = {"topSpeed": TopSpeedSpec}       # <u:topSpeed> in a benchmark file
+    TRIGGERS = {"arrived": ArrivedSpec}         # <type>u:arrived</type>
+    UPDATERS = {"turbidity": TurbiditySpec}     # <u:turbidity>
+    ALGORITHMS = {"brightest": Brightest}       # --algorithm brightest
+
+Any of the four may be left out. Names without a prefix are the original's, so what a plugin adds to
+a file lives in the namespace ``urn:uwsim:1``; should uwsim or another plugin have the name already,
+that is a fault.
+
+A plugin is one file and travels as its source: a worker, here or on another machine, runs the very
+bytes whose hash stands in the result. What it imports must be installed. Its module is called after
+that hash, so nothing global changes and two plugins cannot disturb each other.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.abc
+import importlib.machinery
+import importlib.util
+import inspect
+import re
+import sys
+import traceback
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import CodeType, ModuleType
+
+from ..bus import Algorithm
+from ..dialect import slots
+from ..errors import BadSetting, Fault, PluginError, RunFailed, UwsimError, did_you_mean
+from ..world import Stage
+from .measures import Measure, MeasureSpec
+from .triggers import Trigger, TriggerSpec
+from .updaters import SceneUpdater, SceneUpdaterSpec
+
+PREFIX = "u:"
+"""Stands in front of what a plugin adds to a file."""
+MODULE = "uwsim_plugin_"
+"""How the name of a plugin's module begins."""
+MAX_BYTES = 10_000_000
+WORD = re.compile(r"[A-Za-z][A-Za-z0-9]*")
+"""Names of elements and of columns."""
+ALGORITHM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tables:
+    """Everything that has a name in a benchmark: bundled, or that and what plugins add."""
+
+    measures: Mapping[str, type[MeasureSpec]] = field(default_factory=dict)
+    """Element -> spec."""
+    triggers: Mapping[str, type[TriggerSpec]] = field(default_factory=dict)
+    """Type -> spec."""
+    updaters: Mapping[str, type[SceneUpdaterSpec]] = field(default_factory=dict)
+    """Element -> spec."""
+    algorithms: Mapping[str, type[Algorithm]] = field(default_factory=dict)
+    """Name -> class."""
+
+
+BASES = {"MEASURES": MeasureSpec, "TRIGGERS": TriggerSpec, "UPDATERS": SceneUpdaterSpec}
+LIVE = ((MeasureSpec, Measure), (TriggerSpec, Trigger), (SceneUpdaterSpec, SceneUpdater))
+DECLARED = (*BASES, "ALGORITHMS")
+
+
+@dataclass(frozen=True)
+class Plugin:
+    """One file, as it was when it was read."""
+
+    path: str
+    """The file as the user named it."""
+    source: bytes = field(repr=False)
+    """Its content."""
+
+    def __reduce__(self) -> tuple[Callable[[str, bytes], Plugin], tuple[str, bytes]]:
+        """Travel as source; whoever unpickles it has its module, and so its classes."""
+        return _imported, (self.path, self.source)
+
+    @property
+    def name(self) -> str:
+        """Name of the file, without its folders."""
+        return Path(self.path).name
+
+    @property
+    def sha256(self) -> str:
+        """Hash of the source."""
+        return "sha256:" + hashlib.sha256(self.source).hexdigest()
+
+    @property
+    def module_name(self) -> str:
+        """Name of its module: equal sources are one module."""
+        stem = re.sub(r"\W", "_", Path(self.path).stem, flags=re.ASCII)
+        return f"{MODULE}{stem}_{hashlib.sha256(self.source).hexdigest()[:16]}"
+
+    def module(self) -> ModuleType:
+        """Return its module, importing it unless that was done.
+
+        Raises:
+            PluginError: it cannot be imported; says the line.
+        """
+        name = self.module_name
+        if name in sys.modules:
+            return sys.modules[name]
+        spec = importlib.machinery.ModuleSpec(name, _Loader(self), origin=self.path)
+        module = importlib.util.module_from_spec(spec)
+        module.__file__ = self.path
+        sys.modules[name] = module
+        try:
+            _Loader(self).exec_module(module)
+        except SyntaxError as error:
+            del sys.modules[name]
+            line = error.lineno if error.filename == self.path else None
+            raise self.fault(f"not Python: {error.msg}", line) from error
+        except (Exception, SystemExit) as error:
+            del sys.modules[name]
+            said = f"cannot be imported: {type(error).__name__}: {error}"
+            if isinstance(error, ModuleNotFoundError):
+                said += " (a plugin is one file; what it imports must be installed)"
+            raise self.fault(said, self.line_of(error)) from error
+        return module
+
+    def fault(self, message: str, line: int | None = None) -> PluginError:
+        """Make an error out of what is wrong with the file."""
+        return PluginError([Fault(file=self.path, line=line, message=message)])
+
+    def line_of(self, error: BaseException) -> int | None:
+        """Return the line of this file in which an error arose; None if it was elsewhere."""
+        frames = traceback.extract_tb(error.__traceback__)
+        lines = [frame.lineno for frame in frames if frame.filename == self.path]
+        return lines[-1] if lines else None
+
+
+def _imported(path: str, source: bytes) -> Plugin:
+    plugin = Plugin(path, source)
+    plugin.module()
+    return plugin
+
+
+class _Loader(importlib.abc.InspectLoader):
+    """Gives Python the source that a plugin carries, for running it and for showing its lines."""
+
+    def __init__(self, plugin: Plugin) -> None:
+        self._plugin = plugin
+
+    def get_source(self, fullname: str) -> str:
+        return importlib.util.decode_source(self._plugin.source)
+
+    def get_code(self, fullname: str) -> CodeType:
+        return self.source_to_code(self._plugin.source, self._plugin.path)
+
+
+def read_plugin(path: Path) -> Plugin:
+    """Read and import a plugin.
+
+    Raises:
+        PluginError: it cannot be read or imported.
+    """
+    try:
+        source = path.read_bytes()
+    except OSError as error:
+        raise Plugin(str(path), b"").fault(f"cannot be read: {error.strerror}") from None
+    if len(source) > MAX_BYTES:
+        raise Plugin(str(path), b"").fault(f"more than {MAX_BYTES} bytes: not a plugin")
+    return _imported(str(path), source)
+
+
+def with_plugins(bundled: Tables, plugins: Sequence[Plugin]) -> Tables:
+    """Return the bundled tables and what plugins add to them.
+
+    Raises:
+        PluginError: with everything that is wrong about what the plugins declare.
+        BadSetting: a plugin is given twice.
+    """
+    faults: list[Fault] = []
+    tables = {name: dict(getattr(bundled, name.lower())) for name in DECLARED}
+    owners: dict[tuple[str, str], Plugin] = {}
+    by_module: dict[str, Plugin] = {}
+    for plugin in plugins:
+        if (twin := by_module.setdefault(plugin.module_name, plugin)) is not plugin:
+            raise BadSetting(f"--plugin {plugin.path}: is {twin.path} once more.")
+        for table, key, value in _declared(plugin, faults):
+            name = key if table == "ALGORITHMS" else PREFIX + key
+            if name in tables[table]:
+                first = owners.get((table, name))
+                whose = f"is in {first.path}, too" if first else "is a name of uwsim"
+                said = f"{table}[{key!r}]: {name!r} {whose}; call it otherwise"
+                faults.append(Fault(file=plugin.path, line=_line(value, plugin), message=said))
+                continue
+            owners[table, name] = plugin
+            tables[table][name] = value
+    if faults:
+        raise PluginError(faults)
+    return Tables(**{name.lower(): table for name, table in tables.items()})
+
+
+def _declared(plugin: Plugin, faults: list[Fault]) -> Iterator[tuple[str, str, type]]:
+    """Yield table, key and class of what a plugin declares; what is wrong goes into ``faults``."""
+    module = plugin.module()
+
+    def add(message: str, value: object = None) -> None:
+        faults.append(Fault(file=plugin.path, line=_line(value, plugin), message=message))
+
+    given = [name for name in DECLARED if hasattr(module, name)]
+    if not given:
+        slips = [did_you_mean(name, DECLARED) for name in vars(module) if name.isupper()]
+        near = next(filter(None, slips), "")
+        add(f"declares none of {', '.join(DECLARED)}: dicts of name -> class.{near}")
+    for table in given:
+        entries = getattr(module, table)
+        if not isinstance(entries, Mapping):
+            add(f"{table} is {type(entries).__name__}; expected a dict of name -> class")
+            continue
+        for key, value in entries.items():
+            wrong = _wrong_key(table, key) or _wrong_class(table, value, module)
+            if wrong:
+                add(f"{table}[{key!r}]: {wrong}", value)
+            else:
+                yield table, key, value
+
+
+def _wrong_key(table: str, key: object) -> str | None:
+    if table == "ALGORITHMS":
+        if isinstance(key, str) and ALGORITHM.fullmatch(key):
+            return None
+        return "the name of an algorithm has letters, digits, '_', '.' and '-' only"
+    if isinstance(key, str) and WORD.fullmatch(key):
+        return None
+    if isinstance(key, str) and key.startswith(PREFIX):
+        return f"the prefix is put in front by uwsim; write {key.removeprefix(PREFIX)!r}"
+    return "the name of an element has letters and digits only, no digit first"
+
+
+def _wrong_class(table: str, value: object, module: ModuleType) -> str | None:
+    """Say why a value cannot be what its table promises; None if it can."""
+    if not isinstance(value, type):
+        return f"is {type(value).__name__} {str(value)[:40]!r}; expected a class"
+    name = value.__name__
+    owner = sys.modules.get(value.__module__, module)
+    if getattr(owner, value.__qualname__.split(".")[0], None) is None or "<" in value.__qualname__:
+        return f"the class {name} must stand at the top of the file, for worker processes find it"
+    if table == "ALGORITHMS":
+        return None if callable(getattr(value, "start", None)) else f"{name} has no start(node)"
+    base = BASES[table]
+    if not issubclass(value, base):
+        near = "; its spec is meant" if hasattr(value, "update") or hasattr(value, "apply") else ""
+        return f"{name} is no {base.__name__}{near}"
+    if missing := sorted(getattr(value, "__abstractmethods__", ())):
+        return f"{name} lacks {', '.join(missing)}"
+    if "__dataclass_params__" not in vars(value):
+        return f"{name} lacks @dataclass(frozen=True, kw_only=True)"
+    try:
+        slots(value)
+    except Exception as error:
+        return f"the fields of {name} cannot be read: {type(error).__name__}: {error}"
+    if table == "UPDATERS":
+        return _wrong_reference(value)
+    return None
+
+
+def _wrong_reference(value: type) -> str | None:
+    """An updater names a column of the result."""
+    reference = getattr(value, "name", None)
+    if not isinstance(reference, str) or not WORD.fullmatch(reference):
+        said = "lacks name" if reference is None else f"has the name {reference!r}"
+        return f"{value.__name__} {said}: that of its column, letters and digits"
+    if not isinstance(value.unit, str):  # type: ignore[attr-defined]
+        return f"{value.__name__} has the unit {value.unit!r}"  # type: ignore[attr-defined]
+    return None
+
+
+def _line(value: object, plugin: Plugin) -> int | None:
+    """Line of a class of the plugin."""
+    if not isinstance(value, type) or value.__module__ != plugin.module_name:
+        return None
+    try:
+        return inspect.getsourcelines(value)[1]
+    except (OSError, TypeError):
+        return None
+
+
+@contextmanager
+def blamed(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[None]:
+    """Name the line of the plugin that raised.
+
+    Raises:
+        PluginError: what a plugin raised while files were read.
+        RunFailed: ... while the benchmark was played (``is_running``).
+    """
+    try:
+        yield
+    except UwsimError:
+        raise
+    except Exception as error:
+        for plugin in plugins:
+            line = plugin.line_of(error)
+            if line is not None:
+                said = f"{type(error).__name__}: {error}"
+                if is_running:
+                    raise RunFailed(f"{plugin.path}:{line}: {said}") from error
+                raise plugin.fault(said, line) from error
+        raise
+
+
+def check_bound(
+    plugins: Sequence[Plugin],
+    parts: Sequence[MeasureSpec | TriggerSpec | SceneUpdaterSpec],
+    stage: Stage,
+) -> None:
+    """Bind every part that is of a plugin, and look at what comes out.
+
+    Raises:
+        PluginError: it is nothing that can be played.
+    """
+    own = {plugin.module_name: plugin for plugin in plugins}
+    for part in parts:
+        plugin = own.get(type(part).__module__)
+        if plugin is None:
+            continue
+        live: object = part.bind(stage)
+        for spec, kind in LIVE:
+            if isinstance(part, spec) and not isinstance(live, kind):
+                gives = "None" if live is None else type(live).__name__
+                said = f"{type(part).__name__}.bind gives {gives}; expected a {kind.__name__}"
+                raise plugin.fault(said, _line(type(part), plugin))
+        if isinstance(live, Measure) and not isinstance(getattr(live, "unit", None), str):
+            said = f"{type(live).__name__} has no unit, such as unit = 'm/s'"
+            raise plugin.fault(said, _line(type(live), plugin))
+        if isinstance(live, Measure | Trigger):
+            live.close()
+
+
+def hashes(plugins: Sequence[Plugin]) -> list[list[str]]:
+    """Return name and hash of each plugin, in the order of their names."""
+    return sorted([plugin.name, plugin.sha256] for plugin in plugins)
