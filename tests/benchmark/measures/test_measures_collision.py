@@ -96,3 +96,18 @@ def test_its_log_has_a_name_for_every_number() -> None:
 def test_a_body_that_is_not_there_is_an_error() -> None:
     with pytest.raises(UnknownName, match="Did you mean 'girona500'"):
         CollisionSpec(name="c", target="girona50").bind(tank())
+
+
+def test_only_a_file_that_asks_for_it_ends_a_level_at_the_first_contact() -> None:
+    assert play(tank(), [], [hit(0.2)]).ends_level is None
+    world = tank(timestep=0.5)
+    collision = CollisionSpec(name="hits", target="girona500", stop_on_contact=True).bind(world)
+    collision.start()
+    assert collision.ends_level is None
+    world.advance()
+    world.touching["girona500"] = [hit(0.2)]
+    collision.update()
+    world.advance()
+    world.touching["girona500"] = []
+    collision.update()
+    assert collision.ends_level == "'girona500' touched 'blackbox' at 0.5 s"
