@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from uwsim.benchmark.bench import Bench, open_once
+from uwsim.benchmark.crew import play_all
 from uwsim.cli.bench import make_plan
 
 TRACKERS = ("ecc", "esm", "ic", "orb", "ssd-esm")
@@ -24,7 +25,7 @@ def totals(algorithm: str, out: Path) -> dict[float, float | None]:
         data_path=(),
     )
     inputs, renderer = open_once(plan)
-    result = Bench(plan=plan, out=out, inputs=inputs, renderer=renderer).run()
+    [result] = play_all([Bench(plan=plan, out=out, inputs=inputs, renderer=renderer)])
     fogs = [value for value in result.numbers("fog") if value is not None]
     return dict(zip(fogs, result.numbers("total"), strict=True))
 

@@ -1,100 +1,21 @@
 """Whole runs of a short benchmark: a black box, fog in three levels of 0.2 s, small pictures."""
 
-import hashlib
 import json
-import os
-import random
-import signal
-import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
+from short_benchmark import fingerprint, run, write_benchmark
 
-from uwsim.benchmark.bench import Bench, open_once
-from uwsim.benchmark.result import Result, load
+from uwsim.benchmark.result import load
 from uwsim.bus import Node
-from uwsim.cli.bench import make_plan
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, String
-
-BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="esm">
-  <measures>
-    <euclideanNorm u:value="mean">
-      <name>corners</name>
-      <groundTruth type="cornersFromCamera">
-        <camera>bowtech1</camera> <target>blackbox</target> <publishOn>autoInit</publishOn>
-      </groundTruth>
-      <target>cornersTopic</target>
-      <log>0.05</log>
-      <startOn><type>onInit</type></startOn> <stopOn><type>never</type></stopOn>
-    </euclideanNorm>
-    <time>
-      <name>taskTime</name>
-      <startOn><type>onInit</type></startOn> <stopOn><type>never</type></stopOn>
-    </time>
-  </measures>
-  <startOn><type>service</type><target>startBench</target></startOn>
-  <stopOn><type>never</type></stopOn>
-  <function>corners*2</function>
-  <sceneUpdater>
-    <sceneFogUpdater>
-      <initialValue>0</initialValue> <finalValue>1.0</finalValue> <step>0.4</step>
-      <interval>LENGTH</interval>
-    </sceneFogUpdater>
-  </sceneUpdater>
-</benchmark>
-"""
 
 
 @pytest.fixture
 def benchmark(tmp_path: Path) -> Path:
     return write_benchmark(tmp_path, "0.2")
-
-
-def write_benchmark(folder: Path, length: str) -> Path:
-    path = folder / "short.xml"
-    path.write_text(BENCHMARK.replace("LENGTH", length))
-    return path
-
-
-def run(
-    benchmark: Path,
-    out: Path,
-    *,
-    algorithm: str | None = None,
-    seed: int = 1,
-    repeat: int = 1,
-    mode: str | None = None,
-    levels: list[str] | None = None,
-    settings: list[str] | None = None,
-    workers: int = 1,
-) -> Result:
-    plan = make_plan(
-        str(benchmark),
-        scene=None,
-        algorithm=algorithm,
-        seed=seed,
-        repeat=repeat,
-        mode=mode,
-        levels=levels or [],
-        settings=settings or [],
-        compat=[],
-        data_path=(),
-    )
-    inputs, renderer = open_once(plan)
-    return Bench(plan=plan, out=out, inputs=inputs, renderer=renderer).run(workers=workers)
-
-
-def fingerprint(out: Path) -> dict[str, str]:
-    return {
-        str(path.relative_to(out)): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted(out.rglob("*"))
-        if path.is_file()
-        and path.name not in ("provenance.json", "report.html")
-        and "plots" not in path.parts
-    }
 
 
 class Silent:
@@ -196,34 +117,6 @@ def test_a_benchmark_has_a_row_for_each_level_with_all_cells(
     assert total == tuple(2 * c for c in corners if c is not None)
     assert result.values("corners.n") == (6.0, 6.0, 6.0)
     assert load(tmp_path / "a") == result
-
-
-@pytest.mark.slow
-def test_one_worker_and_two_give_the_same_bytes(benchmark: Path, tmp_path: Path) -> None:
-    run(benchmark, tmp_path / "one", repeat=4, workers=1)
-    run(benchmark, tmp_path / "two", repeat=4, workers=2)
-    assert fingerprint(tmp_path / "one") == fingerprint(tmp_path / "two")
-    assert load(tmp_path / "one").values("seed") == tuple(s for s in (1, 2, 3, 4) for _ in "abc")
-
-
-@pytest.mark.slow
-def test_a_killed_run_that_is_resumed_ends_with_the_same_bytes(tmp_path: Path) -> None:
-    benchmark = write_benchmark(tmp_path, "2")
-    command = [sys.executable, "-m", "uwsim.cli", "bench", str(benchmark), "--mode", "independent"]
-    whole, broken = tmp_path / "whole", tmp_path / "broken"
-    subprocess.run([*command, "--out", str(whole)], check=True, capture_output=True)
-    chance = random.Random(20261121)
-    for _ in range(3):
-        process = subprocess.Popen(
-            [*command, "--out", str(broken), "--resume"],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        time.sleep(chance.uniform(1.0, 4.0))
-        os.kill(process.pid, signal.SIGKILL)
-        process.wait()
-    subprocess.run([*command, "--out", str(broken), "--resume"], check=True, capture_output=True)
-    assert fingerprint(broken) == fingerprint(whole)
 
 
 def test_a_level_alone_is_the_level_within_the_sweep(benchmark: Path, tmp_path: Path) -> None:

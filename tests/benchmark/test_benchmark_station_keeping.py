@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from uwsim.benchmark.bench import Bench, open_once
+from uwsim.benchmark.crew import play_all
 from uwsim.benchmark.logs import Log, load_log
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.result import Result
@@ -142,7 +143,7 @@ def play(algorithm: str, out: Path, *settings: str) -> Station:
         data_path=(),
     )
     inputs, renderer = open_once(plan)
-    result = Bench(plan=plan, out=out, inputs=inputs, renderer=renderer).run()
+    [result] = play_all([Bench(plan=plan, out=out, inputs=inputs, renderer=renderer)])
     assert result.values("status") == ("ok",)
     names = ("centroid", "objectCentered", "offset")
     logs = {name: load_log(out / f"measure-{name}.csv") for name in names}

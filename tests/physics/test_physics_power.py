@@ -105,7 +105,10 @@ def test_a_file_says_what_its_actuators_draw(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ("<efficiency>0</efficiency>", "<efficiency> is '0'; expected a number <= 1.41 and > 0 [1]"),
+        (
+            "<efficiency>0</efficiency>",
+            "<efficiency> is '0'; expected a number <= 1.41 and > 0 [1]",
+        ),
         ("<efficiency>1.5</efficiency>", "<efficiency> is '1.5'; expected a number"),
         ("<power>1 x</power>", "<power> holds 'x'; expected numbers"),
         ("<power>1 1 1 1 1 1 1 1 1 1</power>", "power has 10 coefficients; expected 1 to 9"),

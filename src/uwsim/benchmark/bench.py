@@ -1,42 +1,30 @@
-"""A whole benchmark: its units played, here or on several processes, and one result written.
+"""A whole benchmark: what is to be played, and one result out of what was.
 
 Rows go to disk as levels end (`unit_file`); when the run is over, or breaks, they are put together
-in the order of the plan. One worker or several, killed and resumed or not: the same bytes.
+in the order of the plan. Whoever played them (`crew`), killed and resumed or not: the same bytes.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import multiprocessing
-import os
-import threading
-import time
-from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import cv2
 import mujoco
 import numpy as np
 
 from .. import __version__
-from ..errors import RunFailed
 from ..simulation import Simulation
 from . import unit_file
 from .logs import TIME, Log, save_log
 from .original_format import save_dat, save_data
 from .plan import Plan, Unit
-from .play import Row, UnitEnd, bind_all, play
+from .play import bind_all
 from .plugin import blamed, check_bound, hashes
 from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture, save
 from .updaters import chain, references
-
-OnLevel = Callable[[], None]
-PICTURES = "pictures"
 
 
 @dataclass(kw_only=True)
@@ -52,37 +40,23 @@ class Bench:
     renderer: str
     """What draws the pictures (`open_once`)."""
     n_resumed: int = 0
-    """Levels that were on disk already when `run` began."""
+    """Levels that were on disk already when the run began."""
     simulated_s: float = 0.0
     """Length of all levels of the result together [s]."""
 
-    def run(self, *, workers: int = 1, on_level: OnLevel = lambda: None) -> Result:
-        """Play what is not finished yet, and write the result.
-
-        Args:
-            workers: number of processes; 1 plays in this one.
-            on_level: called whenever a level has ended.
-
-        Raises:
-            NeverStarted: the start trigger never went on; what was finished is kept.
-            ResultError: what is stored belongs to another run, or cannot be reproduced.
-        """
+    def begin(self) -> list[Unit]:
+        """Make the directory, and return the units that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
         self.n_resumed = self.n_finished()
-        units = [unit for unit in self.plan.units() if self._stored(unit).end is None]
-        try:
-            if workers > 1 and len(units) > 1:
-                self._run_on_processes(units, min(workers, len(units)), on_level)
-            else:
-                for unit in units:
-                    play_unit(self, unit, on_level)
-        finally:
-            result = self.write()
-        return result
+        return [unit for unit in self.plan.units() if self._stored(unit).end is None]
 
     def n_finished(self) -> int:
         """Count the levels that are on disk."""
-        return sum(len(self._stored(unit).rows) for unit in self.plan.units())
+        return sum(self.n_rows(unit) for unit in self.plan.units())
+
+    def n_rows(self, unit: Unit) -> int:
+        """Count the levels of one unit that are on disk."""
+        return len(self._stored(unit).rows)
 
     def head(self, unit: Unit) -> unit_file.Record:
         """Say what a unit is: equal heads mean that its rows must be equal."""
@@ -106,95 +80,6 @@ class Bench:
 
     def _stored(self, unit: Unit) -> unit_file.Stored:
         return unit_file.read(self.out, unit.index, self.head(unit))
-
-    def _run_on_processes(self, units: list[Unit], workers: int, on_level: OnLevel) -> None:
-        os.environ.setdefault("LP_NUM_THREADS", "1")
-        seen = self.n_finished()
-        context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(
-            workers, mp_context=context, initializer=_leave_with, initargs=(os.getpid(),)
-        ) as pool:
-            pending = {pool.submit(play_unit, self, unit) for unit in units}
-            try:
-                while pending:
-                    done, pending = wait(pending, timeout=0.3, return_when=FIRST_COMPLETED)
-                    for future in done:
-                        future.result()
-                    for _ in range(seen, now := self.n_finished()):
-                        on_level()
-                    seen = now
-            except BrokenProcessPool:
-                raise RunFailed(
-                    "A worker process died. Finished rows are kept; go on with --resume."
-                ) from None
-            finally:
-                for future in pending:
-                    future.cancel()
-
-
-def _leave_with(parent: int) -> None:
-    """Have this worker end when its parent is gone, however that came to its end."""
-
-    def watch() -> None:
-        while os.getppid() == parent:
-            time.sleep(1.0)
-        os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
-
-
-def play_unit(bench: Bench, unit: Unit, on_level: OnLevel = lambda: None) -> None:
-    """Play one unit and store its rows as they come."""
-    n_levels = len(unit.levels)
-    file = unit_file.UnitFile(bench.out, unit.index, bench.head(unit))
-    try:
-        for n, played in enumerate(play(bench.plan, unit)):
-            if isinstance(played, UnitEnd):
-                file.finish(
-                    {
-                        "facts": {k: list(v) for k, v in played.facts.items()},
-                        "parameters": played.parameters,
-                        "streams": [list(stream) for stream in played.streams],
-                        "notes": list(played.notes),
-                    }
-                )
-            else:
-                row = unit.index * n_levels + n
-                file.add(_record(played, _save_pictures(bench.out, row, played)))
-                on_level()
-    finally:
-        file.close()
-
-
-def _save_pictures(out: Path, row: int, played: Row) -> list[dict[str, object]]:
-    pictures: list[dict[str, object]] = []
-    for shot in played.shots:
-        name = f"{PICTURES}/{row:05d}-{shot.camera}.png"
-        (out / PICTURES).mkdir(exist_ok=True)
-        _, png = cv2.imencode(".png", np.ascontiguousarray(shot.pixels[..., ::-1]))
-        draft = out / f"{name}.part"
-        draft.write_bytes(png.tobytes())
-        draft.replace(out / name)
-        pictures.append(
-            {"camera": shot.camera, "file": name, "truth": shot.truth, "estimate": shot.estimate}
-        )
-    return pictures
-
-
-def _record(played: Row, pictures: list[dict[str, object]]) -> unit_file.Record:
-    return {
-        "values": [value for _, value in played.values],
-        "measures": played.measures,
-        "details": played.details,
-        "total": played.total,
-        "status": played.status,
-        "missing": played.missing,
-        "ended_at": played.ended_at,
-        "duration": played.duration,
-        "logs": played.logs,
-        "log_headers": played.log_headers,
-        "pictures": pictures,
-    }
 
 
 def collect(bench: Bench) -> tuple[Result, list[Log], float]:

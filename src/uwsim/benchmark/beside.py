@@ -18,6 +18,7 @@ from typing import Self
 
 from ..errors import RunFailed, UwsimError
 from .bench import Bench
+from .crew import play_all
 
 Job = Bench | Path
 """A benchmark is played; of a result directory the report is drawn."""
@@ -87,7 +88,7 @@ def _serve(there: Connection, parent: int) -> None:
             return
         try:
             if isinstance(job, Bench):
-                job.run()
+                play_all([job])
                 from .report import write_report  # while the levels are played
             else:
                 from .report import write_report

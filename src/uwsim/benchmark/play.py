@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from ..bus import Algorithm
 from ..errors import NeverStarted
 from ..messages import String
-from ..simulation import Simulation
+from ..simulation import Simulation, Studio
 from .facts import Fact, visibility_facts
 from .gate import Gate
 from .gated import Gated, Sample
@@ -84,8 +84,13 @@ class UnitEnd:
     """What the reader of the result should know, besides the values."""
 
 
-def play(plan: Plan, unit: Unit) -> Iterator[Row | UnitEnd]:
+def play(plan: Plan, unit: Unit, *, studio: Studio | None = None) -> Iterator[Row | UnitEnd]:
     """Play a unit; yields a Row as each level ends, and at last the UnitEnd.
+
+    Args:
+        plan: what is played.
+        unit: one of its units.
+        studio: lends the renderer; without one the unit has a renderer of its own.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
@@ -98,6 +103,7 @@ def play(plan: Plan, unit: Unit) -> Iterator[Row | UnitEnd]:
         data_path=plan.data_path,
         compatibility=plan.compatibility,
         is_blind=plan.is_blind,
+        studio=studio,
     )
     try:
         yield from _Playing(plan, unit, simulation).rows()

@@ -80,10 +80,11 @@ class UnitFile:
             self._write({"row": row})
         self._publish()
 
-    def add(self, row: Record) -> None:
-        """Add a row, or hold it against the stored one."""
+    def add(self, row: Record) -> bool:
+        """Add a row, or hold it against the stored one; returns whether it is new."""
         row = json.loads(_text(row))
-        if self._n_rows < len(self._stored.rows):
+        is_new = self._n_rows >= len(self._stored.rows)
+        if not is_new:
             before = self._stored.rows[self._n_rows]
             if _text(before) != _text(row):
                 raise ReplayDiffers(
@@ -94,6 +95,7 @@ class UnitFile:
         else:
             self._write({"row": row})
         self._n_rows += 1
+        return is_new
 
     def finish(self, end: Record) -> None:
         """Say that the unit is done."""

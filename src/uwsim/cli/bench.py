@@ -265,6 +265,10 @@ def number_or_text(text: str) -> float | str:
 
 def play_with_progress(run: Bench, workers: int) -> Result:
     """Play, with a bar that says how many levels are done and how long the rest will take."""
+    from ..benchmark.crew import Here, play_all
+    from ..benchmark.processes import Processes
+
+    crew = Here() if workers == 1 else Processes(workers)
     total = sum(len(unit.levels) for unit in run.plan.units())
     columns = (
         TextColumn("{task.description}"),
@@ -277,10 +281,11 @@ def play_with_progress(run: Bench, workers: int) -> Result:
     console = Console(stderr=True)
     title = f"{Path(run.plan.benchmark.path).stem} ({run.plan.algorithm_name})"
     if not console.is_terminal:
-        return run.run(workers=workers, on_level=plain_progress(title, run.n_finished(), total))
+        on_level = plain_progress(title, run.n_finished(), total)
+        return play_all([run], crew, on_level=on_level)[0]
     with Progress(*columns, console=console) as progress:
         task = progress.add_task(title, total=total, completed=run.n_finished())
-        return run.run(workers=workers, on_level=lambda: progress.advance(task))
+        return play_all([run], crew, on_level=lambda: progress.advance(task))[0]
 
 
 def plain_progress(title: str, done: int, total: int) -> Callable[[], None]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import moderngl
@@ -27,13 +29,12 @@ def create_context() -> moderngl.Context:
     Raises:
         NoGraphics: there is no usable OpenGL; the message says what to install.
     """
-    for name, value in ENVIRONMENT.items():
-        os.environ.setdefault(name, value)
     failures: list[Exception] = []
     for device in range(N_DEVICES):
         settings: dict[str, Any] = {"standalone": True, "backend": "egl", "device_index": device}
         try:
-            context = moderngl.create_context(require=330, **settings)
+            with _environment():
+                context = moderngl.create_context(require=330, **settings)
         except Exception as error:  # glcontext and moderngl raise bare Exceptions
             failures.append(error)
         else:
@@ -44,3 +45,15 @@ def create_context() -> moderngl.Context:
         "No OpenGL 3.3 context could be made. Install Mesa's software renderer with: "
         f"apt-get install libegl1 libgl1 libgl1-mesa-dri ({why})"
     ) from failures[0]
+
+
+@contextmanager
+def _environment() -> Iterator[None]:
+    """Set `ENVIRONMENT` while Mesa looks: processes started later choose for themselves."""
+    ours = {name: value for name, value in ENVIRONMENT.items() if name not in os.environ}
+    os.environ.update(ours)
+    try:
+        yield
+    finally:
+        for name in ours:
+            del os.environ[name]

@@ -1,0 +1,182 @@
+"""Who plays what: the units to be played, and the protocol of those who play them.
+
+A crew takes units from the roster and tells it what became of them. The roster knows how often a
+unit has lost its worker, and whose units are not worth playing any more; a crew knows processors.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter, deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Protocol
+
+from ..errors import RunFailed
+from ..simulation import Studio
+from .bench import Bench
+from .plan import Unit
+from .result import Result
+from .unit_work import Event, Keeper, perform
+
+OnLevel = Callable[[], None]
+MOST_RETRIES = 3
+"""How often a unit is played again after it has lost its worker."""
+ENVIRONMENT = {"LP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
+"""Of a worker, where the user has not said otherwise: one thread each, for there is one a core."""
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """A unit of one of the benchmarks that are played together."""
+
+    bench: Bench
+    """Whose unit it is."""
+    unit: Unit
+    """What is to be played."""
+
+    def __str__(self) -> str:
+        levels = self.unit.levels
+        which = ", ".join(f"{name}={value:g}" for name, value in levels[0].values)
+        played = which if len(levels) == 1 else f"{len(levels)} levels"
+        name = self.bench.plan.algorithm_name
+        return f"unit {self.unit.index} ({name}, seed {self.unit.seed}, {played})"
+
+
+class Crew(Protocol):
+    """Whoever plays units."""
+
+    def play(self, roster: Roster) -> None:
+        """Take jobs from the roster until there are none, and report each."""
+
+
+class Roster:
+    """Jobs that are waiting, in order, and what became of the others.
+
+    Where a unit fails, the rest of its benchmark is not played: it would fail alike. The other
+    benchmarks go on. `failure` is the first of all.
+
+    Args:
+        jobs: what is to be played.
+        on_level: called for every level that was not on disk before.
+    """
+
+    def __init__(self, jobs: Sequence[Job], on_level: OnLevel = lambda: None) -> None:
+        self.failure: BaseException | None = None
+        """The first failure."""
+        self.n_lost = 0
+        """How often a worker was lost."""
+        self._waiting = deque(jobs)
+        self._on_level = on_level
+        self._losses: Counter[Job] = Counter()
+        self._to_come = {job: len(job.unit.levels) - job.bench.n_rows(job.unit) for job in jobs}
+
+    def __len__(self) -> int:
+        """How many jobs are waiting."""
+        return len(self._waiting)
+
+    def take(self) -> Job | None:
+        """Take the next job; None when there is none now."""
+        return self._waiting.popleft() if self._waiting else None
+
+    def level(self, job: Job) -> None:
+        """A level of it has ended that was not on disk before."""
+        if self._to_come[job] > 0:
+            self._to_come[job] -= 1
+            self._on_level()
+
+    def done(self, job: Job) -> None:
+        """It is over, and on disk."""
+        while self._to_come[job] > 0:
+            self.level(job)
+
+    def lost(self, job: Job, why: str) -> None:
+        """Its worker is gone: it is played again, and next, unless that has happened too often."""
+        self.n_lost += 1
+        self._losses[job] += 1
+        if self._losses[job] <= MOST_RETRIES:
+            self._waiting.appendleft(job)
+            return
+        times = self._losses[job]
+        self.failed(
+            job,
+            RunFailed(
+                f"{job} lost its worker {times} times, the last time {why}. "
+                "Finished rows are kept; go on with --resume."
+            ),
+        )
+
+    def failed(self, job: Job, error: BaseException) -> None:
+        """It cannot be played."""
+        self.failure = self.failure or error
+        self._waiting = deque(other for other in self._waiting if other.bench is not job.bench)
+
+
+class Here:
+    """This process, one unit after the other."""
+
+    def play(self, roster: Roster) -> None:
+        """Play everything."""
+        studio = Studio()
+        try:
+            while (job := roster.take()) is not None:
+                try:
+                    for _ in play_and_keep(job.bench, job.unit, studio):
+                        roster.level(job)
+                except Exception as error:
+                    roster.failed(job, error)
+                else:
+                    roster.done(job)
+        finally:
+            studio.close()
+
+
+def play_and_keep(bench: Bench, unit: Unit, studio: Studio) -> Iterator[Event]:
+    """Play a unit where its result is; yields the levels that were not on disk before."""
+    keeper = Keeper(bench, unit)
+    try:
+        for event in perform(bench.plan, unit, studio):
+            if keeper.keep(event):
+                yield event
+    finally:
+        keeper.close()
+
+
+def play_all(
+    benches: Sequence[Bench], crew: Crew | None = None, *, on_level: OnLevel = lambda: None
+) -> list[Result]:
+    """Play what is not finished yet of some benchmarks, and write their results.
+
+    Args:
+        benches: what is to be played; their units are spread over the same workers.
+        crew: who plays; without one, this process.
+        on_level: called for every level that was not on disk before.
+
+    Raises:
+        NeverStarted: a start trigger never went on.
+        ResultError: what is stored belongs to another run, or cannot be reproduced.
+        RunFailed: a unit lost its worker too often.
+        UwsimError: whatever else was the first to go wrong. What is finished is kept, and written.
+    """
+    jobs = [Job(bench, unit) for bench in benches for unit in bench.begin()]
+    roster = Roster(jobs, on_level)
+    try:
+        (crew or Here()).play(roster)
+    finally:
+        results = [bench.write() for bench in benches]
+    if roster.failure is not None:
+        raise roster.failure
+    return results
+
+
+@contextmanager
+def worker_environment() -> Iterator[None]:
+    """Let processes that are started meanwhile have `ENVIRONMENT`."""
+    ours = {name: value for name, value in ENVIRONMENT.items() if name not in os.environ}
+    os.environ.update(ours)
+    try:
+        yield
+    finally:
+        for name in ours:
+            del os.environ[name]

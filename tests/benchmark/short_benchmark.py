@@ -1,0 +1,85 @@
+"""A benchmark that is over in a second: a black box, fog in three levels, small pictures."""
+
+import hashlib
+from pathlib import Path
+from typing import Any
+
+from uwsim.benchmark.bench import Bench, open_once
+from uwsim.benchmark.crew import play_all
+from uwsim.benchmark.result import Result
+from uwsim.cli.bench import make_plan
+
+BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="esm">
+  <measures>
+    <euclideanNorm u:value="mean">
+      <name>corners</name>
+      <groundTruth type="cornersFromCamera">
+        <camera>bowtech1</camera> <target>blackbox</target> <publishOn>autoInit</publishOn>
+      </groundTruth>
+      <target>cornersTopic</target>
+      <log>0.05</log>
+      <startOn><type>onInit</type></startOn> <stopOn><type>never</type></stopOn>
+    </euclideanNorm>
+    <time>
+      <name>taskTime</name>
+      <startOn><type>onInit</type></startOn> <stopOn><type>never</type></stopOn>
+    </time>
+  </measures>
+  <startOn><type>service</type><target>startBench</target></startOn>
+  <stopOn><type>never</type></stopOn>
+  <function>corners*2</function>
+  <sceneUpdater>
+    <sceneFogUpdater>
+      <initialValue>0</initialValue> <finalValue>1.0</finalValue> <step>0.4</step>
+      <interval>LENGTH</interval>
+    </sceneFogUpdater>
+  </sceneUpdater>
+</benchmark>
+"""
+
+
+def write_benchmark(folder: Path, length: str) -> Path:
+    path = folder / "short.xml"
+    path.write_text(BENCHMARK.replace("LENGTH", length))
+    return path
+
+
+def bench_of(
+    benchmark: Path,
+    out: Path,
+    *,
+    algorithm: str | None = None,
+    seed: int = 1,
+    repeat: int = 1,
+    mode: str | None = None,
+    levels: list[str] | None = None,
+    settings: list[str] | None = None,
+) -> Bench:
+    plan = make_plan(
+        str(benchmark),
+        scene=None,
+        algorithm=algorithm,
+        seed=seed,
+        repeat=repeat,
+        mode=mode,
+        levels=levels or [],
+        settings=settings or [],
+        compat=[],
+        data_path=(),
+    )
+    inputs, renderer = open_once(plan)
+    return Bench(plan=plan, out=out, inputs=inputs, renderer=renderer)
+
+
+def run(benchmark: Path, out: Path, **options: Any) -> Result:
+    return play_all([bench_of(benchmark, out, **options)])[0]
+
+
+def fingerprint(out: Path) -> dict[str, str]:
+    return {
+        str(path.relative_to(out)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(out.rglob("*"))
+        if path.is_file()
+        and path.name not in ("provenance.json", "report.html")
+        and "plots" not in path.parts
+    }
