@@ -13,8 +13,10 @@ from typing import Any
 import pytest
 
 from uwsim.benchmark.bench import Bench, open_once
+from uwsim.benchmark.crew import play_all
 from uwsim.benchmark.plan import Plan
 from uwsim.benchmark.plugin import Plugin, blamed, read_plugin
+from uwsim.benchmark.processes import Processes
 from uwsim.cli import main
 from uwsim.cli.bench import make_plan
 from uwsim.cli.plugins import bundled_tables, read_plugins
@@ -169,7 +171,7 @@ def test_a_benchmark_of_nothing_but_own_parts_is_played_by_two_workers(folder: P
     plan = plan_of("b.xml", folder / "parts.py")
     inputs, renderer = open_once(plan)
     run = Bench(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
-    result = run.run(workers=2)
+    [result] = play_all([run], Processes(2))
     assert result.values("murk") == (0.0, 0.5)
     assert result.columns[0].unit == "1/m"
     assert result.numbers("steps") == (100.0, 100.0)  # on at its first step: 0.1 s / 2 ms, twice
