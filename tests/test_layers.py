@@ -19,6 +19,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "messages": BASE,
     "bus": GROUND | {"bus"},
     "world": BASE,
+    "statistics": GROUND | {"statistics"},
     "currents": BASE | {"currents"},
     "sensors": BASE | {"sensors", "devices"},
     "devices": BASE | {"sensors", "devices"},
@@ -29,7 +30,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "simulation": ENGINES | {"simulation"},
     "interfaces": ENGINES | {"simulation", "interfaces"},
     "algorithms": {"messages", "bus", "geometry", "errors", "jit", "algorithms"},
-    "benchmark": PARTS | {"simulation", "benchmark"},
+    "benchmark": PARTS | {"simulation", "statistics", "benchmark"},
     "viewer": ENGINES | {"simulation", "viewer"},
     "cli": ENGINES | {"simulation", "interfaces", "algorithms", "benchmark", "viewer", "cli"},
 }

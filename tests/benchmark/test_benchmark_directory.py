@@ -6,7 +6,8 @@ from uwsim.benchmark.directory import alone_in, prepare
 from uwsim.errors import BadSetting
 
 RESULT = (
-    "result.json", "result.dat", "provenance.json", "report.html", "measure-corners.csv",
+    "result.json", "result.dat", "summary.csv", "provenance.json", "report.html",
+    "measure-corners.csv",
     "units/00000.jsonl", "plots/total.png", "pictures/00000-bowtech1.png", "control/result.json",
     "control/units/00000.jsonl",
 )  # fmt: skip

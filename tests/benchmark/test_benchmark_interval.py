@@ -1,58 +1,20 @@
-"""Intervals against published numbers."""
+"""Means, rates and their intervals at every level."""
 
 from __future__ import annotations
 
-import numpy as np
-import pytest
+import csv
+import io
 
-from uwsim.benchmark.interval import (
-    binomial_interval,
-    mean_interval,
-    per_level,
-    rows_by_level,
-)
+from synthetic_results import one_level, visibility
+
+from uwsim.benchmark.interval import per_level, rows_by_level, seeds_of, success_per_level
 from uwsim.benchmark.result import Column, Missing, Result
+from uwsim.benchmark.summary import summary_text
+from uwsim.statistics import mean_interval, rate
 
 
-def test_students_own_sleep_data_has_the_published_interval() -> None:
-    # Student 1908; R: t.test(extra ~ group, data = sleep, paired = TRUE) -> 0.7001142 2.4598858
-    hours = [1.2, 2.4, 1.3, 1.3, 0.0, 1.0, 1.8, 0.8, 4.6, 1.4]
-    interval = mean_interval(hours)
-    assert interval.mean == pytest.approx(1.58, abs=1e-12)
-    assert interval.low == pytest.approx(0.7001142, abs=5e-8)
-    assert interval.high == pytest.approx(2.4598858, abs=5e-8)
-
-
-def test_mendels_peas_have_the_published_interval() -> None:
-    # R: binom.test(682, 682 + 243) -> 0.7076683 0.7654066
-    assert binomial_interval(682, 925) == pytest.approx((0.7076683, 0.7654066), abs=5e-8)
-
-
-def test_never_and_always_are_not_certainty() -> None:
-    assert binomial_interval(0, 10) == pytest.approx((0.0, 1 - 0.025**0.1), abs=1e-12)
-    assert binomial_interval(10, 10) == pytest.approx((0.025**0.1, 1.0), abs=1e-12)
-    assert binomial_interval(0, 0) is None
-
-
-def test_one_value_has_a_mean_and_no_limits_and_none_has_nothing() -> None:
-    one, none = mean_interval([3.0]), mean_interval([])
-    assert (one.n, one.mean, one.low, one.half) == (1, 3.0, None, None)
-    assert (none.n, none.mean, none.std) == (0, None, None)
-
-
-def test_the_interval_contains_the_truth_in_95_of_100_cases() -> None:
-    draws = np.random.Generator(np.random.Philox(1)).normal(2.0, 3.0, (2000, 4))
-    hits = 0
-    for draw in draws.tolist():
-        interval = mean_interval(draw)
-        assert interval.low is not None
-        assert interval.high is not None
-        hits += interval.low < 2.0 < interval.high
-    assert 0.93 < hits / 2000 < 0.97
-
-
-def test_repeats_are_gathered_by_level_and_what_is_missing_is_counted() -> None:
-    result = Result(
+def two_seeds() -> Result:
+    return Result(
         inputs={},
         run={},
         columns=(
@@ -69,8 +31,49 @@ def test_repeats_are_gathered_by_level_and_what_is_missing_is_counted() -> None:
         ),
         missing=(Missing(row=3, column="corners", why="lost at 3 s"),),
     )
+
+
+def test_repeats_are_gathered_by_level_and_what_is_missing_is_counted() -> None:
+    result = two_seeds()
     clear, foggy = per_level(result, "corners")
     assert rows_by_level(result) == {(0.0,): [0, 2], (0.5,): [1, 3]}
     assert (clear.interval.n, clear.interval.mean, clear.n_missing) == (2, 3.0, 0)
     assert (foggy.interval.n, foggy.interval.mean, foggy.n_missing) == (1, 8.0, 1)
     assert foggy.why == "lost at 3 s"
+
+
+def test_success_is_what_ended_ok_with_exact_limits_and_its_seeds() -> None:
+    clear, foggy = success_per_level(two_seeds())
+    assert (clear.success, foggy.success) == (rate(2, 2), rate(1, 2))
+    assert clear.seeds == foggy.seeds == (1, 2)
+
+
+def test_a_row_without_seed_or_status_has_those_of_the_run_or_none() -> None:
+    assert set(seeds_of(visibility(seeds=(7,)))) == {7}
+    bare = Result(inputs={}, run={}, columns=(Column(name="none", kind="level"),), rows=((1.0,),))
+    assert success_per_level(bare)[0].success is None
+    assert seeds_of(bare) == (None,)
+
+
+def test_the_summary_has_a_line_for_every_column_at_every_level() -> None:
+    result = visibility(seeds=(1, 2, 3, 4))
+    lines = list(csv.DictReader(io.StringIO(summary_text(result))))
+    assert len(lines) == 27 * 3
+    first = lines[1]
+    values = [
+        v for v, row in zip(result.numbers("corners"), result.rows, strict=True) if not row[2]
+    ]
+    expected = mean_interval([v for v in values if v is not None])
+    assert (first["fog [1/m]"], first["column"], first["unit"]) == ("0.0", "corners", "px")
+    assert [float(first[name]) for name in ("n", "mean", "std", "low", "high")] == [
+        expected.n, expected.mean, expected.std, expected.low, expected.high,
+    ]  # fmt: skip
+    assert (first["n_ok"], first["n_repeats"], first["seeds"]) == ("4", "4", "1 2 3 4")
+    last = lines[-1]
+    assert (last["n"], last["mean"], last["n_missing"], last["n_ok"]) == ("0", "", "4", "0")
+    assert float(last["rate_high"]) == rate(0, 4).high
+
+
+def test_the_summary_of_one_repeat_has_no_limits_but_those_of_the_rate() -> None:
+    line = next(csv.DictReader(io.StringIO(summary_text(one_level()))))
+    assert (line["n"], line["std"], line["low"], line["rate_high"]) == ("1", "", "", "1.0")

@@ -18,7 +18,7 @@ REPORT = "report.html"
 """What a reader opens first."""
 OURS = re.compile(
     r"""(?x) (control/)? (
-        result\.json | result\.dat | provenance\.json | report\.html
+        result\.json | result\.dat | summary\.csv | provenance\.json | report\.html
       | measure-[^/]+\.csv | benchmark-[^/]+\.data
       | units/\d+\.(jsonl|part)
       | plots/[^/]+\.png

@@ -23,7 +23,7 @@ from PIL import Image
 
 from ..errors import ResultError
 from .directory import CONTROL, REPORT
-from .interval import binomial_interval, per_level, rows_by_level
+from .interval import per_level, rows_by_level
 from .logs import logs_of
 from .overlay import overlay
 from .plots import LEVEL_WORDS, OVERVIEW, algorithm_of, draw_plots, written_unit
@@ -61,8 +61,8 @@ class Ending:
     """``ok``, ``lost``, ``timeout``, ..."""
     n: int
     """Rows that ended so."""
-    rate: str
-    """Share of all rows with its exact 95 % interval."""
+    share: str
+    """Share of all rows; no interval, for the levels of one repeat are no repeats."""
     first: str
     """First level of each repeat that ended so."""
     reasons: tuple[str, ...]
@@ -210,16 +210,12 @@ def _endings(result: Result) -> list[Ending]:
     found = []
     for name in sorted(set(cells), key=lambda s: (s != "ok", -cells.count(s), s)):
         rows = [row for row, cell in enumerate(cells) if cell == name]
-        low, high = binomial_interval(len(rows), len(cells)) or (0.0, 1.0)
-        share = f"{100 * len(rows) / len(cells):.0f} %"
-        if _n_repeats(result) > 1:
-            share += f" ({100 * low:.0f} to {100 * high:.0f})"
         reasons = dict.fromkeys(why for row in rows for why in result.reasons(row))
         found.append(
             Ending(
                 status=name,
                 n=len(rows),
-                rate=share,
+                share=f"{100 * len(rows) / len(cells):.0f} %",
                 first=_first_at(result, [(repeats[row], levels[row]) for row in rows]),
                 reasons=tuple(reasons)[:5],
             )

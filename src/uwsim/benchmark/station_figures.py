@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..geometry import Array
-from .interval import mean_interval
+from ..statistics import mean_interval
 from .plots import FAINT, MARKERS, PALETTE, styled_figure
 from .station_keeping import Loop, Station, Swing, predicted
 
@@ -80,9 +80,16 @@ def over_current(
                     for current in currents
                 ]
                 means = np.array([found.mean for found in limits], dtype=np.float64)
-                halves = np.array([found.half or 0.0 for found in limits])
+                spread = np.array(
+                    [
+                        (0.0, 0.0)
+                        if found.mean is None or found.low is None or found.high is None
+                        else (found.mean - found.low, found.high - found.mean)
+                        for found in limits
+                    ]
+                )
                 axes.errorbar(
-                    currents, means, yerr=halves if most > 1 else None, capsize=2.5,
+                    currents, means, yerr=spread.T if most > 1 else None, capsize=2.5,
                     fmt=MARKERS[i % len(MARKERS)], color=colour, label=controller, zorder=3,
                 )  # fmt: skip
                 line = np.linspace(0.0, max(currents), 50)

@@ -7,7 +7,8 @@
      0.00     1.83   4.24   2.0  ok
      1.20        -      -  50.0  lost    tracker lost at 48.6 s: ZNCC 0.43 on 5 frames
 
-With several repeats a measure is its mean and half of the 95 % interval, ``1.83 ± 0.12``.
+With several repeats a measure is its mean with the 95 % interval, ``1.83 [1.71, 1.99]``, and the
+status says how many ended ``ok``, with the interval of that rate: ``8 of 10 ok, 44 to 97 %``.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ from dataclasses import dataclass
 from rich.table import Table
 from rich.text import Text
 
-from .interval import Interval, per_level, rows_by_level
+from ..statistics import Interval, Rate, rate
+from .interval import per_level, rows_by_level
 from .result import Column, Result
 
 GAP = "-"
@@ -42,7 +44,7 @@ class Line:
     cells: tuple[str, ...]
     """Level, measures, total, time; ``-`` where there is nothing."""
     status: str
-    """``ok``, ``lost``, ... or, over repeats, ``8 of 10 ok``."""
+    """``ok``, ``lost``, ... or, over repeats, ``8 of 10 ok, 44 to 97 %``."""
     ok: bool
     """Whether every repeat ended ``ok``."""
     why: str
@@ -138,11 +140,19 @@ def unit_of(result: Result, column: Column) -> str:
 
 
 def interval_text(interval: Interval, decimals: int) -> str:
-    """Return ``1.83 ± 0.12``, ``1.83`` when there is one value, ``-`` when there is none."""
+    """Return ``1.83 [1.71, 1.99]``, ``1.83`` without limits, ``-`` without values."""
     if interval.mean is None:
         return GAP
     text = number_text(interval.mean, decimals)
-    return text if not interval.half else f"{text} ± {number_text(interval.half, decimals)}"
+    if interval.low is None or interval.high is None:
+        return text
+    low, high = number_text(interval.low, decimals), number_text(interval.high, decimals)
+    return text if low == high == text else f"{text} [{low}, {high}]"
+
+
+def rate_text(found: Rate) -> str:
+    """Return ``44 to 97 %``, the limits of a rate."""
+    return f"{100 * found.low:.0f} to {100 * found.high:.0f} %"
 
 
 def number_text(value: float, decimals: int) -> str:
@@ -191,7 +201,9 @@ def _status(result: Result, rows: Sequence[int]) -> str:
     found = _statuses(result, rows)
     if len(found) < 2:
         return "".join(found)
-    return f"{found.count('ok')} of {len(found)} ok"
+    n_ok = found.count("ok")
+    limits = rate(n_ok, len(found))
+    return f"{n_ok} of {len(found)} ok" + (f", {rate_text(limits)}" if limits else "")
 
 
 def _why(result: Result, rows: Sequence[int]) -> str:

@@ -1,0 +1,49 @@
+"""How many repeats would be enough: planning, not inference."""
+
+from __future__ import annotations
+
+import math
+
+from .paired import fewest_for
+
+MOST = 100_000
+"""More repeats than these are not counted."""
+
+
+def power(n: int, d: float, alpha: float = 0.05) -> float:
+    r"""Return the probability that n pairs show a true effect :math:`d_z` of size d.
+
+    Two-sided, by the paired t-test (Cohen 1988): with :math:`t_c` the quantile
+    :math:`1 - \alpha/2` of Student's t with n - 1 degrees of freedom,
+
+    .. math:: 1 - T_{n-1}(t_c;\, d\sqrt n) + T_{n-1}(-t_c;\, d\sqrt n)
+
+    where T is the noncentral distribution. The sign-flip test is as powerful but for its steps.
+    """
+    from scipy.special import nctdtr, stdtrit
+
+    shift = abs(d) * math.sqrt(n)
+    critical = float(stdtrit(n - 1, 1 - alpha / 2))
+    if shift - critical > 30:
+        return 1.0
+    above = 1 - float(nctdtr(n - 1, shift, critical))
+    return above + float(nctdtr(n - 1, shift, -critical))
+
+
+def repeats_needed(d: float, *, alpha: float = 0.05, wanted: float = 0.8) -> int | None:
+    """Return the least number of pairs that shows an effect of size d with power ``wanted``.
+
+    Never fewer than the sign-flip test needs to reach ``alpha`` at all (`fewest_for`); None where
+    that takes more than `MOST`, as it does without an effect.
+    """
+    low, high = 1, max(2, fewest_for(alpha))
+    if power(high, d, alpha) >= wanted:
+        return high
+    while power(high, d, alpha) < wanted:
+        low, high = high, 2 * high
+        if low > MOST:
+            return None
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if power(middle, d, alpha) >= wanted else (middle, high)
+    return high if high <= MOST else None

@@ -1,0 +1,45 @@
+"""The interval of a rate of success."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rate:
+    """How often something succeeded, and between which limits the true rate lies."""
+
+    n: int
+    """Number of trials, at least 1."""
+    successes: int
+    """Number of successes."""
+    low: float
+    """Lower limit, 0 to 1."""
+    high: float
+    """Upper limit, 0 to 1."""
+
+    @property
+    def value(self) -> float:
+        """Share of successes, 0 to 1."""
+        return self.successes / self.n
+
+
+def rate(successes: int, n: int, *, confidence: float = 0.95) -> Rate | None:
+    r"""Return the share of successes with its exact limits; None without trials.
+
+    The limits are those of Clopper and Pearson (1934), the rates at which so many successes, or so
+    few, would be seen with probability :math:`\alpha/2`:
+
+    .. math:: B^{-1}_{\alpha/2}(k, n-k+1), \qquad B^{-1}_{1-\alpha/2}(k+1, n-k)
+
+    They contain the truth with *at least* the stated probability whatever it is, hence more often
+    for most rates: conservative by construction.
+    """
+    from scipy.special import betaincinv
+
+    if n == 0:
+        return None
+    tail = (1 - confidence) / 2
+    low = float(betaincinv(successes, n - successes + 1, tail)) if successes > 0 else 0.0
+    high = float(betaincinv(successes + 1, n - successes, 1 - tail)) if successes < n else 1.0
+    return Rate(n=n, successes=successes, low=low, high=high)
