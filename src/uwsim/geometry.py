@@ -71,7 +71,9 @@ def quaternion_from_rotation(rotation: Array) -> Array:
 
 def rotation_from_quaternion(wxyz: Array) -> Array:
     """Rotation matrix (3, 3) of a quaternion wxyz (4,), normalised first."""
-    w, x, y, z = np.asarray(wxyz, dtype=np.float64) / np.linalg.norm(wxyz)
+    w, x, y, z = np.asarray(wxyz, dtype=np.float64).tolist()
+    size = math.sqrt(w * w + x * x + y * y + z * z)
+    w, x, y, z = w / size, x / size, y / size, z / size
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -188,11 +190,12 @@ class Intrinsics:
 
         Points at or behind the camera plane give NaN.
         """
-        depth = -points[:, 2]
-        depth = np.where(depth > 0.0, depth, np.nan)
-        u = self.cx + (self.fx * points[:, 0] + self.skew * points[:, 1]) / depth
-        v = self.cy - self.fy * points[:, 1] / depth
-        return np.stack([u, v], axis=1)
+        x, y, depth = points[:, 0], points[:, 1], -points[:, 2]
+        depth[~(depth > 0.0)] = np.nan
+        pixels = np.empty((len(points), 2))
+        pixels[:, 0] = self.cx + (self.fx * x + self.skew * y) / depth
+        pixels[:, 1] = self.cy - self.fy * y / depth
+        return pixels
 
     def rays(self) -> Array:
         """Direction of the ray of each pixel centre, camera frame, with -z = 1, (h, w, 3)."""

@@ -19,17 +19,22 @@ class TotalCurrent(Current):
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        total = np.zeros((len(points), 3))
-        for current in self._currents:
-            total += current.velocity(points, time, vehicles)
-        return total
+        parts = [current.velocity(points, time, vehicles) for current in self._currents]
+        return _sum(parts, len(points))
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the acceleration of the water, in L, (n, 3) [m/s2]."""
-        total = np.zeros((len(points), 3))
-        for current in self._currents:
-            total += current.acceleration(points, time, vehicles)
-        return total
+        parts = [current.acceleration(points, time, vehicles) for current in self._currents]
+        return _sum(parts, len(points))
+
+
+def _sum(parts: list[Array], n: int) -> Array:
+    """Add up vectors at n points, (n, 3); what is handed in may be changed."""
+    if not parts:
+        return np.zeros((n, 3))
+    for part in parts[1:]:
+        parts[0] += part
+    return parts[0]
 
 
 def bind_currents(specs: Sequence[CurrentSpec], place: Place) -> TotalCurrent:

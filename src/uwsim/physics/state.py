@@ -51,6 +51,16 @@ class State:
         self._touchable = frozenset(_owner(name) for name in shapes)
         self._contacts_hold = False  # whether the contacts are those of the state
         self._data = mujoco.MjData(self._model)
+        # Views into MuJoCo's memory: to look them up by name at every step costs more than the step.
+        self._ids = {self._model.body(i).name: i for i in range(self._model.nbody)}
+        self._origins, self._axes = self._data.xpos, self._data.xmat  # (nbody, 3), (nbody, 9)
+        free = {i: self._model.joint(vehicle_joint(i, "")) for i in range(len(scene.vehicles))}
+        self._frees = {
+            i: self._data.qpos[joint.qposadr[0] : joint.qposadr[0] + 7] for i, joint in free.items()
+        }
+        self._free_velocities = {
+            i: self._data.qvel[joint.dofadr[0] : joint.dofadr[0] + 6] for i, joint in free.items()
+        }
         self._robots = robots
         self._dynamics = dynamics
         self._timestep = timestep
@@ -92,7 +102,7 @@ class State:
     def body_positions(self) -> Array:
         """Return where the bodies of the model are, in W, (nbody, 3) [m]."""
         self._refresh()
-        return np.array(self._data.xpos)
+        return self._origins.copy()
 
     def body_vehicles(self) -> tuple[int | None, ...]:
         """Return the number of the vehicle that each body of the model belongs to."""
@@ -117,12 +127,12 @@ class State:
                 self._fly(index, pilot, velocity)
         for servos in self._servos.values():
             servos.step(self._timestep)
-        before = {i: self._free(i).copy() for i in self._kinematic}
+        before = {i: self._frees[i].copy() for i in self._kinematic}
         self._water.step(self._data)
         self._contacts_hold = True
         for index, pose in before.items():
-            self._free(index)[:] = pose
-            self._free_velocity(index)[:] = 0.0
+            self._frees[index][:] = pose
+            self._free_velocities[index][:] = 0.0
         self._n_steps += 1
         self._moved()
 
@@ -170,22 +180,22 @@ class State:
 
     def vehicle_pose(self, index: int) -> Pose:
         """Return ``world_from_base`` of a vehicle."""
-        qpos = self._free(index).copy()
+        qpos = self._frees[index].copy()
         return Pose.from_quaternion(qpos[:3], qpos[3:])
 
     def vehicle_velocity(self, index: int) -> Array:
         """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
-        qvel = self._free_velocity(index)
+        qvel = self._free_velocities[index]
         rotation = self.vehicle_pose(index).rotation
         return np.concatenate([rotation.T @ qvel[:3], qvel[3:]])
 
     def place_vehicle(self, index: int, world_from_base: Pose) -> None:
         """Put a vehicle somewhere, at rest."""
-        qpos = self._free(index)
+        qpos = self._frees[index]
         qpos[:3] = world_from_base.position
         qpos[3:] = quaternion_from_rotation(world_from_base.rotation)
         if index in self._dynamics:
-            self._free_velocity(index)[:] = 0.0
+            self._free_velocities[index][:] = 0.0
             for thruster in self._thrusters[index]:
                 self._stop_thruster(thruster)
             self._pilots[index].hold(world_from_base)
@@ -235,7 +245,7 @@ class State:
         twist = self.vehicle_velocity(index)
         pose = self.vehicle_pose(index)
         if not self._over_ground[index] and not pilot.is_over_ground:
-            base = self._model.body(vehicle_body(index, self._robots[index].root)).id
+            base = self._ids[vehicle_body(index, self._robots[index].root)]
             twist[:3] -= pose.rotation.T @ velocity[base]
         commands = pilot.thrust(pose, twist, self._pilot_steps * self._timestep)
         for thruster, command in zip(self._thrusters[index], commands, strict=True):
@@ -249,16 +259,6 @@ class State:
         if address >= 0:
             self._data.act[address] = 0.0
 
-    def _free(self, index: int) -> Array:
-        address = self._model.joint(vehicle_joint(index, "")).qposadr[0]
-        view: Array = self._data.qpos[address : address + 7]
-        return view
-
-    def _free_velocity(self, index: int) -> Array:
-        address = self._model.joint(vehicle_joint(index, "")).dofadr[0]
-        view: Array = self._data.qvel[address : address + 6]
-        return view
-
     def _moved(self) -> None:
         self._is_stale = True
         self.version += 1
@@ -270,8 +270,8 @@ class State:
 
     def _body_pose(self, name: str) -> Pose:
         self._refresh()
-        body = self._data.body(name)
-        return Pose(np.array(body.xpos), np.array(body.xmat).reshape(3, 3))
+        body = self._ids[name]
+        return Pose(self._origins[body].copy(), self._axes[body].reshape(3, 3).copy())
 
 
 def _water_of(model: mujoco.MjModel) -> Hydrodynamics:

@@ -132,7 +132,9 @@ class Renderer:
             switches: Switches = ()
             if "colour" in wanted and light.shadows and self._cast(seen, light, hidden):
                 switches += (("SHADOWS", 1),)
-            if water.fog_distance == "clip":
+            if water.fog == 0.0:
+                switches += (("NO_FOG", 1),)
+            elif water.fog_distance == "clip":
                 switches += (("FOG_CLIP", 1),)
             if lamps and "colour" in wanted:
                 switches += (("LAMPS", len(lamps)),)

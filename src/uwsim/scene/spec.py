@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from ..currents import CURRENTS, CurrentSpec
@@ -405,7 +406,7 @@ class SceneSpec:
     is_original: bool = dataclasses.field(default=False, compare=False, metadata={"path": True})
     """Whether it names the original's DTD: models that are nowhere are then labelled boxes."""
 
-    @property
+    @cached_property
     def world_from_localized(self) -> Pose:
         """W from L: what ``simParams`` says."""
         return Pose.from_xyz(self.sim_params.offsetp, self.sim_params.offsetr)

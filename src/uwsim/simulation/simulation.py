@@ -115,6 +115,10 @@ class Simulation:
         )
         self._scene_current = bind_currents(scene.ocean_state.currents, place)
         self._flow: Flow = self._scene_current
+        self._localized_from_world = scene.world_from_localized.inverse()
+        self._drifting = [
+            (i, v) for i, v in enumerate(scene.vehicles) if not self._state.is_simulated(i)
+        ]
         self._current: Flow | None = None
         self._timers: list[SampleTimer] = []
         self._body_names = tuple(
@@ -191,12 +195,10 @@ class Simulation:
         """Carry kinematic vehicles with the water: ``p += v dt``, as the original does."""
         if self._current is None and not self._scene.ocean_state.currents:
             return
-        localized_from_world = self.world_from_localized.inverse()
-        for index, vehicle in enumerate(self._scene.vehicles):
-            if self._state.is_simulated(index):
-                continue
+        for index, vehicle in self._drifting:
             world_from_base = self._state.vehicle_pose(index)
-            point = localized_from_world.transform(world_from_base.position[None])  # (1, 3) [m]
+            position = world_from_base.position[None]
+            point = self._localized_from_world.transform(position)  # (1, 3) [m]
             velocity = self._flow.velocity(point, self.time, (vehicle.name,))[0]  # (3,) [m/s]
             moved = self.world_from_localized.transform(point + velocity * self._timestep)[0]
             self._state.place_vehicle(index, Pose(moved, world_from_base.rotation))
@@ -205,12 +207,11 @@ class Simulation:
         """Let the forces act on what is simulated, in the water as it moves now."""
         if not self._state.is_dynamic:
             return
-        world_from_localized = self.world_from_localized
-        points = world_from_localized.inverse().transform(self._state.body_positions())
+        points = self._localized_from_world.transform(self._state.body_positions())
         time = self.time - self._timestep
         velocity = self._flow.velocity(points, time, self._body_names)
         acceleration = self._flow.acceleration(points, time, self._body_names)
-        turn = world_from_localized.rotation.T
+        turn = self._localized_from_world.rotation
         self._thruster_faults.apply(time)
         self._state.step(velocity @ turn, acceleration @ turn)
 
@@ -407,7 +408,8 @@ class Simulation:
         if current is None:
             self._flow = self._scene_current
         else:
-            self._flow = TotalCurrent([self._scene_current, current])
+            several = bool(self._scene.ocean_state.currents)
+            self._flow = TotalCurrent([self._scene_current, current]) if several else current
 
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest."""

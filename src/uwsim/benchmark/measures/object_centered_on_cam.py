@@ -9,6 +9,7 @@ r"""Object centred on a camera: how far from the middle of the picture a body ap
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -70,7 +71,7 @@ class ObjectCenteredOnCam(Measure):
         )
         if pixel is not None and self._is_visible:
             off = np.array([width / 2 - pixel[0], pixel[1] - height / 2])
-            self._signal.add(float(np.linalg.norm(off)), off)
+            self._signal.add(math.hypot(*off.tolist()), off)
 
     @property
     def value(self) -> float | None:

@@ -112,9 +112,8 @@ class PositionError(Measure):
             self._inbox.close()
 
     def _pose_position(self) -> Array:
-        position: Array = self._localized_from_world.transform(
-            self._body.world_from_body.position[None]
-        )[0]
+        frame = self._localized_from_world
+        position: Array = frame.rotation @ self._body.world_from_body.position + frame.position
         return position
 
     def _turn(self) -> tuple[float, ...]:

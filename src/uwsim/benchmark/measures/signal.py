@@ -32,21 +32,23 @@ class Signal:
         size = 1 + len(self.components)
         self.n = 0
         """How many samples there were."""
-        self._last = np.zeros(size)
-        self._mean = np.zeros(size)
-        self._squares = np.zeros(size)  # sum of squared deviations from the mean
-        self._power = np.zeros(size)  # sum of squares
-        self._max = np.zeros(size)
+        # Plain floats: a few numbers at every step are dearer as arrays.
+        self._last = [0.0] * size
+        self._mean = [0.0] * size
+        self._squares = [0.0] * size  # sum of squared deviations from the mean
+        self._power = [0.0] * size  # sum of squares
+        self._max = [0.0] * size
 
     def add(self, total: float, components: npt.NDArray[np.float64]) -> None:
         """Take one sample: the total and its components (k,)."""
-        sample = np.concatenate([[total], components])
+        sample = [total, *components.tolist()]
         self.n += 1
-        off = sample - self._mean
-        self._mean = self._mean + off / self.n
-        self._squares = self._squares + off * (sample - self._mean)
-        self._power = self._power + sample * sample
-        self._max = np.maximum(self._max, np.abs(sample))
+        for i, value in enumerate(sample):
+            off = value - self._mean[i]
+            self._mean[i] += off / self.n
+            self._squares[i] += off * (value - self._mean[i])
+            self._power[i] += value * value
+            self._max[i] = max(self._max[i], abs(value))
         self._last = sample
 
     def value(self, which: str) -> float | None:
@@ -58,7 +60,7 @@ class Signal:
         """The newest total and components."""
         if not self.n:
             return (None,) * (1 + len(self.components))
-        return tuple(self._last.tolist())
+        return tuple(self._last)
 
     @property
     def details(self) -> dict[str, float | None]:
@@ -76,11 +78,11 @@ class Signal:
         if not self.n:
             return None
         if name == "last":
-            return float(self._last[index])
+            return self._last[index]
         if name == "mean":
-            return float(self._mean[index])
+            return self._mean[index]
         if name == "rms":
             return math.sqrt(self._power[index] / self.n)
         if name == "max":
-            return float(self._max[index])
+            return self._max[index]
         return math.sqrt(max(0.0, self._squares[index]) / self.n)
