@@ -93,7 +93,7 @@ def collect(bench: Bench) -> tuple[Result, list[Log], float]:
     units = plan.units()
     stored = [(unit, unit_file.read(bench.out, unit.index, bench.head(unit))) for unit in units]
     records = [(unit, record) for unit, found in stored for record in found.rows]
-    columns = _columns(plan, records[0][1] if records else None)
+    columns = _columns(plan, [record for _, record in records])
     rows: list[tuple[Cell, ...]] = []
     missing: list[Missing] = []
     pictures: list[TakenPicture] = []
@@ -168,22 +168,27 @@ def collect(bench: Bench) -> tuple[Result, list[Log], float]:
     return result, logs, simulated_s
 
 
-def _columns(plan: Plan, record: unit_file.Record | None) -> list[Column]:
-    """Name the columns; before the first row only those that are known without playing."""
+def _columns(plan: Plan, records: list[unit_file.Record]) -> list[Column]:
+    """Name the columns; before the first row only those that are known without playing.
+
+    A measure's details are those of all rows together, and units those of the first row that has a
+    value: what a topic carries may not be known before something came.
+    """
     updater = plan.benchmark.scene_updater
     columns = [Column(name=name, kind="run") for name in ("repeat", "seed") if plan.repeats > 1]
     columns += [
         Column(name=name, kind="level", unit=_unit(spec.unit))
         for name, spec in zip(references(updater), chain(updater), strict=True)
     ]
-    if record is not None:
-        for measure, (_, unit) in record["measures"].items():
-            columns.append(Column(name=measure, kind="measure", unit=_unit(unit)))
-            columns += [
-                Column(name=name, kind="detail", unit=_unit(detail_unit))
-                for name, (_, detail_unit) in record["details"].items()
-                if name.startswith(f"{measure}.")
-            ]
+    measures = _units(records, "measures")
+    details = _units(records, "details")
+    for measure, unit in measures.items():
+        columns.append(Column(name=measure, kind="measure", unit=_unit(unit)))
+        columns += [
+            Column(name=name, kind="detail", unit=_unit(detail_unit))
+            for name, detail_unit in details.items()
+            if name.startswith(f"{measure}.")
+        ]
     return [
         *columns,
         Column(name="total", kind="score", expression=plan.benchmark.function.text),
@@ -198,6 +203,16 @@ def _tuple(value: Any) -> Any:
 
 def _unit(unit: str) -> str | None:
     return None if unit == "1" else unit
+
+
+def _units(records: list[unit_file.Record], kind: str) -> dict[str, str]:
+    """Name -> unit of what all rows have of a kind, in the order of its first row."""
+    first: dict[str, tuple[bool, str]] = {}
+    for record in records:
+        for name, (value, unit) in record[kind].items():
+            if name not in first or (value is not None and not first[name][0]):
+                first[name] = (value is not None, unit)
+    return {name: unit for name, (_, unit) in first.items()}
 
 
 def _run(plan: Plan, renderer: str) -> dict[str, object]:

@@ -275,6 +275,8 @@ class _Playing:
                 details[f"{name}.{detail}"] = (None if blank else value, unit)
         total = None if status != "ok" else self._expression.evaluate(values)
         if total is None:
+            if not blank:
+                missing |= {f"{name}.{detail}": said for detail, said in measure.reasons.items()}
             absent = [name for name, value in values.items() if value is None]
             missing["total"] = why or (
                 f"no value for {', '.join(absent)}" if absent else "the function has no value here"

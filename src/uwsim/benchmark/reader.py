@@ -29,7 +29,7 @@ from ..dialect import NAMESPACE, Faults, check_head, parse, read, slots, text_of
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
 from . import score
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
-from .measures import MEASURES, EuclideanNormSpec, MeasureSpec
+from .measures import MEASURES, MeasureSpec
 from .original_grammar import check_order
 from .plugin import PREFIX
 from .spec import BenchmarkSpec, FunctionSpec
@@ -151,16 +151,8 @@ class _Reader:
                 node,
                 f"u:value is {spec.value!r}; the value of <{_name(node)}> is always its last",
             )
-        if (
-            isinstance(spec, EuclideanNormSpec)
-            and spec.truth != "original"
-            and spec.ground_truth.camera is None
-        ):
-            self.faults.add(
-                node,
-                "u:truth='face' needs a ground truth of type cornersFromCamera "
-                "or centroidFromCamera",
-            )
+        for message in spec.faults():
+            self.faults.add(node, message)
         return spec
 
     def by_hand(self, cls: type, node: etree._Element) -> dict[str, Any]:

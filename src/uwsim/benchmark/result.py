@@ -156,8 +156,9 @@ class Result:
         return reasons.get(column) or reasons.get(column.split(".")[0])
 
     def reasons(self, row: int) -> tuple[str, ...]:
-        """Return the reasons given in a row, each once."""
-        return tuple(dict.fromkeys(self._reasons.get(row, {}).values()))
+        """Return the reasons given in a row, each once; not those of single details."""
+        given = self._reasons.get(row, {})
+        return tuple(dict.fromkeys(why for column, why in given.items() if "." not in column))
 
     @cached_property
     def _reasons(self) -> dict[int, dict[str, str]]:

@@ -74,6 +74,9 @@ from rosbags.typesys.stores.ros2_jazzy import (
     std_msgs__msg__Float32MultiArray as Float32MultiArray,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
+    std_msgs__msg__Float64 as Float64,
+)
+from rosbags.typesys.stores.ros2_jazzy import (
     std_msgs__msg__Float64MultiArray as Float64MultiArray,
 )
 from rosbags.typesys.stores.ros2_jazzy import (
@@ -99,6 +102,7 @@ __all__ = [
     "Empty",
     "EmptyResponse",
     "Float32MultiArray",
+    "Float64",
     "Float64MultiArray",
     "GTpublish",
     "GTpublishResponse",

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from .collision import Collision, CollisionSpec
+from .control import Control, ControlSpec
 from .distance import Distance, DistanceSpec
+from .energy import Energy, EnergySpec
 from .euclidean_norm import EuclideanNorm, EuclideanNormSpec
 from .measure import Measure, MeasureSpec
 from .object_centered_on_cam import ObjectCenteredOnCam, ObjectCenteredOnCamSpec
@@ -22,6 +24,8 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "positionError": PositionErrorSpec,
     "reconstruction3D": Reconstruction3DSpec,
     "time": TimeSpec,
+    "u:control": ControlSpec,
+    "u:energy": EnergySpec,
 }
 """Element -> what a file says about it. In alphabetical order."""
 
@@ -29,8 +33,12 @@ __all__ = [
     "MEASURES",
     "Collision",
     "CollisionSpec",
+    "Control",
+    "ControlSpec",
     "Distance",
     "DistanceSpec",
+    "Energy",
+    "EnergySpec",
     "EuclideanNorm",
     "EuclideanNormSpec",
     "Measure",

@@ -14,6 +14,7 @@ r"""Euclidean norm: how far the algorithm's estimate is from the truth.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -45,6 +46,14 @@ class EuclideanNormSpec(MeasureSpec):
         default="original", attribute=True, namespaced=True
     )
     """``original``, or ``face``: corners and centre of the target's top face (``u:truth``)."""
+
+    def faults(self) -> Sequence[str]:
+        """A face is the true one of a camera's picture only."""
+        if self.truth == "original" or self.ground_truth.camera is not None:
+            return ()
+        return (
+            "u:truth='face' needs a ground truth of type cornersFromCamera or centroidFromCamera",
+        )
 
     def bind(self, world: World) -> EuclideanNorm:
         """Listen to the estimate; raises UnknownName if a body of the truth is not there."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
@@ -36,6 +36,10 @@ class MeasureSpec(abc.ABC):
 
     @abc.abstractmethod
     def bind(self, world: World) -> Measure:
+    def faults(self) -> Sequence[str]:
+        """What is wrong about elements that are right one by one."""
+        return ()
+
         """Find what it looks at; raises UnknownName if that is not there."""
 
 
@@ -83,6 +87,11 @@ class Measure(abc.ABC):
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
+    @property
+    def reasons(self) -> Mapping[str, str]:
+        """Why details are None, where that is not `why`: column suffix -> reason."""
+        return {}
+
         """A line of its log, as of now."""
         return (self.value,)
 

@@ -1,0 +1,192 @@
+r"""Energy: what a vehicle has drawn from its battery.
+
+.. code-block:: xml
+
+    <u:energy>
+      <name>energy</name> <target>girona500</target>
+      <hotelLoad>60</hotelLoad>
+      <battery unit="Wh">2000</battery>
+    </u:energy>
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from ...dialect import element
+from ...geometry import Array
+from ...world import Actuators, World
+from .measure import Measure, MeasureSpec
+
+JOULES = {"J": 1.0, "Wh": 3600.0}
+
+
+@dataclass(frozen=True, kw_only=True)
+class BatterySpec:
+    """A ``<battery>``: what it holds when the measure goes on."""
+
+    capacity: float = element(text=True, above=0.0)
+    """Energy that can be drawn, in ``unit``."""
+    unit: Literal["J", "Wh"] = element(default="J", attribute=True)
+    """Joules or watt hours."""
+
+    @property
+    def joules(self) -> float:
+        """The capacity [J]."""
+        return self.capacity * JOULES[self.unit]
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnergySpec(MeasureSpec):
+    """A ``<u:energy>`` element of a benchmark file."""
+
+    target: str
+    """Name of the vehicle; it needs ``<u:dynamics>``."""
+    hotel_load: float = element(default=0.0, minimum=0.0)
+    """What computers, sensors and lamps draw all the time [W]."""
+    battery: BatterySpec | None = None
+    """Its battery; None: no charge is told."""
+
+    def bind(self, world: World) -> Energy:
+        """Find what drives the vehicle; raises UnknownName if there is no such vehicle."""
+        return Energy(self, world, world.actuators(self.target))
+
+
+class Energy(Measure):
+    r"""The integral of electrical power over the time the measure is on.
+
+    .. math:: E = \int \Big( P_{hotel} + \sum_i P_i \Big)\, dt
+
+    over the thrusters and joints i of the vehicle, by the trapezoidal rule over the simulation's
+    steps. What a thruster draws at a thrust and a joint at a torque and a speed stands in
+    ``docs/energy-and-control.md``, with coefficients from the vehicle's side file. Details: the
+    energy of all thrusters, of all joints, of the hotel load, of each thruster and of each joint;
+    the mean and the highest power; and the charge left, :math:`\max(0, 1 - E/C)`, of a battery of
+    capacity C that was full when the measure first went on.
+
+    A vehicle that is not simulated has no forces and so no energy.
+    """
+
+    unit = "J"
+    detail_units: ClassVar[dict[str, str]] = {"mean_power": "W", "peak_power": "W", "charge": "1"}
+
+    def __init__(self, spec: EnergySpec, world: World, actuators: Actuators | None) -> None:
+        self._spec, self._world, self._actuators = spec, world, actuators
+        self._capacity = None if spec.battery is None else spec.battery.joules
+        thrusters = () if actuators is None else actuators.thrusters
+        joints = () if actuators is None else actuators.joints
+        self._n_thrusters = len(thrusters)
+        self._names = [f"thruster.{name}" for name in thrusters]
+        self._names += [f"joint.{name}" for name in joints]
+        self._powers = np.zeros(len(self._names))  # at the last look [W]
+        self._energies = np.zeros(len(self._names))  # [J]
+        self._peak: float | None = None  # [W]
+        self._last = 0  # step of the last look
+        self._n_steps = 0
+
+    def start(self) -> None:
+        """See what is drawn now; what was drawn before does not count."""
+        if self._actuators is not None:
+            self._look(self._actuators.powers())
+
+    def update(self) -> None:
+        """Add what was drawn since the last look."""
+        if self._actuators is None:
+            return
+        before, last = self._powers, self._last
+        self._look(self._actuators.powers())
+        steps = self._last - last
+        self._energies += (before + self._powers) * (0.5 * steps * self._world.timestep)
+        self._n_steps += steps
+
+    def _look(self, powers: Array) -> None:
+        self._powers, self._last = powers, self._world.step
+        self._peak = max(self._power, self._peak or 0.0)
+
+    @property
+    def _power(self) -> float:
+        """What all draw together [W]."""
+        return self._spec.hotel_load + float(self._powers.sum())
+
+    @property
+    def _time(self) -> float:
+        """How long it was on [s]."""
+        return self._n_steps * self._world.timestep
+
+    @property
+    def value(self) -> float | None:
+        """Energy drawn so far [J]; None for a vehicle without forces."""
+        if self._peak is None:
+            return None
+        return self._spec.hotel_load * self._time + float(self._energies.sum())
+
+    @property
+    def why(self) -> str | None:
+        """Why there is no value."""
+        if self._actuators is None:
+            return f"the vehicle {self._spec.target!r} has no <u:dynamics>: nothing drives it"
+        return super().why
+
+    @property
+    def details(self) -> dict[str, float | None]:
+        """Energy by consumer [J], power [W] and charge [1]."""
+        is_known = self._peak is not None
+        n = self._n_thrusters
+        energies = self._energies.tolist()
+        by_kind = (sum(energies[:n]), sum(energies[n:]), self._spec.hotel_load * self._time)
+        return {
+            **{
+                name: energy if is_known else None
+                for name, energy in zip(("thrusters", "joints", "hotel"), by_kind, strict=True)
+            },
+            "mean_power": self._mean_power,
+            "peak_power": self._peak,
+            "charge": self._charge,
+            **{
+                name: energy if is_known else None
+                for name, energy in zip(self._names, energies, strict=True)
+            },
+        }
+
+    @property
+    def _mean_power(self) -> float | None:
+        energy = self.value
+        return None if energy is None or not self._n_steps else energy / self._time
+
+    @property
+    def _charge(self) -> float | None:
+        energy = self.value
+        if energy is None or self._capacity is None:
+            return None
+        return max(0.0, 1.0 - energy / self._capacity)
+
+    @property
+    def reasons(self) -> dict[str, str]:
+        """Why there is no charge, or no mean."""
+        reasons = {}
+        if self._capacity is None:
+            reasons["charge"] = "no <battery> is given"
+        if not self._n_steps:
+            reasons["mean_power"] = "it was on for one step only"
+        return reasons
+
+    @property
+    def log_header(self) -> tuple[str, ...]:
+        """Energy, power and charge."""
+        return ("energy [J]", "power [W]", "charge [1]")
+
+    @property
+    def log_values(self) -> tuple[float | None, ...]:
+        """As of now."""
+        power = None if self._peak is None else self._power
+        return (self.value, power, self._charge)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """That the battery ran empty."""
+        if self._charge != 0.0:
+            return ()
+        return (f"the battery of {self._spec.target!r} ran empty; it was drawn on all the same",)
