@@ -34,12 +34,12 @@ class MeasureSpec(abc.ABC):
     )
     """Which statistic of a signal is its value (``u:value``)."""
 
-    @abc.abstractmethod
-    def bind(self, world: World) -> Measure:
     def faults(self) -> Sequence[str]:
         """What is wrong about elements that are right one by one."""
         return ()
 
+    @abc.abstractmethod
+    def bind(self, world: World) -> Measure:
         """Find what it looks at; raises UnknownName if that is not there."""
 
 
@@ -81,17 +81,17 @@ class Measure(abc.ABC):
         return {}
 
     @property
+    def reasons(self) -> Mapping[str, str]:
+        """Why details are None, where that is not `why`: column suffix -> reason."""
+        return {}
+
+    @property
     def log_header(self) -> tuple[str, ...]:
         """The columns of its log, after the time."""
         return ("value",)
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-    @property
-    def reasons(self) -> Mapping[str, str]:
-        """Why details are None, where that is not `why`: column suffix -> reason."""
-        return {}
-
         """A line of its log, as of now."""
         return (self.value,)
 
