@@ -17,6 +17,7 @@ from uwsim.benchmark.crew import play_all
 from uwsim.benchmark.plan import Plan
 from uwsim.benchmark.plugin import Plugin, blamed, read_plugin
 from uwsim.benchmark.processes import Processes
+from uwsim.benchmark.result import Result
 from uwsim.cli import main
 from uwsim.cli.bench import make_plan
 from uwsim.cli.plugins import bundled_tables, read_plugins
@@ -329,3 +330,27 @@ def test_the_line_of_the_plugin_that_raised_is_named(tmp_path: Path) -> None:
     with pytest.raises(KeyError), blamed([own]):
         {}["y"]
     assert own == Plugin(str(path), path.read_bytes())
+
+
+def play(folder: Path, was: str, now: str) -> Result:
+    assert was in PARTS
+    (folder / "parts.py").write_text(PARTS.replace(was, now))
+    plan = plan_of("b.xml", folder / "parts.py", levels=["murk=0"])
+    inputs, renderer = open_once(plan)
+    bench = Bench(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
+    return play_all([bench])[0]
+
+
+def test_a_measure_that_raises_ends_the_run_with_its_line(folder: Path) -> None:
+    with pytest.raises(RunFailed, match=r"parts\.py:33: ZeroDivisionError: division by zero"):
+        play(folder, "self.n += 1", "self.n = 1 / 0")
+
+
+@pytest.mark.parametrize(
+    ("gives", "why"),
+    [("float('nan')", "it gave nan"), ("'much'", "it gave str 'much', which is no number")],
+)
+def test_a_measure_that_gives_no_number_leaves_a_reason(folder: Path, gives: str, why: str) -> None:
+    result = play(folder, "return self.weight * self.n", f"return {gives}")
+    assert result.values("steps") == (None,)
+    assert result.why(0, "steps") == why

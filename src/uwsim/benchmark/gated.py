@@ -3,11 +3,22 @@
 from __future__ import annotations
 
 import math
+from numbers import Real
 
 from ..world import World
 from .measures import MeasureSpec
 
 Sample = tuple[float | None, ...]
+
+
+def finite(value: object) -> tuple[float | None, str | None]:
+    """Return a measure's value as a result may hold it; else None, and why."""
+    if value is None:
+        return None, None
+    if isinstance(value, Real):
+        number = value if isinstance(value, int | float) else float(value)
+        return (number, None) if math.isfinite(number) else (None, f"it gave {number}")
+    return None, f"it gave {type(value).__name__} {str(value)[:40]!r}, which is no number"
 
 
 class Gated:
@@ -47,6 +58,6 @@ class Gated:
         assert self.spec.log is not None
         timestep = self._world.timestep
         elapsed = (self._world.step - self._began) * timestep
-        self.log.append((elapsed, *self.measure.log_values))
+        self.log.append((elapsed, *(finite(value)[0] for value in self.measure.log_values)))
         n_next = math.floor(elapsed / self.spec.log + 1e-9) + 1
         self._log_due = math.ceil(n_next * self.spec.log / timestep - 1e-9)

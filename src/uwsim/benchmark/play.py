@@ -16,11 +16,13 @@ from ..messages import String
 from ..simulation import Simulation, Studio
 from .facts import Fact, visibility_facts
 from .gate import Gate
-from .gated import Gated, Sample
+from .gated import Gated, Sample, finite
 from .live_topics import LiveTopics
 from .pictures import Shot, shoot
 from .plan import Plan, Unit
+from .plugin import blamed
 from .score import parse
+from .trace import Trace, Tracer
 from .updaters import (
     Level,
     apply_level,
@@ -66,6 +68,8 @@ class Row:
     """Measure -> samples: time in the level [s], then `log_headers`."""
     log_headers: dict[str, tuple[str, ...]]
     """Measure -> names of what stands in its samples after the time."""
+    fingerprint: str
+    """Of every body's motion and of every picture, since the unit began (`trace`)."""
     shots: tuple[Shot, ...]
     """The cameras' last pictures."""
 
@@ -82,6 +86,8 @@ class UnitEnd:
     """Topic, number of images, SHA-256 over their pixels."""
     notes: tuple[str, ...]
     """What the reader of the result should know, besides the values."""
+    trace: Trace
+    """Fingerprints on the way."""
 
 
 def play(plan: Plan, unit: Unit, *, studio: Studio | None = None) -> Iterator[Row | UnitEnd]:
@@ -106,7 +112,8 @@ def play(plan: Plan, unit: Unit, *, studio: Studio | None = None) -> Iterator[Ro
         studio=studio,
     )
     try:
-        yield from _Playing(plan, unit, simulation).rows()
+        with blamed(plan.plugins, is_running=True):
+            yield from _Playing(plan, unit, simulation).rows()
     finally:
         simulation.close()
 
@@ -131,6 +138,7 @@ class _Playing:
         self._plan, self._unit, self._simulation = plan, unit, simulation
         benchmark = plan.benchmark
         self._updater = benchmark.scene_updater
+        self._tracer = Tracer(simulation)
         self._updaters = bind_updaters(self._updater, simulation)
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         apply_level(self._updaters, initial_level(self._updater))
@@ -169,6 +177,7 @@ class _Playing:
                 if not plan.is_blind
             ),
             notes=tuple(self._notes),
+            trace=self._tracer.trace(),
         )
 
     def _wait(self, never: str) -> bool:
@@ -266,13 +275,13 @@ class _Playing:
             name, measure = gated.spec.name, gated.measure
             blank = status != "ok" and measure.fed_by_algorithm
             units[name] = measure.unit
-            values[name] = None if blank else measure.value
+            values[name], slip = (None, why) if blank else finite(measure.value)
             if values[name] is None:
-                missing[name] = (why if blank else measure.why) or "nothing to measure"
+                missing[name] = slip or measure.why or "nothing to measure"
             for detail, value in measure.details.items():
                 unit = "1" if detail.split(".")[-1] == "n" else measure.unit
                 unit = measure.detail_units.get(detail, unit)
-                details[f"{name}.{detail}"] = (None if blank else value, unit)
+                details[f"{name}.{detail}"] = (None if blank else finite(value)[0], unit)
         total = None if status != "ok" else self._expression.evaluate(values)
         if total is None:
             if not blank:
@@ -293,6 +302,7 @@ class _Playing:
             duration=(simulation.step - began) * simulation.timestep,
             logs={gated.spec.name: gated.log for gated in logged},
             log_headers={gated.spec.name: gated.measure.log_header for gated in logged},
+            fingerprint=self._tracer.fingerprint,
             shots=()
             if self._plan.is_blind
             else shoot(

@@ -122,6 +122,7 @@ def _record(played: Row, pictures: dict[str, str]) -> unit_file.Record:
             }
             for shot in played.shots
         ],
+        "fingerprint": played.fingerprint,
     }
 
 
@@ -131,4 +132,5 @@ def _end(played: UnitEnd) -> unit_file.Record:
         "parameters": played.parameters,
         "streams": [list(stream) for stream in played.streams],
         "notes": list(played.notes),
+        "trace": played.trace.plain(),
     }

@@ -18,6 +18,7 @@ from .autopilot import Autopilot
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .contacts import contacts_of
 from .hydrodynamics import VehicleHydrodynamics
+from .motion import Motion
 from .servos import Servos
 from .shapes import Shape
 
@@ -61,6 +62,9 @@ class State:
         self._free_velocities = {
             i: self._data.qvel[joint.dofadr[0] : joint.dofadr[0] + 6] for i, joint in free.items()
         }
+        bodies = [self._model.body(i).name for i in range(self._model.nbody)]
+        self.motion = Motion(self._model, self._data, [_called(scene, name) for name in bodies])
+        """Where everything is and how it moves, as numbers."""
         self._robots = robots
         self._dynamics = dynamics
         self._timestep = timestep
@@ -284,6 +288,12 @@ def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
 def _owner(name: str) -> str:
     """``vehicle/1`` or ``object/1``, what the body or shape of that name belongs to."""
     return "/".join(name.split("/")[:2])
+
+
+def _called(scene: SceneSpec, body: str) -> str:
+    """How the scene calls a body of the model: ``girona500/part0``, an object's name."""
+    link = body.split("/")[2:]
+    return "/".join([_named(scene, _owner(body)), *link])
 
 
 def _named(scene: SceneSpec, owner: str) -> str:

@@ -25,6 +25,7 @@ from ..chance import stream
 from ..currents import Place, TotalCurrent, bind_currents
 from ..errors import UnknownName
 from ..geometry import Intrinsics, Pose
+from ..physics.motion import Motion
 from ..physics.state import State
 from ..rendering.grey import grey_truncated
 from ..rendering.noise import add_noise
@@ -121,6 +122,7 @@ class Simulation:
         ]
         self._current: Flow | None = None
         self._timers: list[SampleTimer] = []
+        self._watchers: list[Callable[[], None]] = []
         self._body_names = tuple(
             "" if i is None else scene.vehicles[i].name for i in self._state.body_vehicles()
         )
@@ -178,6 +180,17 @@ class Simulation:
         self._push()
         self._sway()
         self._tail()
+        for look in self._watchers:
+            look()
+
+    def watch(self, look: Callable[[], None]) -> None:
+        """Have ``look`` called at the end of every step."""
+        self._watchers.append(look)
+
+    @property
+    def motion(self) -> Motion:
+        """Where everything is and how it moves, as numbers."""
+        return self._state.motion
 
     def _tail(self) -> None:
         step = self.bus.step
