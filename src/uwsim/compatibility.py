@@ -11,13 +11,25 @@ from collections.abc import Iterable
 from .errors import UnknownName
 
 COMPATIBILITY: dict[str, str] = {
-    "collision": "only the first body of a contact is looked at, and only its velocity counts",
+    "box-scale": "the bounding box of an object does not know of its scaleFactor",
+    "collision": "only the first body of a contact and its velocity count, and one thing touched",
     "current-force": "publishAsForce pushes with v^2 along each axis: the sign of v is lost",
     "fog-distance": "fog uses the clip-space z of the camera, not the distance along the ray",
     "last-norm": "an estimate of any age is scored; without a new one the last norm stands",
-    "rows": "a row with a measure in error is left out of result.dat",
+    "path-frame": "to the points of a path the place of its frame in W is added",
+    "path-ise": "the ISE of a path is the integral of the error, not of its square",
+    "path-repeats": "a point that stands twice in a path holds up all that follows",
+    "position-frame": "positionError is in W, and a place from its topic is taken to be in W",
+    "position-start": "positionError is 100 until its first update, -1 until its topic says where",
+    "reconstruction-box": "two corners of the box are turned into W: right for quarter turns only",
+    "reconstruction-coverage": "coverage is divided by a slightly wrong number of cells",
+    "reconstruction-empty": "without inliers the error is 0 and its variance 0/-1",
+    "reconstruction-transform": "clouds are placed where their frame stood when the level began",
+    "rows": "a row whose measures' errors do not cancel is left out of result.dat",
     "stop-once": "the benchmark's stopOn is never reset: after it, no further level begins",
     "thresholds": "trigger distances are compared squared: onMove 0.447 m, position 0.548 m",
+    "time-log": "the log of a time shows 0 as long as it runs",
+    "unseen": "what is outside a picture, or behind the camera, is projected all the same",
     "visual-frames": "sensors hang on the visual frame of their link (scenes before July 2014)",
     "y0": "the camera parameter y0 counts from the bottom edge, but is published as it is",
 }

@@ -185,13 +185,14 @@ class Intrinsics:
             far=far,
         )
 
-    def project(self, points: Array) -> Array:
+    def project(self, points: Array, *, behind: bool = False) -> Array:
         """Image coordinates (n, 2) [px] of points in the camera frame (n, 3) [m].
 
-        Points at or behind the camera plane give NaN.
+        Points at or behind the camera plane give NaN; with ``behind`` only those in the plane do,
+        and those behind it are projected through the camera's centre, upside down.
         """
         x, y, depth = points[:, 0], points[:, 1], -points[:, 2]
-        depth[~(depth > 0.0)] = np.nan
+        depth[(depth == 0.0) if behind else ~(depth > 0.0)] = np.nan
         pixels = np.empty((len(points), 2))
         pixels[:, 0] = self.cx + (self.fx * x + self.skew * y) / depth
         pixels[:, 1] = self.cy - self.fy * y / depth

@@ -138,6 +138,15 @@ def test_behind_the_camera_there_is_no_truth(truth: str) -> None:
         assert spec(camera="cam", target="box").bind(world, truth).read() is None
 
 
+def test_the_original_projects_what_is_behind_the_camera_upside_down() -> None:
+    body = FakeBody((0.1, 0.2, 1.0), box=Box((-0.1, -0.1, 0.0), (0.1, 0.1, 0.0)))
+    world = FakeWorld({"box": body}, {"cam": FakeCamera()}, compatibility=frozenset({"unseen"}))
+    assert centroid(world) == pytest.approx([160 - 0.1 * F, 120 + 0.2 * F])
+    framed = corners(world).reshape(4, 2)
+    assert framed.min(axis=0) == pytest.approx([160 - 0.2 * F, 120 + 0.1 * F])
+    assert framed.max(axis=0) == pytest.approx([160, 120 + 0.3 * F])
+
+
 def test_the_truth_follows_body_and_camera() -> None:
     body, camera = FakeBody((0.0, 0.0, -1.0)), FakeCamera()
     truth = CentroidFromCameraSpec(camera="cam", target="box").bind(seen(body, camera))

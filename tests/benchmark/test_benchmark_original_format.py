@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,9 @@ from uwsim.benchmark.measures import (
     EuclideanNormSpec,
     MeasureSpec,
     ObjectCenteredOnCamSpec,
+    PathFollowingSpec,
     PositionErrorSpec,
+    Reconstruction3DSpec,
     TimeSpec,
 )
 from uwsim.benchmark.original_format import (
@@ -61,6 +64,87 @@ def test_every_field_is_followed_by_a_tab_and_numbers_have_six_digits() -> None:
 def test_rows_in_error_are_left_out_only_where_the_original_is_asked_for() -> None:
     lines = dat_text(RESULT, compatibility=frozenset({"rows"})).split("\n")
     assert lines[3:] == ["1\t1.35\t0.5\t8\t", ""]
+
+
+REBUILT = Reconstruction3DSpec(
+    name="cloud", target="b", topic="t", from_="f", detailed_results_to_globals=True
+)
+RECONSTRUCTION = Result(
+    inputs={},
+    run={},
+    columns=(
+        Column(name="light", kind="level"),
+        Column(name="taskTime", kind="measure", unit="s"),
+        Column(name="cloud", kind="measure", unit="m"),
+        Column(name="cloud.mean_error", kind="detail", unit="m"),
+        Column(name="cloud.error_variance", kind="detail", unit="m^2"),
+        Column(name="cloud.coverage", kind="detail"),
+        Column(name="cloud.outlier_share", kind="detail"),
+        Column(name="cloud.n_inliers", kind="detail"),
+        Column(name="total", kind="score"),
+        Column(name="ended_at", kind="time", unit="s"),
+    ),
+    rows=(
+        (0.0, 20.0, 0.02, 0.02, 0.0004, 0.5, 0.25, 3.0, 0.02, 20.0),
+        (1.0, 20.0, 0.02, 0.02, None, 0.25, 0.0, 1.0, 0.02, 40.0),
+        (2.0, 20.0, None, None, None, 0.0, 1.0, 0.0, None, 60.0),
+    ),
+)
+
+
+def test_details_take_the_place_of_their_measure_where_the_file_asks_for_it() -> None:
+    assert dat_text(RECONSTRUCTION, measures=(TimeSpec(name="taskTime"), REBUILT)).split("\n") == [
+        "Light\ttaskTime\tmean error\terror variance\tcoverage %\toutliers %\tTOTAL\tSimTime\t",
+        "0\t20\t0.02\t0.0004\t0.5\t0.25\t0.02\t20\t",
+        "1\t20\t0.02\tnan\t0.25\t0\t0.02\t40\t",
+        "2\t20\tnan\tnan\t0\t1\tnan\t60\t",
+        "",
+    ]
+    plain = dataclasses.replace(REBUILT, detailed_results_to_globals=False)
+    assert dat_text(RECONSTRUCTION, measures=(plain,)).split("\n")[:2] == [
+        "Light\ttaskTime\tcloud\tTOTAL\tSimTime\t",
+        "0\t20\t0.02\t0.02\t20\t",
+    ]
+
+
+def test_details_of_a_row_in_error_are_left_out_with_it() -> None:
+    rows = dat_text(RECONSTRUCTION, compatibility=frozenset({"rows"}), measures=(REBUILT,)).split(
+        "\n"
+    )
+    assert rows[1:] == [
+        "0\t20\t0.02\t0.0004\t0.5\t0.25\t0.02\t20\t",
+        "1\t20\t0.02\tnan\t0.25\t0\t0.02\t40\t",
+        "",
+    ]
+
+
+def test_a_missing_path_cancels_a_missing_estimate_in_the_original() -> None:
+    path = PathFollowingSpec(name="path", target="g")
+    result = Result(
+        inputs={},
+        run={},
+        columns=(
+            Column(name="none", kind="level"),
+            Column(name="corners", kind="measure", unit="px"),
+            Column(name="path", kind="measure", unit="m s"),
+            Column(name="total", kind="score"),
+            Column(name="ended_at", kind="time", unit="s"),
+        ),
+        rows=(
+            (1.0, None, None, None, 2.0),
+            (1.0, None, 3.0, None, 4.0),
+            (1.0, 2.0, None, None, 6.0),
+            (1.0, 2.0, 3.0, 5.0, 8.0),
+        ),
+    )
+    slip = frozenset({"rows"})
+    assert dat_text(result, compatibility=slip, measures=(CORNERS, path)).split("\n") == [
+        "None\tcorners\tpath\tTOTAL\tSimTime\t",
+        "1\t-1\t0\t2\t",
+        "1\t2\t3\t5\t8\t",
+        "",
+    ]
+    assert dat_text(result, measures=(CORNERS, path)).split("\n")[1] == "1\tnan\tnan\tnan\t2\t"
 
 
 def test_it_lies_beside_the_result(tmp_path: Path) -> None:
@@ -117,6 +201,8 @@ def test_repeats_lead_a_log_as_they_lead_the_result() -> None:
             8,
             ("total", "x", "y", "z", "rx", "ry", "rz", "rw"),
         ),
+        (REBUILT, 4, ("mean error", "error variance", "coverage %", "outliers %")),
+        (PathFollowingSpec(name="p", target="g"), 5, ("ISE", "distanceToPath", "waypoint")),
     ],
 )
 def test_details_are_called_as_the_original_calls_them(

@@ -410,13 +410,16 @@ def test_all_faults_are_reported_at_once_in_the_order_of_the_file(file: Path) ->
     assert [fault.line for fault in faults(file, content)] == [3, 4, 5, 8, 10, 10]
 
 
-def test_what_is_not_simulated_yet_is_a_notice(file: Path) -> None:
+def test_every_measure_of_the_original_is_played(file: Path) -> None:
     file.write_text(WHOLE)
-    notices = [f.message for f in check_benchmark(file) if "not simulated yet" in f.message]
-    assert [message.split(":")[0] for message in notices] == [
-        "<reconstruction3D>",
-        "<pathFollowing>",
-    ]
+    assert [str(fault) for fault in check_benchmark(file)] == []
+
+
+def test_a_path_without_a_topic_is_a_notice(file: Path) -> None:
+    path = f"<pathFollowing><name>p</name><target>girona500</target>{GATE}</pathFollowing>"
+    file.write_text(text(path, function="<function>p</function>"))
+    notices = [fault.message for fault in check_benchmark(file)]
+    assert "<pathFollowing> without <topic> has no path, and no value" in notices
 
 
 def test_a_benchmark_that_never_ends_is_a_notice(file: Path) -> None:

@@ -71,7 +71,12 @@ class Bench:
         """Put together what is on disk, and write ``result.json``, ``result.dat`` and the logs."""
         result, logs, self.simulated_s = collect(self)
         save(result, self.out)
-        save_dat(result, self.out, compatibility=self.plan.compatibility)
+        save_dat(
+            result,
+            self.out,
+            compatibility=self.plan.compatibility,
+            measures=self.plan.benchmark.measures,
+        )
         measures = {spec.name: spec for spec in self.plan.benchmark.measures}
         for log in logs:
             save_log(log, self.out)

@@ -102,9 +102,10 @@ class CornersFromCameraSpec(GroundTruthSpec):
     def bind(self, world: World, truth: str = "original") -> GroundTruth:
         """Find camera and target; raises UnknownName if one is not there."""
         camera, body = world.camera(self.camera), world.body(self.target)
+        unseen = "unseen" in world.compatibility
         if truth == "face":
-            return FaceCorners(camera, body)
-        return CornersFromCamera(camera, body)
+            return FaceCorners(camera, body, unseen=unseen)
+        return CornersFromCamera(camera, body, unseen=unseen)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,9 +124,10 @@ class CentroidFromCameraSpec(GroundTruthSpec):
     def bind(self, world: World, truth: str = "original") -> GroundTruth:
         """Find camera and target; raises UnknownName if one is not there."""
         camera, body = world.camera(self.camera), world.body(self.target)
+        unseen = "unseen" in world.compatibility
         if truth == "face":
-            return FaceCentre(camera, body)
-        return CentroidFromCamera(camera, body)
+            return FaceCentre(camera, body, unseen=unseen)
+        return CentroidFromCamera(camera, body, unseen=unseen)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,12 +162,15 @@ class RelativeLocation(GroundTruth):
 
 
 class _Seen(GroundTruth):
-    """Points of a body as a camera sees them; computed again only when one of the two moved."""
+    """Points of a body as a camera sees them; computed again only when one of the two moved.
+
+    Compatibility ``unseen``: what is behind the camera is seen through its centre, upside down.
+    """
 
     missing = "the target is behind the camera"
 
-    def __init__(self, camera: Camera, body: Body, points: Array) -> None:
-        self._camera, self._body = camera, body
+    def __init__(self, camera: Camera, body: Body, points: Array, *, unseen: bool) -> None:
+        self._camera, self._body, self._unseen = camera, body, unseen
         self._points = points  # (n, 3) [m], body frame
         self._seen_from: tuple[bytes, ...] = ()
         self._seen: Array | None = None
@@ -181,7 +186,8 @@ class _Seen(GroundTruth):
         )
         if key != self._seen_from:
             points = self._points @ body.rotation.T + (body.position - camera.position)
-            pixels = self._camera.intrinsics.project(points @ camera.rotation)  # (n, 2) [px]
+            seen = points @ camera.rotation  # (n, 3) [m], camera frame
+            pixels = self._camera.intrinsics.project(seen, behind=self._unseen)  # (n, 2) [px]
             self._seen = self._from_pixels(pixels) if np.isfinite(pixels).all() else None
             self._seen_from = key
         return self._seen
@@ -202,8 +208,8 @@ class CornersFromCamera(_Seen):
 
     components = CORNERS
 
-    def __init__(self, camera: Camera, body: Body) -> None:
-        super().__init__(camera, body, box_of(body).corners())
+    def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
+        super().__init__(camera, body, box_of(body).corners(), unseen=unseen)
 
     def _from_pixels(self, pixels: Array) -> Array:
         return rectangle(pixels).reshape(8)
@@ -214,8 +220,8 @@ class CentroidFromCamera(_Seen):
 
     components = ("x", "y")
 
-    def __init__(self, camera: Camera, body: Body) -> None:
-        super().__init__(camera, body, np.zeros((1, 3)))
+    def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
+        super().__init__(camera, body, np.zeros((1, 3)), unseen=unseen)
 
     def _from_pixels(self, pixels: Array) -> Array:
         pixel: Array = pixels[0]
@@ -233,9 +239,9 @@ class FaceCorners(_Seen):
 
     components = CORNERS
 
-    def __init__(self, camera: Camera, body: Body) -> None:
-        super().__init__(camera, body, top_face(body))
-        self._box = CornersFromCamera(camera, body)
+    def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
+        super().__init__(camera, body, top_face(body), unseen=unseen)
+        self._box = CornersFromCamera(camera, body, unseen=unseen)
         self._order: list[int] | None = None
 
     def _from_pixels(self, pixels: Array) -> Array:
@@ -253,8 +259,8 @@ class FaceCentre(_Seen):
 
     components = ("x", "y")
 
-    def __init__(self, camera: Camera, body: Body) -> None:
-        super().__init__(camera, body, top_face(body).mean(axis=0, keepdims=True))
+    def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
+        super().__init__(camera, body, top_face(body).mean(axis=0, keepdims=True), unseen=unseen)
 
     def _from_pixels(self, pixels: Array) -> Array:
         pixel: Array = pixels[0]

@@ -8,7 +8,9 @@ r"""The original's files: its result, here ``result.dat``, and its logs, ``bench
 
 Every field is followed by a tab, numbers have C++'s default format (``%g``, six digits). A value
 that is missing is ``nan`` and no row is dropped; the compatibility ``rows`` has the original back:
-a row with a measure in error is left out, and a function that fails leaves its field out.
+a row with a measure in error is left out, and a function that fails leaves its field out. The
+original sums the errors of a row, and a path that is not there counts -1: with one missing estimate
+beside it the row stays, and -1 and 0 stand for the two.
 
 A measure with ``<log>`` has a file of its own, beside our CSV of the same samples. Its first column
 has the outermost updater's name and holds, in the original too, the running time; the details of
@@ -22,6 +24,7 @@ the measure follow, and one blank line at the end. Levels are not told apart.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from .logs import TIME, Log, file_name
@@ -51,28 +54,62 @@ LEVEL_NAMES = {
 """Reference of an updater -> the original's name of it."""
 
 
-def dat_text(result: Result, *, compatibility: frozenset[str] = frozenset()) -> str:
-    """Return the text of ``result.dat``; ``repeat`` and ``seed`` lead when there are several."""
-    columns = [c for c in result.columns if c.kind in ("run", "level", "measure", "score", "time")]
-    columns.sort(key=lambda c: ("run", "level", "measure", "score", "time").index(c.kind))
-    lines = ["".join(f"{_name(column)}\t" for column in columns)]
+def dat_text(
+    result: Result,
+    *,
+    compatibility: frozenset[str] = frozenset(),
+    measures: Sequence[MeasureSpec] = (),
+) -> str:
+    """Return the text of ``result.dat``; ``repeat`` and ``seed`` lead when there are several.
+
+    Args:
+        result: what was found.
+        compatibility: slips of the original; ``rows`` matters here.
+        measures: of the benchmark; one that is not given has one field, its value.
+    """
+    specs = {spec.name: spec for spec in measures}
+    fields = list(_fields(result, specs))
+    lines = ["".join(f"{name}\t" for name, _ in fields)]
     for row in result.rows:
-        cells = [(column, row[result.index(column.name)]) for column in columns]
+        cells = [(column, row[result.index(column.name)]) for _, column in fields]
         if "rows" in compatibility:
-            if any(cell is None for column, cell in cells if column.kind == "measure"):
+            measured = [column.name for column in result.of_kind("measure")]
+            missing = [name for name in measured if row[result.index(name)] is None]
+            if sum(specs[name].error_flag if name in specs else 1 for name in missing):
                 continue
-            cells = [(column, cell) for column, cell in cells if cell is not None]
+            cells = [
+                (column, specs[column.name].error_value if column.name in missing else cell)
+                for column, cell in cells
+                if cell is not None or column.kind != "score"
+            ]
         lines.append("".join(f"{_number(cell)}\t" for _, cell in cells))
     return "\n".join(lines) + "\n"
 
 
 def save_dat(
-    result: Result, directory: Path, *, compatibility: frozenset[str] = frozenset()
+    result: Result,
+    directory: Path,
+    *,
+    compatibility: frozenset[str] = frozenset(),
+    measures: Sequence[MeasureSpec] = (),
 ) -> Path:
     """Write ``result.dat`` into the result directory, whole or not at all."""
     path = directory / "result.dat"
-    write_whole(path, dat_text(result, compatibility=compatibility))
+    write_whole(path, dat_text(result, compatibility=compatibility, measures=measures))
     return path
+
+
+def _fields(result: Result, specs: Mapping[str, MeasureSpec]) -> Iterator[tuple[str, Column]]:
+    """Names of the fields, and the columns that they show."""
+    for kind in ("run", "level", "measure", "score", "time"):
+        for column in result.columns:
+            if column.kind != kind:
+                continue
+            if kind != "measure" or column.name not in specs:
+                yield _name(column), column
+                continue
+            for name, shown in specs[column.name].original_fields.items():
+                yield name, result.columns[result.index(shown)]
 
 
 def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:

@@ -142,6 +142,8 @@ class _Playing:
         self._updaters = bind_updaters(self._updater, simulation)
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         apply_level(self._updaters, initial_level(self._updater))
+        for gated in [Gated(spec, simulation) for spec in benchmark.measures]:
+            gated.close()  # the bus now keeps what they want to find when they start
         self._gate = Gate(benchmark, simulation)
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.inbox(STATUS_TOPIC, String)

@@ -29,7 +29,7 @@ from ..dialect import NAMESPACE, Faults, check_head, parse, read, slots, text_of
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
 from . import score
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
-from .measures import MEASURES, MeasureSpec
+from .measures import MEASURES, MeasureSpec, PathFollowingSpec
 from .original_grammar import check_order
 from .plugin import PREFIX
 from .spec import BenchmarkSpec, FunctionSpec
@@ -142,10 +142,10 @@ class _Reader:
 
     def measure(self, cls: type[MeasureSpec], node: etree._Element) -> MeasureSpec | None:
         spec = read(cls, node, self.faults, given=self.by_hand(cls, node))
-        if not cls.is_simulated:
-            self.faults.notice(node, f"<{_name(node)}>: {NOT_YET}")
         if spec is None:
             return None
+        if isinstance(spec, PathFollowingSpec) and spec.topic is None:
+            self.faults.notice(node, "<pathFollowing> without <topic> has no path, and no value")
         if spec.value not in cls.values:
             self.faults.add(
                 node,

@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from ..assets import find, folders_searched
 from ..errors import AssetNotFound, UnknownName, UwsimError
@@ -88,13 +89,19 @@ def read_dynamics(
 
 
 def name_bodies(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], state: State, parts: Sequence[Part]
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    state: State,
+    parts: Sequence[Part],
+    compatibility: frozenset[str] = frozenset(),
 ) -> dict[str, SceneBody]:
     """Give every frame of the scene its routes; where two share a name, the first has it.
 
     ``vehicle`` is the base frame, ``vehicle/link`` and ``link`` the kinematic frame of a link,
     ``link@visual`` its visual frame (the original's meaning of a link's name), an object its mesh
-    frame (scale moves the frame's origin and does not turn it), ``localizedWorld`` is L.
+    frame (scale moves the frame's origin and does not turn it), ``localizedWorld`` is L. The
+    boxes of objects are as large as the objects; with the compatibility ``box-scale`` their
+    ``scaleFactor`` is left out, as in the original.
     """
     bodies = {
         "localizedWorld": SceneBody("localizedWorld", lambda: scene.world_from_localized, None)
@@ -113,20 +120,41 @@ def name_bodies(
             add(names, pose, None)
             if link.visual is not None:
                 link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
+                box = boxes.get((index, link.name, None))
                 add(
                     [f"{name}@visual" for name in names],
                     partial(_attached, pose, link_from_visual),
-                    boxes.get((index, link.name, None)),
+                    None if box is None else scaled_box(box, np.eye(3), link.visual.scale),
                 )
     for index, thing in enumerate(scene.objects):
-        mesh = thing.object_from_mesh
+        mesh, box = thing.object_from_mesh, boxes.get((None, "", index))
+        if box is not None and "box-scale" not in compatibility:
+            box = scaled_box(box, mesh.rotation, thing.scale_factor)
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
         add(
             [thing.name],
             partial(_attached, partial(state.object_pose, index), Pose(origin, mesh.rotation)),
-            boxes.get((None, "", index)),
+            box,
         )
     return bodies
+
+
+def scaled_box(
+    box: Box, object_from_mesh: npt.NDArray[np.float64], scale: tuple[float, float, float]
+) -> Box:
+    """Return the bounding box, in the mesh's frame, of a mesh that is scaled along other axes.
+
+    Args:
+        box: of the mesh as it is in its file.
+        object_from_mesh: how the mesh is turned in the object, (3, 3).
+        scale: along the axes of the object [1].
+    """
+    if scale == (1.0, 1.0, 1.0):
+        return box
+    scaling = object_from_mesh.T @ np.diag(scale) @ object_from_mesh  # in the mesh's frame
+    corners = box.corners() @ scaling.T  # (8, 3) [m]
+    lower, upper = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+    return Box(tuple(lower), tuple(upper))
 
 
 def find_body(route: str, bodies: Mapping[str, SceneBody]) -> SceneBody:

@@ -98,7 +98,9 @@ class Simulation:
         shapes = collision_shapes(scene, self.robots, dynamics, data_path)
         self._state = State(scene, self.robots, dynamics, timestep, shapes)
         self._scenery = Scenery(scene, self.robots, self._state, data_path, studio)
-        self._bodies = name_bodies(scene, self.robots, self._state, self._scenery.parts)
+        self._bodies = name_bodies(
+            scene, self.robots, self._state, self._scenery.parts, compatibility
+        )
         self._water = Water(
             fog=scene.ocean_state.fog.density,
             fog_colour=scene.ocean_state.fog.color,

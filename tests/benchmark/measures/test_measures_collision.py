@@ -75,6 +75,18 @@ def test_the_original_looks_at_the_first_body_and_its_own_velocity_only() -> Non
     assert collision.value == pytest.approx(1.0 - 0.1 / 0.5 - 0.1 / 0.5)
 
 
+def test_the_original_looks_at_one_thing_at_a_time() -> None:
+    both = [
+        Contact(approach_speed=-0.1, own_speed=-0.1, is_first=True, other="floor"),
+        Contact(approach_speed=0.2, own_speed=0.2, is_first=True, other="wall"),
+        Contact(approach_speed=0.4, own_speed=0.4, is_first=True, other="pipe"),
+        Contact(approach_speed=0.3, own_speed=0.3, is_first=True, other="wall"),
+    ]
+    assert play(tank(), both).details["max_speed"] == pytest.approx(0.3)
+    original = tank(compatibility=frozenset({"collision"}))
+    assert play(original, both).details["max_speed"] == pytest.approx(0.25)
+
+
 def test_what_was_never_on_has_no_score() -> None:
     collision = SPEC.bind(tank())
     assert collision.value is None

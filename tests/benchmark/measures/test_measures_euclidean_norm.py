@@ -168,8 +168,19 @@ def test_the_original_lets_the_last_norm_stand() -> None:
     norm = norm_of(world, 0.0)
     norm.start()
     say(world, norm, 4.0)
+    assert norm.log_values == (4.0, -4.0)
     wait(world, norm, 5 * STEPS_PER_SECOND)
     assert (norm.value, norm.why) == (4.0, None)
+    assert norm.log_values == (4.0, 0.0)  # its components are those of no new estimate
+
+
+def test_a_log_keeps_the_components_of_the_newest_estimate() -> None:
+    world = FakeWorld()
+    norm = norm_of(world, 0.0)
+    norm.start()
+    say(world, norm, 4.0)
+    wait(world, norm, 3)
+    assert norm.log_values == (4.0, -4.0)
 
 
 def seen_box(**camera: object) -> tuple[FakeWorld, FakeBody]:

@@ -76,4 +76,69 @@ def test_with_a_topic_its_first_message_says_where_the_body_should_be() -> None:
         publish(stamped(1.0, 1.0, 1.0))
         assert error.value == pytest.approx(5.0)
     error.close()
-    assert not world.bus.has_readers("goal")
+    world.bus.deliver()
+    assert error.value == pytest.approx(5.0)
+
+
+def test_a_goal_that_was_published_before_the_level_began_counts() -> None:
+    world = FakeWorld({"v": FakeBody((1.0, 0.0, 0.0))})
+    spec = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0), topic="goal")
+    spec.bind(world).close()  # every name is looked up before the algorithm starts
+    for x in (9.0, 4.0):
+        world.publisher("goal", PoseStamped)(stamped(x, 0.0, 0.0))
+        world.advance()
+    error = spec.bind(world)
+    error.start()
+    assert error.value == pytest.approx(3.0)
+
+
+def test_the_original_measures_in_the_world_and_takes_the_topic_to_be_in_it() -> None:
+    original = frozenset({"position-frame"})
+    world = FakeWorld(
+        {"v": FakeBody((-3.0, 2.0, 5.0))},  # L (2, 3, 4)
+        world_from_localized=WORLD_FROM_LOCALIZED,
+        compatibility=original,
+    )
+    error = PositionErrorSpec(name="e", target="v", position=(1.0, 5.0, 2.0)).bind(world)
+    error.start()
+    assert error.value == pytest.approx(3.0)
+    assert error.log_values[:4] == pytest.approx((3.0, 2.0, 1.0, 2.0))
+    told = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0), topic="goal").bind(
+        world
+    )
+    world.publisher("goal", PoseStamped)(stamped(-3.0, 2.0, 1.0))
+    world.advance()
+    told.start()
+    assert told.value == pytest.approx(4.0)
+
+
+def test_the_original_starts_at_100_and_is_minus_1_until_it_is_told_where() -> None:
+    for slips, values in (
+        (frozenset[str](), [None, None, None, 3.0]),
+        (frozenset({"position-start"}), [100.0, 100.0, -1.0, 3.0]),
+    ):
+        world = FakeWorld({"v": FakeBody((4.0, 0.0, 0.0))}, compatibility=slips)
+        error = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0), topic="g").bind(
+            world
+        )
+        seen = [error.value]
+        error.start()
+        seen.append(error.value)
+        assert error.log_values[0] == error.value
+        for said in (False, True):
+            if said:
+                world.publisher("g", PoseStamped)(stamped(1.0, 0.0, 0.0))
+            world.advance()
+            error.update()
+            seen.append(error.value)
+        assert seen == values
+        assert (error.why is None) == (error.value is not None)
+
+
+def test_the_originals_first_sample_is_taken_a_step_later() -> None:
+    world = FakeWorld({"v": FakeBody()}, compatibility=frozenset({"position-start"}))
+    error = PositionErrorSpec(name="e", target="v", position=(3.0, 0.0, 0.0)).bind(world)
+    error.start()
+    assert (error.value, error.log_values[0]) == (100.0, 100.0)
+    error.update()
+    assert (error.value, error.log_values[0]) == (3.0, 3.0)

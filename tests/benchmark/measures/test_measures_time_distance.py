@@ -72,3 +72,15 @@ def test_time_during_a_pause_does_not_count() -> None:
         world.advance()
         time.update()
     assert time.value == 1.0
+
+
+def test_the_log_of_a_time_runs_except_in_the_original() -> None:
+    for slips, logged in ((frozenset[str](), 1.5), (frozenset({"time-log"}), 0.0)):
+        world = FakeWorld(timestep=0.5, compatibility=slips)
+        time = TimeSpec(name="t").bind(world)
+        time.start()
+        for _ in range(3):
+            world.advance()
+            time.update()
+        assert time.log_values == (logged,)
+        assert time.value == 1.5

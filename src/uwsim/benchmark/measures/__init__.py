@@ -9,9 +9,9 @@ from .energy import Energy, EnergySpec
 from .euclidean_norm import EuclideanNorm, EuclideanNormSpec
 from .measure import Measure, MeasureSpec
 from .object_centered_on_cam import ObjectCenteredOnCam, ObjectCenteredOnCamSpec
-from .path_following import PathFollowingSpec
+from .path_following import PathFollowing, PathFollowingSpec
 from .position_error import PositionError, PositionErrorSpec
-from .reconstruction_3d import Reconstruction3DSpec
+from .reconstruction_3d import Reconstruction3D, Reconstruction3DSpec
 from .signal import Signal
 from .time import Time, TimeSpec
 
@@ -45,9 +45,11 @@ __all__ = [
     "MeasureSpec",
     "ObjectCenteredOnCam",
     "ObjectCenteredOnCamSpec",
+    "PathFollowing",
     "PathFollowingSpec",
     "PositionError",
     "PositionErrorSpec",
+    "Reconstruction3D",
     "Reconstruction3DSpec",
     "Signal",
     "Time",

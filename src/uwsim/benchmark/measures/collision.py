@@ -46,7 +46,7 @@ class Collision(Measure):
     another is in contact and approaches nothing.
 
     Compatibility ``collision``: only contacts that list the body first, and only its own velocity
-    count, as in the original.
+    count, as in the original, and of what it touches only the first with which a contact closes.
     """
 
     unit = "1"
@@ -83,7 +83,11 @@ class Collision(Measure):
 
     def _speed(self, contacts: Sequence[Contact]) -> float:
         """Mean over the contacts that close [m/s]."""
-        speeds = [each.own_speed if self._is_original else each.approach_speed for each in contacts]
+        if self._is_original:
+            first = next((each.other for each in contacts if each.own_speed > 0.0), None)
+            speeds = [each.own_speed for each in contacts if each.other == first]
+        else:
+            speeds = [each.approach_speed for each in contacts]
         closing = [speed for speed in speeds if speed > 0.0]
         return sum(closing) / len(closing) if closing else 0.0
 

@@ -67,9 +67,11 @@ class EuclideanNorm(Measure):
 
     One sample for each step at which a new estimate arrived, against the truth at that step; the
     components are :math:`g_i - e_i`. There is no value when there was no sample, or when no
-    estimate came for more than 1 s while the measure was on: an old estimate is never scored
-    (compatibility ``last-norm`` lets the last norm stand, as the original does). At the start,
-    what arrived before is forgotten and ``publishOn`` is given the truth.
+    estimate came for more than 1 s while the measure was on: an old estimate is never scored. At
+    the start, what arrived before is forgotten and ``publishOn`` is given the truth.
+
+    Compatibility ``last-norm`` lets the last norm stand, however old it is, as the original does;
+    where its log has no new estimate, the components are 0 beside it.
     """
 
     unit = "1"
@@ -83,6 +85,7 @@ class EuclideanNorm(Measure):
         self._last_norm_stands = "last-norm" in world.compatibility
         self._inbox = world.inbox(spec.target, Float32MultiArray)
         self._signal = Signal(truth.components)
+        self._is_new = False  # whether there was a sample at this step
         self._refused = ""  # why the newest estimate was not scored
         self._notes: list[str] = []
         self._waits_since: int | None = None  # step of the last good estimate, or of the start
@@ -98,12 +101,14 @@ class EuclideanNorm(Measure):
     def update(self) -> None:
         """Score the newest estimate, if one arrived."""
         messages = self._inbox.take()
+        n_before = self._signal.n
         if messages:
             self._score(np.asarray(messages[-1].data, dtype=np.float64))
         if self._waits_since is not None:
             waited = self._world.step - self._waits_since
             if waited > self._silence[0]:
                 self._silence = (waited, self._waits_since)
+        self._is_new = self._signal.n > n_before
 
     @property
     def value(self) -> float | None:
@@ -138,6 +143,8 @@ class EuclideanNorm(Measure):
     @property
     def log_values(self) -> tuple[float | None, ...]:
         """The newest sample."""
+        if self._last_norm_stands and self._signal.n and not self._is_new:
+            return (self._signal.last[0], *(0.0,) * len(self._signal.components))
         return self._signal.last
 
     @property

@@ -18,8 +18,10 @@ class MeasureSpec(abc.ABC):
 
     values: ClassVar[tuple[str, ...]] = ("last",)
     """What ``u:value`` may be."""
-    is_simulated: ClassVar[bool] = True
-    """False: a later version will play it."""
+    error_flag: ClassVar[int] = 1
+    """What a missing value adds to the original's sum of errors (compatibility ``rows``)."""
+    error_value: ClassVar[float] = -1.0
+    """What the original writes for it where that sum is 0 all the same."""
 
     name: str
     """Name of its column, and of the value in the function; an identifier."""
@@ -37,6 +39,11 @@ class MeasureSpec(abc.ABC):
     def faults(self) -> Sequence[str]:
         """What is wrong about elements that are right one by one."""
         return ()
+
+    @property
+    def original_fields(self) -> Mapping[str, str]:
+        """Its fields in ``result.dat``: name there -> column of the result."""
+        return {self.name: self.name}
 
     @abc.abstractmethod
     def bind(self, world: World) -> Measure:

@@ -35,9 +35,10 @@ class ObjectCenteredOnCamSpec(MeasureSpec):
     def bind(self, world: World) -> ObjectCenteredOnCam:
         """Find camera and target; raises UnknownName if one is not there."""
         camera = world.camera(self.camera)
-        seen = CentroidFromCamera(camera, world.body(self.target))
+        unseen = "unseen" in world.compatibility
+        seen = CentroidFromCamera(camera, world.body(self.target), unseen=unseen)
         size = (camera.intrinsics.width, camera.intrinsics.height)
-        return ObjectCenteredOnCam(seen, size, self.value)
+        return ObjectCenteredOnCam(seen, size, self.value, unseen=unseen)
 
 
 class ObjectCenteredOnCam(Measure):
@@ -47,12 +48,23 @@ class ObjectCenteredOnCam(Measure):
     rows from the bottom, :math:`d_y = v - h/2`. One sample for each step at which the origin
     projects into the image; no value when it does not at the last look. ``visible`` is the
     fraction of looks at which it did. Not modelled: something in between that hides it.
+
+    Compatibility ``unseen``: a sample at each step, wherever the origin projects to; what is behind
+    the camera is seen through its centre, upside down. ``visible`` is then 1.
     """
 
     unit = "px"
 
-    def __init__(self, seen: CentroidFromCamera, size: tuple[int, int], value: str) -> None:
+    def __init__(
+        self,
+        seen: CentroidFromCamera,
+        size: tuple[int, int],
+        value: str,
+        *,
+        unseen: bool = False,
+    ) -> None:
         self._seen, self._size, self._which = seen, size, value
+        self._unseen = unseen
         self._signal = Signal(("x", "y"))
         self._looks = 0
         self._is_visible = False
@@ -66,8 +78,8 @@ class ObjectCenteredOnCam(Measure):
         width, height = self._size
         pixel = self._seen.read()
         self._looks += 1
-        self._is_visible = (
-            pixel is not None and 0.0 <= pixel[0] <= width and 0.0 <= pixel[1] <= height
+        self._is_visible = pixel is not None and (
+            self._unseen or (0.0 <= pixel[0] <= width and 0.0 <= pixel[1] <= height)
         )
         if pixel is not None and self._is_visible:
             off = np.array([width / 2 - pixel[0], pixel[1] - height / 2])

@@ -1,8 +1,8 @@
-"""Path following: how far a body strays from a path. Read, not simulated yet.
+r"""Path following: how far a body strays from a path.
 
 .. code-block:: xml
 
-    <pathFollowing>
+    <pathFollowing u:value="rms">
       <name>pathError</name> <target>girona500</target>
       <topic>path</topic> <from>localizedWorld</from>
     </pathFollowing>
@@ -13,25 +13,228 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
+from ...bus import Inbox
 from ...dialect import element
-from ...world import World
-from ..not_simulated import NotSimulatedYet
+from ...geometry import Array
+from ...messages import Path
+from ...world import Body, World
+from ..polyline import Polyline
 from .measure import Measure, MeasureSpec
+from .signal import VALUES, Signal
+
+PARTS = {"iae": "m s", "distance": "m", "waypoint": "1", "ise": "m^2 s", "share": "1"}
+"""Details -> unit; first the original's three, in its order."""
+STATISTICS = {"mean": "m", "rms": "m", "max": "m", "std": "m", "n": "1"}
+"""Statistics of the distance -> unit."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PathFollowingSpec(MeasureSpec):
-    """A ``<pathFollowing>`` element of a benchmark file."""
+    """A ``<pathFollowing>`` element of a benchmark file.
 
-    is_simulated: ClassVar[bool] = False
+    ``u:value="last"`` is the integral of the error, the original's value; ``mean``, ``rms`` and
+    ``max`` are those of the distance from the path.
+    """
+
+    values: ClassVar[tuple[str, ...]] = VALUES
+    error_flag: ClassVar[int] = -1
+    error_value: ClassVar[float] = 0.0
 
     target: str
     """Route of the body."""
     topic: str | None = element(default=None)
-    """Topic of the path (nav_msgs/Path)."""
+    """Topic of the path (nav_msgs/Path); without one there is no path, and so no value."""
     from_: str | None = element("from", default=None)
-    """Route of the body in whose frame the path is given; None: W."""
+    """Route of the body in whose frame the path is given; None: W, not L."""
 
-    def bind(self, world: World) -> Measure:
-        """Raise NotSimulatedYet."""
-        raise NotSimulatedYet("pathFollowing")
+    def bind(self, world: World) -> PathFollowing:
+        """Find target and frame; raises UnknownName if one is not there."""
+        inbox = None if self.topic is None else world.inbox(self.topic, Path, latched=True)
+        frame = None if self.from_ is None else world.body(self.from_)
+        return PathFollowing(self, world, world.body(self.target), frame, inbox)
+
+
+class PathFollowing(Measure):
+    r"""Integral of the distance :math:`d` of a body's origin from a path, over time.
+
+    .. math:: \text{iae} = \int d \, dt \qquad \text{ise} = \int d^2 \, dt
+
+    d is taken at every step and runs in a straight line from one to the next, so that the
+    integrals over a step are :math:`(d_0 + d_1) \Delta t / 2` and
+    :math:`(d_0^2 + d_0 d_1 + d_1^2) \Delta t / 3`. What passes while the measure is off, or before
+    there is a path, does not count.
+
+    The path is the newest one there is when the measure starts, or the first to arrive after that;
+    later ones are ignored until the next level. Its points are joined by straight segments in the
+    frame ``from`` as that stands at each step (orientations and the message's frame_id are not
+    looked at). The first segment is the current one to begin with; at each step at which the body
+    is nearer to the next segment than to the current one, that becomes the current one. So a body
+    that leaps over two waypoints is measured against a segment behind it for a step, one that
+    begins in the middle of the path against the first segments until it comes near them, and there
+    is no way back. A point that repeats the one before it is left out.
+
+    Details: ``iae`` (the value) [m s], ``ise`` [m^2 s], ``distance`` now [m], ``waypoint``, the
+    point, from 0, at which the current segment begins, ``share`` of the path's length up to the
+    foremost place that was nearest [1], and the statistics of the distance over all steps [m].
+
+    Compatibility ``path-ise``: ``iae`` is the sum of :math:`d_1 \Delta t`, and stands under
+    ``ise``, too. ``path-frame``: to the points of the path the place of ``from`` in W is added.
+    ``path-repeats``: a repeated point is a segment of length 0; as the body is never nearer to it
+    than to the segment before, it holds up all that follows.
+    """
+
+    unit = "m s"
+
+    def __init__(
+        self,
+        spec: PathFollowingSpec,
+        world: World,
+        target: Body,
+        frame: Body | None,
+        inbox: Inbox[Path] | None,
+    ) -> None:
+        self._world, self._target, self._frame, self._inbox = world, target, frame, inbox
+        self._topic, self._which = spec.topic, spec.value
+        self._is_original = "path-ise" in world.compatibility
+        self._adds_place = "path-frame" in world.compatibility
+        self._keeps_repeats = "path-repeats" in world.compatibility
+        if spec.value != "last":
+            self.unit = "m"  # type: ignore[misc]  # depends on u:value
+        ise = {"ise": "m s"} if self._is_original else {}
+        self.detail_units = {**PARTS, **STATISTICS, **ise}  # type: ignore[misc]
+        self._path: Polyline | None = None
+        self._waypoints: list[int] = []  # at which of its points each segment begins
+        self._refused = ""  # why the newest path could not be taken
+        self._was_on = False
+        self._segment = 0
+        self._furthest = 0.0  # along the path [m]
+        self._iae = 0.0  # [m s]
+        self._ise = 0.0  # [m^2 s]
+        self._before: tuple[int, float] | None = None  # the last step looked at, and d [m]
+        self._signal = Signal(())
+
+    def start(self) -> None:
+        """Begin, with the newest path there is."""
+        self._was_on = True
+        self._before = None
+        self.update()
+
+    def update(self) -> None:
+        """Take the distance, and add what lies between this step and the last."""
+        if self._path is None:
+            self._look_for_path()
+        if self._path is None:
+            return
+        place = self._place()
+        distance, along = self._path.nearest(self._segment, place)
+        if self._segment + 1 < self._path.n_segments:
+            of_next = self._path.nearest(self._segment + 1, place)
+            if of_next[0] < distance:
+                self._segment += 1
+                distance, along = of_next
+        self._furthest = max(self._furthest, along)
+        if self._before is not None:
+            step, before = self._before
+            self._add(before, distance, (self._world.step - step) * self._world.timestep)
+        self._before = (self._world.step, distance)
+        self._signal.add(distance, np.empty(0))
+
+    @property
+    def value(self) -> float | None:
+        """The integral of the error [m s], or the statistic that ``u:value`` asks for [m]."""
+        if not self._signal.n:
+            return None
+        return self._iae if self._which == "last" else self._signal.value(self._which)
+
+    @property
+    def why(self) -> str | None:
+        """Why there is no value."""
+        if self._signal.n:
+            return None
+        if not self._was_on:
+            return "it was never on"
+        if self._topic is None:
+            return "no <topic> says where the path is"
+        return self._refused or f"no path on {self._topic!r}"
+
+    @property
+    def details(self) -> dict[str, float | None]:
+        """Integrals and statistics of the distance, and how far along the path the body came."""
+        parts: dict[str, float | None] = dict.fromkeys(PARTS)
+        if self._path is not None:
+            length = self._path.length
+            parts = {
+                "iae": self._iae,
+                "distance": self._signal.last[0],
+                "waypoint": float(self._waypoints[self._segment]),
+                "ise": self._iae if self._is_original else self._ise,
+                "share": self._furthest / length if length > 0.0 else None,
+            }
+        return {**parts, **self._signal.details}
+
+    @property
+    def log_header(self) -> tuple[str, ...]:
+        """The integral, the distance now, where on the path; then what the original has not."""
+        return tuple(PARTS)
+
+    @property
+    def log_values(self) -> tuple[float | None, ...]:
+        """As of now."""
+        details = self.details
+        return tuple(details[name] for name in self.log_header)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was wrong with a path that could not be taken."""
+        return (self._refused,) if self._refused else ()
+
+    def close(self) -> None:
+        """Listen no more."""
+        if self._inbox is not None:
+            self._inbox.close()
+
+    def _look_for_path(self) -> None:
+        """Take the newest path that arrived, if it can be taken."""
+        messages = self._inbox.take() if self._inbox is not None else []
+        if not messages:
+            return
+        points = _points(messages[-1])
+        if points is None:
+            self._refused = f"the path on {self._topic!r} has points that are no finite numbers"
+        elif not len(points):
+            self._refused = f"the path on {self._topic!r} has no points"
+        else:
+            if self._adds_place and self._frame is not None:
+                points = points + self._frame.world_from_body.position
+            differs = np.r_[True, np.any(points[1:] != points[:-1], axis=1) | self._keeps_repeats]
+            self._waypoints = np.flatnonzero(differs).tolist()
+            self._path = Polyline(points[differs])
+
+    def _place(self) -> Array:
+        """Where the body is, in the path's frame, (3,) [m]."""
+        position = self._target.world_from_body.position
+        if self._frame is None:
+            return position
+        world_from_frame = self._frame.world_from_body
+        located: Array = world_from_frame.rotation.T @ (position - world_from_frame.position)
+        return located
+
+    def _add(self, before: float, distance: float, duration: float) -> None:
+        """Add to the integrals what lies between two looks [m, m, s]."""
+        if self._is_original:
+            self._iae += distance * duration
+            return
+        self._iae += (before + distance) * duration / 2.0
+        self._ise += (before**2 + before * distance + distance**2) * duration / 3.0
+
+
+def _points(path: Path) -> Array | None:
+    """The points of a path, (n, 3) [m]; None when one is no finite number."""
+    try:
+        places = [pose.pose.position for pose in path.poses]
+        points = np.array([(place.x, place.y, place.z) for place in places], dtype=np.float64)
+    except (AttributeError, TypeError, ValueError):  # a message made by hand
+        return None
+    return points.reshape(-1, 3) if np.isfinite(points).all() else None

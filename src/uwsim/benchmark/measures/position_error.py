@@ -18,7 +18,7 @@ import numpy as np
 
 from ...bus import Inbox
 from ...dialect import element
-from ...geometry import Array
+from ...geometry import Array, Pose
 from ...messages import PoseStamped
 from ...world import Body, World
 from .measure import Measure, MeasureSpec
@@ -38,12 +38,12 @@ class PositionErrorSpec(MeasureSpec):
     position: tuple[float, float, float]
     """Where it should be, in L [m]."""
     topic: str | None = element(default=None)
-    """Topic that says where it should be instead (geometry_msgs/PoseStamped, in L); its first
-    message counts. None: ``position`` counts."""
+    """Topic that says where it should be instead (geometry_msgs/PoseStamped, in L): its newest
+    message when the measure starts, or the first after that. None: ``position`` counts."""
 
     def bind(self, world: World) -> PositionError:
         """Find the target; raises UnknownName if it is not there."""
-        inbox = None if self.topic is None else world.inbox(self.topic, PoseStamped)
+        inbox = None if self.topic is None else world.inbox(self.topic, PoseStamped, latched=True)
         return PositionError(self, world, world.body(self.target), inbox)
 
 
@@ -52,6 +52,10 @@ class PositionError(Measure):
 
     One sample a step. The components x, y, z are those of :math:`p - q` in L; rx, ry, rz, rw are
     the body's attitude in L now, a quaternion xyzw, as in the original.
+
+    Compatibility ``position-frame``: the components are in W, and so is what the topic says.
+    ``position-start``: the first sample is taken a step later; until then the value is 100, and -1
+    while the topic has not said where the body should be.
     """
 
     unit = "m"
@@ -62,17 +66,26 @@ class PositionError(Measure):
         self._body, self._inbox, self._topic = body, inbox, spec.topic
         self._which = spec.value
         self._localized_from_world = world.world_from_localized.inverse()
-        self._goal = None if inbox else np.array(spec.position)  # (3,) [m], in L
+        is_original = "position-frame" in world.compatibility
+        self._frame_from_world = Pose.identity() if is_original else self._localized_from_world
+        self._goal: Array | None = None  # (3,) [m], in L, or in W
+        if inbox is None:
+            place = Pose(np.array(spec.position), np.eye(3))  # in L
+            self._goal = (world.world_from_localized @ place if is_original else place).position
         self._signal = Signal(("x", "y", "z"))
         self._was_on = False
+        self._was_updated = False
+        self._starts_at_100 = "position-start" in world.compatibility
 
     def start(self) -> None:
         """Take the first sample."""
         self._was_on = True
-        self.update()
+        if not self._starts_at_100:
+            self.update()
 
     def update(self) -> None:
         """Take a sample, once it is known where the body should be."""
+        self._was_updated = True
         if self._goal is None:
             self._goal = self._told()
         if self._goal is not None:
@@ -82,12 +95,14 @@ class PositionError(Measure):
     @property
     def value(self) -> float | None:
         """The last distance, or the statistic that ``u:value`` asks for [m]."""
+        if self._starts_at_100 and not self._signal.n:
+            return -1.0 if self._was_updated else 100.0
         return self._signal.value(self._which)
 
     @property
     def why(self) -> str | None:
         """Why there is no value."""
-        if self._signal.n:
+        if self.value is not None:
             return None
         return f"no position on {self._topic!r}" if self._was_on else "it was never on"
 
@@ -104,7 +119,8 @@ class PositionError(Measure):
     @property
     def log_values(self) -> tuple[float | None, ...]:
         """The newest sample."""
-        return (*self._signal.last, *self._turn())
+        total, *components = self._signal.last
+        return (self.value if total is None else total, *components, *self._turn())
 
     def close(self) -> None:
         """Listen no more."""
@@ -112,7 +128,7 @@ class PositionError(Measure):
             self._inbox.close()
 
     def _pose_position(self) -> Array:
-        frame = self._localized_from_world
+        frame = self._frame_from_world
         position: Array = frame.rotation @ self._body.world_from_body.position + frame.position
         return position
 

@@ -29,8 +29,9 @@ class TimeSpec(MeasureSpec):
 class Time(Measure):
     """Simulation time from the first to the last step at which the measure was on.
 
-    It runs while the measure is on (the original shows 0 until it stops), and adds up when the
-    measure goes on again. Never wall time.
+    It runs while the measure is on, and adds up when the measure goes on again. Never wall time.
+
+    Compatibility ``time-log``: its log shows 0, as the original's does until the time is stopped.
     """
 
     unit = "s"
@@ -39,6 +40,7 @@ class Time(Measure):
         self._world = world
         self._last: int | None = None  # step
         self._steps = 0
+        self._is_logged = "time-log" not in world.compatibility
 
     def start(self) -> None:
         """Count from now."""
@@ -54,3 +56,8 @@ class Time(Measure):
     def value(self) -> float | None:
         """Time so far [s]; None when the measure was never on."""
         return None if self._last is None else self._steps * self._world.timestep
+
+    @property
+    def log_values(self) -> tuple[float | None, ...]:
+        """Time so far [s]."""
+        return (self.value if self._is_logged else 0.0,)

@@ -1,0 +1,66 @@
+"""Bounding boxes of bodies: as large as what they bound."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from simulated import SCENE
+
+from uwsim.geometry import rotation_x, rotation_z
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
+from uwsim.simulation.bodies import scaled_box
+from uwsim.world import Box
+
+BOX = Box((-1.0, -2.0, 0.0), (1.0, 2.0, 3.0))
+
+
+def test_a_box_that_is_not_scaled_stays_as_it_is() -> None:
+    assert scaled_box(BOX, rotation_x(0.3), (1.0, 1.0, 1.0)) is BOX
+
+
+def test_a_scale_acts_along_the_axes_of_the_object_not_of_the_mesh() -> None:
+    doubled = scaled_box(BOX, np.eye(3), (2.0, 1.0, 0.5))
+    assert (doubled.lower, doubled.upper) == ((-2.0, -2.0, 0.0), (2.0, 2.0, 1.5))
+    turned = scaled_box(BOX, rotation_z(np.pi / 2), (2.0, 1.0, 0.5))  # its y is the object's -x
+    assert turned.lower == pytest.approx((-1.0, -4.0, 0.0))
+    assert turned.upper == pytest.approx((1.0, 4.0, 1.5))
+
+
+def test_an_even_scale_does_not_care_how_the_mesh_is_turned() -> None:
+    tripled = scaled_box(BOX, rotation_x(0.7) @ rotation_z(0.2), (3.0, 3.0, 3.0))
+    assert tripled.lower == pytest.approx((-3.0, -6.0, 0.0))
+    assert tripled.upper == pytest.approx((3.0, 6.0, 9.0))
+
+
+def test_a_mesh_that_is_sheared_lies_within_its_box() -> None:
+    turn, scale = rotation_x(0.7), (1.0, 2.0, 0.5)
+    sheared = scaled_box(BOX, turn, scale)
+    corners = BOX.corners() @ (turn.T @ np.diag(scale) @ turn).T
+    assert (corners >= np.array(sheared.lower) - 1e-12).all()
+    assert (corners <= np.array(sheared.upper) + 1e-12).all()
+
+
+def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
+    scene = read_scene(SCENE)
+    black_box = next(thing for thing in scene.objects if thing.name == "blackbox")
+    sizes = []
+    for scale, compatibility in (
+        ((1.0, 1.0, 1.0), frozenset[str]()),
+        ((2.0, 3.0, 0.5), frozenset[str]()),
+        ((2.0, 3.0, 0.5), frozenset({"box-scale"})),
+    ):
+        thing = replace(black_box, scale_factor=scale, offsetr=(0.0, 0.0, 0.0))
+        simulation = Simulation(
+            replace(scene, vehicles=(), objects=(thing,), ros_interfaces=()),
+            compatibility=compatibility,
+        )
+        box = simulation.body("blackbox").box
+        simulation.close()
+        assert box is not None
+        sizes.append(np.subtract(box.upper, box.lower))
+    as_it_is, scaled, original = sizes
+    assert scaled == pytest.approx(as_it_is * [2.0, 3.0, 0.5])
+    assert original == pytest.approx(as_it_is)
