@@ -269,6 +269,7 @@ def test_a_single_point_is_a_path_without_a_length() -> None:
     measure = following(world, [(0.0, 0.0, 0.0)])
     assert measure.details["distance"] == 5.0
     assert measure.details["share"] is None
+    assert measure.reasons == {"share": "the path has no length"}
     assert measure.value == 0.0
 
 

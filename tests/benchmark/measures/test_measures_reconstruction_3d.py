@@ -214,9 +214,21 @@ def test_in_the_original_nothing_is_an_error_of_0_with_a_variance_of_0_by_minus_
     assert variance == 0.0
     assert math.copysign(1.0, variance) == -1.0
     assert measure.details["coverage"] == 0.0
-    assert measure.details["outlier_share"] is None  # 0/0
+    assert measure.details["outlier_share"] is None
+    assert measure.reasons == {"outlier_share": "there was no inlier and no outlier: 0/0"}
     send(world, measure, cloud(FRONT))
     check_front(measure)
+    assert measure.reasons == {}
+
+
+def test_one_inlier_has_no_variance_and_the_reason_says_so() -> None:
+    world = sea()
+    measure = bound(world)
+    measure.start()
+    send(world, measure, cloud(FRONT[:1]))
+    assert measure.value == pytest.approx(0.02, abs=EXACT)
+    assert measure.details["error_variance"] is None
+    assert measure.reasons == {"error_variance": "there was one inlier only"}
 
 
 def test_what_came_before_the_start_is_forgotten_and_the_rest_adds_up() -> None:

@@ -175,6 +175,12 @@ class PathFollowing(Measure):
         return {**parts, **self._signal.details}
 
     @property
+    def reasons(self) -> dict[str, str]:
+        """Why there is no share."""
+        is_point = self._path is not None and self._path.length == 0.0
+        return {"share": "the path has no length"} if is_point else {}
+
+    @property
     def log_header(self) -> tuple[str, ...]:
         """The integral, the distance now, where on the path; then what the original has not."""
         return tuple(PARTS)

@@ -185,6 +185,16 @@ class Reconstruction3D(Measure):
         }
 
     @property
+    def reasons(self) -> dict[str, str]:
+        """Why there is no variance, or no share, where there is a value."""
+        points = self._points
+        if points.n_inliers == 1:
+            return {"error_variance": "there was one inlier only"}
+        if self._is_never_empty and not points.n_inliers + points.n_outliers:
+            return {"outlier_share": "there was no inlier and no outlier: 0/0"}
+        return {}
+
+    @property
     def log_header(self) -> tuple[str, ...]:
         """The original's four details."""
         return tuple(ORIGINAL_FIELDS.values())
