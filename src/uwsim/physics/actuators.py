@@ -1,8 +1,7 @@
 """Actuators: what the thrusters and joints of a simulated vehicle do now, and what they draw.
 
 Read from the engine's state after a step, not integrated: the thrust that the rotors, as they
-turn now, give in the water around them, and the effort of the servos at the present positions and
-speeds. Joints that mimic have a servo and so a motor of their own.
+turn now, give in the water around them, and the effort of the servos in that step. Joints that mimic have a servo and so a motor of their own.
 """
 
 from __future__ import annotations
@@ -59,6 +58,7 @@ class Actuators:
         self._drives = [vehicle.drive(name) for name in moving]
         joints = [model.joint(vehicle_joint(index, name)).id for name in moving]
         servos = [model.actuator(f"{vehicle_joint(index, name)}/servo").id for name in moving]
+        self._timestep = float(model.opt.timestep)
         self._gains, self._biases = model.actuator_gainprm, model.actuator_biasprm
         self._motors = [
             (
@@ -90,14 +90,20 @@ class Actuators:
         return thrusts
 
     def efforts(self) -> list[float]:
-        """Of the joints' servos, or what was commanded where those are off [N m or N]."""
+        """Of the joints' servos, or what was commanded where those are off [N m or N].
+
+        It is what acted in the last step: the engine pulls towards the target from where the joint
+        was, and damps the speed that it has after the step.
+        """
         data = self._data
         ctrl, qpos, qvel, applied = data.ctrl, data.qpos, data.qvel, data.qfrc_applied
         efforts = []
         for servo, control, position, dof in self._motors:
             gain, bias = float(self._gains[servo, 0]), self._biases[servo]
             pull = gain * float(ctrl[control])
-            pull += float(bias[1]) * float(qpos[position]) + float(bias[2]) * float(qvel[dof])
+            speed = float(qvel[dof])
+            before = float(qpos[position]) - speed * self._timestep
+            pull += float(bias[1]) * before + float(bias[2]) * speed
             efforts.append(pull + float(applied[dof]))
         return efforts
 

@@ -28,23 +28,10 @@ from ...messages import Float32MultiArray, Float64, Float64MultiArray
 from ...world import Body, World
 from .commands import FIXED, READERS, Figure, HeldCommands
 from .measure import Measure, MeasureSpec
-from .step_response import StepResponse
+from .step_response import INTEGRALS, UNITS, StepResponse
 
 OF_COMMANDS = ("variation", "effort", "max")
 """Quantities that need a topic of commands; the others need an error."""
-INTEGRALS = ("ise", "iae", "itae")
-ERROR_UNITS = {
-    "ise": ("m^2 s", "s"),
-    "iae": ("m s", "s"),
-    "itae": ("m s^2", "s^2"),
-    "step": ("m", "1"),
-    "overshoot": ("m", "1"),
-    "overshoot_percent": ("%", "%"),
-    "rise_time": ("s", "s"),
-    "settling_time": ("s", "s"),
-    "steady_state_error": ("m", "1"),
-}
-"""Details of an error -> unit for a body, and for a topic, which has none."""
 ERRORS: tuple[type, ...] = (Float64, Float32MultiArray, Float64MultiArray)
 """What an error may come in."""
 
@@ -289,7 +276,7 @@ class Control(Measure):
                 continue
             if not self._was_on:
                 found[name] = "it was never on"
-            elif name in ERROR_UNITS:
+            elif name in UNITS:
                 found[name] = absent or shape[name]
             else:
                 found[name] = self._no_command()
@@ -368,7 +355,7 @@ class Control(Measure):
         }
 
     def _error_unit(self, name: str) -> str:
-        of_a_body, of_a_topic = ERROR_UNITS[name]
+        of_a_body, of_a_topic = UNITS[name]
         return of_a_topic if self._body is None else of_a_body
 
     def _no_command(self) -> str:

@@ -36,6 +36,20 @@ RISE = (0.1, 0.9)
 """Parts of the step between which the rise time runs [1]."""
 TAIL = 0.1
 """Share of the time, at its end, that counts as steady [1]."""
+INTEGRALS = ("ise", "iae", "itae")
+"""Numbers that are there from the first sample on, without a step."""
+UNITS = {
+    "ise": ("m^2 s", "s"),
+    "iae": ("m s", "s"),
+    "itae": ("m s^2", "s^2"),
+    "step": ("m", "1"),
+    "overshoot": ("m", "1"),
+    "overshoot_percent": ("%", "%"),
+    "rise_time": ("s", "s"),
+    "settling_time": ("s", "s"),
+    "steady_state_error": ("m", "1"),
+}
+"""Number -> unit where the error is in metres, and where it has none."""
 
 
 class StepResponse:
