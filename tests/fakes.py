@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 
 from uwsim import chance
 from uwsim.bus import Bus, Inbox
-from uwsim.errors import UnknownName
+from uwsim.errors import AssetNotFound, UnknownName
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.world import Actuators, Body, Box, Camera, Contact, Flow
 
@@ -108,6 +109,7 @@ class FakeWorld:
         self.vehicles = vehicles
         self.bus = Bus()
         self.fog: float | None = None
+        self.fog_colour = (0.0, 0.05, 0.3)
         self.light_rate: float | None = None
         self.camera_noise: float | None = None
         self.joints: dict[str, dict[int, float]] = {}
@@ -165,6 +167,9 @@ class FakeWorld:
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         return self.bus.publisher(topic, type)
 
+    def has_readers(self, topic: str) -> bool:
+        return self.bus.has_readers(topic)
+
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         self.bus.serve(name, type, handler)
 
@@ -182,6 +187,12 @@ class FakeWorld:
 
     def stream(self, name: str) -> np.random.Generator:
         return chance.stream(self._seed, name)
+
+    def find(self, name: str, *, beside: str) -> Path:
+        path = Path(beside).parent / name
+        if not path.is_file():
+            raise AssetNotFound(f"{name!r} is not beside {beside}.", name=name)
+        return path
 
     def set_fog(self, density: float) -> None:
         self.fog = density

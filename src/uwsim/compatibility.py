@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from .errors import UnknownName
 
 COMPATIBILITY: dict[str, str] = {
+    "bag-fog": "over a recording fog is 1.44 times as thick, of one colour, none on grey pictures",
     "box-scale": "the bounding box of an object does not know of its scaleFactor",
     "collision": "only the first body of a contact and its velocity count, and one thing touched",
     "current-force": "publishAsForce pushes with v^2 along each axis: the sign of v is lost",

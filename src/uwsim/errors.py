@@ -33,6 +33,11 @@ class UwsimError(Exception):
     Comes out of a pickle as it went in, whatever its ``__init__`` takes: workers send it home.
     """
 
+    def __init__(self, message: str = "", *, name: str = "") -> None:
+        self.name = name
+        """The word in a file that it is about, by which its line can be found; may be empty."""
+        super().__init__(message)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self).__new__, (type(self), *self.args), self.__dict__
 
@@ -79,10 +84,11 @@ class UnknownName(UwsimError):
     """A name that nothing has."""
 
     def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
-        self.kind, self.name, self.known = kind, name, tuple(sorted(known))
+        self.kind, self.known = kind, tuple(sorted(known))
         super().__init__(
             f"No {kind} is called {name!r}.{did_you_mean(name, self.known)} "
-            f"Known: {', '.join(self.known) or 'none'}."
+            f"Known: {', '.join(self.known) or 'none'}.",
+            name=name,
         )
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -155,6 +156,9 @@ class World(Protocol):
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``."""
 
+    def has_readers(self, topic: str) -> bool:
+        """Whether anybody would see a message on ``topic``."""
+
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service."""
 
@@ -180,6 +184,13 @@ class Stage(World, Protocol):
     @property
     def vehicles(self) -> tuple[str, ...]:
         """Names of the vehicles, in the file's order."""
+
+    @property
+    def fog_colour(self) -> tuple[float, float, float]:
+        """What replaces what the water hides [0..1]."""
+
+    def find(self, name: str, *, beside: str) -> Path:
+        """Find a file that the file ``beside`` names; AssetNotFound says where it was sought."""
 
     def set_fog(self, density: float) -> None:
         """Set the fog density [1/m] of the water, and its colour to (0, 0.05, 0.3)."""

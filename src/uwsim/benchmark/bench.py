@@ -182,7 +182,7 @@ def _columns(plan: Plan, records: list[unit_file.Record]) -> list[Column]:
     updater = plan.benchmark.scene_updater
     columns = [Column(name=name, kind="run") for name in ("repeat", "seed") if plan.repeats > 1]
     columns += [
-        Column(name=name, kind="level", unit=_unit(spec.unit))
+        Column(name=name, kind="level", unit=_unit(spec.reference_unit))
         for name, spec in zip(references(updater), chain(updater), strict=True)
     ]
     measures = _units(records, "measures")
@@ -268,6 +268,9 @@ def open_once(plan: Plan) -> tuple[dict[str, object], str]:
         renderer = simulation.renderer_name
     finally:
         simulation.close()
+        for updater in chain(plan.benchmark.scene_updater):
+            files = updater.files(simulation)
+            assets |= {name: _file_hash(path) for name, path in files.items()}
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
     plugins = {"plugins": hashes(plan.plugins)} if plan.plugins else {}
     return {
@@ -279,7 +282,16 @@ def open_once(plan: Plan) -> tuple[dict[str, object], str]:
 
 
 def _file_hash(path: Path) -> str:
-    return "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest()
+    """Hash a file; or a folder, by the names and the bytes of its files."""
+    digest = hashlib.sha256()
+    for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
+        if path.is_dir():
+            digest.update(f"{file.relative_to(path).as_posix()}\0".encode())
+        if file.is_file():
+            with file.open("rb") as stream:
+                while piece := stream.read(1 << 20):
+                    digest.update(piece)
+    return f"sha256:{digest.hexdigest()}"
 
 
 def _plain(value: object) -> object:

@@ -58,7 +58,7 @@ class LiveTopics:
         step = self._simulation.step
         if not self._publishes_results or step < self._due:
             return
-        if not self._simulation.bus.has_readers(RESULTS):
+        if not self._simulation.has_readers(RESULTS):
             return
         values = {gated.spec.name: gated.measure.value for gated in measures}
         total = self._expression.evaluate(values)
@@ -73,9 +73,9 @@ class LiveTopics:
         self._entries.append(total)
 
     def _speak(self) -> None:
-        if self._simulation.bus.has_readers(INFO):
+        if self._simulation.has_readers(INFO):
             self._say_info(String(data=self._news))
         self._news = ""
-        if self._publishes_results and self._simulation.bus.has_readers(RESULTS):
+        if self._publishes_results and self._simulation.has_readers(RESULTS):
             self._say_results(floats(self._entries))
         self._entries = []

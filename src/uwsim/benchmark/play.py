@@ -8,6 +8,7 @@ target is and runs 1 s; then the level's values are ramped in over 1 s; only the
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import dataclass
 
 from ..bus import Algorithm
@@ -112,8 +113,11 @@ def play(plan: Plan, unit: Unit, *, studio: Studio | None = None) -> Iterator[Ro
         studio=studio,
     )
     try:
-        with blamed(plan.plugins, is_running=True):
-            yield from _Playing(plan, unit, simulation).rows()
+        with (
+            blamed(plan.plugins, is_running=True),
+            closing(_Playing(plan, unit, simulation)) as playing,
+        ):
+            yield from playing.rows()
     finally:
         simulation.close()
 
@@ -173,14 +177,23 @@ class _Playing:
         yield UnitEnd(
             facts=facts,
             parameters=dict(getattr(self._algorithm, "parameters", plan.parameters)),
-            streams=tuple(
-                (topic, images.n_frames, images.sha256)
-                for topic, images in sorted(simulation.images.items())
-                if not plan.is_blind
-            ),
+            streams=() if plan.is_blind else self._streams(),
             notes=tuple(self._notes),
             trace=self._tracer.trace(),
         )
+
+    def close(self) -> None:
+        """Close what updaters hold open."""
+        for updater in self._updaters:
+            updater.close()
+
+    def _streams(self) -> tuple[tuple[str, int, str], ...]:
+        """Topic, number and SHA-256 of the pictures published, by topic."""
+        cameras = [
+            (topic, images.n_frames, images.sha256)
+            for topic, images in self._simulation.images.items()
+        ]
+        return tuple(sorted([*cameras, *(s for u in self._updaters for s in u.streams)]))
 
     def _wait(self, never: str) -> bool:
         """Let time pass until a level may begin; return whether it had to.
@@ -284,10 +297,10 @@ class _Playing:
                 unit = "1" if detail.split(".")[-1] == "n" else measure.unit
                 unit = measure.detail_units.get(detail, unit)
                 details[f"{name}.{detail}"] = (None if blank else finite(value)[0], unit)
-        total = None if status != "ok" else self._expression.evaluate(values)
-        if total is None:
             if not blank:
                 missing |= {f"{name}.{detail}": said for detail, said in measure.reasons.items()}
+        total = None if status != "ok" else self._expression.evaluate(values)
+        if total is None:
             absent = [name for name, value in values.items() if value is None]
             missing["total"] = why or (
                 f"no value for {', '.join(absent)}" if absent else "the function has no value here"

@@ -41,12 +41,14 @@ SIZE = (5.0, 3.1)  # [inch]
 
 LEVEL_WORDS = {
     "armPosition": "arm position",
+    "attenuationLength": "attenuation length",
     "current": "current",
     "fog": "fog density",
     "iteration": "iteration",
     "light": "light rate",
     "noise": "camera noise",
     "none": "",
+    "visibilityRange": "visibility range",
 }
 """What a level's reference is called on an axis."""
 

@@ -16,7 +16,9 @@ them than the package has.
 
 from __future__ import annotations
 
+import dataclasses
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,7 +40,6 @@ from .updaters import MAX_LEVELS, UPDATERS, NoneSpec, SceneUpdaterSpec, chain, r
 
 RESERVED = ("repeat", "seed", "total", "status", "ended_at")
 """Columns of a result that no measure may be called by."""
-NOT_YET = "read, not simulated yet"
 OF_A_PLUGIN = ", nor of a plugin that was given (--plugin FILE.py)"
 
 T = TypeVar("T")
@@ -168,6 +169,9 @@ class _Reader:
                 given[slot.field] = self.ground_truth(child)
             elif slot.type is SceneUpdaterSpec:
                 given[slot.field] = self.updater(child)
+        for field in dataclasses.fields(cls):
+            if "path" in field.metadata:
+                given[field.name] = self.faults.file
         return given
 
     def trigger(self, node: etree._Element) -> TriggerSpec:
@@ -230,21 +234,16 @@ class _Reader:
             self.unknown(node, box, self.updaters)
             return None
         spec = read(cls, node, self.faults, given=self.by_hand(cls, node))
-        if not cls.is_simulated:
-            self.faults.notice(node, f"<{_name(node)}>: {NOT_YET}")
-        if spec is not None:
-            self.check_sweep(node, spec)
-        return spec
+        wrong = [] if spec is None else list(spec.faults())
+        for message in wrong:
+            self.faults.add(self.place_of(node, message), message)
+        return None if wrong else spec
 
-    def check_sweep(self, node: etree._Element, spec: SceneUpdaterSpec) -> None:
-        """Refuse a sweep that ends before it begins, and arms of different lengths."""
-        initial, final = getattr(spec, "initial_value", None), getattr(spec, "final_value", None)
-        if initial is not None and final is not None and final < initial:
-            self.faults.add(
-                node, f"<finalValue> {final:g} is below <initialValue> {initial:g}: nothing to play"
-            )
-        if len({len(joints) for joints in getattr(spec, "arm_position", ())}) > 1:
-            self.faults.add(node, "every <armPosition> must have as many <joint> as the first")
+    def place_of(self, node: etree._Element, message: str) -> etree._Element:
+        """Return the child that a message begins with, as ``<step> ...``; else the element."""
+        named = re.match(r"<(\w+)>", message)
+        child = None if named is None else node.find(named[1])
+        return node if child is None else child
 
     def check_levels(self, outermost: SceneUpdaterSpec) -> None:
         """Refuse a sweep that never ends, or a nest of them with too many levels."""

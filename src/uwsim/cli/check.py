@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BadSetting, Fault, FileError, PluginError, UnknownName, UwsimError
+from ..errors import BadSetting, Fault, FileError, PluginError, UwsimError
 from .faults import WRONG_INPUT, printable
 from .files import bundled, scene_file
 from .plugins import PluginOption, read_plugins
@@ -129,7 +129,6 @@ def unknown_names(
 ) -> list[Fault]:
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
     from ..algorithms import load_algorithm
-    from ..benchmark.not_simulated import NotSimulatedYet
     from ..benchmark.reader import read_benchmark
     from ..dialect import parse
     from ..scene.reader import read_scene
@@ -174,12 +173,8 @@ def unknown_names(
             for look in (partial(look_for_cameras, part), part.bind):
                 try:
                     look(simulation)
-                except UnknownName as error:
-                    add(error, error.name)
-                except NotSimulatedYet:
-                    continue  # a notice of the reader
                 except UwsimError as error:
-                    add(error, "")
+                    add(error, error.name)
     return [Fault(file=str(file), line=line, message=text) for text, line in said.items()]
 
 

@@ -43,14 +43,14 @@ class SceneBody:
         return self._box
 
 
-def find_file(name: str, scene: SceneSpec, data_path: tuple[Path, ...]) -> Path:
-    """Find a file that a scene names; AssetNotFound names every folder searched."""
-    beside = Path(scene.path).parent if scene.path else None
-    path = find(name, beside=beside, data_path=data_path)
+def find_file(name: str, beside: str, data_path: tuple[Path, ...]) -> Path:
+    """Find a file that the file ``beside`` names; AssetNotFound names every folder searched."""
+    folder = Path(beside).parent if beside else None
+    path = find(name, beside=folder, data_path=data_path)
     if path is None:
-        searched = folders_searched(beside=beside, data_path=data_path)
+        searched = folders_searched(beside=folder, data_path=data_path)
         folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
-        raise AssetNotFound(f"{name!r} is in none of the folders searched: {folders}.")
+        raise AssetNotFound(f"{name!r} is in none of the folders searched: {folders}.", name=name)
     return path
 
 
@@ -62,7 +62,7 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
         SceneError: a file is wrong.
     """
     return {
-        index: read_urdf(find_file(vehicle.file, scene, data_path))
+        index: read_urdf(find_file(vehicle.file, scene.path, data_path))
         for index, vehicle in enumerate(scene.vehicles)
     }
 

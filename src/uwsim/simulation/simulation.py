@@ -89,6 +89,7 @@ class Simulation:
         self._seed = seed
         self._prefix = stream_prefix
         self._timestep = timestep
+        self._data_path = data_path
         self._compatibility = compatibility
         self.bus = Bus()
         """Topics and services of this simulation."""
@@ -112,7 +113,7 @@ class Simulation:
         self._light = Light(rate=scene.sim_params.light_rate)
         place = Place(
             stream=self.stream,
-            find=lambda name: find_file(name, scene, data_path),
+            find=lambda name: find_file(name, scene.path, data_path),
             world_from_localized=scene.world_from_localized,
             surface_height=scene.ocean_state.ocean_surface_height,
         )
@@ -308,6 +309,10 @@ class Simulation:
         """Return ``publish(message)``."""
         return self.bus.publisher(topic, type)
 
+    def has_readers(self, topic: str) -> bool:
+        """Whether anybody would see a message on ``topic``."""
+        return self.bus.has_readers(topic)
+
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service."""
         self.bus.serve(name, type, handler)
@@ -385,6 +390,15 @@ class Simulation:
         return {name: models[name] for name in sorted(models)}
 
     # -- what scene updaters may turn (uwsim.world.Stage) --------------------------------------
+
+    @property
+    def fog_colour(self) -> tuple[float, float, float]:
+        """What replaces what the water hides [0..1]."""
+        return self._water.fog_colour
+
+    def find(self, name: str, *, beside: str) -> Path:
+        """Find a file that the file ``beside`` names; AssetNotFound says where it was sought."""
+        return find_file(name, beside, self._data_path)
 
     def set_fog(self, density: float) -> None:
         """Set the fog density [1/m] of the water, and its colour to (0, 0.05, 0.3)."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from fakes import FakeWorld
-from uwsim.benchmark.not_simulated import NotSimulatedYet
 from uwsim.benchmark.updaters import (
     ArmMoveUpdaterSpec,
     BagFogUpdaterSpec,
@@ -168,12 +167,3 @@ def test_an_arm_of_a_vehicle_that_is_not_there_is_an_error() -> None:
     spec = ArmMoveUpdaterSpec(arm_position=((0.0,),), step=0, interval=1.0, target="g50")
     with pytest.raises(UnknownName, match="Did you mean 'g500'"):
         spec.bind(FakeWorld(vehicles=("g500",)))
-
-
-def test_what_cannot_be_played_yet_says_so_when_it_is_bound() -> None:
-    spec = BagFogUpdaterSpec(
-        initial_value=0.0, final_value=1.3, step=0.05, interval=2.0,
-        bag="a.bag", image_topic="i", info_topic="c", image_depth=2.0,
-    )  # fmt: skip
-    with pytest.raises(NotSimulatedYet, match="<bagFogUpdater> is read, not simulated yet"):
-        bind_updaters(spec, FakeWorld())

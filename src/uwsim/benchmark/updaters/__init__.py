@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from .arm_move_updater import ArmMoveUpdater, ArmMoveUpdaterSpec
-from .bag_fog_updater import BagFogUpdaterSpec
-from .camera_noise_updater import CameraNoiseUpdater, CameraNoiseUpdaterSpec
+from .bag_fog_updater import BagFogUpdater, BagFogUpdaterSpec
+from .camera_noise_updater import CameraNoiseUpdaterSpec
 from .current_force_updater import CurrentForceUpdater, CurrentForceUpdaterSpec, SphericalSpec
 from .none import NoneSpec, NoneUpdater
 from .repeat import Repeat, RepeatSpec
-from .scene_fog_updater import SceneFogUpdater, SceneFogUpdaterSpec
-from .scene_light_updater import SceneLightUpdater, SceneLightUpdaterSpec
+from .scene_fog_updater import SceneFogUpdaterSpec
+from .scene_light_updater import SceneLightUpdaterSpec
+from .sweep import Knob, SweepSpec, sweep
 from .updater import (
     MAX_LEVELS,
     Level,
@@ -27,7 +28,6 @@ from .updater import (
     ramp_level,
     references,
     steps,
-    sweep,
 )
 
 UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
@@ -47,23 +47,23 @@ __all__ = [
     "UPDATERS",
     "ArmMoveUpdater",
     "ArmMoveUpdaterSpec",
+    "BagFogUpdater",
     "BagFogUpdaterSpec",
-    "CameraNoiseUpdater",
     "CameraNoiseUpdaterSpec",
     "CurrentForceUpdater",
     "CurrentForceUpdaterSpec",
+    "Knob",
     "Level",
     "NoneSpec",
     "NoneUpdater",
     "Repeat",
     "RepeatSpec",
-    "SceneFogUpdater",
     "SceneFogUpdaterSpec",
-    "SceneLightUpdater",
     "SceneLightUpdaterSpec",
     "SceneUpdater",
     "SceneUpdaterSpec",
     "SphericalSpec",
+    "SweepSpec",
     "apply_level",
     "bind_updaters",
     "blend",

@@ -11,6 +11,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -48,6 +49,11 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
         if count > MAX_LEVELS:
             raise BadSetting(f"The arm has {count} positions; at most {MAX_LEVELS}.")
         return tuple(float(i) for i in range(count))
+
+    def faults(self) -> Iterator[str]:
+        """Say that arm positions have different lengths."""
+        if len({len(joints) for joints in self.arm_position}) > 1:
+            yield "every <armPosition> must have as many <joint> as the first"
 
     def joints(self, value: float) -> npt.NDArray[np.float64]:
         """Return the joint vector of a level, or of what lies between two (n,) [rad or m]."""

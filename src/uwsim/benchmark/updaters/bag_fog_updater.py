@@ -1,4 +1,4 @@
-"""bagFogUpdater: fog over recorded pictures. Read, not simulated yet.
+r"""bagFogUpdater: fog over recorded pictures, to test an algorithm on real footage.
 
 .. code-block:: xml
 
@@ -7,58 +7,237 @@
       <interval>20</interval>
       <bag>dive.bag</bag> <imageTopic>camera</imageTopic> <infoTopic>camera_info</infoTopic>
       <imageDepth>2.5</imageDepth>
+      <imagePub>/foggy/image</imagePub> <infoPub>/foggy/camera_info</infoPub>
     </bagFogUpdater>
+
+The bag is replayed in an endless loop, in simulation time and with the spacing recorded; from the
+last picture to the first of the next round it is the mean spacing. Everything in a picture counts
+as ``imageDepth`` away, so a picture c in fog of density f and colour g becomes
+
+.. math:: c' = c\, t + g\, (1 - t), \quad t = e^{-(f \cdot imageDepth)^2}
+
+which is what the renderer does with fog (docs/rendering.md); g is the scene's fog colour. Pictures
+are published as ``rgb8`` or ``mono8``, each with the camera's info, both stamped with the time of
+publishing. Not modelled: attenuation, and fog that was in the water already.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import ClassVar
+import hashlib
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import cv2
+import numpy as np
+import numpy.typing as npt
 
 from ...dialect import element
+from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
+from ...messages import CameraInfo, Image, image, time_from_seconds
 from ...world import Stage
-from ..not_simulated import NotSimulatedYet
-from .updater import SceneUpdater, SceneUpdaterSpec, sweep
+from ..recording import Frame, Picture, Recording, camera_info
+from .fog_sweep import FogSweepSpec
+from .updater import SceneUpdater
+
+ORIGINAL_COLOUR = (0.0, 0.05, 0.3)
+"""What the original puts on the three channels, whichever comes first."""
+ORIGINAL_FACTOR = 1.442695
+"""1/ln 2: the original has base e where the constant was made for base 2."""
+GREY = np.array([0.299, 0.587, 0.114])
+"""Weights of red, green and blue in grey (ITU-R BT.601)."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class BagFogUpdaterSpec(SceneUpdaterSpec):
-    """A ``<bagFogUpdater>`` element. The number of levels is counted in float32."""
+class BagFogUpdaterSpec(FogSweepSpec):
+    """A ``<bagFogUpdater>`` element."""
 
-    name: ClassVar[str] = "fog"
-    unit: ClassVar[str] = "1/m"
-    is_simulated: ClassVar[bool] = False
-
-    initial_value: float = element(aliases=("initialFog",), minimum=0.0)
-    """Fog density of the first level [1/m]."""
-    final_value: float = element(aliases=("finalFog",), minimum=0.0)
-    """Fog density that is not exceeded [1/m]."""
-    step: float = element(above=0.0)
-    """What each level adds [1/m]."""
-    interval: float = element(above=0.0)
-    """Length of a level [s]."""
     bag: str
-    """The recording."""
+    """The recording: a .bag, .mcap or .db3 file, or a folder of ROS 2 (rosbag2)."""
     image_topic: str
-    """Topic of the pictures in the recording."""
+    """Topic of the pictures in the recording (sensor_msgs/Image or CompressedImage)."""
     info_topic: str
-    """Topic of the camera's info in the recording."""
+    """Topic of the camera's info in the recording (sensor_msgs/CameraInfo)."""
     image_depth: float = element(above=0.0)
     """Assumed distance of everything in the pictures [m]."""
     image_pub: str | None = element(default=None)
     """Topic the pictures are published on; None: as in the recording."""
     info_pub: str | None = element(default=None)
     """Topic the camera's info is published on; None: as in the recording."""
-
-    def values(self) -> tuple[float, ...]:
-        """Return the fog densities [1/m]."""
-        return sweep(self.initial_value, self.final_value, self.step, single=True)
+    path: str = field(default="", compare=False, metadata={"path": True})
+    """The benchmark file, beside which the recording is looked for."""
 
     @property
-    def seconds_per_level(self) -> float:
-        """The interval [s]."""
-        return self.interval
+    def topics(self) -> tuple[str, str]:
+        """Where pictures and info are published."""
+        return self.image_pub or self.image_topic, self.info_pub or self.info_topic
 
-    def bind(self, stage: Stage) -> SceneUpdater:
-        """Raise NotSimulatedYet."""
-        raise NotSimulatedYet("bagFogUpdater")
+    def find(self, stage: Stage) -> Path:
+        """Find the recording; AssetNotFound names every folder searched."""
+        try:
+            return stage.find(self.bag, beside=self.path)
+        except AssetNotFound as nowhere:
+            try:
+                return stage.find(f"{self.bag}/metadata.yaml", beside=self.path).parent
+            except AssetNotFound:
+                raise nowhere from None
+
+    def files(self, stage: Stage) -> Mapping[str, Path]:
+        """Return the recording."""
+        return {self.bag: self.find(stage)}
+
+    def bind(self, stage: Stage) -> BagFogUpdater:
+        """Look into the recording.
+
+        Raises:
+            AssetNotFound: it is nowhere.
+            AssetError: it cannot be read, or a topic has another type.
+            UnknownName: a topic is not in it.
+            BadSetting: the scene publishes on such a topic already.
+        """
+        path = self.find(stage)
+        Recording(path, self.image_topic, self.info_topic).close()
+        for tag, topic in zip(("imagePub", "infoPub"), self.topics, strict=True):
+            if stage.message_type(topic) is not None:
+                raise BadSetting(
+                    f"Topic {topic!r} is the scene's already; name another in <{tag}>.", name=topic
+                )
+        return BagFogUpdater(stage, self, path)
+
+
+class BagFogUpdater(SceneUpdater):
+    """Replays a recording in fog.
+
+    Until the benchmark has begun, and in the prelude of an independent level, the first picture
+    stands, published at the spacing of the first two: a tracker takes its template from the very
+    picture that its level begins with. With level 1 of a sequence, or with any independent level,
+    the replay begins; in a sequence it lives on from level to level.
+
+    Compatibility ``bag-fog``: the exponent is 1.44 times as great, the colour is (0, 0.05, 0.3) on
+    the channels as they were recorded, and grey pictures stay as they are.
+    """
+
+    def __init__(self, stage: Stage, spec: BagFogUpdaterSpec, path: Path) -> None:
+        self._stage, self._spec, self._path = stage, spec, path
+        self._is_original = "bag-fog" in stage.compatibility
+        self._image_topic, self._info_topic = spec.topics
+        self._publish_image = stage.publisher(self._image_topic, Image)
+        self._publish_info = stage.publisher(self._info_topic, CameraInfo)
+        self._density = spec.density(spec.initial)  # [1/m]
+        self._recording: Recording | None = None
+        self._has_begun = False
+        self._was_applied = False
+        self._since = 0  # step at which the first picture was due
+        self._schedule: Iterator[tuple[int, Frame]] = iter(())
+        self._next: tuple[int, Frame] | None = None  # step at which it is due, and what
+        self._n_frames = 0
+        self._digest = hashlib.sha256()
+        stage.every(1.0 / stage.timestep, self._tick)
+
+    def apply(self, value: float) -> None:
+        """Set the fog; the second time the benchmark has begun, and so does the replay."""
+        self._density = self._spec.density(value)
+        if self._was_applied and not self._has_begun:
+            self._has_begun = True
+            self._start(self._replay())
+        self._was_applied = True
+
+    def ramp(self, value: float) -> None:
+        """Set the fog alone."""
+        self._density = self._spec.density(value)
+
+    @property
+    def streams(self) -> tuple[tuple[str, int, str], ...]:
+        """What was published to somebody, so far."""
+        return ((self._image_topic, self._n_frames, self._digest.hexdigest()),)
+
+    def close(self) -> None:
+        """Close the recording."""
+        if self._recording is not None:
+            self._recording.close()
+            self._recording = None
+
+    def _open(self) -> Recording:
+        if self._recording is None:
+            self._recording = Recording(self._path, self._spec.image_topic, self._spec.info_topic)
+        return self._recording
+
+    def _still(self) -> Iterator[tuple[int, Frame]]:
+        """Yield the first picture over and over, each time with when it is due [ns]."""
+        recording, n = self._open(), 0
+        while True:
+            yield n * recording.gap, recording.first
+            n += 1
+
+    def _replay(self) -> Iterator[tuple[int, Frame]]:
+        """Yield every picture with when it is due [ns], round after round."""
+        recording, began = self._open(), 0
+        while True:
+            last, count = 0, 0
+            for frame in recording.frames():
+                last, count = frame.time, count + 1
+                yield began + last, frame
+            began += last + last // (count - 1)
+
+    def _start(self, schedule: Iterator[tuple[int, Frame]]) -> None:
+        self._since, self._schedule = self._stage.step, schedule
+        self._advance()
+
+    def _advance(self) -> None:
+        time, frame = next(self._schedule)
+        steps = math.ceil(time / (self._stage.timestep * 1e9) - 1e-9)
+        self._next = self._since + steps, frame
+
+    def _tick(self) -> None:
+        try:
+            if self._next is None:
+                self._start(self._still())
+            while self._next is not None and self._stage.step >= self._next[0]:
+                self._publish(self._next[1])
+                self._advance()
+        except AssetError as error:
+            raise RunFailed(f"The recording broke off: {error}") from error
+
+    def _publish(self, frame: Frame) -> None:
+        is_seen = self._stage.has_readers(self._image_topic)
+        if not is_seen and not self._stage.has_readers(self._info_topic):
+            return
+        picture, time = frame.picture(), self._stage.time
+        stamp = time_from_seconds(time)
+        self._publish_info(camera_info(frame.info, stamp=stamp, frame_id=picture.frame_id))
+        if is_seen:
+            pixels = self._fogged(picture)
+            self._n_frames += 1
+            self._digest.update(pixels.tobytes())
+            self._publish_image(image(pixels, time=time, frame_id=picture.frame_id))
+
+    def _fogged(self, picture: Picture) -> npt.NDArray[np.uint8]:
+        """Add the fog of now to a picture."""
+        thickness = (self._density * self._spec.image_depth) ** 2
+        if not self._is_original:
+            return fogged(picture.pixels, math.exp(-thickness), self._stage.fog_colour)
+        if picture.pixels.ndim == 2:
+            return np.ascontiguousarray(picture.pixels)
+        r, g, b = ORIGINAL_COLOUR
+        colour = (b, g, r) if picture.is_blue_first else (r, g, b)
+        return fogged(picture.pixels, math.exp(-ORIGINAL_FACTOR * thickness), colour)
+
+
+def fogged(
+    pixels: npt.NDArray[np.uint8], seen: float, colour: tuple[float, float, float]
+) -> npt.NDArray[np.uint8]:
+    """Return ``pixels * seen + colour * (1 - seen)``, rounded to whole numbers.
+
+    Args:
+        pixels: (h, w, 3), red first; or (h, w), whose fog is as grey as the colour.
+        seen: what is left of the contrast, 0..1.
+        colour: red, green and blue of the fog, 0..1.
+    """
+    stored = np.arange(256.0)[:, None]
+    end = 255.0 * np.array(colour)
+    if pixels.ndim == 2:
+        end = np.array([end @ GREY])
+    table = np.rint(seen * stored + (1.0 - seen) * end).astype(np.uint8)  # (256, 3) or (256, 1)
+    changed = cv2.LUT(np.ascontiguousarray(pixels), table[None])
+    return np.asarray(changed, dtype=np.uint8).reshape(pixels.shape)

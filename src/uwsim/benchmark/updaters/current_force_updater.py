@@ -25,7 +25,8 @@ from ...dialect import element
 from ...errors import BadSetting, UnknownName
 from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
 from ...world import Flow, Stage
-from .updater import SceneUpdater, SceneUpdaterSpec, sweep
+from .sweep import SweepSpec
+from .updater import SceneUpdater
 
 GRACE = 2.0
 """A level begins with so long without any current [s]."""
@@ -49,7 +50,7 @@ class SphericalSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CurrentForceUpdaterSpec(SceneUpdaterSpec):
+class CurrentForceUpdaterSpec(SweepSpec):
     """A ``<currentForceUpdater>`` element. The number of levels is counted in float64."""
 
     name: ClassVar[str] = "current"
@@ -74,21 +75,10 @@ class CurrentForceUpdaterSpec(SceneUpdaterSpec):
     """Half-width of the uniform noise, relative."""
     step: float = element(above=0.0)
     """What each level adds [m/s]."""
-    interval: float = element(above=0.0)
-    """Length of a level [s]."""
     target: str
     """Name of the vehicle that is put back when a level begins."""
     publish_as_force: bool = element(default=False, attribute=True)
     """Whether the current is published as a force instead of moving the vehicle."""
-
-    def values(self) -> tuple[float, ...]:
-        """Return the speeds [m/s]."""
-        return sweep(self.initial_value, self.final_value, self.step)
-
-    @property
-    def seconds_per_level(self) -> float:
-        """The interval [s]."""
-        return self.interval
 
     def current(self, value: float) -> UwsimSinusoidSpec:
         """Return the current of a level.

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import abc
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
-
-import numpy as np
 
 from ...dialect import element
 from ...errors import BadSetting
@@ -36,10 +35,6 @@ class SceneUpdaterSpec(abc.ABC):
     """Its reference: the name of its column in the result."""
     unit: ClassVar[str] = "1"
     """Unit of its values."""
-
-    is_simulated: ClassVar[bool] = True
-    """False: a later version will play it."""
-
     calm: ClassVar[float] = 0.0
     """How long after a step of it nothing is measured yet [s]."""
 
@@ -53,6 +48,24 @@ class SceneUpdaterSpec(abc.ABC):
     @abc.abstractmethod
     def bind(self, stage: Stage) -> SceneUpdater:
         """Find what it changes; raises UnknownName or UwsimError if it cannot."""
+
+    def files(self, stage: Stage) -> Mapping[str, Path]:
+        """Return the files and folders that it reads, by the names that the file has for them."""
+        return {}
+
+    def faults(self) -> Iterable[str]:
+        """Say what is wrong with it as a whole; ``<step> ...`` is put on that child's line."""
+        return ()
+
+    @property
+    def reference(self) -> str:
+        """The name of its column: `name`, unless the file asks for another quantity."""
+        return self.name
+
+    @property
+    def reference_unit(self) -> str:
+        """The unit of that column."""
+        return self.unit
 
     @property
     def seconds_per_level(self) -> float | None:
@@ -69,10 +82,6 @@ class SceneUpdaterSpec(abc.ABC):
         start = self.initial
         return value if fraction >= 1.0 else start + (value - start) * fraction
 
-    def apply(self, stage: Stage, value: float) -> None:
-        """Bring the scene to ``value``."""
-        self.bind(stage).apply(value)
-
 
 class SceneUpdater(abc.ABC):
     """Something that turns one knob of the scene."""
@@ -84,6 +93,14 @@ class SceneUpdater(abc.ABC):
     def ramp(self, value: float) -> None:
         """Bring the scene to ``value`` on the way from one level to another: as `apply`."""
         self.apply(value)
+
+    @property
+    def streams(self) -> tuple[tuple[str, int, str], ...]:
+        """Topic, number and SHA-256 of the pictures that it published itself."""
+        return ()
+
+    def close(self) -> None:  # noqa: B027 - most updaters hold nothing
+        """Give back what it held (a file)."""
 
 
 def chain(spec: SceneUpdaterSpec) -> tuple[SceneUpdaterSpec, ...]:
@@ -104,8 +121,9 @@ def references(spec: SceneUpdaterSpec) -> tuple[str, ...]:
     """Return the column name of each updater, outermost first; a second ``fog`` is ``fog_2``."""
     names: list[str] = []
     for updater in chain(spec):
-        n_before = sum(other.split("_")[0] == updater.name for other in names)
-        names.append(updater.name if n_before == 0 else f"{updater.name}_{n_before + 1}")
+        name = updater.reference
+        n_before = sum(other.split("_")[0] == name for other in names)
+        names.append(name if n_before == 0 else f"{name}_{n_before + 1}")
     return tuple(names)
 
 
@@ -187,29 +205,3 @@ def ramp_level(updaters: Sequence[SceneUpdater], level: Level) -> None:
     """Bring the scene to what lies between two levels, the outermost updater first."""
     for updater, (_, value) in zip(updaters, level.values, strict=True):
         updater.ramp(value)
-
-
-def sweep(initial: float, final: float, step: float, *, single: bool = False) -> tuple[float, ...]:
-    """Return ``initial + i * step`` for as many i as the original plays.
-
-    The original adds ``step`` until the sum *exceeds* ``final``, in float64 or (``single``, the
-    fog) in float32, so rounding decides whether the last value is played: fog 0..1.3 by 0.05 has
-    27 levels, current 0..0.2 by 0.01 only 20. The number is kept; the values are exact.
-
-    Raises:
-        BadSetting: it would never end, or has more than 100 000 levels.
-    """
-    kind = np.float32 if single else np.float64
-    value, last, increment = kind(initial), kind(final), kind(step)
-    endless = BadSetting(
-        f"From {initial:g} to {final:g} by steps of {step:g} "
-        f"there are more than {MAX_LEVELS} levels."
-    )
-    if final > initial and not (final - initial) < MAX_LEVELS * step:
-        raise endless
-    count = 1
-    while (grown := value + increment) <= last:
-        if grown <= value:
-            raise endless
-        value, count = grown, count + 1
-    return tuple(initial + i * step for i in range(count))
