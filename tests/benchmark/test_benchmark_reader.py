@@ -405,7 +405,7 @@ def test_all_faults_are_reported_at_once_in_the_order_of_the_file(file: Path) ->
     content = text(
         TIME.replace("onInit", "onint") + "\n<tme/>\n<distance><name>d</name></distance>",
         function="<function>t +* d</function>",
-        updater=FOG.replace(">0.05<", ">-1<").replace(">2<", ">soon<"),
+        updater=FOG.replace(">0.05<", ">x<").replace(">2<", ">soon<"),
     )
     assert [fault.line for fault in faults(file, content)] == [3, 4, 5, 8, 10, 10]
 

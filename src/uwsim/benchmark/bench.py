@@ -265,12 +265,12 @@ def open_once(plan: Plan) -> tuple[dict[str, object], str]:
             for i, vehicle in enumerate(plan.scene.vehicles)
         }
         assets = {name: f"sha256:{digest}" for name, digest in simulation.asset_hashes.items()}
-        renderer = simulation.renderer_name
-    finally:
-        simulation.close()
         for updater in chain(plan.benchmark.scene_updater):
             files = updater.files(simulation)
             assets |= {name: _file_hash(path) for name, path in files.items()}
+        renderer = simulation.renderer_name
+    finally:
+        simulation.close()
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
     plugins = {"plugins": hashes(plan.plugins)} if plan.plugins else {}
     return {

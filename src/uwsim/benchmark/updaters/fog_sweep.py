@@ -93,7 +93,7 @@ class FogSweepSpec(SweepSpec):
         if self.quantity == DENSITY:
             if step <= 0.0:
                 yield (
-                    f"<step> is {step:g}; expected a number > 0 [1/m]: fog density runs upward. "
+                    f"<step> is '{step:g}'; expected a number > 0 [1/m]: fog density runs upward. "
                     'A sweep of lengths may run downward: u:unit="attenuationLength" [m]'
                 )
             yield from super().faults()
