@@ -293,10 +293,12 @@ def test_with_details_to_globals_result_dat_has_the_originals_names() -> None:
 
 
 def test_what_has_no_shape_cannot_be_rebuilt_and_what_is_not_there_is_named() -> None:
-    with pytest.raises(BadSetting, match=r"'blackbox' has no shape .* link@visual"):
+    with pytest.raises(BadSetting, match=r"'blackbox' has no shape .* link@visual") as shapeless:
         bound(sea(box=None))
-    with pytest.raises(BadSetting, match=r"<levelOfDetail> 0\.0001 m makes more than"):
+    assert shapeless.value.name == "blackbox"
+    with pytest.raises(BadSetting, match=r"<levelOfDetail> 0\.0001 m makes more than") as fine:
         bound(sea(), lod=0.0001)
+    assert fine.value.name == "r"
     with pytest.raises(UnknownName, match="Did you mean 'blackbox'"):
         Reconstruction3DSpec(name="r", target="blackbx", topic="t", from_="arm").bind(sea())
 

@@ -68,9 +68,14 @@ class Reconstruction3DSpec(MeasureSpec):
         if target.box is None:
             raise BadSetting(
                 f"{self.target!r} has no shape that could be rebuilt; expected an object, or the "
-                "shape of a link as link@visual."
+                "shape of a link as link@visual.",
+                name=self.target,
             )
-        return Reconstruction3D(self, world, target, target.box, frame)
+        try:
+            return Reconstruction3D(self, world, target, target.box, frame)
+        except BadSetting as error:
+            error.name = self.name
+            raise
 
 
 class Reconstruction3D(Measure):
