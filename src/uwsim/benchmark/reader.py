@@ -153,7 +153,7 @@ class _Reader:
                 f"u:value is {spec.value!r}; the value of <{_name(node)}> is always its last",
             )
         for message in spec.faults():
-            self.faults.add(node, message)
+            self.faults.add(self.place_of(node, message), message)
         return spec
 
     def by_hand(self, cls: type, node: etree._Element) -> dict[str, Any]:

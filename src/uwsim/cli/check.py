@@ -141,12 +141,14 @@ def unknown_names(
     said: dict[str, int | None] = {}
 
     def add(error: UwsimError, name: str) -> None:
-        where = [
-            int(str(node.sourceline))
-            for node in root.iter("*")
-            if name
-            and ((node.text or "").strip() == name or name in map(str, node.attrib.values()))
-        ]
+        whole, among = [], []  # lines where it stands alone, and among others
+        for node in root.iter("*") if name else ():
+            text, line = (node.text or "").strip(), int(str(node.sourceline))
+            if text == name or name in map(str, node.attrib.values()):
+                whole.append(line)
+            elif name in text.split():
+                among.append(line)
+        where = whole or among
         said.setdefault(str(error), where[0] if where else None)
 
     if benchmark.algorithm is not None and ":" not in benchmark.algorithm:

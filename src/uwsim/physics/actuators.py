@@ -1,12 +1,14 @@
 """Actuators: what the thrusters and joints of a simulated vehicle do now, and what they draw.
 
 Read from the engine's state after a step, not integrated: the thrust that the rotors, as they
-turn now, give in the water around them, and the effort of the servos in that step. Joints that mimic have a servo and so a motor of their own.
+turn now, give in the water around them, and the effort of the servos in that step. Joints that
+mimic have a servo and so a motor of their own.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 from typing import TYPE_CHECKING
 
 import mujoco
@@ -66,6 +68,7 @@ class Actuators:
                 int(model.actuator_ctrladr[servo]),
                 int(model.jnt_qposadr[joint]),
                 int(model.jnt_dofadr[joint]),
+                _strongest(model, servo),
             )
             for servo, joint in zip(servos, joints, strict=True)
         ]
@@ -98,19 +101,19 @@ class Actuators:
         data = self._data
         ctrl, qpos, qvel, applied = data.ctrl, data.qpos, data.qvel, data.qfrc_applied
         efforts = []
-        for servo, control, position, dof in self._motors:
+        for servo, control, position, dof, strongest in self._motors:
             gain, bias = float(self._gains[servo, 0]), self._biases[servo]
             pull = gain * float(ctrl[control])
             speed = float(qvel[dof])
             before = float(qpos[position]) - speed * self._timestep
             pull += float(bias[1]) * before + float(bias[2]) * speed
-            efforts.append(pull + float(applied[dof]))
+            efforts.append(min(max(pull, -strongest), strongest) + float(applied[dof]))
         return efforts
 
     def speeds(self) -> list[float]:
         """Of the joints [rad/s or m/s]."""
         qvel = self._data.qvel
-        return [float(qvel[dof]) for _, _, _, dof in self._motors]
+        return [float(qvel[dof]) for _, _, _, dof, _ in self._motors]
 
     def powers(self) -> Array:
         """What the thrusters draw now, then the joints, (n,) [W]."""
@@ -120,6 +123,11 @@ class Actuators:
         for drive, effort, speed in zip(self._drives, self.efforts(), self.speeds(), strict=True):
             powers.append(joint_power(drive, effort, speed))
         return np.array(powers)
+
+
+def _strongest(model: mujoco.MjModel, servo: int) -> float:
+    """The greatest effort of a servo [N m or N]."""
+    return float(model.actuator_forcerange[servo, 1]) if model.actuator_forcelimited[servo] else inf
 
 
 class _Rotor:

@@ -87,11 +87,11 @@ class ControlSpec(MeasureSpec):
             found.append("<target> and <position> go together; give both or none")
         if self.axes and self.topic is None:
             found.append("<axes> are those of a <topic>, which is not given")
-        if self.judged in OF_COMMANDS and self.topic is None:
-            found.append(f"<quantity> {self.judged!r} is that of a <topic>, which is not given")
-        if self.judged not in OF_COMMANDS and not self.has_error:
+        if self.quantity in OF_COMMANDS and self.topic is None:
+            found.append(f"<quantity> {self.quantity!r} is that of a <topic>, which is not given")
+        if self.quantity not in (None, *OF_COMMANDS) and not self.has_error:
             found.append(
-                f"<quantity> {self.judged!r} needs an error: <target> and <position>, "
+                f"<quantity> {self.quantity!r} needs an error: <target> and <position>, "
                 "or <errorTopic>"
             )
         return found

@@ -44,7 +44,7 @@ class EnergySpec(MeasureSpec):
     """A ``<u:energy>`` element of a benchmark file."""
 
     target: str
-    """Name of the vehicle; it needs ``<u:dynamics>``."""
+    """Name of the vehicle. Without ``<u:dynamics>`` it has no energy."""
     hotel_load: float = element(default=0.0, minimum=0.0)
     """What computers, sensors and lamps draw all the time [W]."""
     battery: BatterySpec | None = None

@@ -38,6 +38,8 @@ TAIL = 0.1
 """Share of the time, at its end, that counts as steady [1]."""
 INTEGRALS = ("ise", "iae", "itae")
 """Numbers that are there from the first sample on, without a step."""
+Shape = tuple[dict[str, float | None], dict[str, str]]
+"""Numbers, and why those are None that are."""
 UNITS = {
     "ise": ("m^2 s", "s"),
     "iae": ("m s", "s"),
@@ -72,6 +74,7 @@ class StepResponse:
         self._size = 0.0  # of the last error
         self.ise, self.iae, self.itae = 0.0, 0.0, 0.0
         """Integrals so far."""
+        self._found: tuple[int, Shape] | None = None  # number of samples, and what they gave
 
     @property
     def n(self) -> int:
@@ -104,8 +107,13 @@ class StepResponse:
             self.iae += 0.5 * (before + size) * seconds
             self.itae += 0.5 * (start * before + end * size) * seconds
 
-    def shape(self) -> tuple[dict[str, float | None], dict[str, str]]:
+    def shape(self) -> Shape:
         """Return the numbers of the response, and why those are None that are."""
+        if self._found is None or self._found[0] != self.n:
+            self._found = (self.n, self._look())
+        return self._found[1]
+
+    def _look(self) -> Shape:
         found: dict[str, float | None] = dict.fromkeys(
             ("step", "overshoot", "overshoot_percent", "rise_time", "settling_time",
              "steady_state_error")

@@ -1,0 +1,153 @@
+"""``u:energy`` and ``u:control`` in benchmark files: read, refused, looked up, left out again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+import uwsim
+from uwsim.benchmark.measures import ControlSpec, EnergySpec
+from uwsim.benchmark.measures.energy import BatterySpec
+from uwsim.benchmark.reader import check_benchmark, read_benchmark
+from uwsim.cli.check import faults_of
+from uwsim.dialect import NAMESPACE
+
+CURRENTS = Path(uwsim.__file__).parent / "data" / "benchmarks" / "currents.xml"
+PLACE = "<target>girona500</target> <position> <x>3</x> <y>2</y> <z>1</z> </position>"
+TOPIC = "<topic>/dataNavigator</topic>"
+
+
+def written(folder: Path, *measures: str) -> Path:
+    file = folder / "b.xml"
+    lines = "\n".join(measures)
+    file.write_text(
+        f"""<benchmark xmlns:u="urn:uwsim:1" u:scene="currents-scene.xml"><measures>
+{lines}
+</measures>
+<startOn><type>onInit</type></startOn> <stopOn><type>never</type></stopOn>
+<function>m</function>
+<sceneUpdater><repeat><iterations>1</iterations><interval>1</interval></repeat></sceneUpdater>
+</benchmark>"""
+    )
+    return file
+
+
+def said(file: Path) -> list[str]:
+    return [f"{fault.line}: {fault.message}" for fault in faults_of(file)]
+
+
+def test_energy_is_read_with_its_battery_in_either_unit(tmp_path: Path) -> None:
+    file = written(
+        tmp_path,
+        "<u:energy> <name>m</name> <target>girona500</target> <hotelLoad>60</hotelLoad>",
+        '<battery unit="Wh">2000</battery> <log>1</log> </u:energy>',
+        "<u:energy> <name>n</name> <target>girona500</target> <battery>9e6</battery> </u:energy>",
+    )
+    battery = BatterySpec(capacity=2000.0, unit="Wh")
+    assert read_benchmark(file).measures == (
+        EnergySpec(name="m", target="girona500", hotel_load=60.0, battery=battery, log=1.0),
+        EnergySpec(name="n", target="girona500", battery=BatterySpec(capacity=9e6)),
+    )
+
+
+def test_control_is_read_whole(tmp_path: Path) -> None:
+    file = written(
+        tmp_path,
+        f"<u:control> <name>m</name> {TOPIC} <axes>vx vy</axes> {PLACE} <band>0.05</band>",
+        "<leastStep>0.2</leastStep> <quantity>settlingTime</quantity> </u:control>",
+    )
+    assert read_benchmark(file).measures == (
+        ControlSpec(
+            name="m",
+            topic="/dataNavigator",
+            axes="vx vy",
+            target="girona500",
+            position=(3.0, 2.0, 1.0),
+            band=0.05,
+            least_step=0.2,
+            quantity="settlingTime",
+        ),
+    )
+    assert said(file) == []
+
+
+@pytest.mark.parametrize(
+    ("inside", "message"),
+    [
+        ("", "2: needs a <topic> of commands, a <target>, or an <errorTopic>"),
+        ("<target>girona500</target>", "2: <target> and <position> go together; give both or none"),
+        (f"{PLACE} <errorTopic>e</errorTopic>",
+         "2: <target> and <errorTopic> both say the error; give one"),
+        (f"{PLACE} <axes>vx</axes>", "2: <axes> are those of a <topic>, which is not given"),
+        (f"{PLACE} <quantity>effort</quantity>",
+         "2: <quantity> 'effort' is that of a <topic>, which is not given"),
+        (f"{TOPIC} <quantity>iae</quantity>",
+         "2: <quantity> 'iae' needs an error: <target> and <position>, or <errorTopic>"),
+        (f"{TOPIC} <quantity>settling</quantity>", "2: <quantity> is 'settling'; expected one of"),
+        (f"{PLACE} <band>-0.02</band>",
+         "2: <band> is '-0.02'; expected a number > 0 and < 1 [1]"),
+        (f"{PLACE} <leastStep>-1</leastStep>", "2: <leastStep> is '-1'; expected a number >= 0"),
+        (PLACE.replace("girona500", "girona50"),
+         "2: No body is called 'girona50'. Did you mean 'girona500'?"),
+        (f"{TOPIC} <axes>vx vq</axes>", "2: No axis is called 'vq'. Known: vx, vy, vz, wx, wy"),
+        ("<topic>/uwsim/camera1</topic>",
+         "'/uwsim/camera1' carries sensor_msgs/msg/Image; expected one of Float64MultiArray"),
+        (f"{TOPIC} <topc>u</topc>", "2: <topc> is not an element of <u:control>. Did you mean top"),
+    ],
+)  # fmt: skip
+def test_a_control_that_cannot_be_is_refused_with_its_line(
+    tmp_path: Path, inside: str, message: str
+) -> None:
+    found = said(written(tmp_path, f"<u:control> <name>m</name> {inside} </u:control>"))
+    assert len(found) == 1, found
+    assert message in found[0]
+
+
+@pytest.mark.parametrize(
+    ("inside", "message"),
+    [
+        ("<target>girona50</target>",
+         "2: No vehicle is called 'girona50'. Did you mean 'girona500'?"),
+        ("<target>blackbox</target>", "2: No vehicle is called 'blackbox'"),
+        ("", "2: <u:energy> lacks <target>: name of the vehicle"),
+        ("<target>girona500</target> <hotelLoad>-1</hotelLoad>",
+         "2: <hotelLoad> is '-1'; expected a number >= 0 [W]"),
+        ("<target>girona500</target> <battery>0</battery>",
+         "2: <battery> is '0'; expected a number > 0"),
+        ('<target>girona500</target> <battery unit="kWh">2</battery>',
+         "2: unit= of <battery> is 'kWh'; expected one of 'J', 'Wh'"),
+    ],
+)  # fmt: skip
+def test_an_energy_that_cannot_be_is_refused_with_its_line(
+    tmp_path: Path, inside: str, message: str
+) -> None:
+    found = said(written(tmp_path, f"<u:energy> <name>m</name> {inside} </u:energy>"))
+    assert message in found[0], found
+
+
+def test_the_bundled_benchmark_that_uses_them_is_right_and_its_function_does_not_need_them() -> (
+    None
+):
+    assert said(CURRENTS) == []
+    spec = read_benchmark(CURRENTS)
+    assert [type(m) for m in spec.measures[-2:]] == [EnergySpec, ControlSpec]
+    assert spec.function.text == "corners+centroid"
+
+
+def test_dropping_the_extensions_leaves_the_originals_measures(tmp_path: Path) -> None:
+    tree = etree.parse(CURRENTS)
+    mark = f"{{{NAMESPACE}}}"
+    for node in list(tree.iter("*")):
+        for name in [name for name in node.attrib if str(name).startswith(mark)]:
+            del node.attrib[name]
+        if str(node.tag).startswith(mark):
+            node.getparent().remove(node)  # type: ignore[union-attr]
+    etree.cleanup_namespaces(tree)
+    file = tmp_path / "b.xml"
+    file.write_bytes(etree.tostring(tree, doctype='<!DOCTYPE benchmark SYSTEM "benchmark.dtd">'))
+    assert check_benchmark(file) == []
+    assert [m.name for m in read_benchmark(file).measures] == [
+        "corners", "centroid", "objectCentered", "offset",
+    ]  # fmt: skip
