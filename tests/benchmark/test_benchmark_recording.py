@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bags import IMAGE, INFO, KINDS, picture, write_bag
 
+from bags import IMAGE, INFO, KINDS, picture, write_bag
 from uwsim.benchmark.recording import Recording, camera_info
 from uwsim.errors import AssetError, UnknownName
 from uwsim.messages import Time
@@ -40,9 +40,7 @@ def test_a_picture_has_the_newest_info_by_then_and_the_first_before_it(
 ) -> None:
     recording = open_bag(write_bag(tmp_path, kind, [(time, picture(0)) for time in TIMES]))
     stamp = Time(sec=3, nanosec=5)
-    infos = [
-        camera_info(frame.info, stamp=stamp, frame_id="bow") for frame in recording.frames()
-    ]
+    infos = [camera_info(frame.info, stamp=stamp, frame_id="bow") for frame in recording.frames()]
     recording.close()
     assert [info.k[0] for info in infos] == [0.0, 0.0, 0.1]
     assert infos[0].header.stamp == stamp
@@ -128,7 +126,7 @@ def test_a_topic_of_another_type_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize("times", [(), (0.0,), (0.5, 0.5)])
 def test_a_recording_without_spacing_is_refused(tmp_path: Path, times: tuple[float, ...]) -> None:
     path = write_bag(tmp_path, "ros1", [(time, picture(0)) for time in times])
-    with pytest.raises(AssetError, match="no two pictures at different times|has no messages"):
+    with pytest.raises(AssetError, match=r"no two pictures at different times|has no messages"):
         open_bag(path)
 
 

@@ -122,8 +122,6 @@ class BagFogUpdater(SceneUpdater):
         self._stage, self._spec, self._path = stage, spec, path
         self._is_original = "bag-fog" in stage.compatibility
         self._image_topic, self._info_topic = spec.topics
-        self._publish_image = stage.publisher(self._image_topic, Image)
-        self._publish_info = stage.publisher(self._info_topic, CameraInfo)
         self._density = spec.density(spec.initial)  # [1/m]
         self._recording: Recording | None = None
         self._has_begun = False
@@ -205,12 +203,15 @@ class BagFogUpdater(SceneUpdater):
             return
         picture, time = frame.picture(), self._stage.time
         stamp = time_from_seconds(time)
-        self._publish_info(camera_info(frame.info, stamp=stamp, frame_id=picture.frame_id))
+        info = camera_info(frame.info, stamp=stamp, frame_id=picture.frame_id)
+        self._stage.publisher(self._info_topic, CameraInfo)(info)
         if is_seen:
             pixels = self._fogged(picture)
             self._n_frames += 1
             self._digest.update(pixels.tobytes())
-            self._publish_image(image(pixels, time=time, frame_id=picture.frame_id))
+            self._stage.publisher(self._image_topic, Image)(
+                image(pixels, time=time, frame_id=picture.frame_id)
+            )
 
     def _fogged(self, picture: Picture) -> npt.NDArray[np.uint8]:
         """Add the fog of now to a picture."""
