@@ -7,8 +7,11 @@ A command is held until the next, of whatever kind; what it takes over begins at
 
 .. math:: \tau = M k_v (\nu_d - \nu) + k_i \int (\nu_d - \nu)\,dt + D(\nu_d)
 
-with M the mass and added mass and D the drag at the wanted velocity, so that a loop without drag
-errors follows with the time constant :math:`1/k_v`. *Depth and heading* are held where the last
+with M the mass and added mass and D the drag at the wanted velocity. The gains follow from the lag
+:math:`T` of the slowest thruster: :math:`k_v = 0.32/T`, :math:`k_i = 0.032/T^2` give the loop
+:math:`T s^3 + s^2 + k_v s + k_i` the poles :math:`0.2/T, 0.4/T, 0.4/T`: it does not swing. A
+faster loop swings by itself and, through a camera that tilts with the hull, keeps a roll up that no
+thruster damps. *Depth and heading* are held where the last
 command left them: their loops wish for a heave or yaw rate in proportion to the error. *Position*
 hold wishes for a surge and sway in proportion to the error as well, at most 0.5 m/s, over ground:
 who knows where they are know how they move. *Wrench*: shared out, nothing is held. *Thrusters*:
@@ -39,20 +42,18 @@ AXES = (0, 1, 2, 4, 5)
 class Gains:
     """How hard the loops pull."""
 
-    velocity: float = 4.0
-    """k_v [1/s]."""
-    integral: float = 1.0
-    """k_i, per mass [1/s2]."""
-    depth: float = 0.6
+    depth: float = 0.4
     """Heave wished for per depth error [1/s]."""
     position: float = 0.4
     """Surge and sway wished for per position error [1/s]."""
-    heading: float = 0.8
+    heading: float = 0.5
     """Yaw rate wished for per heading error [1/s]."""
     righting: float = 4.0
     """Angular acceleration per pitch angle [1/s2]."""
 
 
+LEAST_LAG = 0.08
+"""Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
 FASTEST = 0.5
 """What position hold wishes for at most [m/s]."""
 Mode = Literal["velocity", "position", "wrench", "thrusters"]
@@ -74,6 +75,8 @@ class Autopilot:
         """
         body = vehicle.body(link)
         self._gains = gains or Gains()
+        lag = max([LEAST_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
+        self._velocity_gain, self._integral_gain = 0.32 / lag, 0.032 / lag**2  # [1/s], [1/s2]
         added = matrix(body.added_mass) if body else np.zeros((6, 6))
         own = [mass, mass, mass, *(body.inertia[:3] if body and body.inertia else (1.0,) * 3)]
         self._mass = np.array(own) + np.diag(added)  # (6,) [kg, kg m2]
@@ -162,12 +165,11 @@ class Autopilot:
         error[3:5] = -velocity[3:5]
         self._integral += error * dt
         self._integral[3:5] = 0.0
-        gains = self._gains
-        tau = self._mass * (gains.velocity * error + gains.integral * self._integral)
+        tau = self._mass * (self._velocity_gain * error + self._integral_gain * self._integral)
         tau += self._linear * wanted + self._quadratic * np.abs(wanted) * wanted
         up = base_from_world[:, 2]  # W's z in base axes
         tilt = math.atan2(up[0], -up[2]) if up[2] < 0.0 else -math.atan2(up[0], up[2])
-        tau[4] += self._mass[4] * gains.righting * tilt
+        tau[4] += self._mass[4] * self._gains.righting * tilt
         return self._shared(tau)
 
     def _shared(self, tau: Array) -> Array:
