@@ -8,6 +8,7 @@ friction `FRICTION`, soft enough to take a few steps.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 import mujoco
@@ -28,7 +29,11 @@ LEAST_MASS = 0.01
 LEAST_INERTIA = 1e-4
 """Of a link whose URDF gives none [kg m2]."""
 SERVO = (400.0, 60.0)
-"""Stiffness [N m/rad or N/m] and damping of the servo that holds a joint."""
+"""Stiffness [N m/rad or N/m] and damping of the servo that holds a joint of much effort."""
+STRONG = 100.0
+"""Servos of less effort than this are softer in proportion [N m or N]."""
+ROTOR = 0.1
+"""Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2 or kg]."""
 
 FRICTION = (0.8, 0.005, 0.0001)
 """Sliding [1], spinning [m] and rolling [m]; of two shapes the greater counts."""
@@ -189,18 +194,28 @@ def _add_children(
                 axis=list(joint.axis),
                 range=[joint.lower, joint.upper],
                 limited=mujoco.mjtLimited.mjLIMITED_FALSE,  # the servo's targets are
+                armature=ROTOR if links else 0.0,
             )
             if links:
-                _add_servo(spec, name)
+                _add_servo(spec, name, joint.effort)
         _add_children(spec, child, robot, joint.child, index, links)
 
 
-def _add_servo(spec: mujoco.MjSpec, joint: str) -> None:
-    stiffness, damping = SERVO
+def servo_gains(effort: float) -> tuple[float, float]:
+    """Stiffness and damping of the servo of a joint, by its greatest effort [N m or N]."""
+    share = min(1.0, effort / STRONG)
+    return share * SERVO[0], share * SERVO[1]
+
+
+def _add_servo(spec: mujoco.MjSpec, joint: str, effort: float) -> None:
+    stiffness, damping = servo_gains(effort)
     servo = spec.add_actuator(
         name=f"{joint}/servo", target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT
     )
     servo.set_to_position(kp=stiffness, kv=damping)
+    if math.isfinite(effort):
+        servo.forcerange = [-effort, effort]
+        servo.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
 
 
 def _add_water(

@@ -13,7 +13,8 @@
 UWSim's rules: the tree is walked depth first, children in the alphabetical order of their joints'
 names, and the movable joints in that order are the joint vector; only the first visual and the
 first collision of a link count; limits hold for continuous joints too, and a ``<limit>`` without
-bounds means 0 to 0; without one a joint goes from -pi to pi, prismatic ones included.
+bounds means 0 to 0; without one a joint goes from -pi to pi, prismatic ones included. Its
+``effort`` and ``velocity``, which UWSim passes over, limit the joints of simulated vehicles.
 
 What a plug-in or another program wrote into the file (``<gazebo>``, ``<transmission>``, ...) is
 passed over, as the original does. Not read: joint dynamics, safety controllers, textures.
@@ -120,6 +121,10 @@ class JointSpec:
     """Least value [rad or m]."""
     upper: float = 0.0
     """Greatest value [rad or m]."""
+    effort: float = math.inf
+    """Greatest effort of what drives it; of a simulated vehicle only [N m or N]."""
+    velocity: float = math.inf
+    """Greatest speed at which it is driven; of a simulated vehicle only [rad/s or m/s]."""
     mimic: MimicSpec | None = None
     """Whom it follows."""
 
@@ -357,6 +362,8 @@ def _joint(node: etree._Element, links: dict[str, LinkSpec], faults: Faults) -> 
         axis=axis,
         lower=lower,
         upper=upper,
+        effort=_most(node, "effort", faults),
+        velocity=_most(node, "velocity", faults),
         mimic=_mimic(node, faults) if said in MOVABLE else None,
     )
 
@@ -375,6 +382,13 @@ def _limits(node: etree._Element, kind: str, faults: Faults) -> tuple[float, flo
             limit, f"joint {_name(node)!r} has a <limit> without lower and upper: it is held at 0"
         )
     return lower, upper
+
+
+def _most(node: etree._Element, what: str, faults: Faults) -> float:
+    """An effort or speed of a ``<limit>``; none, or 0 as many files have it, is no limit."""
+    limit = node.find("limit")
+    most = 0.0 if limit is None else _number(limit, what, faults, 0.0)
+    return most if most > 0.0 else math.inf
 
 
 def _mimic(node: etree._Element, faults: Faults) -> MimicSpec | None:
