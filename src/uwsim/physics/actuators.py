@@ -7,18 +7,17 @@ mimic have a servo and so a motor of their own.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from math import inf
 from typing import TYPE_CHECKING
 
 import mujoco
-import numpy as np
 
-from ..geometry import Array
 from ..scene.urdf import RobotSpec
 from .compile import vehicle_joint, vehicle_thruster
 from .hydrodynamics import ThrusterSpec, VehicleHydrodynamics
 from .hydrodynamics.columns import WATER_COLUMNS
+from .hydrodynamics.spec import JointDrive
 from .power import ThrusterPower, joint_power
 
 if TYPE_CHECKING:
@@ -51,27 +50,26 @@ class Actuators:
         """
         from .hydrodynamics.kernel import curve
 
-        self._data, self._water, self._refresh, self._curve = data, water, refresh, curve
+        self._refresh, self._curve = refresh, curve
+        self._ctrl, self._act, self._userdata = data.ctrl, data.act, data.userdata
+        self._qpos, self._qvel, self._applied = data.qpos, data.qvel, data.qfrc_applied
+        self._places, self._water, self._still = data.site_xpos, water.water(data), water.surface
         self._rotors = [
             _Rotor(model, model.actuator(vehicle_thruster(index, spec.name)).id, spec, water)
             for spec in vehicle.thrusters
         ]
         moving = [joint.name for joint in robot.joints if joint.moves]
-        self._drives = [vehicle.drive(name) for name in moving]
-        joints = [model.joint(vehicle_joint(index, name)).id for name in moving]
-        servos = [model.actuator(f"{vehicle_joint(index, name)}/servo").id for name in moving]
-        self._timestep = float(model.opt.timestep)
-        self._gains, self._biases = model.actuator_gainprm, model.actuator_biasprm
+        names = [vehicle_joint(index, name) for name in moving]
         self._motors = [
-            (
-                servo,
-                int(model.actuator_ctrladr[servo]),
-                int(model.jnt_qposadr[joint]),
-                int(model.jnt_dofadr[joint]),
-                _strongest(model, servo),
+            _Motor(
+                model,
+                model.joint(name).id,
+                model.actuator(f"{name}/servo").id,
+                vehicle.drive(joint),
             )
-            for servo, joint in zip(servos, joints, strict=True)
+            for name, joint in zip(names, moving, strict=True)
         ]
+        self._timestep = float(model.opt.timestep)
         self.thrusters = tuple(spec.name for spec in vehicle.thrusters)
         """Names of its thrusters."""
         self.joints = tuple(moving)
@@ -80,14 +78,12 @@ class Actuators:
     def thrusts(self) -> list[float]:
         """Along their directions, as the water has it [N]."""
         self._refresh()
-        data, still, water = self._data, self._water.surface, self._water.water(self._data)
-        ctrl, act, places, userdata = data.ctrl, data.act, data.site_xpos, data.userdata
         thrusts = []
         for one in self._rotors:
-            command = float(ctrl[one.control] if one.state < 0 else act[one.state])
-            surface = still + float(water[one.body, 6])
-            wet = 0.5 + 0.5 * (surface - float(places[one.site, 2])) / one.radius
-            healthy = 1.0 - float(userdata[one.loss])
+            command = self._ctrl.item(one.control) if one.state < 0 else self._act.item(one.state)
+            surface = self._still + self._water.item(one.body, 6)
+            wet = 0.5 + 0.5 * (surface - self._places.item(one.site, 2)) / one.radius
+            healthy = 1.0 - self._userdata.item(one.loss)
             thrust = self._curve(one.table, min(max(command, one.least), one.most))
             thrusts.append(healthy * thrust * min(max(wet, 0.0), 1.0))
         return thrusts
@@ -98,36 +94,28 @@ class Actuators:
         It is what acted in the last step: the engine pulls towards the target from where the joint
         was, and damps the speed that it has after the step.
         """
-        data = self._data
-        ctrl, qpos, qvel, applied = data.ctrl, data.qpos, data.qvel, data.qfrc_applied
         efforts = []
-        for servo, control, position, dof, strongest in self._motors:
-            gain, bias = float(self._gains[servo, 0]), self._biases[servo]
-            pull = gain * float(ctrl[control])
-            speed = float(qvel[dof])
-            before = float(qpos[position]) - speed * self._timestep
-            pull += float(bias[1]) * before + float(bias[2]) * speed
-            efforts.append(min(max(pull, -strongest), strongest) + float(applied[dof]))
+        for one in self._motors:
+            speed = self._qvel.item(one.dof)
+            before = self._qpos.item(one.position) - speed * self._timestep
+            pull = one.gain.item(0) * self._ctrl.item(one.control)
+            pull += one.bias.item(1) * before + one.bias.item(2) * speed
+            pull = min(max(pull, -one.strongest), one.strongest)
+            efforts.append(pull + self._applied.item(one.dof))
         return efforts
 
     def speeds(self) -> list[float]:
         """Of the joints [rad/s or m/s]."""
-        qvel = self._data.qvel
-        return [float(qvel[dof]) for _, _, _, dof, _ in self._motors]
+        return [self._qvel.item(one.dof) for one in self._motors]
 
-    def powers(self) -> Array:
-        """What the thrusters draw now, then the joints, (n,) [W]."""
-        powers = [
-            one.power(thrust) for one, thrust in zip(self._rotors, self.thrusts(), strict=True)
+    def powers(self) -> list[float]:
+        """What the thrusters draw now, then the joints [W]."""
+        rotors = zip(self._rotors, self.thrusts(), strict=True)
+        motors = zip(self._motors, self.efforts(), self.speeds(), strict=True)
+        return [
+            *[one.power(thrust) for one, thrust in rotors],
+            *[joint_power(one.drive, effort, speed) for one, effort, speed in motors],
         ]
-        for drive, effort, speed in zip(self._drives, self.efforts(), self.speeds(), strict=True):
-            powers.append(joint_power(drive, effort, speed))
-        return np.array(powers)
-
-
-def _strongest(model: mujoco.MjModel, servo: int) -> float:
-    """The greatest effort of a servo [N m or N]."""
-    return float(model.actuator_forcerange[servo, 1]) if model.actuator_forcelimited[servo] else inf
 
 
 class _Rotor:
@@ -144,3 +132,15 @@ class _Rotor:
         self.site = int(model.actuator_trnid[actuator, 0])
         self.body = int(model.site_bodyid[self.site])
         self.loss = WATER_COLUMNS * model.nbody + actuator
+
+
+class _Motor:
+    """Where a joint's numbers stand in the engine; views, for servos are switched off and on."""
+
+    def __init__(self, model: mujoco.MjModel, joint: int, servo: int, drive: JointDrive) -> None:
+        self.drive = drive
+        self.position, self.dof = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])
+        self.control = int(model.actuator_ctrladr[servo])
+        self.gain, self.bias = model.actuator_gainprm[servo], model.actuator_biasprm[servo]
+        is_limited = bool(model.actuator_forcelimited[servo])
+        self.strongest = float(model.actuator_forcerange[servo, 1]) if is_limited else math.inf
