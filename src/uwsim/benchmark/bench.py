@@ -24,6 +24,7 @@ from .plan import Plan, Unit
 from .play import bind_all
 from .plugin import blamed, check_bound, hashes
 from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture, save
+from .summary import save_summary
 from .updaters import chain, references
 
 
@@ -68,7 +69,7 @@ class Bench:
         }
 
     def write(self) -> Result:
-        """Put together what is on disk, and write ``result.json``, ``result.dat`` and the logs."""
+        """Put together what is on disk, and write it: result, summary of repeats, logs."""
         result, logs, self.simulated_s = collect(self)
         save(result, self.out)
         save_dat(
@@ -77,6 +78,8 @@ class Bench:
             compatibility=self.plan.compatibility,
             measures=self.plan.benchmark.measures,
         )
+        if self.plan.repeats > 1:
+            save_summary(result, self.out)
         measures = {spec.name: spec for spec in self.plan.benchmark.measures}
         for log in logs:
             save_log(log, self.out)
@@ -202,14 +205,6 @@ def _columns(plan: Plan, records: list[unit_file.Record]) -> list[Column]:
     ]
 
 
-def _tuple(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list) else value
-
-
-def _unit(unit: str) -> str | None:
-    return None if unit == "1" else unit
-
-
 def _units(records: list[unit_file.Record], kind: str) -> dict[str, str]:
     """Name -> unit of what all rows have of a kind, in the order of its first row."""
     first: dict[str, tuple[bool, str]] = {}
@@ -218,6 +213,14 @@ def _units(records: list[unit_file.Record], kind: str) -> dict[str, str]:
             if name not in first or (value is not None and not first[name][0]):
                 first[name] = (value is not None, unit)
     return {name: unit for name, (_, unit) in first.items()}
+
+
+def _tuple(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value
+
+
+def _unit(unit: str) -> str | None:
+    return None if unit == "1" else unit
 
 
 def _run(plan: Plan, renderer: str) -> dict[str, object]:

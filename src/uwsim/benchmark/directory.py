@@ -39,18 +39,42 @@ def prepare(directory: Path, *, resume: bool, overwrite: bool) -> None:
     """
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
+    if not resume:
+        hint = "Use --resume to go on, or --overwrite to start anew."
+        make_room(directory, overwrite=overwrite, ours=OURS, folders=FOLDERS, hint=hint)
+
+
+def make_room(
+    directory: Path,
+    *,
+    overwrite: bool,
+    ours: re.Pattern[str],
+    folders: tuple[str, ...],
+    hint: str = "Use --overwrite to replace what is there.",
+) -> None:
+    """Empty a directory, if that was said and all in it is of our making.
+
+    Args:
+        directory: need not be there.
+        overwrite: whether it was said.
+        ours: names of the files that uwsim writes there, relative to it.
+        folders: names of the folders that it writes there.
+        hint: what to do about one that is not empty.
+
+    Raises:
+        BadSetting: it is no directory; it is not empty and nothing was said; or it holds anything
+            that uwsim did not write.
+    """
     if directory.exists() and not directory.is_dir():
         raise BadSetting(f"--out {directory}: is a file, not a directory.")
-    if not directory.is_dir() or not any(directory.iterdir()) or resume:
+    if not directory.is_dir() or not any(directory.iterdir()):
         return
     if not overwrite:
-        raise BadSetting(
-            f"--out {directory}: not empty. Use --resume to go on, or --overwrite to start anew."
-        )
-    strange = next(_strange(directory), None)
+        raise BadSetting(f"--out {directory}: not empty. {hint}")
+    strange = next(_strange(directory, ours, folders), None)
     if strange is not None:
         raise BadSetting(
-            f"--out {directory}: holds {strange!r}, which is no part of a result; "
+            f"--out {directory}: holds {strange!r}, which uwsim did not write; "
             "nothing was overwritten."
         )
     for name in [path.name for path in directory.iterdir()]:
@@ -58,17 +82,17 @@ def prepare(directory: Path, *, resume: bool, overwrite: bool) -> None:
         shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
 
 
-def _strange(directory: Path) -> Iterator[str]:
+def _strange(directory: Path, ours: re.Pattern[str], known: tuple[str, ...]) -> Iterator[str]:
     """Names, relative to the directory, of what uwsim did not write."""
     for folder, folders, files in os.walk(directory):
         here = Path(folder).relative_to(directory)
         for name in sorted(folders):
             path = here / name
-            if name not in FOLDERS or (directory / path).is_symlink():
+            if name not in known or (directory / path).is_symlink():
                 yield str(path)
         for name in sorted(files):
             path = here / name
-            if not OURS.fullmatch(path.as_posix()) or (directory / path).is_symlink():
+            if not ours.fullmatch(path.as_posix()) or (directory / path).is_symlink():
                 yield str(path)
 
 

@@ -8,6 +8,7 @@ instead of showing nothing. No plot has a title: what was found is for the reade
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -26,6 +27,7 @@ from matplotlib.ticker import FuncFormatter
 from ..errors import ResultError
 from .interval import LevelInterval, per_level, rows_by_level
 from .result import Column, Result
+from .updaters.fog_sweep import LENGTHS
 
 CONTROL = "frozen"
 """The algorithm that only echoes what it was given: dashed in every plot."""
@@ -125,8 +127,15 @@ def small_multiples(result: Result, *, control: Result | None = None) -> Figure:
     return figure
 
 
-def compare_plot(results: Sequence[Result], column: str) -> Figure:
+def compare_plot(
+    results: Sequence[Result], column: str, *, names: Sequence[str] | None = None
+) -> Figure:
     """Draw one column of several results of the same benchmark, a line a result.
+
+    Args:
+        results: what is drawn.
+        column: Name of the column.
+        names: What the legend calls them; None: their algorithms, with the seed if need be.
 
     Raises:
         ResultError: they sweep different levels, or the column has different units.
@@ -137,7 +146,7 @@ def compare_plot(results: Sequence[Result], column: str) -> Figure:
         shown = results[0].columns[results[0].index(column)]
         drawn = [
             (f"{name}, {curve.name}" if curve.name else name, result, curve)
-            for name, result in zip(_distinct_names(results), results, strict=True)
+            for name, result in zip(names or _distinct_names(results), results, strict=True)
             for curve in curves_of(result, column)
         ]
         for i, (name, result, curve) in enumerate(drawn):
@@ -289,14 +298,18 @@ def _draw_end(axes: Axes, curve: Curve, i: int) -> None:
 def _draw_prediction(axes: Axes, result: Result, label: bool = True) -> None:
     """Draw f*, the fog at which the ZNCC is expected to reach its threshold."""
     fact, levels = result.fact("f_star"), result.of_kind("level")
-    if fact is None or not levels or levels[-1].name != "fog":
+    if fact is None or not levels or levels[-1].name not in ("fog", *LENGTHS):
         return
     low, high = axes.get_xlim()
     text = f"$f^*$ = {fact[0]:.2f} {_text(written_unit(fact[1]))}"
-    if low <= fact[0] <= high:
-        axes.axvline(fact[0], color=FAINT, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
+    x = fact[0]
+    if (length := LENGTHS.get(levels[-1].name)) is not None:
+        x = length(x) if x > 0.0 else math.inf
+        text = f"{x:.2f} m, {text}"
+    if low <= x <= high:
+        axes.axvline(x, color=FAINT, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
         if label:
-            _write_above(axes, fact[0], f"loss predicted at {text}", FAINT, line=0)
+            _write_above(axes, x, f"loss predicted at {text}", FAINT, line=0)
     elif label:
         _write_above(axes, high, f"loss predicted beyond these levels, {text}", FAINT, line=0)
 

@@ -54,6 +54,15 @@ COMMANDS: dict[str, Command] = {
         summary="Find every fault of scene and benchmark files, with line numbers.",
         examples=("uwsim check my-scene.xml my-benchmark.xml",),
     ),
+    "compare": Command(
+        module="compare",
+        function="compare",
+        summary="Say which result is better, by how much, and how surely.",
+        examples=(
+            "uwsim compare esm.result ic.result",
+            "uwsim compare --baseline esm.result ic.result ecc.result --measure corners",
+        ),
+    ),
     "list": Command(
         module="list",
         function="list_names",

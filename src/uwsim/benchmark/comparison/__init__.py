@@ -1,0 +1,20 @@
+"""Comparison: results of one experiment held against each other, pair by pair."""
+
+from __future__ import annotations
+
+from .compare import compare
+from .entries import Entry, differences, read_entries, remarks, shared_column
+from .findings import Comparison, Difference
+from .write import write_comparison
+
+__all__ = [
+    "Comparison",
+    "Difference",
+    "Entry",
+    "compare",
+    "differences",
+    "read_entries",
+    "remarks",
+    "shared_column",
+    "write_comparison",
+]

@@ -1,0 +1,150 @@
+"""The page of a comparison: one HTML file that loads nothing and runs nothing."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import jinja2
+
+from ... import __version__
+from ...statistics import Interval
+from ..interval import rows_by_level, success_per_level
+from ..plots import written_unit
+from ..result import Result
+from .findings import Comparison, Versus
+from .terminal import heading, lines
+from .words import sentences
+
+CAPTIONS = {
+    "curves": "Mean over the repeats of each result, with its 95 % interval.",
+    "differences": "Paired differences with their 95 % intervals; a filled marker is a level at "
+    "which one is better after Holm's correction.",
+    "success": "Share of repeats that ended ok, with its exact 95 % interval.",
+}
+
+
+def render(comparison: Comparison, plots: Sequence[Path]) -> str:
+    """Return the page's HTML."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent.parent / "templates"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("comparison.html.j2").render(
+        title=_title(comparison),
+        names=[entry.name for entry in comparison.entries],
+        lead=_lead(comparison),
+        cards=[_card(versus) for versus in comparison.versus],
+        forced=comparison.forced,
+        remarks=comparison.remarks,
+        plots=[(CAPTIONS[plot.stem], _data_url(plot.read_bytes())) for plot in plots],
+        pairs=[
+            {
+                "heading": heading(comparison, versus),
+                "first": versus.first.name,
+                "second": versus.second.name,
+                "words": sentences(comparison, versus),
+                "levels": [
+                    (column.name, column.unit) for column in versus.first.result.of_kind("level")
+                ],
+                "lines": lines(comparison, versus),
+            }
+            for versus in comparison.versus
+        ],
+        results=[
+            {
+                "name": entry.name,
+                "source": entry.source,
+                "sha256": entry.sha256,
+                "rows": _about(entry.result),
+            }
+            for entry in comparison.entries
+        ],
+        inputs=_inputs(comparison.entries[0].result),
+        version=__version__,
+    )
+
+
+def _title(comparison: Comparison) -> str:
+    benchmark = comparison.entries[0].result.inputs.get("benchmark")
+    name = str(benchmark[0]) if isinstance(benchmark, tuple) and benchmark else "benchmark"
+    return name.removesuffix(".xml")
+
+
+def _lead(comparison: Comparison) -> str:
+    column = comparison.column
+    unit = f" [{written_unit(column.unit)}]" if column.unit else ""
+    function = f" = {column.expression}" if column.expression else ""
+    better = "higher" if comparison.higher_is_better else "lower"
+    against = f"; {comparison.baseline.name} is the baseline" if comparison.baseline else ""
+    levels = len(rows_by_level(comparison.entries[0].result))
+    repeats = max(len(at.seeds) for versus in comparison.versus for at in versus.levels)
+    return (
+        f"{column.name}{unit}{function}, {better} is better; {_many(levels, 'level')}, "
+        f"{_many(repeats, 'repeat')}{against}."
+    )
+
+
+def _many(n: int, word: str) -> str:
+    return f"{n} {word}" + ("s" if n != 1 else "")
+
+
+def _card(versus: Versus) -> dict[str, str]:
+    d = versus.overall.value
+    said = {
+        "first": f"{versus.first.name} better",
+        "second": f"{versus.second.name} better",
+        "equal": "equal",
+        "one repeat": "one repeat: no inference",
+        "no pair": "not compared",
+    }.get(d.verdict, "no difference shown")
+    return {
+        "label": f"{versus.second.name} against {versus.first.name}, the sweep as a whole",
+        "value": said,
+        "note": _spread(d.difference),
+    }
+
+
+def _spread(d: Interval) -> str:
+    if d.mean is None:
+        return ""
+    text = f"difference {d.mean:.3g}"
+    if d.low is not None and d.high is not None:
+        text += f", 95 % interval {d.low:.3g} to {d.high:.3g}"
+    return text
+
+
+def _about(result: Result) -> list[tuple[str, str]]:
+    """What differs from result to result: parameters, seeds, versions."""
+    run = result.run
+    seeds = sorted({s for at in success_per_level(result) for s in at.seeds if s is not None})
+    parameters = run.get("parameters")
+    pairs = parameters.items() if isinstance(parameters, Mapping) else ()
+    return [
+        ("algorithm", str(run.get("algorithm", ""))),
+        *((f"parameter {name}", _word(value)) for name, value in pairs),
+        ("seeds", " ".join(map(str, seeds))),
+        *((name, _word(run[name])) for name in ("mode", "version", "renderer") if name in run),
+    ]
+
+
+def _word(value: object) -> str:
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def _inputs(result: Result) -> list[tuple[str, str, str]]:
+    found = []
+    for what, value in result.inputs.items():
+        if isinstance(value, Mapping):
+            found += [(what, str(name), str(digest)) for name, digest in value.items()]
+        elif isinstance(value, tuple) and len(value) == 2:
+            found.append((what, str(value[0]), str(value[1])))
+    return found
+
+
+def _data_url(data: bytes) -> str:
+    return f"data:image/png;base64,{base64.b64encode(data).decode('ascii')}"

@@ -1,0 +1,118 @@
+"""``uwsim compare``: hold results of one experiment against each other."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from ..errors import ResultError
+
+Results = Annotated[
+    list[Path],
+    typer.Argument(metavar="RESULT RESULT ...", help="Result directories, or their result.json."),
+]
+UNWRAPPED = 1000
+"""Columns for a reader that is a program: wide enough to leave every line whole."""
+
+
+def compare(
+    results: Results,
+    measure: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="What is compared: a column of the results, as corners or corners.max; without "
+            "it the score.",
+        ),
+    ] = None,
+    baseline: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="RESULT",
+            help="Hold every other result against this one; without it each against each.",
+        ),
+    ] = None,
+    higher_is_better: Annotated[
+        bool, typer.Option("--higher-is-better", help="More of it is better; errors are not so.")
+    ] = False,
+    out: Annotated[
+        Path, typer.Option(metavar="DIR", help="Where numbers, plots and page go.")
+    ] = Path("comparison"),
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace an earlier comparison in --out.")
+    ] = False,
+    force: Annotated[
+        bool,
+        typer.Option("--force", help="Compare results of different experiments, with a warning."),
+    ] = False,
+) -> None:
+    """Say which of several results is better, by how much, and how surely.
+
+    Rows are paired by seed and level: play every algorithm with the same --seed and --repeat, as
+    `uwsim bench visibility --algorithm esm --repeat 12 --out esm.result`. For each level and for
+    the sweep as a whole come the mean difference with its 95 % interval, effect sizes, paired
+    tests corrected by Holm, success rates, and how many repeats would be needed where no
+    difference is shown. Lost rows are counted and never guessed. One repeat shows no difference at
+    all; six are the fewest that can, more where many levels are tested.
+
+    Results whose benchmark, scene, models, mode, timestep, compatibility or settings of the scene
+    differ are refused. Written: comparison.json, comparison.csv, comparison.html, plots as PNG and
+    PDF. What the numbers mean: docs/statistics.md.
+    """
+    from ..benchmark.comparison import (
+        compare as compare_entries,
+    )
+    from ..benchmark.comparison import (
+        differences,
+        read_entries,
+        remarks,
+        shared_column,
+        write_comparison,
+    )
+    from ..benchmark.comparison.terminal import drawn
+    from ..benchmark.comparison.write import FOLDERS, OURS
+    from ..benchmark.directory import make_room
+
+    paths, place = with_baseline(results, baseline)
+    entries = read_entries(paths)
+    column = shared_column(entries, measure)
+    differing = differences(entries)
+    if differing and not force:
+        raise ResultError(
+            f"These results are not of one experiment: {'; '.join(differing)}. "
+            "--force compares them all the same."
+        )
+    comparison = compare_entries(
+        entries,
+        column,
+        baseline=None if place is None else entries[place],
+        higher_is_better=higher_is_better,
+        forced=differing,
+        remarks=remarks(entries),
+    )
+    make_room(out, overwrite=overwrite, ours=OURS, folders=FOLDERS)
+    if differing:
+        print(f"warning: not of one experiment: {'; '.join(differing)}", file=sys.stderr)
+    for remark in comparison.remarks:
+        print(f"note: {remark}", file=sys.stderr)
+    page = write_comparison(comparison, out)
+    console = Console(width=None if sys.stdout.isatty() else UNWRAPPED, highlight=False)
+    for part in drawn(comparison, width=console.width):
+        console.print(part)
+    print(f"written: {out}/comparison.json, comparison.csv, plots; page: {page}")
+
+
+def with_baseline(results: list[Path], baseline: Path | None) -> tuple[list[Path], int | None]:
+    """Return the results with the baseline among them, and its place."""
+    if baseline is None:
+        return results, None
+    from ..benchmark.result import file_of
+
+    files = [file_of(path).resolve() for path in results]
+    if file_of(baseline).resolve() in files:
+        return results, files.index(file_of(baseline).resolve())
+    return [baseline, *results], 0

@@ -1,0 +1,82 @@
+"""Results of a few levels and seeds with chosen values, to be compared (no module under test)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from uwsim.benchmark.comparison import Entry
+from uwsim.benchmark.result import Cell, Column, Missing, Result, save
+
+Values = Mapping[float, Sequence[float | None]]
+"""Fog -> the value of each seed; None: lost."""
+
+INPUTS = {
+    "benchmark": ("visibility.xml", "sha256:" + "3f" * 32),
+    "scene": ("visibility-scene.xml", "sha256:" + "a0" * 32),
+    "assets": {"blackbox.osg": "sha256:" + "77" * 32, "girona500.urdf": "sha256:" + "78" * 32},
+}
+
+
+def made(algorithm: str, values: Values, *, seed: int = 0) -> Result:
+    """A sweep of fog, played with seeds from ``seed`` on."""
+    columns = (
+        Column(name="repeat", kind="run"),
+        Column(name="seed", kind="run"),
+        Column(name="fog", kind="level", unit="1/m"),
+        Column(name="corners", kind="measure", unit="px"),
+        Column(name="total", kind="score", expression="corners"),
+        Column(name="status", kind="status"),
+        Column(name="ended_at", kind="time", unit="s"),
+    )
+    rows: list[tuple[Cell, ...]] = []
+    missing = []
+    n = max((len(found) for found in values.values()), default=0)
+    for repeat in range(n):
+        for i, (fog, found) in enumerate(values.items()):
+            value = found[repeat]
+            if value is None:
+                missing.append(Missing(row=len(rows), column="total", why="lost at 3.1 s"))
+            status = "ok" if value is not None else "lost"
+            rows.append((repeat, seed + repeat, fog, value, value, status, 2.0 * (i + 1)))
+    run = {
+        "seed": seed,
+        "mode": "independent",
+        "algorithm": algorithm,
+        "parameters": {"levels": 3.0},
+        "settings": (),
+        "compatibility": (),
+        "timestep": (0.002, "s"),
+        "version": "0.1.0",
+    }
+    return Result(inputs=INPUTS, run=run, columns=columns, rows=tuple(rows), missing=tuple(missing))
+
+
+def noisy(
+    algorithm: str, mean: float, *, n: int, salt: int, levels: Sequence[float] = (0.0, 0.5, 1.0)
+) -> Result:
+    """Values of deviation 0.1 about a mean, the same part of the noise for each seed."""
+    shared = np.random.Generator(np.random.Philox(99)).normal(0.0, 0.5, (n, len(levels)))
+    own = np.random.Generator(np.random.Philox(salt)).normal(mean, 0.1, (n, len(levels)))
+    drawn = shared + own
+    return made(algorithm, {fog: drawn[:, i].tolist() for i, fog in enumerate(levels)})
+
+
+def entries(*results: Result) -> tuple[Entry, ...]:
+    """Results as they would be read, named by their algorithms."""
+    return tuple(
+        Entry(name=name, source=f"{name}.result", result=result, sha256="00" * 32)
+        for result in results
+        if (name := str(result.run["algorithm"]))
+    )
+
+
+def saved(directory: Path, *results: Result) -> list[str]:
+    """Results in directories named by their algorithms."""
+    paths = []
+    for result in results:
+        paths.append(str(directory / f"{result.run['algorithm']}.result"))
+        save(result, Path(paths[-1]))
+    return paths
