@@ -83,8 +83,8 @@ class Autopilot:
         self._linear = np.diag(matrix(body.linear_damping)) if body else np.zeros(6)
         self._quadratic = np.diag(matrix(body.quadratic_damping)) if body else np.zeros(6)
         self._reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
-        allocation = np.array([_column(t, self._reference) for t in vehicle.thrusters]).T  # (6, n)
-        reached = allocation[list(AXES)]
+        columns = [_column(thruster, self._reference) for thruster in vehicle.thrusters]
+        reached = np.array(columns).reshape(-1, 6).T[list(AXES)]  # (5, n): N, N m per N
         self._share = np.linalg.pinv(reached, rcond=1e-6)  # (n, 5): [N per N or N m]
         self._curves = [_curve(thruster) for thruster in vehicle.thrusters]
         self._wanted = np.zeros(6)  # [m/s, rad/s]
