@@ -268,6 +268,7 @@ def open_once(plan: Plan) -> tuple[dict[str, object], str]:
             for i, vehicle in enumerate(plan.scene.vehicles)
         }
         assets = {name: f"sha256:{digest}" for name, digest in simulation.asset_hashes.items()}
+        assets |= {name: _file_hash(path) for name, path in simulation.files.items()}
         for updater in chain(plan.benchmark.scene_updater):
             files = updater.files(simulation)
             assets |= {name: _file_hash(path) for name, path in files.items()}

@@ -8,6 +8,8 @@ is ever part of a score.
 from __future__ import annotations
 
 import json
+import os
+import platform
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -19,6 +21,28 @@ def save_provenance(provenance: Mapping[str, object], directory: Path) -> Path:
     path = directory / "provenance.json"
     write_whole(path, json.dumps(provenance, indent=2, ensure_ascii=False) + "\n")
     return path
+
+
+def machine() -> dict[str, object]:
+    """Say what this process runs on."""
+    return {
+        "host": platform.node(),
+        "system": platform.platform(),
+        "cpu": _cpu_name(),
+        "cores": os.cpu_count(),
+        "load": os.getloadavg(),
+        "python": platform.python_version(),
+    }
+
+
+def _cpu_name() -> str:
+    """Return the processor's name as the system gives it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return platform.processor()
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return models[0] if models else platform.processor()
 
 
 def load_provenance(directory: Path) -> dict[str, object]:

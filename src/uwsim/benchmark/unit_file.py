@@ -41,25 +41,33 @@ def read(directory: Path, index: int, head: Record) -> Stored:
         ResultError: the file belongs to another run.
     """
     path = path_of(directory, index)
-    if not path.exists():
-        return Stored((), None)
-    lines = path.read_bytes().split(b"\n")[:-1]  # what follows the last newline was cut off
-    records: list[Record] = []
-    for line in lines:
-        try:
-            records.append(json.loads(line))
-        except ValueError:
-            break
-    if not records:
-        return Stored((), None)
-    if records[0] != {"unit": head}:
+    found, stored = read_any(path)
+    if found is not None and found != head:
         raise ResultError(
             f"{path}: belongs to another run (other files, seed, settings or version). "
             "Start anew with --overwrite, or choose another --out."
         )
+    return stored
+
+
+def read_any(path: Path) -> tuple[Record | None, Stored]:
+    """Read a unit's file, whatever run it is of: its head, and what it holds."""
+    if not path.exists():
+        return None, Stored((), None)
+    lines = path.read_bytes().split(b"\n")[:-1]  # what follows the last newline was cut off
+    records: list[Record] = []
+    for line in lines:
+        try:
+            record = json.loads(line)
+        except (ValueError, RecursionError):
+            break
+        records.append(record if isinstance(record, dict) else {})
+    if not records:
+        return None, Stored((), None)
     rows = tuple(r["row"] for r in records[1:] if isinstance(r.get("row"), dict))
     ends = [r["end"] for r in records[1:] if isinstance(r.get("end"), dict)]
-    return Stored(rows, ends[0] if ends else None)
+    head = records[0].get("unit")
+    return head if isinstance(head, dict) else {}, Stored(rows, ends[0] if ends else None)
 
 
 class UnitFile:

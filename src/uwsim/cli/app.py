@@ -85,6 +85,15 @@ COMMANDS: dict[str, Command] = {
         summary="Draw the report and the plots of a result again.",
         examples=("uwsim report visibility.result",),
     ),
+    "verify": Command(
+        module="verify",
+        function="verify",
+        summary="Replay a sample of a result and compare it, byte for byte.",
+        examples=(
+            "uwsim verify visibility.result",
+            "uwsim verify currents.result --sample 5 --seed 1 --workers 2",
+        ),
+    ),
 }
 
 TRACEBACK = "--traceback"

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import datetime
-import os
-import platform
 import signal
 import sys
 import time
@@ -352,6 +350,8 @@ def provenance(run: Bench, began: float, wall: float, workers: int) -> dict[str,
     """Say where, when and how fast; nothing here is part of a score."""
     from importlib.metadata import version
 
+    from ..benchmark.provenance import machine
+
     simulated = run.simulated_s
     names = ("mujoco", "numpy", "numba", "moderngl", "opencv-python-headless", "rosbags")
     return {
@@ -362,21 +362,6 @@ def provenance(run: Bench, began: float, wall: float, workers: int) -> dict[str,
         "workers": workers,
         "resumed": run.n_resumed,
         "command": sys.argv[1:],
-        "host": platform.node(),
-        "system": platform.platform(),
-        "cpu": cpu_name(),
-        "cores": os.cpu_count(),
-        "load": os.getloadavg(),
-        "python": platform.python_version(),
+        **machine(),
         "packages": {name: version(name) for name in names},
     }
-
-
-def cpu_name() -> str:
-    """Return the processor's name as the system gives it."""
-    try:
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
-        return platform.processor()
-    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return models[0] if models else platform.processor()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import abc
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -44,6 +44,10 @@ class CurrentSpec(abc.ABC):
     @abc.abstractmethod
     def bind(self, place: Place) -> Current:
         """Find what it needs; raises UwsimError when that is not there."""
+
+    def files(self, place: Place) -> Mapping[str, Path]:
+        """Return the files that it reads or runs, by the names that the scene has for them."""
+        return {}
 
 
 class Current(abc.ABC):

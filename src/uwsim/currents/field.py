@@ -50,6 +50,10 @@ class FieldSpec(CurrentSpec):
         """
         return Field(read_grid(place.find(self.file)), start=self.start, outside=self.outside)
 
+    def files(self, place: Place) -> dict[str, Path]:
+        """The file."""
+        return {self.file: place.find(self.file)}
+
 
 @dataclass(frozen=True)
 class Grid:

@@ -15,8 +15,10 @@ from __future__ import annotations
 
 import importlib
 import math
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -58,6 +60,12 @@ class PythonFunctionSpec(CurrentSpec):
                 f"{did_you_mean(name, known)}"
             )
         return PythonFunction(self.function, function)
+
+    def files(self, place: Place) -> dict[str, Path]:
+        """The file of the module, once it is imported."""
+        module = sys.modules.get(self.function.partition(":")[0])
+        path = getattr(module, "__file__", None)
+        return {Path(path).name: Path(path)} if path else {}
 
 
 class PythonFunction(Current):

@@ -171,6 +171,7 @@ class _Parts:
     bodies: list[BodyHydrodynamics] = field(default_factory=list)
     thrusters: list[ThrusterSpec] = field(default_factory=list)
     joints: list[JointDrive] = field(default_factory=list)
+    files: list[Path] = field(default_factory=list)
 
 
 def vehicle_sets() -> dict[str, Path]:
@@ -231,6 +232,7 @@ def read_vehicle_into(
         bodies=tuple(parts.bodies),
         thrusters=tuple(parts.thrusters),
         joints=tuple(parts.joints),
+        files=tuple(parts.files),
     )
 
 
@@ -238,6 +240,7 @@ def _read_file(
     path: Path, faults: Faults, parts: _Parts, above: tuple[Path, ...]
 ) -> HydrodynamicsElement | None:
     root = parse(path, error=VehicleError).root
+    parts.files.append(path)
     if root.tag != "hydrodynamics":
         faults.add(root, f"the root element is <{str(root.tag)[:60]}>; expected <hydrodynamics>")
         return None

@@ -96,6 +96,8 @@ class Simulation:
         self.robots = read_robots(scene, data_path)
         """The robot of each vehicle, by its number in the scene."""
         dynamics = read_dynamics(scene, self.robots)
+        self.files = {path.name: path for one in dynamics.values() for path in one.files}
+        """Side files of vehicles, and files of currents, by name."""
         shapes = collision_shapes(scene, self.robots, dynamics, data_path)
         self._state = State(scene, self.robots, dynamics, timestep, shapes)
         self._scenery = Scenery(scene, self.robots, self._state, data_path, studio)
@@ -118,6 +120,8 @@ class Simulation:
             surface_height=scene.ocean_state.ocean_surface_height,
         )
         self._scene_current = bind_currents(scene.ocean_state.currents, place)
+        for current in scene.ocean_state.currents:
+            self.files |= current.files(place)
         self._flow: Flow = self._scene_current
         self._localized_from_world = scene.world_from_localized.inverse()
         self._drifting = [

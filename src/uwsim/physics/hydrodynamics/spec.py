@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -140,6 +141,8 @@ class VehicleHydrodynamics:
     """Joints whose drives are known; any other is as `JointDrive` has it."""
     density: float = 1000.0
     """Of the water that the numbers were given for [kg/m3]."""
+    files: tuple[Path, ...] = field(default=(), compare=False)
+    """What it was read from, the set's own file first."""
 
     def body(self, link: str) -> BodyHydrodynamics | None:
         """Find the entry of a link."""

@@ -1,0 +1,192 @@
+"""``uwsim verify``: is a stored result what its recorded inputs give, byte for byte?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import ResultError
+from .faults import RUN_FAILED, printable
+from .plugins import PluginOption
+from .progress import progress
+from .recorded import NOT_DRAWN, Given, check_inputs, named_input, plan_of
+
+if TYPE_CHECKING:
+    from ..benchmark.result import Result
+    from ..benchmark.verify import Verification
+
+SHOWN = 20
+"""So many differences are said in full."""
+MEANS = {
+    "version": "uwsim",
+    "physics": "physics",
+    "renderer": "renderer",
+    "numpy": "numpy",
+    "cpu": "processor",
+    "system": "system",
+    "python": "Python",
+}
+"""What a result was made with, in words."""
+PROMISES = {
+    "version": "between versions of uwsim nothing is promised",
+    "physics": "between versions of MuJoCo nothing is promised",
+    "renderer": "another renderer draws single grey levels otherwise: promised is the motion of "
+    "whatever no picture steers, not pictures nor what is found in them",
+    "numpy": "between versions of numpy random numbers and sums may differ",
+    "cpu": "another processor may round otherwise: its kernels are compiled for it",
+    "system": "another system has other libraries of mathematics",
+    "python": "between versions of Python nothing is expected to differ",
+}
+"""What holds where that differs."""
+
+
+def verify(
+    result: Annotated[
+        Path, typer.Argument(metavar="RESULT", help="A result directory or its result.json.")
+    ],
+    sample: Annotated[
+        int, typer.Option(min=1, help="How many units of work to replay, chosen by --seed.")
+    ] = 3,
+    whole: Annotated[bool, typer.Option("--all", help="Replay every unit.")] = False,
+    seed: Annotated[int, typer.Option(min=0, help="Chooses the sample; not the run's.")] = 0,
+    benchmark: Annotated[
+        Path | None, typer.Option(help="The benchmark, where it is not found by its name.")
+    ] = None,
+    scene: Annotated[
+        Path | None, typer.Option(help="The scene, where it is not found by its name.")
+    ] = None,
+    workers: Annotated[
+        int, typer.Option(min=1, help="Number of processes that units are spread over.")
+    ] = 1,
+    plugin: PluginOption = None,
+    data_path: Annotated[
+        list[Path] | None,
+        typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
+    ] = None,
+) -> None:
+    """Replay a sample of a stored result and compare it with what is stored, byte for byte.
+
+    A unit of work is what is played in one go: a seed's whole sweep, or one level of it where the
+    benchmark is independent. Files are found by name (beside the result, here, bundled) and known
+    by the hash that was recorded; others are refused. Before any replay, every file of the result
+    is made anew from its units and compared.
+
+    Exit status 0: the same. 3: something differs; says which unit, level, column and sample, and
+    from the fingerprints that every unit keeps, from which step on and in which body or picture.
+    2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
+    """
+    from ..benchmark.bench import Bench, open_once
+    from ..benchmark.crew import Here
+    from ..benchmark.processes import Processes
+    from ..benchmark.result import file_of, load
+    from ..benchmark.verify import choose, finished
+    from ..benchmark.verify import verify as compare
+
+    stored = load(result)
+    directory = file_of(result).parent
+    given = Given(
+        benchmark=benchmark,
+        scene=scene,
+        plugins=tuple(plugin or ()),
+        data_path=tuple(data_path or ()),
+    )
+    plan = plan_of(stored, directory, given)
+    inputs, renderer = open_once(plan)
+    check_inputs(stored.inputs, inputs)
+    renderer = NOT_DRAWN if plan.is_blind else renderer
+    bench = Bench(plan=plan, out=directory, inputs=stored.inputs, renderer=renderer)
+    whole_units = finished(directory, plan, stored)
+    if not whole_units:
+        raise ResultError(f"{directory}: no unit of it is finished; there is nothing to verify.")
+    units = choose(whole_units, None if whole else sample, seed)
+    n_levels = sum(len(unit.levels) for unit in units)
+    typer.echo(head(stored, directory, len(whole_units), len(plan.units())))
+    others = made_otherwise(stored, directory, bench.head(units[0])["run"])
+    for line in others.values():
+        typer.echo(printable(line))
+    crew = Here() if workers == 1 else Processes(workers)
+    with progress("replaying", n_levels, of="levels") as on_level:
+        found = compare(directory, stored, bench, units, crew=crew, on_level=on_level)
+    for line in tell(found, len(whole_units), others):
+        typer.echo(printable(line))
+    if found.differences:
+        raise typer.Exit(RUN_FAILED)
+
+
+def head(stored: Result, directory: Path, n_whole: int, n_units: int) -> str:
+    """Say what is verified, and that its files are there."""
+    run = stored.run
+    names = [named_input(stored, kind)[0] for kind in ("benchmark", "scene")]
+    others = stored.inputs.get("assets", {})
+    n_others = len(others) if isinstance(others, Mapping) else 0
+    finished = count(n_units, "unit")
+    if n_whole < n_units:
+        finished = f"{n_whole} of {finished} finished"
+    return printable(
+        f"{directory}: {run.get('algorithm')}, seed {run.get('seed')}, {run.get('mode')}, "
+        f"{count(len(stored.rows), 'row')}, {finished}\n"
+        f"files: the same ({', '.join(names)} and {n_others} more)"
+    )
+
+
+def made_otherwise(stored: Result, directory: Path, run: Mapping[str, object]) -> dict[str, str]:
+    """Say what differs between how the result was made and how it is replayed, and what holds."""
+    from ..benchmark.provenance import load_provenance, machine
+    from ..benchmark.verify import ENVIRONMENT
+
+    pairs = {name: (stored.run.get(name), run.get(name)) for name in ENVIRONMENT}
+    recorded, here = load_provenance(directory), machine()
+    for name in ("cpu", "system", "python"):
+        if name in recorded:
+            pairs[name] = (recorded[name], here[name])
+    return {
+        name: f"{MEANS[name]}: made with {before}, replayed with {now}; {PROMISES[name]}"
+        for name, (before, now) in pairs.items()
+        if before != now
+    }
+
+
+def tell(found: Verification, n_whole: int, others: Mapping[str, str]) -> list[str]:
+    """Say what came out, the verdict last."""
+    said = [str(difference) for difference in found.differences[:SHOWN]]
+    if len(found.differences) > SHOWN:
+        said.append(f"and {len(found.differences) - SHOWN} more differences")
+    said += [f"not compared: {what}" for what in found.not_compared]
+    n = len(found.units)
+    which = f"{n} of {count(n_whole, 'unit')}" if n < n_whole else f"all of {count(n, 'unit')}"
+    played = f"{which} replayed, {count(sum(len(unit.levels) for unit in found.units), 'level')}"
+    if not found.differences:
+        return [*said, f"the same, byte for byte: {played}"]
+    return [*said, f"DIFFERS: {played}. {blame(found, others)}"]
+
+
+def count(number: int, what: str) -> str:
+    """``1 unit``, ``2 units``."""
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+
+
+def blame(found: Verification, others: Mapping[str, str]) -> str:
+    """Say which part of the program the differences point to."""
+    bodies = [part for part in found.parts if not part.startswith("/")]
+    if bodies:
+        where = f"It begins in the physics: {', '.join(bodies)} moved otherwise."
+        return where + _because(others, ("version", "physics", "numpy", "cpu", "system"))
+    if found.parts:
+        where = f"Every body moved the same; the pictures on {', '.join(found.parts)} are others."
+        return where + _because(others, ("version", "renderer", "numpy", "cpu", "system"))
+    if found.is_replayed:
+        return "Every replayed unit gave what it stored; other parts of the result were changed."
+    if not found.is_steady:
+        return "Its stored fingerprints are not those of a replay."
+    return (
+        "Every body moved and every picture was the same: what is stored was changed, or the "
+        "algorithm or a measure is not repeatable (its own chance, a clock, threads)."
+    )
+
+
+def _because(others: Mapping[str, str], names: tuple[str, ...]) -> str:
+    known = [MEANS[name] for name in names if name in others]
+    return f" Made otherwise: {', '.join(known)}." if known else ""

@@ -1,0 +1,242 @@
+"""``uwsim verify``: a result is what its inputs give, or it is said where not."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from uwsim.benchmark.bench import Bench, open_once
+from uwsim.benchmark.crew import play_all
+from uwsim.benchmark.differences import leaves, of_row, of_text
+from uwsim.benchmark.verify import choose
+from uwsim.cli import main
+from uwsim.cli.bench import make_plan
+from uwsim.cli.files import bundled
+from uwsim.simulation import Simulation
+
+BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="tank.xml" u:algorithm="esm"
+    u:mode="independent">
+  <measures>
+    <euclideanNorm u:value="mean">
+      <name>corners</name>
+      <groundTruth type="cornersFromCamera">
+        <camera>bowtech1</camera> <target>blackbox</target> <publishOn>autoInit</publishOn>
+      </groundTruth>
+      <target>cornersTopic</target> <log>0.05</log>
+    </euclideanNorm>
+  </measures>
+  <startOn> <type>service</type> <target>startBench</target> </startOn>
+  <stopOn> <type>never</type> </stopOn>
+  <function>corners</function>
+  <sceneUpdater>
+    <sceneFogUpdater>
+      <initialValue>0</initialValue> <finalValue>0.5</finalValue> <step>0.4</step>
+      <interval>0.2</interval>
+    </sceneFogUpdater>
+  </sceneUpdater>
+</benchmark>
+"""
+
+
+@pytest.fixture(scope="module")
+def played(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a benchmark, its scene, and the result of two units."""
+    folder = tmp_path_factory.mktemp("played")
+    (folder / "b.xml").write_text(BENCHMARK)
+    scene = bundled("scenes")["visibility-scene"].read_text()
+    (folder / "tank.xml").write_text(scene.replace("<rate>30</rate>", "<rate>10</rate>"))
+    plan = make_plan(
+        str(folder / "b.xml"), scene=None, algorithm=None, seed=3, repeat=1, mode=None, levels=[],
+        settings=["algorithm.zncc_threshold=0.4"], compat=[], data_path=(),
+    )  # fmt: skip
+    inputs, renderer = open_once(plan)
+    play_all([Bench(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)])
+    return folder
+
+
+@pytest.fixture
+def folder(played: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of it to do harm to."""
+    shutil.copytree(played, tmp_path / "copy")
+    monkeypatch.chdir(tmp_path / "copy")
+    return tmp_path / "copy"
+
+
+def change(folder: Path, harm: Callable[[list[dict[str, Any]]], object], unit: int = 1) -> None:
+    """Change the stored unit: a list of its lines."""
+    path = folder / "out" / "units" / f"{unit:05d}.jsonl"
+    lines = [json.loads(line) for line in path.read_text().splitlines()]
+    harm(lines)
+    path.write_text("".join(json.dumps(line) + "\n" for line in lines))
+
+
+def verify(capsys: pytest.CaptureFixture[str], *options: str) -> tuple[int, str]:
+    status = main(["verify", "out", *options])
+    captured = capsys.readouterr()
+    return status, captured.out + captured.err
+
+
+def test_a_result_that_was_left_alone_is_the_same(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, said = verify(capsys)
+    assert (status, said.splitlines()[-1]) == (
+        0,
+        "the same, byte for byte: all of 2 units replayed, 2 levels",
+    )
+    assert "files: the same (b.xml, tank.xml and 11 more)" in said
+    assert sorted(path.name for path in folder.iterdir()) == ["b.xml", "out", "tank.xml"]
+
+
+def test_a_changed_cell_sample_and_fingerprint_are_each_named_with_their_place(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def cell(lines: list[dict[str, Any]]) -> None:
+        lines[1]["row"]["measures"]["corners"][0] += 1e-12
+
+    def sample_and_mark(lines: list[dict[str, Any]]) -> None:
+        for sample in lines[1]["row"]["logs"]["corners"][2:4]:
+            sample[1] *= 1.000001
+        marks = lines[-1]["end"]["trace"]["marks"]
+        marks[5] = "00000000" + marks[5][8:]
+
+    change(folder, cell, unit=0)
+    change(folder, sample_and_mark, unit=1)
+    status, said = verify(capsys)
+    assert status == 3
+    assert "unit 0 (seed 3), level fog=0: column corners: stored 0." in said
+    assert "result.json: row 0, column corners: 0." in said
+    assert said.count("log of corners, first at sample 2 (0.1 s): stored") == 1
+    assert "measure-corners.csv: line 9, column total" in said
+    assert (
+        "unit 1 (seed 3): motion and pictures are the same up to step 320 (0.64 s), "
+        "no more at step 384 (0.768 s); first differs: girona500/base_link" in said
+    )
+    assert "It begins in the physics: girona500/base_link moved otherwise." in said
+
+
+def test_a_body_that_moves_otherwise_in_the_replay_is_named_with_its_steps(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    advance = Simulation.advance
+
+    def drifting(self: Simulation) -> None:
+        if self.step == 700:
+            self.set_joints("girona500", {1: float(self.joints("girona500")[1]) + 1e-9})
+        advance(self)
+
+    monkeypatch.setattr(Simulation, "advance", drifting)
+    status, said = verify(capsys, "--sample", "1")
+    assert status == 3
+    assert said.count("up to step 640 (1.28 s), no more at step 704 (1.408 s)") == 1
+    assert "first differs: girona500/part2\n" in said
+
+
+def test_a_result_json_that_says_other_than_its_units_is_found_without_a_replay(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = folder / "out" / "result.json"
+    text = path.read_text()
+    path.write_text(text.replace('"ok"', '"lost"', 1))
+    status, said = verify(capsys, "--sample", "1")
+    assert status == 3
+    assert 'result.json: row 0, column status: "lost" there, "ok" by units/' in said
+    assert "Every replayed unit gave what it stored; other parts of the result were changed" in said
+    assert "1 of 2 units replayed" in said
+
+
+def test_result_json_alone_can_be_verified_by_its_rows(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("units", "pictures"):
+        shutil.rmtree(folder / "out" / name)
+    path = folder / "out" / "result.json"
+    path.write_text(path.read_text().replace('"ok"', '"lost"', 1))
+    status, said = verify(capsys)
+    assert status == 3
+    assert "not compared: units/" in said
+    assert said.count("result.json: ") == 1
+    assert "result.json: row 0, column status: stored 'lost', replayed 'ok'" in said
+
+
+def test_a_changed_scene_is_refused_and_the_right_one_may_be_called_otherwise(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = folder / "tank.xml"
+    scene_text = scene.read_text()
+    scene.write_text(scene_text + "\n")
+    status, said = verify(capsys)
+    assert status == 2
+    assert len(said.splitlines()) == 1
+    assert said.startswith("uwsim: The scene is not the one that was played, tank.xml (sha256:")
+    assert f"{scene} (sha256:" in said
+    scene.rename(folder / "elsewhere.xml").write_text(scene_text)
+    path = folder / "out" / "result.json"
+    path.write_text(path.read_text().replace('"renderer": "', '"renderer": "NVIDIA '))
+    (folder / "out" / "provenance.json").write_text('{"cpu": "abacus"}')
+    status, said = verify(capsys, "--scene", "elsewhere.xml", "--sample", "1")
+    assert status == 0
+    assert "renderer: made with NVIDIA " in said
+    assert "promised is the motion of whatever no picture steers" in said
+    assert "processor: made with abacus, replayed with" in said
+
+
+def test_a_benchmark_that_is_nowhere_is_asked_for(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "b.xml").unlink()
+    status, said = verify(capsys)
+    assert status == 2
+    assert "was not found; give it with --benchmark" in said
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "wrong"),
+    [
+        ('"seed": 3', '"seed": "x"', "cannot be replayed: \"run\" has 'x' for seed"),
+        ('"algorithm": "esm"', '"algorithm": "esn"', "No algorithm is called 'esn'"),
+        ('"benchmark": [', '"benchmark": ["b", ', "does not name its benchmark"),
+        ('"ARM5E_part0": "sha256:', '"ARM5E_part0": "sha256:0', "made with other files: robot"),
+    ],
+)
+def test_a_result_that_cannot_be_replayed_says_why(
+    folder: Path, capsys: pytest.CaptureFixture[str], was: str, now: str, wrong: str
+) -> None:
+    path = folder / "out" / "result.json"
+    text = path.read_text().replace("robot/ARM5E/ARM5E_part0", "ARM5E_part0")
+    assert was in text
+    text = text.replace(was, now, 1).replace("ARM5E_part0", "robot/ARM5E/ARM5E_part0")
+    path.write_text(text)
+    status, said = verify(capsys)
+    assert status == 2
+    assert wrong in said
+    assert len(said.splitlines()) == 1
+
+
+def test_a_sample_is_chosen_by_its_seed_and_keeps_the_order() -> None:
+    units: list[Any] = list(range(50))
+    samples = {choose(units, 3, seed) for seed in range(20)}
+    assert len(samples) > 15
+    assert all(list(sample) == sorted(set(sample)) for sample in samples)
+    assert choose(units, 3, 4) == choose(units, 3, 4)
+    assert choose(units, None, 0) == choose(units, 60, 0) == tuple(units)
+
+
+def test_leaves_are_compared_as_text() -> None:
+    assert leaves({"a": [0.0, {"b": None}], "c": []}) == {
+        ("a", 0): "0.0", ("a", 1, "b"): "null", ("c",): "[]",
+    }  # fmt: skip
+    assert of_row({"total": 0.0}, {"total": -0.0}) == ["column total: stored 0.0, replayed -0.0"]
+    assert of_row({"logs": 7}, {"logs": {"a": [[0.0, 1.0]]}}) != []
+
+
+def test_tables_are_compared_by_line_and_column() -> None:
+    assert of_text("a,b\n1,2\n", "a,b\n1,2\n") is None
+    assert of_text("a,b\n1,2\n", "a,b\n1,3\n") == "line 2, column b: '2' there, '3' expected"
+    assert of_text("a,b\n1,2\n", "a,b\n") == "line 2: '1,2' there, '' expected"
+    assert of_text("a,b", "a,b\n") == "1 lines there, 2 expected"
