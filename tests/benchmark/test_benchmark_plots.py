@@ -54,6 +54,17 @@ def test_a_loss_and_its_prediction_are_vertical_lines_with_labels() -> None:
     assert f"$f^*$ = {F_STAR:.2f} m⁻¹" in words(figure)
 
 
+def test_a_sweep_of_lengths_shows_the_prediction_as_a_length() -> None:
+    result = visibility(lost_at=1.2)
+    fog, *others = result.columns
+    length = replace(fog, name="attenuationLength", unit="m")
+    rows = tuple((1.0 / max(row[0], 0.05), *row[1:]) for row in result.rows)  # type: ignore[type-var]
+    figure = value_plot(replace(result, columns=(length, *others), rows=rows), "corners")
+    assert figure.axes[0].get_xlabel() == "attenuation length [m]"
+    assert vertical_lines(figure)[-1] == pytest.approx(1.0 / F_STAR)
+    assert f"predicted at {1.0 / F_STAR:.2f} m, $f^*$ = {F_STAR:.2f} m⁻¹" in words(figure)
+
+
 def test_without_a_loss_and_without_facts_there_is_no_such_line() -> None:
     result = replace(frozen(), facts={})
     assert vertical_lines(value_plot(result, "corners")) == []

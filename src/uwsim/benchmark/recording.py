@@ -12,12 +12,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
 import numpy.typing as npt
-from rosbags.highlevel import AnyReader
 from rosbags.interfaces import Connection
-from rosbags.typesys import Stores, get_typestore
 
 from ..errors import AssetError, UnknownName
 from ..messages import CameraInfo, Header, RegionOfInterest, Time
@@ -88,6 +85,8 @@ class Frame:
         return (pixels, False) if encoding in RED_FIRST else (pixels[..., ::-1], True)
 
     def _unpacked(self, message: Any) -> tuple[npt.NDArray[np.uint8], bool]:
+        import cv2
+
         data = np.frombuffer(message.data, dtype=np.uint8)
         found = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if len(data) else None
         if found is None or found.dtype != np.uint8:
@@ -113,6 +112,9 @@ class Recording:
     """
 
     def __init__(self, path: Path, image_topic: str, info_topic: str) -> None:
+        from rosbags.highlevel import AnyReader
+        from rosbags.typesys import Stores, get_typestore
+
         self._name = path.name
         self._image_topic = image_topic
         try:

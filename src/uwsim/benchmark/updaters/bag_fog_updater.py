@@ -29,7 +29,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 
@@ -235,6 +234,8 @@ def fogged(
         seen: what is left of the contrast, 0..1.
         colour: red, green and blue of the fog, 0..1.
     """
+    import cv2
+
     stored = np.arange(256.0)[:, None]
     end = 255.0 * np.array(colour)
     if pixels.ndim == 2:
