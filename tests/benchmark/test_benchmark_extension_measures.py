@@ -8,13 +8,15 @@ import pytest
 from lxml import etree
 
 import uwsim
-from uwsim.benchmark.measures import ControlSpec, EnergySpec
+from fakes import FakeActuators, FakeBody, FakeWorld
+from uwsim.benchmark.measures import ControlSpec, EnergySpec, MeasureSpec
 from uwsim.benchmark.measures.energy import BatterySpec
 from uwsim.benchmark.reader import check_benchmark, read_benchmark
 from uwsim.cli.check import faults_of
-from uwsim.dialect import NAMESPACE
+from uwsim.dialect import NAMESPACE, slots
 
 CURRENTS = Path(uwsim.__file__).parent / "data" / "benchmarks" / "currents.xml"
+PAGE = Path(__file__).parents[2] / "docs" / "measures.md"
 PLACE = "<target>girona500</target> <position> <x>3</x> <y>2</y> <z>1</z> </position>"
 TOPIC = "<topic>/dataNavigator</topic>"
 
@@ -125,6 +127,20 @@ def test_an_energy_that_cannot_be_is_refused_with_its_line(
 ) -> None:
     found = said(written(tmp_path, f"<u:energy> <name>m</name> {inside} </u:energy>"))
     assert message in found[0], found
+
+
+@pytest.mark.parametrize(("name", "spec"), [("u:energy", EnergySpec), ("u:control", ControlSpec)])
+def test_every_element_and_every_detail_stands_in_the_page_of_measures(
+    name: str, spec: type[EnergySpec] | type[ControlSpec]
+) -> None:
+    section = PAGE.read_text().split(f"\n## {name}\n")[1].split("\n## ")[0]
+    of_all = {slot.field for slot in slots(MeasureSpec)}
+    elements = [slot.shown for slot in slots(spec) if slot.field not in of_all]
+    world = FakeWorld({"v": FakeBody()})
+    world.driven["v"] = FakeActuators()
+    place = {"topic": "u", "position": (1.0, 0.0, 0.0)} if spec is ControlSpec else {}
+    details = spec(name="m", target="v", **place).bind(world).details  # type: ignore[arg-type]
+    assert [each for each in (*elements, *details) if f"`{each}`" not in section] == []
 
 
 def test_the_bundled_benchmark_that_uses_them_is_right_and_its_function_does_not_need_them() -> (
