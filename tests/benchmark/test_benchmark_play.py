@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from short_benchmark import fingerprint, run, write_benchmark
 
+from uwsim.benchmark.comparison import compare, differences, read_entries, shared_column
 from uwsim.benchmark.result import load
 from uwsim.bus import Node
 from uwsim.errors import BadSetting, NeverStarted
@@ -117,6 +118,24 @@ def test_a_benchmark_has_a_row_for_each_level_with_all_cells(
     assert total == tuple(2 * c for c in corners if c is not None)
     assert result.values("corners.n") == (6.0, 6.0, 6.0)
     assert load(tmp_path / "a") == result
+
+
+def test_repeats_have_a_summary_and_pair_with_those_of_another_algorithm(
+    benchmark: Path, tmp_path: Path
+) -> None:
+    for name in ("esm", "frozen"):
+        run(benchmark, tmp_path / name, algorithm=name, repeat=2, levels=["fog=0.4"])
+    lines = (tmp_path / "esm" / "summary.csv").read_text().splitlines()
+    assert [line.split(",")[:4] for line in lines[1:3]] == [
+        ["0.4", "total", "", "2"],
+        ["0.4", "corners", "px", "2"],
+    ]
+    assert lines[1].endswith(",1 2")
+    found = read_entries([tmp_path / "esm", tmp_path / "frozen"])
+    assert differences(found) == ()
+    (versus,) = compare(found, shared_column(found, None)).versus
+    assert [at.seeds for at in versus.levels] == [(1, 2)]
+    assert versus.same_pictures == (2, 2)
 
 
 def test_a_level_alone_is_the_level_within_the_sweep(benchmark: Path, tmp_path: Path) -> None:

@@ -50,7 +50,7 @@ def test_an_earlier_comparison_is_replaced_only_if_that_was_said(
     Path("out/thesis.txt").write_text("x")
     capsys.readouterr()
     assert main(["compare", *two, "--out", "out", "--overwrite"]) == 2
-    assert "holds 'thesis.txt', which uwsim did not write" in one_line(capsys)
+    assert "holds 'thesis.txt', which does not belong there" in one_line(capsys)
 
 
 def test_another_experiment_is_refused_in_one_line_and_forced_with_a_warning(

@@ -63,7 +63,7 @@ def make_room(
 
     Raises:
         BadSetting: it is no directory; it is not empty and nothing was said; or it holds anything
-            that uwsim did not write.
+            that uwsim does not write there.
     """
     if directory.exists() and not directory.is_dir():
         raise BadSetting(f"--out {directory}: is a file, not a directory.")
@@ -74,7 +74,7 @@ def make_room(
     strange = next(_strange(directory, ours, folders), None)
     if strange is not None:
         raise BadSetting(
-            f"--out {directory}: holds {strange!r}, which uwsim did not write; "
+            f"--out {directory}: holds {strange!r}, which does not belong there; "
             "nothing was overwritten."
         )
     for name in [path.name for path in directory.iterdir()]:

@@ -18,6 +18,7 @@ from pathlib import Path
 
 from .interval import per_level, success_per_level
 from .result import Result, write_whole
+from .table import unit_of
 
 FILE = "summary.csv"
 HEADER = (
@@ -43,7 +44,7 @@ def summary_text(result: Result) -> str:
         for column, entries in zip(columns, found, strict=True):
             entry = entries[i].interval
             numbers = (entry.n, entry.mean, entry.std, entry.low, entry.high)
-            cells = (column.unit, *numbers, entries[i].n_missing, *end, seeds)
+            cells = (unit_of(result, column), *numbers, entries[i].n_missing, *end, seeds)
             writer.writerow(
                 [*map(repr, ending.level), column.name, *("" if c is None else c for c in cells)]
             )

@@ -10,10 +10,11 @@ import typer
 from rich.console import Console
 
 from ..errors import ResultError
+from .faults import printable
 
 Results = Annotated[
     list[Path],
-    typer.Argument(metavar="RESULT RESULT ...", help="Result directories, or their result.json."),
+    typer.Argument(metavar="RESULT", help="Result directories, or their result.json."),
 ]
 UNWRAPPED = 1000
 """Columns for a reader that is a program: wide enough to leave every line whole."""
@@ -96,9 +97,10 @@ def compare(
     )
     make_room(out, overwrite=overwrite, ours=OURS, folders=FOLDERS)
     if differing:
-        print(f"warning: not of one experiment: {'; '.join(differing)}", file=sys.stderr)
+        warning = f"warning: not of one experiment: {'; '.join(differing)}"
+        print(printable(warning), file=sys.stderr)
     for remark in comparison.remarks:
-        print(f"note: {remark}", file=sys.stderr)
+        print(printable(f"note: {remark}"), file=sys.stderr)
     page = write_comparison(comparison, out)
     console = Console(width=None if sys.stdout.isatty() else UNWRAPPED, highlight=False)
     for part in drawn(comparison, width=console.width):
