@@ -321,8 +321,7 @@ class _Reader:
     def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
         name = _name(node)
         said = f"<{name[:60]}> is not an element of <{box.tag}>"
-        own = name.startswith(PREFIX) and not did_you_mean(name, known)
-        self.faults.unknown(node, said + OF_A_PLUGIN * own, name, known)
+        self.faults.unknown(node, said + OF_A_PLUGIN * name.startswith(PREFIX), name, known)
 
 
 def _name(node: etree._Element) -> str:
