@@ -1,6 +1,6 @@
-"""``docs/dialect.md`` and ``docs/grammar/*.rng``: the dialects, as the specs have them.
+"""``docs/*dialect.md`` and ``docs/grammar/*.rng``: the dialects, as the specs have them.
 
-Both are made from the same table that reads the files (`uwsim.dialect.slots`), so that neither can
+All are made from the same table that reads the files (`uwsim.dialect.slots`), so that none can
 say what the reader does not do.
 """
 
@@ -34,6 +34,16 @@ The grammar for editors is [uwsim-scene.rng](grammar/uwsim-scene.rng) (RELAX NG)
 names only.
 """
 
+BENCHMARK_HEAD = """\
+# The dialect of benchmarks
+
+What may stand in a benchmark file, made from the specs that read it by `scripts/docs`. Elements may
+stand in any order; what equals its default may be left out. Numbers may be `M_PI`, `M_PI_2`,
+`M_PI_4` and their negatives. `u:` is the namespace `urn:uwsim:1`: a file that uses it carries no
+DOCTYPE. What it all means: [measures](measures.md), [levels](levels.md). `uwsim check FILE.xml`
+holds a file against it, `--strict` also against the original's order.
+"""
+
 SIGNED = "|".join(token.removeprefix("-") for token in TOKENS if not token.startswith("-"))
 NUMBER = rf"[+\-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?|-?({SIGNED})"
 SPACE = r"[ \t\n\r]*"
@@ -50,6 +60,34 @@ def page() -> str:
         if cls not in done:
             done.add(cls)
             parts.append(_section(name, cls))
+    return "\n".join(parts)
+
+
+def benchmark_page() -> str:
+    """Return ``docs/benchmark-dialect.md``."""
+    from ..benchmark.ground_truth import GROUND_TRUTHS
+    from ..benchmark.measures import MEASURES
+    from ..benchmark.spec import BenchmarkSpec, FunctionSpec
+    from ..benchmark.triggers import TRIGGERS
+    from ..benchmark.updaters import UPDATERS
+
+    families: tuple[tuple[str, str, Mapping[str, type]], ...] = (
+        ("Measures", "<{}>", MEASURES),
+        ("Ground truths", '<groundTruth type="{}">', GROUND_TRUTHS),
+        ("Triggers", "<type> {} </type>", TRIGGERS),
+        ("Scene updaters", "<{}>", UPDATERS),
+    )
+    parts = [BENCHMARK_HEAD, _section("benchmark", BenchmarkSpec)]
+    parts.append(_section("function", FunctionSpec))
+    for title, form, table in families:
+        parts.append(f"## {title}\n")
+        for name, cls in table.items():
+            parts.append(_section(name, cls, title=form.format(name)))
+            parts += [
+                _section(slot.shown, slot.type, title=f"<{slot.shown}>")
+                for slot in slots(cls)
+                if slot.kind == "spec"
+            ]
     return "\n".join(parts)
 
 
@@ -88,14 +126,23 @@ def _specs(name: str, cls: type) -> Iterator[tuple[str, type]]:
                 yield from _specs(local(child), spec)
 
 
-def _section(name: str, cls: type) -> str:
-    """One element: what it is, how it looks, what stands in it."""
+def _section(name: str, cls: type, *, title: str | None = None) -> str:
+    """One element: what it is, how it looks, what stands in it.
+
+    Args:
+        name: of the element.
+        cls: its spec.
+        title: of a member of a family, whose file is about it alone.
+    """
     doc = (inspect.getdoc(cls) or "").strip()
     module = sys.modules[cls.__module__].__doc__ or ""
-    lines = [f"## `<{name}>`", "", _markdown(doc), ""]
+    lines = [f"## `<{name}>`" if title is None else f"### `{title}`", "", _markdown(doc), ""]
     block = re.search(r"\.\. code-block:: xml\n\n((?:    .*\n|\n)+)", module)
-    if block and re.search(rf"<{re.escape(name)}[ >]", block[1].split("\n")[0]):
+    begins = rf"<{re.escape(name)}[ >/]|<(start|stop)On>.*<type>{name}<"
+    if block and re.search(begins, " ".join(block[1].split("\n")[: 1 if title is None else 2])):
         lines += ["```xml", inspect.cleandoc(block[1]).rstrip(), "```", ""]
+    if not slots(cls):
+        return "\n".join(lines)
     lines += ["| element | what stands there | default | meaning |", "|---|---|---|---|"]
     for slot in slots(cls):
         mark = " (attribute)" if slot.xml.attribute else ""
@@ -114,9 +161,20 @@ def _kind(slot: Slot) -> str:
     elif slot.kind == "triple":
         unit = f" [{slot.unit}]" if slot.unit else ""
         what = " ".join(f"`<{part}>`" for part in slot.xml.parts) + unit
+    elif slot.kind == "hand":
+        what = _family(slot)
     elif slot.xml.item:
-        what = f"`<{slot.xml.item}>`, any number: {what}"
-    return f"{what}, any number" if slot.repeated and slot.kind == "spec" else what
+        each = "a number" if slot.kind == "list" else what
+        what = f"`<{slot.xml.item}>`, any number: {each}"
+    return f"{what}, any number" if slot.repeated and slot.kind in ("spec", "list") else what
+
+
+def _family(slot: Slot) -> str:
+    """Where the members of a benchmark's family stand."""
+    kind = slot.type.__name__.removesuffix("Spec")
+    title = {"SceneUpdater": "Scene updaters", "GroundTruth": "Ground truths"}.get(kind, f"{kind}s")
+    which = "any of" if slot.repeated else "one of"
+    return f"{which} the [{title.lower()}](#{title.lower().replace(' ', '-')})"
 
 
 def _anchor(name: str) -> str:
@@ -199,7 +257,11 @@ def _sub(parent: etree._Element, tag: str, **attributes: str) -> etree._Element:
 
 def pages() -> Mapping[str, str]:
     """Return what is generated: file below ``docs`` -> text."""
-    return {"dialect.md": page(), "grammar/uwsim-scene.rng": grammar()}
+    return {
+        "dialect.md": page(),
+        "benchmark-dialect.md": benchmark_page(),
+        "grammar/uwsim-scene.rng": grammar(),
+    }
 
 
 def main() -> None:

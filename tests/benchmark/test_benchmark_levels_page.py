@@ -1,0 +1,50 @@
+"""What docs/levels.md says of triggers, updaters and the original's slips is so."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import uwsim
+from uwsim.benchmark.reader import check_benchmark
+from uwsim.benchmark.triggers import TRIGGERS
+from uwsim.benchmark.updaters import UPDATERS
+from uwsim.benchmark.updaters.fog_sweep import DENSITY, LENGTHS
+from uwsim.compatibility import COMPATIBILITY
+
+PAGE = (Path(__file__).parents[2] / "docs" / "levels.md").read_text()
+BENCHMARK = Path(uwsim.__file__).parent / "benchmark"
+SLIPS = PAGE.split("## What the original does otherwise")[1]
+EXAMPLES = re.findall(r"```xml\n(.*?)```", PAGE, re.S)
+
+
+@pytest.mark.parametrize("name", [*TRIGGERS, *UPDATERS, DENSITY, *LENGTHS])
+def test_every_part_has_a_line(name: str) -> None:
+    assert f"\n| `{name}` |" in PAGE
+
+
+def test_every_column_stands_beside_its_updater() -> None:
+    for element, spec in UPDATERS.items():
+        line = next(line for line in PAGE.split("\n") if line.startswith(f"| `{element}` |"))
+        assert f"`{spec.name}`" in line or element == "bagFogUpdater", element
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_the_examples_are_sound(example: str, tmp_path: Path) -> None:
+    file = tmp_path / "b.xml"
+    file.write_text(
+        f"""<benchmark xmlns:u="urn:uwsim:1"> <measures> <time> <name>t</name> </time> </measures>
+        <startOn> <type>onInit</type> </startOn> <stopOn> <type>never</type> </stopOn>
+        <function>t</function> <sceneUpdater> {example} </sceneUpdater> </benchmark>"""
+    )
+    assert check_benchmark(file) == []
+
+
+def test_every_slip_of_levels_stands_there_and_no_other() -> None:
+    told = set(re.findall(r"\| `([a-z-]+)` \|$", SLIPS, re.M))
+    files = [*(BENCHMARK / "triggers").glob("*.py"), *(BENCHMARK / "updaters").glob("*.py")]
+    sources = "".join(file.read_text() for file in [*files, BENCHMARK / "gate.py"])
+    asked = {name for name in COMPATIBILITY if f'"{name}" in' in sources}
+    assert told == asked - {"current-force"}  # docs/currents.md
