@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+from short_benchmark import run
 
 import uwsim
 from fakes import FakeActuators, FakeBody, FakeWorld
@@ -167,3 +168,59 @@ def test_dropping_the_extensions_leaves_the_originals_measures(tmp_path: Path) -
     assert [m.name for m in read_benchmark(file).measures] == [
         "corners", "centroid", "objectCentered", "offset",
     ]  # fmt: skip
+
+
+ALGORITHM = """
+import numpy as np
+from uwsim.messages import Empty, Float64MultiArray, MultiArrayLayout
+
+
+class Late:
+    def start(self, node):
+        publish = node.publisher("own", Float64MultiArray)
+        layout = MultiArrayLayout(dim=[], data_offset=0)
+
+        def speak():
+            if node.now > 0.25:
+                publish(Float64MultiArray(layout=layout, data=np.array([node.now])))
+
+        node.every(0.1, speak)
+"""
+
+
+def test_in_a_run_what_comes_late_has_its_columns_and_what_is_missing_its_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = written(
+        tmp_path,
+        "<u:control> <name>m</name> <topic>own</topic> <log>0.1</log> </u:control>",
+        "<u:energy> <name>e</name> <target>girona500</target> <log>0.1</log> </u:energy>",
+    )
+    text = file.read_text().replace("<iterations>1", "<iterations>2")
+    file.write_text(text.replace("<interval>1", "<interval>0.2"))
+    (tmp_path / "late.py").write_text(ALGORITHM)
+    monkeypatch.syspath_prepend(tmp_path)
+    result = run(file, tmp_path / "out", algorithm="late:Late")
+    assert result.values("status") == ("ok", "ok")
+    assert result.numbers("m") == (None, pytest.approx(0.1))
+    assert result.why(0, "m") == "no command on 'own'"
+    assert result.numbers("m.u0.effort")[0] is None
+    assert result.columns[result.index("m.effort")].unit == "s"
+    energies = result.numbers("e")
+    assert all(energy is not None and energy > 0.0 for energy in energies)
+    assert result.why(1, "e.charge") == "no <battery> is given"
+    assert result.reasons(1) == ()
+    log = (tmp_path / "out" / "measure-e.csv").read_text().splitlines()
+    assert log[0].endswith("time [s],energy [J],power [W],charge [1]")
+    assert len(log) == 1 + 2 * 3
+
+
+def test_a_vehicle_that_is_not_simulated_leaves_the_score_empty_and_says_why(
+    tmp_path: Path,
+) -> None:
+    file = written(tmp_path, "<u:energy> <name>m</name> <target>girona500</target> </u:energy>")
+    text = file.read_text().replace("currents-scene", "visibility-scene")
+    file.write_text(text.replace("<interval>1", "<interval>0.1"))
+    result = run(file, tmp_path / "out", algorithm="frozen")
+    assert (result.values("m"), result.values("total")) == ((None,), (None,))
+    assert result.why(0, "m") == ("the vehicle 'girona500' has no <u:dynamics>: nothing drives it")
