@@ -31,8 +31,9 @@ from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec, callbac
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import PhysicsSpec
-from uwsim.simulation.bodies import read_dynamics, read_robots
+from uwsim.simulation.bodies import read_robots
 from uwsim.simulation.collision_shapes import collision_shapes
+from uwsim.simulation.dynamics import read_dynamics
 
 STEPS_PER_SECOND, RATIO = 60_000, 1.35
 BATCHES, STEPS = 15, 4000

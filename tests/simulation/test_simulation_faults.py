@@ -7,7 +7,7 @@ import pytest
 from simulated import command, heading_deg, make, position, run
 
 from uwsim.devices.thruster_fault import ThrusterFaultSpec
-from uwsim.errors import UnknownName
+from uwsim.errors import SceneError
 from uwsim.simulation import Simulation
 
 
@@ -61,5 +61,5 @@ def test_of_two_faults_the_greater_loss_counts() -> None:
 
 
 def test_a_fault_of_an_unknown_thruster_lists_the_known_ones() -> None:
-    with pytest.raises(UnknownName, match="surge_port"):
+    with pytest.raises(SceneError, match="surge_port"):
         faulty(ThrusterFaultSpec(thruster="surge"))

@@ -16,6 +16,7 @@ from .plugins import PluginOption, read_plugins
 
 if TYPE_CHECKING:
     from ..benchmark.plugin import Plugin, Tables
+    from ..scene.spec import SceneSpec
     from ..simulation import Simulation
 
 
@@ -91,9 +92,28 @@ def faults_of(
         plugins, tables = own or read_plugins(())
         return faults_of_benchmark(file, strict, scene, data_path, plugins, tables)
     if root == ROOT:
-        return check_scene(file, strict=strict, library=library)
+        further = partial(faults_of_dynamics, data_path=data_path)
+        return check_scene(file, strict=strict, library=library, further=further)
     message = f"the root element is <{root[:60]}>; expected <{ROOT}>, <benchmark> or <robot>"
     return [Fault(file=str(file), line=1, message=message)]
+
+
+def faults_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fault]:
+    """Return everything wrong with what of a scene is simulated; the engine is heavy to load."""
+    from ..scene.ros_interfaces import ROSThrustersToPATSpec, ROSWrenchToPATSpec
+
+    if not (
+        scene.ocean_state.currents
+        or any(vehicle.dynamics is not None or vehicle.faults for vehicle in scene.vehicles)
+        or any(
+            isinstance(interface, ROSThrustersToPATSpec | ROSWrenchToPATSpec)
+            for interface in scene.ros_interfaces
+        )
+    ):
+        return []
+    from ..simulation.dynamics import check_dynamics
+
+    return check_dynamics(scene, data_path)
 
 
 def faults_of_benchmark(

@@ -52,7 +52,7 @@ class State:
         self._touchable = frozenset(_owner(name) for name in shapes)
         self._contacts_hold = False  # whether the contacts are those of the state
         self._data = mujoco.MjData(self._model)
-        # Views into MuJoCo's memory: to look them up by name at every step costs more than the step.
+        # Views into MuJoCo's memory: to look them up by name costs more than the step.
         self._ids = {self._model.body(i).name: i for i in range(self._model.nbody)}
         self._origins, self._axes = self._data.xpos, self._data.xmat  # (nbody, 3), (nbody, 9)
         free = {i: self._model.joint(vehicle_joint(i, "")) for i in range(len(scene.vehicles))}
@@ -106,7 +106,8 @@ class State:
     def body_positions(self) -> Array:
         """Return where the bodies of the model are, in W, (nbody, 3) [m]."""
         self._refresh()
-        return self._origins.copy()
+        positions: Array = self._origins.copy()
+        return positions
 
     def body_vehicles(self) -> tuple[int | None, ...]:
         """Return the number of the vehicle that each body of the model belongs to."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -65,13 +65,20 @@ def read_document(document: Document, faults: Faults) -> SceneSpec | None:
     )
 
 
-def check_scene(path: Path, *, strict: bool = False, library: Library | None = None) -> list[Fault]:
+def check_scene(
+    path: Path,
+    *,
+    strict: bool = False,
+    library: Library | None = None,
+    further: Callable[[SceneSpec], list[Fault]] | None = None,
+) -> list[Fault]:
     """Everything wrong or worth knowing about a scene file and the robots it names.
 
     Args:
         path: the scene file.
         strict: also hold it against the order of the original grammar.
         library: finds robots and models; without it they are not looked at.
+        further: finds what only other rooms can know, in a scene without faults.
     """
     faults = Faults(path, strict=strict)
     try:
@@ -89,6 +96,8 @@ def check_scene(path: Path, *, strict: bool = False, library: Library | None = N
                 if not library.has_model(name, path):
                     _lost(f"model {name!r}", thing, document, library, faults)
         not_simulated(document.root, faults)
+        if further is not None and not faults.any:
+            others += further(scene)
     return [*faults.all(), *others]
 
 

@@ -12,9 +12,7 @@ import numpy.typing as npt
 from ..assets import find, folders_searched
 from ..errors import AssetNotFound, UnknownName, UwsimError
 from ..geometry import Pose
-from ..physics.hydrodynamics import VehicleHydrodynamics
 from ..physics.state import State
-from ..physics.vehicle_file import find_vehicle, read_vehicle
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec, read_urdf
 from ..world import Box, Contact
@@ -64,27 +62,6 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
     return {
         index: read_urdf(find_file(vehicle.file, scene.path, data_path))
         for index, vehicle in enumerate(scene.vehicles)
-    }
-
-
-def read_dynamics(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec]
-) -> dict[int, VehicleHydrodynamics]:
-    """Read the hydrodynamics of every vehicle that has ``u:dynamics``, by its number.
-
-    Raises:
-        UnknownName: there is no such set.
-        VehicleError: a file is wrong.
-    """
-    beside = Path(scene.path) if scene.path else None
-    return {
-        index: read_vehicle(
-            find_vehicle(vehicle.dynamics, beside),
-            [link.name for link in robots[index].links],
-            [joint.name for joint in robots[index].joints if joint.moves],
-        )
-        for index, vehicle in enumerate(scene.vehicles)
-        if vehicle.dynamics is not None
     }
 
 

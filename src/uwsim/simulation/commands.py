@@ -99,13 +99,6 @@ class Commands:
         interface: CommandSpec,
         vehicle: int,
     ) -> None:
-        if isinstance(interface, ROSThrustersToPATSpec | ROSWrenchToPATSpec) and not (
-            self._state.is_simulated(vehicle)
-        ):
-            raise UwsimError(
-                f"The vehicle {interface.vehicle_name!r} has no <u:dynamics>: it takes neither "
-                f"thruster commands nor wrenches (topic {interface.topic!r})."
-            )
         gap = _Gap(self._bus, self._timestep)
 
         def later(command: Command) -> None:

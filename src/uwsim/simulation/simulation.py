@@ -41,11 +41,11 @@ from .bodies import (
     find_contacts,
     find_file,
     name_bodies,
-    read_dynamics,
     read_robots,
 )
 from .collision_shapes import collision_shapes
 from .commands import Commands
+from .dynamics import read_dynamics
 from .image_publisher import ImagePublisher, SampleTimer
 from .node import InProcessNode
 from .scenery import Scenery
@@ -95,7 +95,7 @@ class Simulation:
         """Topics and services of this simulation."""
         self.robots = read_robots(scene, data_path)
         """The robot of each vehicle, by its number in the scene."""
-        dynamics = read_dynamics(scene, self.robots)
+        dynamics = read_dynamics(scene, self.robots, data_path)
         self.files = {path.name: path for one in dynamics.values() for path in one.files}
         """Side files of vehicles, and files of currents, by name."""
         shapes = collision_shapes(scene, self.robots, dynamics, data_path)

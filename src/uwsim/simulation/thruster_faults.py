@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from ..devices.thruster_fault import ThrusterFaultSpec
-from ..errors import UnknownName, UwsimError
 from ..physics.state import State
 from ..scene.spec import SceneSpec
 
@@ -12,24 +11,12 @@ class ThrusterFaults:
     """The ``<u:fault>`` of all vehicles at work."""
 
     def __init__(self, scene: SceneSpec, state: State) -> None:
-        """Find the thrusters.
-
-        Raises:
-            UnknownName: a vehicle has no thruster of that name.
-            UwsimError: a vehicle is not simulated.
-        """
+        """Find the thrusters; `read_dynamics` has looked their names up."""
         self._state = state
         self._faults: dict[tuple[int, int], list[ThrusterFaultSpec]] = {}
         for index, vehicle in enumerate(scene.vehicles):
             names = state.thrusters(index)
             for fault in vehicle.faults:
-                if not state.is_simulated(index):
-                    raise UwsimError(
-                        f"The vehicle {vehicle.name!r} has no <u:dynamics>: no thruster of it "
-                        "can fail."
-                    )
-                if fault.thruster not in names:
-                    raise UnknownName("thruster", fault.thruster, names)
                 key = (index, names.index(fault.thruster))
                 self._faults.setdefault(key, []).append(fault)
 

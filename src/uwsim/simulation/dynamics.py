@@ -1,0 +1,226 @@
+"""What of a scene is simulated: the vehicles' hydrodynamics, and every name that belongs to it.
+
+Looked up before anything is simulated, and wrong ones said all at once with their lines: sets and
+side files, thrusters that fail, interfaces that want a simulated vehicle, topics that two
+interfaces use for different messages, files of currents.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+
+from lxml import etree
+
+from ..chance import stream
+from ..currents import Place, PythonFunctionSpec
+from ..dialect import NAMESPACE, Faults, parse
+from ..errors import Fault, FileError, SceneError, UnknownName, UwsimError, did_you_mean
+from ..messages import (
+    Bool,
+    CameraInfo,
+    Float64MultiArray,
+    Image,
+    JointState,
+    Odometry,
+    Pose,
+    TwistStamped,
+    WrenchStamped,
+)
+from ..physics.hydrodynamics.spec import VehicleHydrodynamics
+from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle
+from ..scene.legacy import upgrade
+from ..scene.ros_interfaces import (
+    INTERFACES,
+    ArmToROSJointStateSpec,
+    ContactSensorToROSSpec,
+    InterfaceSpec,
+    PATToROSOdomSpec,
+    ROSJointStateToArmSpec,
+    ROSOdomToPATSpec,
+    ROSPoseToPATSpec,
+    ROSThrustersToPATSpec,
+    ROSTwistToPATSpec,
+    ROSWrenchToPATSpec,
+    VirtualCameraToROSImageSpec,
+)
+from ..scene.spec import SceneSpec, VehicleSpec
+from ..scene.urdf import RobotSpec, read_urdf
+from .bodies import find_file
+
+U = f"{{{NAMESPACE}}}"
+MESSAGES: Mapping[type[InterfaceSpec], Mapping[str, type]] = {
+    ROSPoseToPATSpec: {"topic": Pose},
+    ROSTwistToPATSpec: {"topic": TwistStamped},
+    ROSOdomToPATSpec: {"topic": Odometry},
+    ROSJointStateToArmSpec: {"topic": JointState},
+    ROSThrustersToPATSpec: {"topic": Float64MultiArray},
+    ROSWrenchToPATSpec: {"topic": WrenchStamped},
+    PATToROSOdomSpec: {"topic": Odometry},
+    ArmToROSJointStateSpec: {"topic": JointState},
+    ContactSensorToROSSpec: {"topic": Bool},
+    VirtualCameraToROSImageSpec: {"image_topic": Image, "info_topic": CameraInfo},
+}
+"""What the interfaces that are simulated carry, by the field that names the topic."""
+
+
+def read_dynamics(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...] = ()
+) -> dict[int, VehicleHydrodynamics]:
+    """Read the hydrodynamics of every vehicle that has ``u:dynamics``, by its number.
+
+    Raises:
+        SceneError: a name leads nowhere or a file is wrong; with every fault.
+    """
+    search = _Search(scene, robots, data_path)
+    if search.found:
+        raise SceneError(search.found)
+    return search.dynamics
+
+
+def check_dynamics(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Fault]:
+    """Everything wrong with what of a scene is simulated; currents are read whole.
+
+    The user's own functions are not run.
+    """
+    robots: dict[int, RobotSpec] = {}
+    for index, vehicle in enumerate(scene.vehicles):
+        with suppress(UwsimError):  # said where robots are checked
+            if vehicle.dynamics is not None:
+                robots[index] = read_urdf(find_file(vehicle.file, scene.path, data_path))
+    return _Search(scene, robots, data_path, is_thorough=True).found
+
+
+class _Search:
+    """Follows the names, and keeps what they lead to and what leads nowhere."""
+
+    def __init__(
+        self,
+        scene: SceneSpec,
+        robots: Mapping[int, RobotSpec],
+        data_path: tuple[Path, ...],
+        *,
+        is_thorough: bool = False,
+    ) -> None:
+        self.dynamics: dict[int, VehicleHydrodynamics] = {}
+        self.found: list[Fault] = []
+        self._scene, self._data_path = scene, data_path
+        self._root: etree._Element | None = None
+        for index, vehicle in enumerate(scene.vehicles):
+            if vehicle.dynamics is not None and index in robots:
+                self._read(index, vehicle.dynamics, robots[index])
+            self._follow_thrusters(index, vehicle)
+        self._follow_interfaces()
+        self._follow_currents(is_thorough)
+
+    def _read(self, index: int, name: str, robot: RobotSpec) -> None:
+        beside = Path(self._scene.path) if self._scene.path else None
+        try:
+            self.dynamics[index] = read_vehicle(
+                find_vehicle(name, beside),
+                [link.name for link in robot.links],
+                [joint.name for joint in robot.joints if joint.moves],
+            )
+        except VehicleError as error:
+            self.found += error.faults
+        except UnknownName as error:
+            self._say(str(error), "vehicle", index, f"{U}dynamics", 0)
+
+    def _follow_thrusters(self, index: int, vehicle: VehicleSpec) -> None:
+        for number, fault in enumerate(vehicle.faults):
+            place = ("vehicle", index, f"{U}fault", number)
+            if vehicle.dynamics is None:
+                self._say(
+                    f"the vehicle {vehicle.name!r} has no <u:dynamics>: no thruster of it can fail",
+                    *place,
+                )
+            elif index in self.dynamics:
+                names = [thruster.name for thruster in self.dynamics[index].thrusters]
+                if fault.thruster not in names:
+                    self._say(str(UnknownName("thruster", fault.thruster, names)), *place)
+            if fault.end is not None and fault.end <= fault.start:
+                self._say(
+                    f"<u:fault> ends at {fault.end:g} s and begins at {fault.start:g} s; "
+                    "expected an end after its start",
+                    *place,
+                )
+
+    def _follow_interfaces(self) -> None:
+        vehicles = {vehicle.name: vehicle for vehicle in reversed(self._scene.vehicles)}
+        cameras = {spec.name for one in self._scene.vehicles for spec in one.virtual_cameras}
+        carried: dict[str, tuple[type, str]] = {}
+        for number, interface in enumerate(self._scene.ros_interfaces):
+            place = ("rosInterfaces", 0, "*", number)
+            element = next(name for name, cls in INTERFACES.items() if cls is type(interface))
+            element = element.replace(U, "u:")
+            if isinstance(interface, ROSThrustersToPATSpec | ROSWrenchToPATSpec):
+                wanted = vehicles.get(interface.vehicle_name)
+                if wanted is None:
+                    near = did_you_mean(interface.vehicle_name, vehicles)
+                    self._say(
+                        f"<{element}>: no vehicle is called {interface.vehicle_name!r}.{near}",
+                        *place,
+                    )
+                elif wanted.dynamics is None:
+                    self._say(
+                        f"<{element}>: the vehicle {wanted.name!r} has no <u:dynamics>; it takes "
+                        "neither thruster commands nor wrenches",
+                        *place,
+                    )
+            named = (
+                getattr(interface, "vehicle_name", None),
+                getattr(interface, "camera_name", None),
+            )
+            if named[0] not in (None, *vehicles) or named[1] not in (None, *cameras):
+                continue  # left out, as in the original
+            for field, message in MESSAGES.get(type(interface), {}).items():
+                topic = str(getattr(interface, field))
+                other, first = carried.setdefault(topic.strip("/"), (message, element))
+                if other is not message:
+                    self._say(
+                        f"<{element}>: the topic {topic!r} carries {_plain(message)}, but of "
+                        f"<{first}> it carries {_plain(other)}",
+                        *place,
+                    )
+
+    def _follow_currents(self, is_thorough: bool) -> None:
+        place = Place(
+            stream=lambda name: stream(0, name),
+            find=lambda name: find_file(name, self._scene.path, self._data_path),
+        )
+        for number, current in enumerate(self._scene.ocean_state.currents):
+            try:
+                current.files(place)
+                if is_thorough and not isinstance(current, PythonFunctionSpec):
+                    current.bind(place)
+            except UwsimError as error:
+                self._say(str(error), f"oceanState/{U}current", 0, "*", number)
+
+    def _say(self, message: str, parent: str, index: int, child: str, number: int) -> None:
+        """Keep a fault of the ``number``th ``child`` of the ``index``th ``parent``."""
+        self.found.append(
+            Fault(
+                file=self._scene.path or "the scene",
+                line=self._line(parent, index, child, number),
+                message=message,
+            )
+        )
+
+    def _line(self, parent: str, index: int, child: str, number: int) -> int | None:
+        if self._root is None and self._scene.path:
+            with suppress(FileError):
+                document = parse(Path(self._scene.path))
+                upgrade(document.root, Faults(document.path))
+                self._root = document.root
+        if self._root is None:
+            return None
+        parents = self._root.findall(parent)
+        nodes = parents[index].findall(child) if index < len(parents) else []
+        nodes = [node for node in nodes if isinstance(node.tag, str)]
+        return int(str(nodes[number].sourceline)) if number < len(nodes) else None
+
+
+def _plain(message: type) -> str:
+    """``std_msgs/msg/Bool``."""
+    return str(getattr(message, "__msgtype__", message.__name__))
