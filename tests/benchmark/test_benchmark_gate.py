@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from played import NEVER, make_plan, rows_of
 
+from played import NEVER, make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.compatibility import COMPATIBILITY
 from uwsim.errors import NeverStarted

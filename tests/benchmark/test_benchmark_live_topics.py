@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from played import make_plan, rows_of
 
+from played import make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.messages import Float32MultiArray, String
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from played import DATA, make_plan, rows_of
 
+from played import DATA, make_plan, rows_of
 from uwsim.benchmark.bench import Bench
 from uwsim.benchmark.crew import play_all
 from uwsim.bus import Node

@@ -7,8 +7,8 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from played import DATA, make_plan, rows_of
 
+from played import DATA, make_plan, rows_of
 from uwsim.benchmark.verdict import Verdict
 from uwsim.bus import Inbox, Node
 from uwsim.messages import String
