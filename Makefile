@@ -1,7 +1,7 @@
 # uwsim: three commands, each doing the set-up it needs first.
 #   make demo      play the visibility benchmark and show its table and where the report is
 #   make test      every check and every test, as CI runs them
-#   make install   set-up alone, into .venv
+#   make install   set-up alone, into .venv, without extras; the tests also get Ray
 
 .PHONY: install demo test
 
@@ -12,5 +12,6 @@ demo: install
 	.venv/bin/uwsim bench visibility --seed 1 --out demo.result --overwrite
 	@echo "The report: $(CURDIR)/demo.result/report.html"
 
-test: install
+test:
+	@scripts/setup ray
 	scripts/check --all

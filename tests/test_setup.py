@@ -45,9 +45,9 @@ class Machine:
         path.write_text(f"#!/bin/bash\n{body}\n")
         path.chmod(0o755)
 
-    def set_up(self) -> subprocess.CompletedProcess[str]:
+    def set_up(self, *extras: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
-            ["/bin/bash", "scripts/setup"],
+            ["/bin/bash", "scripts/setup", *extras],
             cwd=self.project,
             env={"PATH": f"{self.commands}:/usr/bin:/bin"},
             stdin=subprocess.DEVNULL,
@@ -107,6 +107,17 @@ def test_a_second_set_up_does_nothing_until_pyproject_changes(machine: Machine) 
         file.write("# changed\n")
     assert machine.set_up().returncode == 0
     assert machine.pip_runs() == 1
+
+
+def test_an_extra_is_installed_once_and_only_for_those_who_ask(machine: Machine) -> None:
+    machine.command("dpkg-query", "echo installed")
+    assert machine.set_up().returncode == 0
+    assert "--editable .[dev]\n" in machine.told.read_text()
+    assert machine.set_up("ray").returncode == 0
+    assert "--editable .[dev,ray]\n" in machine.told.read_text()
+    for extras in ([], ["ray"]):
+        assert machine.set_up(*extras).returncode == 0
+    assert machine.pip_runs() == 2
 
 
 def test_a_set_up_that_failed_is_tried_again(machine: Machine) -> None:

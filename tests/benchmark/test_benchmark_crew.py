@@ -72,6 +72,7 @@ def test_a_worker_that_is_killed_leaves_the_same_bytes(benchmark: Path, tmp_path
     assert len(n_levels) == 6
 
 
+@pytest.mark.slow
 def test_a_unit_that_kills_every_worker_is_named_and_the_others_are_kept(
     benchmark: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -105,7 +106,8 @@ def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
 
 def jobs(tmp_path: Path, *sizes: int) -> list[Job]:
     """Jobs of one benchmark with so many levels each."""
-    bench = SimpleNamespace(n_rows=lambda unit: 0, plan=SimpleNamespace(algorithm_name="esm"))
+    plan = SimpleNamespace(algorithm_name="esm")
+    bench = SimpleNamespace(n_rows=lambda unit: 0, n_lost=0, plan=plan)
     levels = [SimpleNamespace(values=(("fog", 0.5),))]
     return [
         Job(bench, SimpleNamespace(index=i, seed=0, levels=levels * size))  # type: ignore[arg-type]
@@ -127,6 +129,7 @@ def test_a_lost_unit_is_the_next_to_be_played_and_three_times_at_most(tmp_path: 
         "Finished rows are kept; go on with --resume."
     )
     assert roster.take() is None
+    assert first.bench.n_lost == 4
 
 
 def test_every_level_is_told_once(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ import mujoco
 import numpy as np
 
 from .. import __version__
-from ..simulation import Simulation
+from ..simulation import Simulation, Studio
 from . import unit_file
 from .logs import TIME, Log, save_log
 from .original_format import save_dat, save_data
@@ -42,6 +42,8 @@ class Bench:
     """What draws the pictures (`open_once`)."""
     n_resumed: int = 0
     """Levels that were on disk already when the run began."""
+    n_lost: int = 0
+    """How often a unit lost its worker and was played again."""
     simulated_s: float = 0.0
     """Length of all levels of the result together [s]."""
 
@@ -242,10 +244,14 @@ def _run(plan: Plan, renderer: str) -> dict[str, object]:
     }
 
 
-def open_once(plan: Plan) -> tuple[dict[str, object], str]:
+def open_once(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, object], str]:
     """Open the scene once: hash every file and model it needs, and name the renderer.
 
     Every name of the benchmark is looked up on the way, so that no name can fail later.
+
+    Args:
+        plan: what will be played.
+        studio: lends the renderer; without one it is made, and closed again.
 
     Returns:
         The ``inputs`` of the result, and what draws the pictures.
@@ -258,6 +264,7 @@ def open_once(plan: Plan) -> tuple[dict[str, object], str]:
         timestep=plan.timestep,
         data_path=plan.data_path,
         compatibility=plan.compatibility,
+        studio=studio,
     )
     try:
         with blamed(plan.plugins):

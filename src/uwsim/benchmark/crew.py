@@ -55,7 +55,7 @@ class Roster:
     """Jobs that are waiting, in order, and what became of the others.
 
     Where a unit fails, the rest of its benchmark is not played: it would fail alike. The other
-    benchmarks go on. `failure` is the first of all.
+    benchmarks go on.
 
     Args:
         jobs: what is to be played.
@@ -63,14 +63,17 @@ class Roster:
     """
 
     def __init__(self, jobs: Sequence[Job], on_level: OnLevel = lambda: None) -> None:
-        self.failure: BaseException | None = None
-        """The first failure."""
-        self.n_lost = 0
-        """How often a worker was lost."""
+        self.failures: list[tuple[Bench, Exception]] = []
+        """What went wrong first with whom, in that order."""
         self._waiting = deque(jobs)
         self._on_level = on_level
         self._losses: Counter[Job] = Counter()
         self._to_come = {job: len(job.unit.levels) - job.bench.n_rows(job.unit) for job in jobs}
+
+    @property
+    def failure(self) -> Exception | None:
+        """The first of all failures."""
+        return self.failures[0][1] if self.failures else None
 
     def __len__(self) -> int:
         """How many jobs are waiting."""
@@ -93,7 +96,7 @@ class Roster:
 
     def lost(self, job: Job, why: str) -> None:
         """Its worker is gone: it is played again, and next, unless that has happened too often."""
-        self.n_lost += 1
+        job.bench.n_lost += 1
         self._losses[job] += 1
         if self._losses[job] <= MOST_RETRIES:
             self._waiting.appendleft(job)
@@ -107,9 +110,10 @@ class Roster:
             ),
         )
 
-    def failed(self, job: Job, error: BaseException) -> None:
+    def failed(self, job: Job, error: Exception) -> None:
         """It cannot be played."""
-        self.failure = self.failure or error
+        if all(bench is not job.bench for bench, _ in self.failures):
+            self.failures.append((job.bench, error))
         self._waiting = deque(other for other in self._waiting if other.bench is not job.bench)
 
 
@@ -143,15 +147,39 @@ def play_and_keep(bench: Bench, unit: Unit, studio: Studio) -> Iterator[Event]:
         keeper.close()
 
 
-def play_all(
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """What became of benchmarks that were played together."""
+
+    results: tuple[Result, ...]
+    """One each, as far as it was played; on disk, too."""
+    failures: tuple[tuple[Bench, Exception], ...]
+    """Who could not be played to the end, and why, in the order in which it happened."""
+
+
+def play_each(
     benches: Sequence[Bench], crew: Crew | None = None, *, on_level: OnLevel = lambda: None
-) -> list[Result]:
+) -> Outcome:
     """Play what is not finished yet of some benchmarks, and write their results.
 
     Args:
         benches: what is to be played; their units are spread over the same workers.
         crew: who plays; without one, this process.
         on_level: called for every level that was not on disk before.
+    """
+    jobs = [Job(bench, unit) for bench in benches for unit in bench.begin()]
+    roster = Roster(jobs, on_level)
+    try:
+        (crew or Here()).play(roster)
+    finally:
+        results = tuple(bench.write() for bench in benches)
+    return Outcome(results=results, failures=tuple(roster.failures))
+
+
+def play_all(
+    benches: Sequence[Bench], crew: Crew | None = None, *, on_level: OnLevel = lambda: None
+) -> tuple[Result, ...]:
+    """Play as `play_each`, to the end or not at all well.
 
     Raises:
         NeverStarted: a start trigger never went on.
@@ -159,21 +187,21 @@ def play_all(
         RunFailed: a unit lost its worker too often.
         UwsimError: whatever else was the first to go wrong. What is finished is kept, and written.
     """
-    jobs = [Job(bench, unit) for bench in benches for unit in bench.begin()]
-    roster = Roster(jobs, on_level)
-    try:
-        (crew or Here()).play(roster)
-    finally:
-        results = [bench.write() for bench in benches]
-    if roster.failure is not None:
-        raise roster.failure
-    return results
+    outcome = play_each(benches, crew, on_level=on_level)
+    for _, error in outcome.failures:
+        raise error
+    return outcome.results
+
+
+def chosen_environment() -> dict[str, str]:
+    """Return `ENVIRONMENT` as far as the user has not chosen himself."""
+    return {name: value for name, value in ENVIRONMENT.items() if name not in os.environ}
 
 
 @contextmanager
 def worker_environment() -> Iterator[None]:
     """Let processes that are started meanwhile have `ENVIRONMENT`."""
-    ours = {name: value for name, value in ENVIRONMENT.items() if name not in os.environ}
+    ours = chosen_environment()
     os.environ.update(ours)
     try:
         yield

@@ -6,7 +6,7 @@ import fcntl
 import os
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -17,7 +17,7 @@ CONTROL = "control"
 REPORT = "report.html"
 """What a reader opens first."""
 OURS = re.compile(
-    r"""(?x) (control/)? (
+    r"""(?x) ((?!units/|plots/|pictures/)[^/]+/)? (control/)? (
         result\.json | result\.dat | summary\.csv | provenance\.json | report\.html
       | measure-[^/]+\.csv | benchmark-[^/]+\.data
       | units/\d+\.(jsonl|part)
@@ -26,12 +26,18 @@ OURS = re.compile(
       | (plots/|units/|pictures/)?\.[^/]+\.part
     )"""
 )
-"""Files that uwsim writes into a result directory."""
+"""Files that uwsim writes into a result directory, or into folders of it for each algorithm."""
 FOLDERS = ("units", "plots", "pictures", CONTROL)
 
 
-def prepare(directory: Path, *, resume: bool, overwrite: bool) -> None:
-    """See to it that a result may be written into ``directory``.
+def prepare(directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()) -> None:
+    """See to it that a result, or several, may be written into ``directory``.
+
+    Args:
+        directory: need not be there.
+        resume: whether what is there is to be gone on with.
+        overwrite: whether what is there is to be replaced.
+        results: names of the folders of several results.
 
     Raises:
         BadSetting: it is not empty and nothing was said; or it is to be overwritten and holds
@@ -41,7 +47,8 @@ def prepare(directory: Path, *, resume: bool, overwrite: bool) -> None:
         raise BadSetting("--resume and --overwrite exclude each other.")
     if not resume:
         hint = "Use --resume to go on, or --overwrite to start anew."
-        make_room(directory, overwrite=overwrite, ours=OURS, folders=FOLDERS, hint=hint)
+        folders = (*FOLDERS, *results)
+        make_room(directory, overwrite=overwrite, ours=OURS, folders=folders, hint=hint)
 
 
 def make_room(

@@ -9,18 +9,16 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import pickle
 import signal
 import threading
-import traceback
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 
-from ..errors import RunFailed
 from ..simulation import Studio
 from .crew import Here, Job, Roster, play_and_keep, worker_environment
+from .unit_work import UnitFailed, portable
 
 PATIENCE = 10.0
 """How long a worker without work may take to leave, before it is made to [s]."""
@@ -34,14 +32,6 @@ class LevelKept:
 @dataclass(frozen=True)
 class UnitDone:
     """A unit is on disk."""
-
-
-@dataclass(frozen=True)
-class UnitFailed:
-    """A unit cannot be played."""
-
-    error: Exception
-    """Why, as it was raised over there."""
 
 
 News = LevelKept | UnitDone | UnitFailed
@@ -185,20 +175,6 @@ def work(pipe: Connection, leash: Connection) -> None:
         pass  # the employer has gone
     finally:
         studio.close()
-
-
-def portable(error: Exception) -> Exception:
-    """Return the error with its traceback as a note, or one that says the same and travels."""
-    error.add_note("".join(traceback.format_exception(error)).rstrip())
-    try:
-        back = pickle.loads(pickle.dumps(error))
-        if type(back) is type(error) and str(back) == str(error):
-            return error
-    except Exception:
-        pass
-    stand_in = RunFailed(f"{type(error).__name__}: {error}")
-    stand_in.add_note(error.__notes__[-1])
-    return stand_in
 
 
 def _leave_with(leash: Connection) -> None:

@@ -6,6 +6,8 @@ of pictures, never a path.
 
 from __future__ import annotations
 
+import pickle
+import traceback
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -13,6 +15,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from ..errors import RunFailed
 from ..simulation import Studio
 from . import unit_file
 from .bench import Bench
@@ -38,6 +41,14 @@ class UnitEnded:
 
     record: unit_file.Record
     """What it knows beside its rows."""
+
+
+@dataclass(frozen=True)
+class UnitFailed:
+    """A unit cannot be played."""
+
+    error: Exception
+    """Why, as it was raised over there."""
 
 
 Event = LevelEnded | UnitEnded
@@ -94,6 +105,20 @@ class Keeper:
     def close(self) -> None:
         """Close the unit's file; what was kept is on disk."""
         self._file.close()
+
+
+def portable(error: Exception) -> Exception:
+    """Return the error with its traceback as a note, or one that says the same and travels."""
+    error.add_note("".join(traceback.format_exception(error)).rstrip())
+    try:
+        back = pickle.loads(pickle.dumps(error))
+        if type(back) is type(error) and str(back) == str(error):
+            return error
+    except Exception:
+        pass
+    stand_in = RunFailed(f"{type(error).__name__}: {error}")
+    stand_in.add_note(error.__notes__[-1])
+    return stand_in
 
 
 def _png(pixels: npt.NDArray[np.uint8]) -> bytes:

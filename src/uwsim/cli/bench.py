@@ -3,38 +3,34 @@
 from __future__ import annotations
 
 import datetime
+import shutil
 import signal
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 
-from ..errors import BadSetting
+from ..errors import BadSetting, RunFailed
+from .crew import WorkersOption, crew_of
 from .files import benchmark_file, scene_file
 from .plugins import PluginOption, read_plugins
+from .progress import progress
 
 if TYPE_CHECKING:
     from ..benchmark.bench import Bench
     from ..benchmark.beside import Beside
+    from ..benchmark.crew import Crew, Outcome
     from ..benchmark.plan import Plan
     from ..benchmark.result import Result
 
 CONTROL = "frozen"
-SAY_EVERY = 10.0
-"""Time between two lines of progress where there is no terminal [s]."""
+ALGORITHM_ERROR = "algorithm error"
 UNWRAPPED = 1000
 """Columns for a reader that is a program: wide enough to leave every line whole."""
 MAX_REPEATS = 10_000
@@ -51,10 +47,11 @@ def bench(
         typer.Option(help="The scene; without it the one that the benchmark names (u:scene)."),
     ] = None,
     algorithm: Annotated[
-        str | None,
+        list[str] | None,
         typer.Option(
             help="What is tested: a name of `uwsim list algorithms`, or module:Class of your own; "
-            "without it the one that the benchmark names (u:algorithm)."
+            "without it the one that the benchmark names (u:algorithm). May be repeated: each has "
+            "its result in a folder of --out."
         ),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of every random stream.")] = 0,
@@ -85,9 +82,7 @@ def bench(
         list[str] | None,
         typer.Option(help="Slips of the original to bring back, by name; uwsim is all of them."),
     ] = None,
-    workers: Annotated[
-        int, typer.Option(min=1, help="Number of processes that units of work are spread over.")
-    ] = 1,
+    workers: WorkersOption = "1",
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Result directory [./NAME.result].")
     ] = None,
@@ -104,36 +99,95 @@ def bench(
     ] = None,
 ) -> None:
     """Play a benchmark: every level, scored; a table, logs, plots and a report come out."""
-    plan = make_plan(
-        benchmark,
-        scene=scene,
-        algorithm=algorithm,
-        seed=seed,
-        repeat=repeat,
-        mode=mode,
-        levels=level or [],
-        settings=settings or [],
-        compat=compat or [],
-        data_path=tuple(data_path or ()),
-        plugins=plugin or [],
-    )
-    directory = out or Path(f"{Path(plan.benchmark.path).stem}.result")
+    crew = crew_of(workers)
+    algorithms: Sequence[str | None] = algorithm or (None,)
+    plans = [
+        make_plan(
+            benchmark,
+            scene=scene,
+            algorithm=name,
+            seed=seed,
+            repeat=repeat,
+            mode=mode,
+            levels=level or [],
+            settings=settings or [],
+            compat=compat or [],
+            data_path=tuple(data_path or ()),
+            plugins=plugin or [],
+        )
+        for name in algorithms
+    ]
+    directory = out or Path(f"{Path(plans[0].benchmark.path).stem}.result")
+    folders = folders_of(plans)
 
     from ..benchmark.bench import Bench, open_once
     from ..benchmark.beside import Beside
     from ..benchmark.directory import alone_in, prepare
 
     began = time.time()
-    inputs, renderer = open_once(plan)
+    inputs, renderer = open_once(plans[0])
     signal.signal(signal.SIGTERM, interrupt)
-    prepare(directory, resume=resume, overwrite=overwrite)
-    with alone_in(directory), Beside() as beside:
-        run = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
-        wants_control = plan.wants_control and plan.algorithm_name != CONTROL
-        if wants_control:
-            beside.ask(control_of(run))
-        result = play_with_progress(run, workers)
-        finish(run, result, beside, wants_control, began=began, workers=workers)
+    prepare(directory, resume=resume, overwrite=overwrite, results=folders)
+    runs = [
+        Bench(plan=plan, out=directory / folder, inputs=inputs, renderer=renderer)
+        for plan, folder in zip(plans, folders or [""], strict=True)
+    ]
+    with ExitStack() as stack:
+        for place in dict.fromkeys([directory, *(run.out for run in runs)]):
+            stack.enter_context(alone_in(place))
+        beside = stack.enter_context(Beside())
+        controls = [control_of(run) for run in runs if wants_control(run)]
+        if controls:
+            beside.ask(controls[0])
+        outcome = play_with_progress(runs, crew)
+        failed = {id(run) for run, _ in outcome.failures}
+        if controls and len(failed) < len(runs):
+            beside.wait()
+            for other in controls[1:]:  # the control looks at nothing: it is the same for all
+                shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
+        for run, result in zip(runs, outcome.results, strict=True):
+            if id(run) not in failed:
+                finish(run, result, beside, began=began, workers=workers)
+    if folders:
+        print("compare: uwsim compare " + " ".join(str(run.out) for run in runs))
+    for _, error in outcome.failures:
+        raise error
+    refuse_if_all_broke(runs, outcome.results)
+
+
+def folders_of(plans: Sequence[Plan]) -> list[str]:
+    """Name the folder of each algorithm's result; none where there is one algorithm.
+
+    Raises:
+        BadSetting: an algorithm is given twice.
+    """
+    if len(plans) == 1:
+        return []
+    names = [plan.algorithm_name.replace(":", ".") for plan in plans]
+    for i, name in enumerate(names):
+        if name in names[:i]:
+            raise BadSetting(f"--algorithm {plans[i].algorithm_name}: is given twice.")
+    return names
+
+
+def wants_control(run: Bench) -> bool:
+    """Whether `frozen` is played beside it."""
+    return run.plan.wants_control and run.plan.algorithm_name != CONTROL
+
+
+def refuse_if_all_broke(runs: Sequence[Bench], results: Sequence[Result]) -> None:
+    """Fail if an algorithm broke in every row; all is written by then.
+
+    Raises:
+        RunFailed: names the algorithms, and why the first row of each is as it is.
+    """
+    broke = [
+        f"{run.plan.algorithm_name} ({result.why(0, 'total')})"
+        for run, result in zip(runs, results, strict=True)
+        if result.rows and set(result.values("status")) == {ALGORITHM_ERROR}
+    ]
+    if broke:
+        raise RunFailed(f"Every row ended in {ALGORITHM_ERROR!r}: {'; '.join(broke)}.")
 
 
 def interrupt(number: int, frame: object) -> None:
@@ -261,46 +315,16 @@ def number_or_text(text: str) -> float | str:
     return number if abs(number) < float("inf") else text
 
 
-def play_with_progress(run: Bench, workers: int) -> Result:
-    """Play, with a bar that says how many levels are done and how long the rest will take."""
-    from ..benchmark.crew import Here, play_all
-    from ..benchmark.processes import Processes
+def play_with_progress(runs: Sequence[Bench], crew: Crew) -> Outcome:
+    """Play one benchmark, with an algorithm each, and show how far it is."""
+    from ..benchmark.crew import play_each
 
-    crew = Here() if workers == 1 else Processes(workers)
-    total = sum(len(unit.levels) for unit in run.plan.units())
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("levels"),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-    )
-    console = Console(stderr=True)
-    title = f"{Path(run.plan.benchmark.path).stem} ({run.plan.algorithm_name})"
-    if not console.is_terminal:
-        on_level = plain_progress(title, run.n_finished(), total)
-        return play_all([run], crew, on_level=on_level)[0]
-    with Progress(*columns, console=console) as progress:
-        task = progress.add_task(title, total=total, completed=run.n_finished())
-        return play_all([run], crew, on_level=lambda: progress.advance(task))[0]
-
-
-def plain_progress(title: str, done: int, total: int) -> Callable[[], None]:
-    """Say now and then, on lines of their own, how far the run is: for logs."""
-    began = said = time.monotonic()
-    first = done
-
-    def on_level() -> None:
-        nonlocal done, said
-        done += 1
-        now = time.monotonic()
-        if now - said >= SAY_EVERY and done < total:
-            said = now
-            left = (now - began) / (done - first) * (total - done)
-            print(f"{title}: {done} of {total} levels, {left:.0f} s left", file=sys.stderr)
-
-    return on_level
+    names = ", ".join(run.plan.algorithm_name for run in runs)
+    title = f"{Path(runs[0].plan.benchmark.path).stem} ({names})"
+    total = sum(len(unit.levels) for run in runs for unit in run.plan.units())
+    done = sum(run.n_finished() for run in runs)
+    with progress(title, total, done=done, of="levels") as on_level:
+        return play_each(runs, crew, on_level=on_level)
 
 
 def control_of(run: Bench) -> Bench:
@@ -320,22 +344,12 @@ def control_of(run: Bench) -> Bench:
     return Bench(plan=plan, out=out, inputs=run.inputs, renderer="none")
 
 
-def finish(
-    run: Bench,
-    result: Result,
-    beside: Beside,
-    wants_control: bool,
-    *,
-    began: float,
-    workers: int,
-) -> None:
+def finish(run: Bench, result: Result, beside: Beside, *, began: float, workers: str) -> None:
     """Write provenance, plots and report, and print the table."""
     from ..benchmark.directory import REPORT
     from ..benchmark.provenance import save_provenance
     from ..benchmark.table import table
 
-    if wants_control:
-        beside.wait()
     wall = time.time() - began
     save_provenance(provenance(run, began, wall, workers), run.out)
     beside.ask(run.out)
@@ -346,7 +360,7 @@ def finish(
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
 
 
-def provenance(run: Bench, began: float, wall: float, workers: int) -> dict[str, object]:
+def provenance(run: Bench, began: float, wall: float, workers: str) -> dict[str, object]:
     """Say where, when and how fast; nothing here is part of a score."""
     from importlib.metadata import version
 
@@ -359,7 +373,8 @@ def provenance(run: Bench, began: float, wall: float, workers: int) -> dict[str,
         "wall_s": wall,
         "simulated_s": simulated,
         "real_time_factor": simulated / wall if wall > 0.0 else None,
-        "workers": workers,
+        "workers": int(workers) if workers.isdigit() else workers,
+        "lost_workers": run.n_lost,
         "resumed": run.n_resumed,
         "command": sys.argv[1:],
         **machine(),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ResultError
+from .crew import WorkersOption, crew_of
 from .faults import RUN_FAILED, printable
 from .plugins import PluginOption
 from .progress import progress
@@ -58,9 +59,7 @@ def verify(
     scene: Annotated[
         Path | None, typer.Option(help="The scene, where it is not found by its name.")
     ] = None,
-    workers: Annotated[
-        int, typer.Option(min=1, help="Number of processes that units are spread over.")
-    ] = 1,
+    workers: WorkersOption = "1",
     plugin: PluginOption = None,
     data_path: Annotated[
         list[Path] | None,
@@ -79,12 +78,11 @@ def verify(
     2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
     """
     from ..benchmark.bench import Bench, open_once
-    from ..benchmark.crew import Here
-    from ..benchmark.processes import Processes
     from ..benchmark.result import file_of, load
     from ..benchmark.verify import choose, finished
     from ..benchmark.verify import verify as compare
 
+    crew = crew_of(workers)
     stored = load(result)
     directory = file_of(result).parent
     given = Given(
@@ -107,7 +105,6 @@ def verify(
     others = made_otherwise(stored, directory, bench.head(units[0])["run"])
     for line in others.values():
         typer.echo(printable(line))
-    crew = Here() if workers == 1 else Processes(workers)
     with progress("replaying", n_levels, of="levels") as on_level:
         found = compare(directory, stored, bench, units, crew=crew, on_level=on_level)
     for line in tell(found, len(whole_units), others):
