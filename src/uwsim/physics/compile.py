@@ -16,7 +16,7 @@ import numpy as np
 
 from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..scene.spec import SceneSpec
-from ..scene.urdf import LinkSpec, RobotSpec
+from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
 from .hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics, prepare
 from .loose import loose_hydrodynamics, loose_link
 from .shapes import Shape
@@ -36,9 +36,9 @@ ROTOR = 0.1
 """Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2 or kg]."""
 
 FRICTION = (0.8, 0.005, 0.0001)
-"""Sliding [1], spinning [m] and rolling [m]; of two shapes the greater counts."""
+"""Sliding [1], spinning [m] and rolling [m], rubber on metal; of two shapes the greater counts."""
 SOFTNESS = (0.95, 0.99, 0.001, 0.5, 2.0)
-"""MuJoCo's solimp."""
+"""MuJoCo's solimp: half the creep of its default in a grasp."""
 IMPRATIO = 10.0
 """How much stiffer friction is than the normal force: less creep of what is held."""
 OBJECTS = 1
@@ -198,7 +198,26 @@ def _add_children(
             )
             if links:
                 _add_servo(spec, name, joint.effort)
+                if joint.mimic is not None and is_geared(joint):
+                    _add_gear(spec, name, vehicle_joint(index, joint.mimic.joint), joint.mimic)
         _add_children(spec, child, robot, joint.child, index, links)
+
+
+def is_geared(joint: JointSpec) -> bool:
+    """Whether a joint is bound to another so that neither moves alone."""
+    return joint.mimic is not None and "slidercrank" not in joint.name
+
+
+def _add_gear(spec: mujoco.MjSpec, joint: str, leader: str, mimic: MimicSpec) -> None:
+    """Bind a joint that mimics to its leader, as a linkage does."""
+    gear = spec.add_equality(
+        type=mujoco.mjtEq.mjEQ_JOINT,
+        objtype=mujoco.mjtObj.mjOBJ_JOINT,
+        name1=joint,
+        name2=leader,
+        solimp=list(SOFTNESS),
+    )
+    gear.data[:5] = [mimic.offset, mimic.multiplier, 0.0, 0.0, 0.0]
 
 
 def servo_gains(effort: float) -> tuple[float, float]:
