@@ -9,7 +9,7 @@ import sys
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -121,8 +121,7 @@ def bench(
     folders = folders_of(plans)
 
     from ..benchmark.bench import Bench, open_once
-    from ..benchmark.beside import Beside
-    from ..benchmark.directory import alone_in, prepare
+    from ..benchmark.directory import prepare
 
     began = time.time()
     inputs, renderer = open_once(plans[0])
@@ -132,6 +131,21 @@ def bench(
         Bench(plan=plan, out=directory / folder, inputs=inputs, renderer=renderer)
         for plan, folder in zip(plans, folders or [""], strict=True)
     ]
+    play_and_finish(runs, directory, crew, workers, began)
+
+
+def play_and_finish(
+    runs: Sequence[Bench], directory: Path, crew: Crew, workers: str, began: float
+) -> None:
+    """Play one benchmark with an algorithm each, and write and show all there is to it.
+
+    Raises:
+        UwsimError: what was the first to go wrong; the other algorithms are played and written.
+        RunFailed: an algorithm broke in every row.
+    """
+    from ..benchmark.beside import Beside
+    from ..benchmark.directory import alone_in
+
     with ExitStack() as stack:
         for place in dict.fromkeys([directory, *(run.out for run in runs)]):
             stack.enter_context(alone_in(place))
@@ -145,10 +159,13 @@ def bench(
             beside.wait()
             for other in controls[1:]:  # the control looks at nothing: it is the same for all
                 shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
+        took = Took(began=began, wall=time.time() - began, workers=workers, runs=runs)
         for run, result in zip(runs, outcome.results, strict=True):
             if id(run) not in failed:
-                finish(run, result, beside, began=began, workers=workers)
-    if folders:
+                if len(runs) > 1:
+                    print(f"{run.plan.algorithm_name}:")
+                finish(run, result, beside, took)
+    if len(runs) > 1 and not failed:
         print("compare: uwsim compare " + " ".join(str(run.out) for run in runs))
     for _, error in outcome.failures:
         raise error
@@ -344,14 +361,27 @@ def control_of(run: Bench) -> Bench:
     return Bench(plan=plan, out=out, inputs=run.inputs, renderer="none")
 
 
-def finish(run: Bench, result: Result, beside: Beside, *, began: float, workers: str) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Took:
+    """What it took to play some algorithms together."""
+
+    began: float
+    """When [s since 1970]."""
+    wall: float
+    """How long [s]."""
+    workers: str
+    """Who played, as it was said."""
+    runs: Sequence[Bench]
+    """What was played, an algorithm each."""
+
+
+def finish(run: Bench, result: Result, beside: Beside, took: Took) -> None:
     """Write provenance, plots and report, and print the table."""
     from ..benchmark.directory import REPORT
     from ..benchmark.provenance import save_provenance
     from ..benchmark.table import table
 
-    wall = time.time() - began
-    save_provenance(provenance(run, began, wall, workers), run.out)
+    save_provenance(provenance(run, took), run.out)
     beside.ask(run.out)
     console = Console(width=None if sys.stdout.isatty() else UNWRAPPED)
     console.print(table(result, width=console.width))
@@ -360,20 +390,21 @@ def finish(run: Bench, result: Result, beside: Beside, *, began: float, workers:
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
 
 
-def provenance(run: Bench, began: float, wall: float, workers: str) -> dict[str, object]:
+def provenance(run: Bench, took: Took) -> dict[str, object]:
     """Say where, when and how fast; nothing here is part of a score."""
     from importlib.metadata import version
 
     from ..benchmark.provenance import machine
 
-    simulated = run.simulated_s
+    simulated = sum(each.simulated_s for each in took.runs)
     names = ("mujoco", "numpy", "numba", "moderngl", "opencv-python-headless", "rosbags")
     return {
-        "began": datetime.datetime.fromtimestamp(began, datetime.UTC).isoformat(),
-        "wall_s": wall,
+        "began": datetime.datetime.fromtimestamp(took.began, datetime.UTC).isoformat(),
+        "algorithms": [each.plan.algorithm_name for each in took.runs],
+        "wall_s": took.wall,
         "simulated_s": simulated,
-        "real_time_factor": simulated / wall if wall > 0.0 else None,
-        "workers": int(workers) if workers.isdigit() else workers,
+        "real_time_factor": simulated / took.wall if took.wall > 0.0 else None,
+        "workers": int(took.workers) if took.workers.isdigit() else took.workers,
         "lost_workers": run.n_lost,
         "resumed": run.n_resumed,
         "command": sys.argv[1:],
