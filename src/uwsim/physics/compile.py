@@ -32,6 +32,9 @@ SERVO = (400.0, 60.0)
 """Stiffness [N m/rad or N/m] and damping of the servo that holds a joint of much effort."""
 STRONG = 100.0
 """Servos of less effort than this are softer in proportion [N m or N]."""
+GEAR = (500.0, 10.0)
+"""Stiffness [N m/rad or N/m] and damping between a joint and the one that it mimics; a constraint
+would bind them as well, and cost a solver at every step."""
 ROTOR = 0.1
 """Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2 or kg]."""
 
@@ -209,15 +212,16 @@ def is_geared(joint: JointSpec) -> bool:
 
 
 def _add_gear(spec: mujoco.MjSpec, joint: str, leader: str, mimic: MimicSpec) -> None:
-    """Bind a joint that mimics to its leader, as a linkage does."""
-    gear = spec.add_equality(
-        type=mujoco.mjtEq.mjEQ_JOINT,
-        objtype=mujoco.mjtObj.mjOBJ_JOINT,
-        name1=joint,
-        name2=leader,
-        solimp=list(SOFTNESS),
+    """Bind a joint that mimics to its leader by a stiff spring, as a linkage does."""
+    stiffness, damping = GEAR
+    gear = spec.add_tendon(
+        name=f"{joint}/gear",
+        stiffness=stiffness,
+        damping=damping,
+        springlength=[mimic.offset] * 2,
     )
-    gear.data[:5] = [mimic.offset, mimic.multiplier, 0.0, 0.0, 0.0]
+    gear.wrap_joint(joint, 1.0)
+    gear.wrap_joint(leader, -mimic.multiplier)
 
 
 def servo_gains(effort: float) -> tuple[float, float]:

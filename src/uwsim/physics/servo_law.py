@@ -34,6 +34,8 @@ def pull(
     qpos: Array,
     bias: Array,
     passive: Array,
+    spring: Array,
+    damper: Array,
     given: Array,
     controls: Array,
 ) -> None:
@@ -49,6 +51,8 @@ def pull(
         qpos: the engine's positions.
         bias: its ``qfrc_bias``.
         passive: its ``qfrc_passive``.
+        spring: the part of it from springs, those that gear joints together.
+        damper: the part of it from dampers.
         given: its ``qfrc_actuator``.
         controls: its ``ctrl``, changed.
     """
@@ -63,5 +67,5 @@ def pull(
         if not is_spent and abs(error) <= NEAR:
             memory[i, 2] = min(max(memory[i, 2] + INTEGRAL * dt * error, -NEAR), NEAR)
         memory[i, 1] = target
-        load = bias[dof] - passive[dof] + damping * step / dt
+        load = bias[dof] - (passive[dof] - spring[dof] - damper[dof]) + damping * step / dt
         controls[control] = target + load / stiffness + memory[i, 2]

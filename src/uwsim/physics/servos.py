@@ -52,7 +52,15 @@ class Servos:
             [[*servo_gains(one.effort), one.effort, min(one.velocity, FASTEST)] for one in moving]
         ).reshape(-1, 4)
         self._memory = np.zeros((len(moving), 3))
-        self._engine = (data.qpos, data.qfrc_bias, data.qfrc_passive, data.qfrc_actuator, data.ctrl)
+        self._engine = (
+            data.qpos,
+            data.qfrc_bias,
+            data.qfrc_passive,
+            data.qfrc_spring,
+            data.qfrc_damper,
+            data.qfrc_actuator,
+            data.ctrl,
+        )
         # of the joint vector, (n,)
         self._vector = [self._all.index(name) for name in self._names]
         self._places, self._dofs = places[self._vector], dofs[self._vector]
