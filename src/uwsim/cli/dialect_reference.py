@@ -13,13 +13,9 @@ import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from lxml import etree
-
-from ..dialect import NAMESPACE, TOKENS, Slot, slots
+from ..dialect import Slot, slots
 from ..dialect.names import local
-
-RNG = "http://relaxng.org/ns/structure/1.0"
-TYPES = "http://www.w3.org/2001/XMLSchema-datatypes"
+from .relax_ng import benchmark_grammar, scene_grammar
 
 HEAD = """\
 # The dialect
@@ -42,11 +38,10 @@ stand in any order; what equals its default may be left out. Numbers may be `M_P
 `M_PI_4` and their negatives. `u:` is the namespace `urn:uwsim:1`: a file that uses it carries no
 DOCTYPE. What it all means: [measures](measures.md), [levels](levels.md). `uwsim check FILE.xml`
 holds a file against it, `--strict` also against the original's order.
-"""
 
-SIGNED = "|".join(token.removeprefix("-") for token in TOKENS if not token.startswith("-"))
-NUMBER = rf"[+\-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?|-?({SIGNED})"
-SPACE = r"[ \t\n\r]*"
+The grammar for editors is [uwsim-benchmark.rng](grammar/uwsim-benchmark.rng) (RELAX NG). It knows
+today's names only, and neither the limits of numbers nor the parts of a plugin.
+"""
 
 
 def page() -> str:
@@ -89,30 +84,6 @@ def benchmark_page() -> str:
                 if slot.kind == "spec"
             ]
     return "\n".join(parts)
-
-
-def grammar() -> str:
-    """Return ``docs/grammar/uwsim-scene.rng``."""
-    from ..scene.reader import ROOT
-    from ..scene.spec import SceneSpec
-
-    return relax_ng(ROOT, SceneSpec)
-
-
-def relax_ng(root: str, spec: type) -> str:
-    """Return the RELAX NG grammar of a document whose root element is read by ``spec``."""
-    tree = etree.Element(f"{{{RNG}}}grammar", {"datatypeLibrary": TYPES}, nsmap={None: RNG})  # type: ignore[dict-item]  # the stubs know no default namespace
-    _sub(_sub(tree, "start"), "element", name=root).append(_ref(spec))
-    done: set[type] = set()
-    for _, cls in _specs(root, spec):
-        if cls not in done:
-            done.add(cls)
-            content = _sub(_sub(tree, "define", name=cls.__name__), "interleave")
-            _sub(content, "empty")
-            for slot in slots(cls):
-                _field(content, slot)
-    etree.indent(tree)
-    return etree.tostring(tree, encoding="unicode") + "\n"
 
 
 def _specs(name: str, cls: type) -> Iterator[tuple[str, type]]:
@@ -199,68 +170,13 @@ def _markdown(text: str) -> str:
     return " ".join(text.replace("``", "`").split())
 
 
-def _field(content: etree._Element, slot: Slot) -> None:
-    """The pattern of one field."""
-    if slot.repeated and slot.kind == "spec":
-        content = _sub(content, "zeroOrMore")
-    elif slot.default is not dataclasses.MISSING:
-        content = _sub(content, "optional")
-    what = "attribute" if slot.xml.attribute else "element"
-    node = _sub(content, what, **_named(slot.tag))
-    if slot.kind == "spec":
-        node.append(_ref(slot.type))
-    elif slot.kind == "choice":
-        several = _sub(_sub(node, "zeroOrMore"), "choice")
-        for child, spec in slot.type.items():
-            _sub(several, "element", **_named(child, within=slot)).append(_ref(spec))
-    elif slot.kind == "triple":
-        parts = _sub(node, "interleave")
-        for part in slot.xml.parts:
-            _data(_sub(parts, "element", **_named(part, within=slot)), slot, may_be_empty=True)
-    elif slot.xml.item:
-        _data(_sub(_sub(node, "zeroOrMore"), "element", **_named(slot.xml.item, within=slot)), slot)
-    else:
-        _data(node, slot, may_be_empty=slot.default is not dataclasses.MISSING)
-
-
-def _named(tag: str, *, within: Slot | None = None) -> dict[str, str]:
-    """How the grammar names an element or attribute; it would inherit the namespace around it."""
-    if tag.startswith("{"):
-        return {"name": tag.split("}")[1], "ns": NAMESPACE}
-    return {"name": tag, "ns": ""} if within and within.xml.namespaced else {"name": tag}
-
-
-def _data(node: etree._Element, slot: Slot, *, may_be_empty: bool = False) -> None:
-    """The pattern of a scalar."""
-    if slot.kind == "str":
-        _sub(node, "text")
-        return
-    patterns = {
-        "int": r"[+\-]?[0-9]+",
-        "bool": "true|false|0|1" if slot.xml.attribute else "0|1",
-        "word": "|".join(map(re.escape, slot.type)) if slot.kind == "word" else "",
-    }
-    inner = f"({patterns.get(slot.kind, NUMBER)})" + ("?" if may_be_empty else "")
-    data = _sub(node, "data", type="string")
-    _sub(data, "param", name="pattern").text = f"{SPACE}{inner}{SPACE}"
-
-
-def _ref(spec: type) -> etree._Element:
-    node = etree.Element(f"{{{RNG}}}ref")
-    node.set("name", spec.__name__)
-    return node
-
-
-def _sub(parent: etree._Element, tag: str, **attributes: str) -> etree._Element:
-    return etree.SubElement(parent, f"{{{RNG}}}{tag}", dict(attributes))
-
-
 def pages() -> Mapping[str, str]:
     """Return what is generated: file below ``docs`` -> text."""
     return {
         "dialect.md": page(),
         "benchmark-dialect.md": benchmark_page(),
-        "grammar/uwsim-scene.rng": grammar(),
+        "grammar/uwsim-benchmark.rng": benchmark_grammar(),
+        "grammar/uwsim-scene.rng": scene_grammar(),
     }
 
 
