@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +16,7 @@ from ..geometry import Pose
 from ..physics.state import State
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec, read_urdf
-from ..world import Box, Contact
+from ..world import Box
 from .scenery import Part
 
 
@@ -149,27 +150,30 @@ def find_body(route: str, bodies: Mapping[str, SceneBody]) -> SceneBody:
     return bodies[name]
 
 
-def find_contacts(name: str, scene: SceneSpec, state: State) -> list[Contact]:
-    """Find where the vehicle or object of that name touches others.
+def touchable(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"], int]:
+    """Find the vehicle or object of that name that others can touch: which kind, which number.
 
     Raises:
         UnknownName: there is none.
-        UwsimError: it cannot be touched.
+        UwsimError: nothing can touch it.
     """
     vehicles = [vehicle.name for vehicle in scene.vehicles]
     objects = [thing.name for thing in scene.objects]
-    if name in vehicles:
-        contacts = state.contacts("vehicle", vehicles.index(name))
-    elif name in objects:
-        contacts = state.contacts("object", objects.index(name))
-    else:
+    if name not in vehicles and name not in objects:
         raise UnknownName("vehicle or object", name, [*vehicles, *objects])
-    if contacts is None:
-        raise UwsimError(
-            f"{name!r} cannot be touched: contacts are simulated between vehicles with "
-            "<u:dynamics> and objects with <physics>, where a scene has both."
-        )
-    return contacts
+    solid = [thing.name for thing in scene.objects if thing.physics is not None]
+    if not solid:
+        raise untouchable(name, "no object of the scene has <physics>")
+    if name in vehicles:
+        return "vehicle", vehicles.index(name)
+    if scene.objects[objects.index(name)].physics is None:
+        raise untouchable(name, f"it has no <physics>; of the objects have: {', '.join(solid)}")
+    return "object", objects.index(name)
+
+
+def untouchable(name: str, why: str) -> UwsimError:
+    """Say that contacts of what has that name cannot be asked for."""
+    return UwsimError(f"{name!r} cannot be touched: {why}.", name=name)
 
 
 def _attached(pose: Callable[[], Pose], a_from_b: Pose) -> Pose:

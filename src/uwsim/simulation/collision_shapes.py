@@ -1,15 +1,15 @@
 """Which bodies of a scene can be touched, and with what shapes.
 
-Nothing, unless a vehicle is simulated and an object has a ``<physics>``. Then that object can be
-touched, it is loose if it has a mass and is not ``isKinematic``, and so can every link of a
-simulated vehicle, as the box around its collision geometry, else around what is seen of it. Not
-modelled: contacts of vehicles that are not simulated, of objects without ``<physics>``, of a
-vehicle with itself; limits of objects; hollows between the hulls of a link.
+Nothing, unless an object has a ``<physics>``. Then that object can be touched, and so can every
+link of a vehicle, as the box around its collision geometry, else around what is seen of it. Where a
+vehicle is simulated an object is loose if it has a mass and is not ``isKinematic``; elsewhere it
+stands still. Not modelled: contacts of objects without ``<physics>``, of a vehicle with itself, of
+objects that stand still with each other; limits of objects; hollows between the hulls of a link.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -26,7 +26,7 @@ from .scenery import object_model, visual_model
 def collision_shapes(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
-    simulated: Iterable[int],
+    vehicles: Collection[int],
     data_path: tuple[Path, ...],
 ) -> dict[str, tuple[Shape, ...]]:
     """Make the shapes of a scene, by the name of their body in the model.
@@ -34,10 +34,9 @@ def collision_shapes(
     Args:
         scene: what the file says.
         robots: the robot of each vehicle, by its number.
-        simulated: numbers of the vehicles with hydrodynamics.
+        vehicles: numbers of those that can be touched.
         data_path: folders in which files are looked for.
     """
-    vehicles = list(simulated)
     if not vehicles or all(thing.physics is None for thing in scene.objects):
         return {}
     shapes: dict[str, tuple[Shape, ...]] = {}

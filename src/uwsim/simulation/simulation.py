@@ -38,7 +38,6 @@ from ..world import Actuators, Contact, Flow
 from .bodies import (
     SceneBody,
     find_body,
-    find_contacts,
     find_file,
     name_bodies,
     read_robots,
@@ -52,6 +51,7 @@ from .scenery import Scenery
 from .state_publishers import state_publishers
 from .studio import Studio
 from .thruster_faults import ThrusterFaults
+from .touch import Touch
 
 M = TypeVar("M")
 BENCHMARK_FOG_COLOUR = (0.0, 0.05, 0.3)
@@ -137,8 +137,9 @@ class Simulation:
         robots = [self.robots[i] for i in range(len(scene.vehicles))]
         self._commands = Commands(scene, robots, self._state, self.bus, timestep)
         self._thruster_faults = ThrusterFaults(scene, self._state)
+        self._touch = Touch(scene, self.robots, self._state, data_path, timestep)
         for rate, tell in state_publishers(
-            scene, self.robots, self._state, self.bus, lambda: self.time
+            scene, self.robots, self._state, self._touch, self.bus, lambda: self.time
         ):
             self.every(rate, tell)
         self._nodes: list[InProcessNode] = []
@@ -186,6 +187,7 @@ class Simulation:
         self._drift()
         self._push()
         self._sway()
+        self._touch.look(self.step)
         self._tail()
         for look in self._watchers:
             look()
@@ -289,7 +291,7 @@ class Simulation:
             UnknownName: there is none of that name.
             UwsimError: it cannot be touched.
         """
-        return find_contacts(name, self._scene, self._state)
+        return self._touch.contacts(name)
 
     def actuators(self, name: str) -> Actuators | None:
         """What drives a vehicle; None if it is not simulated; UnknownName if there is none."""

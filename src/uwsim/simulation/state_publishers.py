@@ -41,7 +41,8 @@ from ..physics.state import State
 from ..scene.ros_interfaces import ArmToROSJointStateSpec, ContactSensorToROSSpec, PATToROSOdomSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
-from .bodies import find_contacts
+from .bodies import touchable
+from .touch import Touch
 
 
 class OdometryPublisher:
@@ -118,22 +119,21 @@ class JointPublisher:
 class ContactPublisher:
     """One ``<contactSensorToROS>`` at work."""
 
-    def __init__(
-        self, spec: ContactSensorToROSSpec, scene: SceneSpec, state: State, bus: Bus
-    ) -> None:
-        self._name, self._scene, self._state = spec.name, scene, state
+    def __init__(self, spec: ContactSensorToROSSpec, touch: Touch, bus: Bus) -> None:
+        self._name, self._topic, self._touch, self._bus = spec.name, spec.topic, touch, bus
         self._publish = bus.publisher(spec.topic, Bool)
 
     def publish(self, time: float) -> None:
-        """Publish the state; the message has no time."""
-        touches = bool(find_contacts(self._name, self._scene, self._state))
-        self._publish(Bool(data=touches))
+        """Publish whether it touches anything, if somebody reads it; the message has no time."""
+        if self._bus.has_readers(self._topic):
+            self._publish(Bool(data=bool(self._touch.contacts(self._name))))
 
 
 def state_publishers(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
     state: State,
+    touch: Touch,
     bus: Bus,
     clock: Callable[[], float],
 ) -> list[tuple[int, Callable[[], None]]]:
@@ -141,8 +141,8 @@ def state_publishers(
     numbers = {vehicle.name: i for i, vehicle in reversed(list(enumerate(scene.vehicles)))}
     found: list[tuple[int, Callable[[], None]]] = []
     for interface in scene.ros_interfaces:
-        if isinstance(interface, ContactSensorToROSSpec) and _can_touch(interface, scene, state):
-            contact = ContactPublisher(interface, scene, state, bus)
+        if isinstance(interface, ContactSensorToROSSpec) and _can_touch(interface, scene, robots):
+            contact = ContactPublisher(interface, touch, bus)
             found.append((interface.rate, partial(_at, clock, contact.publish)))
         if not isinstance(interface, PATToROSOdomSpec | ArmToROSJointStateSpec):
             continue
@@ -161,10 +161,12 @@ def _at(clock: Callable[[], float], publish: Callable[[float], None]) -> None:
     publish(clock())
 
 
-def _can_touch(interface: ContactSensorToROSSpec, scene: SceneSpec, state: State) -> bool:
+def _can_touch(
+    interface: ContactSensorToROSSpec, scene: SceneSpec, robots: Mapping[int, RobotSpec]
+) -> bool:
     """Without a shape the sensor says nothing, as the original's without physics."""
     try:
-        find_contacts(interface.name, scene, state)
+        kind, index = touchable(interface.name, scene)
     except UwsimError:
         return False
-    return True
+    return kind == "object" or any(link.collision or link.visual for link in robots[index].links)

@@ -1,0 +1,166 @@
+"""What bodies touch that are put somewhere instead of being simulated.
+
+A vehicle without ``u:dynamics`` goes where it is told, through walls if need be, as in the
+original. Its shapes are laid over those of the objects wherever it is; nothing is pushed. It moves
+in jumps, one a message: a jump counts as made evenly over the time since the one before, 1 s at
+most, and its speed as that of as much time after it. So a twist that comes ten times a second is
+the speed of a contact, not five hundred times as much at one step out of fifty.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import mujoco
+import numpy as np
+
+from ..geometry import Array, Pose, quaternion_from_rotation
+from ..world import Contact
+from .compile import ALL, OBJECTS, SHAPES
+from .shapes import Shape
+
+LONGEST_JUMP = 1.0
+"""A jump after a longer rest counts as made in this time [s]."""
+
+
+class Touching:
+    """Shapes laid over each other.
+
+    Args:
+        shapes: what can be touched, by the name of its body: ``vehicle/0/base_link``, ``object/1``.
+        poses: where the bodies are now, by name.
+        names: what the scene calls the owners of bodies: ``vehicle/0``, ``object/1``.
+        version: grows whenever something was moved.
+        timestep: length of a step [s].
+    """
+
+    def __init__(
+        self,
+        shapes: Mapping[str, Sequence[Shape]],
+        poses: Mapping[str, Callable[[], Pose]],
+        names: Mapping[str, str],
+        version: Callable[[], int],
+        timestep: float,
+    ) -> None:
+        self._names, self._version = names, version
+        self._seen = version()
+        self._movers = [_Mover(poses[name], timestep) for name in shapes]
+        self._model = _model(shapes)
+        self._data = mujoco.MjData(self._model)
+        owners = [_owner(self._model.geom(i).name) for i in range(self._model.ngeom)]
+        self._owners = np.array(owners)
+        self._touchable = frozenset(owners)
+        self._step = 0
+        self._is_stale = True
+
+    def look(self, step: int) -> None:
+        """Take note of where everything is at a step; to be called at every one."""
+        self._step = step
+        if (version := self._version()) == self._seen:
+            return
+        self._seen = version
+        for mover in self._movers:
+            self._is_stale |= mover.look(step)
+
+    def contacts(self, kind: str, index: int) -> list[Contact] | None:
+        """Where a vehicle or object touches others; None if it has no shape to be touched."""
+        owner = f"{kind}/{index}"
+        if owner not in self._touchable:
+            return None
+        if self._is_stale:
+            self._lay()
+        found = self._data.contact
+        if self._data.ncon == 0:
+            return []
+        own = self._owners[found.geom] == owner  # (n, 2)
+        contacts: list[Contact] = []
+        for i in np.flatnonzero((own[:, 0] != own[:, 1]) & (found.dist < 0.0)).tolist():
+            first, second = found.geom[i].tolist()
+            normal, point = found.frame[i][:3], found.pos[i]  # from the first to the second
+            v_first = float(normal @ self._velocity(first, point))
+            v_second = float(normal @ self._velocity(second, point))
+            is_first = bool(own[i, 0])
+            contacts.append(
+                Contact(
+                    approach_speed=v_first - v_second,
+                    own_speed=v_first if is_first else -v_second,
+                    is_first=is_first,
+                    other=self._names[self._owners[second if is_first else first]],
+                )
+            )
+        return contacts
+
+    def _lay(self) -> None:
+        for i, mover in enumerate(self._movers):
+            self._data.qpos[7 * i : 7 * i + 3] = mover.now.position
+            self._data.qpos[7 * i + 3 : 7 * i + 7] = quaternion_from_rotation(mover.now.rotation)
+        mujoco.mj_kinematics(self._model, self._data)
+        mujoco.mj_collision(self._model, self._data)
+        self._is_stale = False
+
+    def _velocity(self, geom: int, point: Array) -> Array:
+        """Velocity of a body's point, W, (3,) [m/s]."""
+        body = int(self._model.geom_bodyid[geom])
+        return self._movers[body - 1].velocity(point, self._step)
+
+
+class _Mover:
+    """A body that jumps."""
+
+    def __init__(self, pose: Callable[[], Pose], timestep: float) -> None:
+        self._pose, self._timestep = pose, timestep
+        self._longest = max(1, round(LONGEST_JUMP / timestep))
+        self.now = self._before = pose()
+        self._jumped_at = 0
+        self._n_steps = 0  # that its last jump took
+
+    def look(self, step: int) -> bool:
+        """Take note of where it is; return whether it moved."""
+        pose = self._pose()
+        is_there = np.array_equal(pose.position, self.now.position)
+        if is_there and np.array_equal(pose.rotation, self.now.rotation):
+            return False
+        self._before, self.now = self.now, pose
+        self._n_steps = min(max(1, step - self._jumped_at), self._longest)
+        self._jumped_at = step
+        return True
+
+    def velocity(self, point: Array, step: int) -> Array:
+        """Velocity of its point at ``point``, W, (3,) [m/s]."""
+        if step - self._jumped_at >= self._n_steps:
+            return np.zeros(3)
+        was_at = (self._before @ self.now.inverse()).transform(point[None])[0]
+        velocity: Array = (point - was_at) / (self._n_steps * self._timestep)
+        return velocity
+
+
+def _model(shapes: Mapping[str, Sequence[Shape]]) -> mujoco.MjModel:
+    """Build a model of free bodies, one for each name, in their order."""
+    spec = mujoco.MjSpec()
+    for name, parts in shapes.items():
+        body = spec.worldbody.add_body(name=name, mass=1.0, inertia=[1.0] * 3)
+        body.explicitinertial = True
+        body.add_freejoint()
+        kind, owner = name.split("/")[:2]
+        bit = OBJECTS if kind == "object" else 2 << (int(owner) % 29)
+        for i, shape in enumerate(parts):
+            place = shape.body_from_shape
+            geom = body.add_geom(
+                name=f"{name}/shape/{i}",
+                type=SHAPES[shape.kind],
+                pos=place.position.tolist(),
+                quat=quaternion_from_rotation(place.rotation).tolist(),
+                contype=bit,
+                conaffinity=ALL & ~bit,
+            )
+            if shape.corners is None:
+                geom.size[: len(shape.size)] = shape.size
+            else:
+                spec.add_mesh(name=f"{name}/{i}", uservert=shape.corners.ravel().tolist())
+                geom.meshname = f"{name}/{i}"
+    return spec.compile()
+
+
+def _owner(name: str) -> str:
+    """``vehicle/1`` or ``object/1``, what the body or shape of that name belongs to."""
+    return "/".join(name.split("/")[:2])

@@ -1,0 +1,85 @@
+"""Who touches whom: what the engine found, or shapes laid over each other.
+
+The engine knows contacts between simulated vehicles and objects with ``<physics>``. What it does
+not simulate is looked at by `uwsim.physics.touching`, from the first time that somebody asks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+
+from ..geometry import Pose
+from ..physics.state import State
+from ..physics.touching import Touching
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec
+from ..world import Contact
+from .bodies import touchable, untouchable
+from .collision_shapes import collision_shapes
+
+
+class Touch:
+    """The contacts of a scene.
+
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle, by its number.
+        state: where everything is.
+        data_path: folders in which files are looked for.
+        timestep: length of a step [s].
+    """
+
+    def __init__(
+        self,
+        scene: SceneSpec,
+        robots: Mapping[int, RobotSpec],
+        state: State,
+        data_path: tuple[Path, ...],
+        timestep: float,
+    ) -> None:
+        self._scene, self._robots, self._state = scene, robots, state
+        self._data_path, self._timestep = data_path, timestep
+        self._touching: Touching | None = None
+        self._step = 0
+
+    def look(self, step: int) -> None:
+        """Take note of where everything is at a step; to be called at every one."""
+        self._step = step
+        if self._touching is not None:
+            self._touching.look(step)
+
+    def contacts(self, name: str) -> list[Contact]:
+        """Find where the vehicle or object of that name touches others.
+
+        Raises:
+            UnknownName: there is none.
+            UwsimError: it cannot be touched.
+        """
+        kind, index = touchable(name, self._scene)
+        contacts = self._state.contacts(kind, index)
+        if contacts is None:
+            if self._touching is None:
+                self._touching = self._lay()
+                self._touching.look(self._step)
+            contacts = self._touching.contacts(kind, index)
+        if contacts is None:
+            raise untouchable(name, "none of its links has a <collision> or a <visual>")
+        return contacts
+
+    def _lay(self) -> Touching:
+        scene, state = self._scene, self._state
+        vehicles = range(len(scene.vehicles))
+        shapes = collision_shapes(scene, self._robots, vehicles, self._data_path)
+        poses: dict[str, Callable[[], Pose]] = {}
+        for body in shapes:
+            kind, number, *link = body.split("/")
+            poses[body] = (
+                partial(state.link_pose, int(number), "/".join(link))
+                if kind == "vehicle"
+                else partial(state.object_pose, int(number))
+            )
+        names = {f"vehicle/{i}": vehicle.name for i, vehicle in enumerate(scene.vehicles)}
+        names |= {f"object/{i}": thing.name for i, thing in enumerate(scene.objects)}
+        return Touching(shapes, poses, names, lambda: state.version, self._timestep)
