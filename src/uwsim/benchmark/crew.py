@@ -75,6 +75,11 @@ class Roster:
         """The first of all failures."""
         return self.failures[0][1] if self.failures else None
 
+    def add(self, job: Job) -> None:
+        """Put one more job at the end; it may be one that another has led to."""
+        self._waiting.append(job)
+        self._to_come[job] = len(job.unit.levels) - job.bench.n_rows(job.unit)
+
     def __len__(self) -> int:
         """How many jobs are waiting."""
         return len(self._waiting)

@@ -63,6 +63,15 @@ COMMANDS: dict[str, Command] = {
             "uwsim compare --baseline esm.result ic.result ecc.result --measure corners",
         ),
     ),
+    "envelope": Command(
+        module="envelope",
+        function="envelope",
+        summary="Find the level at which a benchmark breaks, with its bound.",
+        examples=(
+            'uwsim envelope visibility --over fog --until "corners > 5" --to 2 --repeat 20',
+            'uwsim envelope visibility-moving --over fog --until "status == lost" --algorithm orb',
+        ),
+    ),
     "list": Command(
         module="list",
         function="list_names",

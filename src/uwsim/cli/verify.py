@@ -83,6 +83,7 @@ def verify(
     from ..benchmark.verify import verify as compare
 
     crew = crew_of(workers)
+    refuse_several(result)
     stored = load(result)
     directory = file_of(result).parent
     given = Given(
@@ -111,6 +112,17 @@ def verify(
         typer.echo(printable(line))
     if found.differences:
         raise typer.Exit(RUN_FAILED)
+
+
+def refuse_several(path: Path) -> None:
+    """Refuse a directory that holds the results of several algorithms; raises ResultError."""
+    if path.is_dir() and not (path / "result.json").exists():
+        names = sorted(file.parent.name for file in path.glob("*/result.json"))
+        if names:
+            raise ResultError(
+                f"{path}: holds {count(len(names), 'result')} ({', '.join(names)}); verify one, as "
+                f"uwsim verify {path / names[0]}"
+            )
 
 
 def head(stored: Result, directory: Path, n_whole: int, n_units: int) -> str:

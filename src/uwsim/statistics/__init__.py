@@ -10,19 +10,23 @@ from __future__ import annotations
 from .effect import cohens_d, hedges_g, rank_biserial, vargha_delaney
 from .holm import holm
 from .interval import Interval, mean_interval
+from .median import Median, fewest_for_median, median_interval
 from .paired import fewest_for, mcnemar, sign_flip, signed_rank
 from .power import power, repeats_needed
 from .rate import Rate, rate
 
 __all__ = [
     "Interval",
+    "Median",
     "Rate",
     "cohens_d",
     "fewest_for",
+    "fewest_for_median",
     "hedges_g",
     "holm",
     "mcnemar",
     "mean_interval",
+    "median_interval",
     "power",
     "rank_biserial",
     "rate",

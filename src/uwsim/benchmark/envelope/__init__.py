@@ -1,0 +1,24 @@
+"""The envelope of a benchmark: up to where it holds, and how surely."""
+
+from __future__ import annotations
+
+from .criterion import Criterion, Judgement, parse_criterion
+from .envelope import Asked, Envelope
+from .evaluate import Evaluation, Evaluations, plan_for
+from .search import Range, Search, Threshold, search, strategy
+
+__all__ = [
+    "Asked",
+    "Criterion",
+    "Envelope",
+    "Evaluation",
+    "Evaluations",
+    "Judgement",
+    "Range",
+    "Search",
+    "Threshold",
+    "parse_criterion",
+    "plan_for",
+    "search",
+    "strategy",
+]
