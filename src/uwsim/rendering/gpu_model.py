@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import moderngl
@@ -32,6 +33,8 @@ class Batch:
     """Of the bounding sphere, model frame, (3,) [m]."""
     radius: float
     """Of the bounding sphere [m]."""
+    corners: npt.NDArray[np.float64]
+    """Of the bounding box, model frame, (8, 3) [m]."""
     arrays: dict[int, moderngl.VertexArray]
     """Vertex array for each program, by the program's number; made when first drawn."""
 
@@ -86,7 +89,8 @@ class GpuModels:
             triangles.append(mesh.triangles.astype(np.uint32) + np.uint32(first))
             first += len(mesh.vertices)
         points = vertices["vertex"].astype(np.float64)
-        centre = (points.min(axis=0) + points.max(axis=0)) / 2.0
+        box = np.stack([points.min(axis=0), points.max(axis=0)])  # (2, 3) [m]
+        centre = box.mean(axis=0)
         texture = meshes[0].texture
         return Batch(
             vertices=self._context.buffer(vertices.tobytes()),
@@ -95,6 +99,7 @@ class GpuModels:
             two_sided=meshes[0].two_sided,
             centre=centre,
             radius=float(np.sqrt(((points - centre) ** 2).sum(axis=1).max())),
+            corners=np.array(list(itertools.product(*box.T))),
             arrays={},
         )
 

@@ -34,6 +34,8 @@ class Instance:
         """Whether the matrix turns left into right."""
         self.spheres: Array = np.zeros((0, 4))
         """Bounding spheres of the batches in W: centre and radius, (n, 4) [m]."""
+        self.corners: Array = np.zeros((0, 8, 3))
+        """Corners of the batches' bounding boxes in W, (n, 8, 3) [m]."""
         self.place(self.world_from_model)
 
     def place(self, world_from_model: Array) -> None:
@@ -48,6 +50,8 @@ class Instance:
         centres = centres @ linear.T + origin
         radii = np.array([batch.radius for batch in self.batches]) * stretch
         self.spheres = np.column_stack([centres, radii])
+        boxes = np.array([batch.corners for batch in self.batches]).reshape(-1, 8, 3)
+        self.corners = boxes @ linear.T + origin
 
     @property
     def radius(self) -> float:
@@ -97,7 +101,9 @@ class Slots:
 def in_view(
     instances: Sequence[Instance], world_from_camera: Pose, planes: Array
 ) -> list[tuple[int, Batch]]:
-    """Slots and batches whose bounding sphere reaches into the frustum, near ones first.
+    """Slots and batches whose bounds reach into the frustum, near ones first.
+
+    Bounds are the sphere and the box: of a wall, the sphere reaches far round it.
 
     Near is by the far side of the sphere, so small things come before the tank they float in and
     the tank's pixels behind them are never shaded.
@@ -115,4 +121,8 @@ def in_view(
     nearness = np.linalg.norm(centres, axis=1) + spheres[:, 3]
     owners = [(slot, batch) for slot, i in enumerate(instances) for batch in i.batches]
     visible = (beyond > 0.0).all(axis=1)
+    corners = np.concatenate([instance.corners for instance in instances])  # (n, 8, 3) [m]
+    points = (corners - world_from_camera.position) @ world_from_camera.rotation
+    inside = points @ planes[:, :3].T + planes[:, 3] > 0.0  # (n, 8, 6)
+    visible &= inside.any(axis=1).all(axis=1)
     return [owners[n] for n in np.argsort(nearness, kind="stable") if visible[n]]
