@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import datetime
 import shutil
 import signal
 import sys
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -21,6 +20,7 @@ from .crew import WorkersOption, crew_of
 from .files import benchmark_file, scene_file
 from .plugins import PluginOption, read_plugins
 from .progress import progress
+from .took import Took
 
 if TYPE_CHECKING:
     from ..benchmark.bench import Bench
@@ -361,53 +361,16 @@ def control_of(run: Bench) -> Bench:
     return Bench(plan=plan, out=out, inputs=run.inputs, renderer="none")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Took:
-    """What it took to play some algorithms together."""
-
-    began: float
-    """When [s since 1970]."""
-    wall: float
-    """How long [s]."""
-    workers: str
-    """Who played, as it was said."""
-    runs: Sequence[Bench]
-    """What was played, an algorithm each."""
-
-
 def finish(run: Bench, result: Result, beside: Beside, took: Took) -> None:
     """Write provenance, plots and report, and print the table."""
     from ..benchmark.directory import REPORT
     from ..benchmark.provenance import save_provenance
     from ..benchmark.table import table
 
-    save_provenance(provenance(run, took), run.out)
+    save_provenance(took.provenance(run), run.out)
     beside.ask(run.out)
     console = Console(width=None if sys.stdout.isatty() else UNWRAPPED)
     console.print(table(result, width=console.width))
     beside.wait()
     report = run.out / REPORT
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
-
-
-def provenance(run: Bench, took: Took) -> dict[str, object]:
-    """Say where, when and how fast; nothing here is part of a score."""
-    from importlib.metadata import version
-
-    from ..benchmark.provenance import machine
-
-    simulated = sum(each.simulated_s for each in took.runs)
-    names = ("mujoco", "numpy", "numba", "moderngl", "opencv-python-headless", "rosbags")
-    return {
-        "began": datetime.datetime.fromtimestamp(took.began, datetime.UTC).isoformat(),
-        "algorithms": [each.plan.algorithm_name for each in took.runs],
-        "wall_s": took.wall,
-        "simulated_s": simulated,
-        "real_time_factor": simulated / took.wall if took.wall > 0.0 else None,
-        "workers": int(took.workers) if took.workers.isdigit() else took.workers,
-        "lost_workers": run.n_lost,
-        "resumed": run.n_resumed,
-        "command": sys.argv[1:],
-        **machine(),
-        "packages": {name: version(name) for name in names},
-    }
