@@ -302,3 +302,51 @@ def test_a_scene_may_hold_hundreds_of_things(renderer: Renderer) -> None:
     picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS)
     assert picture.ids is not None
     assert len(np.unique(picture.ids)) == 301
+
+
+def drawn_once(world_from_camera: Pose, water: Water, x: float) -> bytes:
+    """What somebody sees who looks once."""
+    renderer = Renderer()
+    try:
+        renderer.place(renderer.add(ball(0.5), 3), placed(x=x, z=-4.0))
+        picture = renderer.draw(world_from_camera, CAMERA, water, Light(), targets={"colour"})
+        assert picture.colour is not None
+        return picture.colour.tobytes()
+    finally:
+        renderer.close()
+
+
+def test_a_view_drawn_ahead_is_the_view_and_never_another(renderer: Renderer) -> None:
+    """From the second equal view on the next is begun early: nothing may be seen of that."""
+    thing = renderer.add(ball(0.5), 3)
+    aside = Pose.from_rpy((0.3, 0.0, 0.0), (0.0, 0.1, 0.0))
+    fog = replace(DRY, fog=0.3)
+    looks = [
+        *[(HERE, DRY, 0.0)] * 4,  # begun ahead ...
+        (HERE, DRY, 0.4),  # ... and the thing has moved
+        *[(HERE, DRY, 0.4)] * 2,
+        (HERE, fog, 0.4),  # ... and the fog has come
+        *[(HERE, fog, 0.4)] * 2,
+        (aside, fog, 0.4),  # ... and the camera is elsewhere
+        (HERE, fog, 0.4),
+    ]
+    expected = {(look[2], id(look[0]), look[1].fog): drawn_once(*look) for look in looks}
+    for view, water, x in looks:
+        renderer.place(thing, placed(x=x, z=-4.0))
+        picture = renderer.draw(view, CAMERA, water, Light(), targets={"colour"})
+        assert picture.colour is not None
+        assert picture.colour.tobytes() == expected[(x, id(view), water.fog)]
+    assert len(set(expected.values())) == len(expected)
+
+
+def test_another_picture_between_does_not_disturb_one_drawn_ahead(renderer: Renderer) -> None:
+    renderer.place(renderer.add(ball(0.5), 3), placed(z=-4.0))
+    aside = Pose.from_rpy((0.3, 0.0, 0.0), (0.0, 0.1, 0.0))
+    colour = {"targets": {"colour"}}
+    for _ in range(3):
+        first = renderer.draw(HERE, CAMERA, DRY, Light(), **colour).colour
+    renderer.draw(aside, CAMERA, DRY, Light(), **colour)
+    again = renderer.draw(HERE, CAMERA, DRY, Light(), **colour).colour
+    assert first is not None
+    assert again is not None
+    assert np.array_equal(first, again)

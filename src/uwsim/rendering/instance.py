@@ -124,5 +124,5 @@ def in_view(
     corners = np.concatenate([instance.corners for instance in instances])  # (n, 8, 3) [m]
     points = (corners - world_from_camera.position) @ world_from_camera.rotation
     inside = points @ planes[:, :3].T + planes[:, 3] > 0.0  # (n, 8, 6)
-    visible &= inside.any(axis=1).all(axis=1)
+    visible &= np.all(inside.any(axis=1), axis=1)
     return [owners[n] for n in np.argsort(nearness, kind="stable") if visible[n]]

@@ -7,6 +7,7 @@ One forward pass draws colour, range and ids, whichever are asked for, through U
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import moderngl
 
@@ -35,6 +36,30 @@ Switches = tuple[tuple[str, int], ...]
 """Preprocessor switches of a shader and their values."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class View:
+    """Everything a picture depends on: equal views give equal pictures."""
+
+    place: bytes
+    """World from camera, as it lies in memory."""
+    intrinsics: Intrinsics
+    """The camera's pinhole."""
+    water: Water
+    """What stands between."""
+    light: Light
+    """What lights the scene."""
+    wanted: frozenset[str]
+    """The targets."""
+    hidden: frozenset[int]
+    """Ids that are not seen."""
+    store: str
+    """How colour is stored."""
+    version: int
+    """Of the instances and their places."""
+    lamps: tuple[Lamp, ...]
+    """What shines besides the sun."""
+
+
 class Renderer:
     """Models placed in W, and pictures of them from anywhere.
 
@@ -60,6 +85,8 @@ class Renderer:
         self._slots = Slots(self._context)
         self._shadow = SunShadow(self._context)
         self._lamps: Lamps | None = None
+        self._last: View | None = None  # what was drawn last
+        self._begun: View | None = None  # what is being drawn ahead of its time
 
     def add(self, model: Model, id: int) -> int:
         """Put a model at the origin of W; returns the handle for `place` and `remove`.
@@ -125,28 +152,53 @@ class Renderer:
             raise ValueError(f"cannot draw {sorted(wanted)} as {colour!r}: {TARGETS}, {STORES}")
         if len(lamps) > MOST_LAMPS:
             raise ValueError(f"{len(lamps)} lamps are more than {MOST_LAMPS}")
-        seen = [i for i in self._instances.values() if i.id not in hidden]
-        clip = clip_from_camera(intrinsics)
+        view = View(
+            place=world_from_camera.matrix.tobytes(),
+            intrinsics=intrinsics,
+            water=water,
+            light=light,
+            wanted=wanted,
+            hidden=hidden,
+            store=colour,
+            version=self._version,
+            lamps=tuple(lamps),
+        )
         with self._context:
-            target = self._target(intrinsics, wanted, colour)
-            switches: Switches = ()
-            if "colour" in wanted and light.shadows and self._cast(seen, light, hidden):
-                switches += (("SHADOWS", 1),)
-            if water.fog == 0.0:
-                switches += (("NO_FOG", 1),)
-            elif water.fog_distance == "clip":
-                switches += (("FOG_CLIP", 1),)
-            if lamps and "colour" in wanted:
-                switches += (("LAMPS", len(lamps)),)
-                self._shine(lamps, seen, world_from_camera, hidden)
-            self._frame.fill(world_from_camera, intrinsics, clip, water, light, self._shadow)
-            self._slots.fill(seen, world_from_camera.inverse().matrix)
-            self._draw_into(target, seen, world_from_camera, frustum(clip), switches)
-            return target.picture(intrinsics)
+            if view != self._begun:
+                self._begin(view, world_from_camera)
+            picture = self._target(view).picture(intrinsics)
+            self._begun = None
+            if view == self._last and not lamps:
+                # Asked for twice in a row, it will be asked for again: the rasteriser's threads
+                # draw the next one while others think about this one.
+                self._begin(view, world_from_camera)
+                self._shadow.take_over()
+                self._begun = view
+        self._last = view
+        return picture
 
     def close(self) -> None:
         """Give the context and all that is in it back; the renderer is of no use afterwards."""
         self._context.release()
+
+    def _begin(self, view: View, world_from_camera: Pose) -> None:
+        """Draw, without waiting until it is done."""
+        water, light, hidden, lamps = view.water, view.light, view.hidden, view.lamps
+        seen = [i for i in self._instances.values() if i.id not in hidden]
+        clip = clip_from_camera(view.intrinsics)
+        switches: Switches = ()
+        if "colour" in view.wanted and light.shadows and self._cast(seen, light, hidden):
+            switches += (("SHADOWS", 1),)
+        if water.fog == 0.0:
+            switches += (("NO_FOG", 1),)
+        elif water.fog_distance == "clip":
+            switches += (("FOG_CLIP", 1),)
+        if lamps and "colour" in view.wanted:
+            switches += (("LAMPS", len(lamps)),)
+            self._shine(lamps, seen, world_from_camera, hidden)
+        self._frame.fill(world_from_camera, view.intrinsics, clip, water, light, self._shadow)
+        self._slots.fill(seen, world_from_camera.inverse().matrix)
+        self._draw_into(self._target(view), seen, world_from_camera, frustum(clip), switches)
 
     def _find(self, handle: int) -> Instance:
         if handle not in self._instances:
@@ -221,9 +273,9 @@ class Renderer:
             )
         return self._programs[key]
 
-    def _target(self, intrinsics: Intrinsics, wanted: frozenset[str], store: str) -> Targets:
-        size = intrinsics.width, intrinsics.height
-        key = size, wanted, store
+    def _target(self, view: View) -> Targets:
+        size = view.intrinsics.width, view.intrinsics.height
+        key = size, view.wanted, view.store
         if key not in self._targets:
-            self._targets[key] = Targets(self._context, size, wanted, store)
+            self._targets[key] = Targets(self._context, size, view.wanted, view.store)
         return self._targets[key]

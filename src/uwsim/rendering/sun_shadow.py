@@ -85,6 +85,10 @@ class SunShadow:
                 batch.draw(self._program)
         context.polygon_offset = 0.0, 0.0
 
+    def take_over(self) -> None:
+        """Become the target of drawing: what was drawn so far goes to the rasteriser's threads."""
+        self._framebuffers[SMALL].use()
+
 
 def _fit(casters: Sequence[Instance], sun: Array) -> tuple[Array, float]:
     """The sun's orthographic camera round all casters, (4, 4), and the edge of its view [m]."""
