@@ -168,6 +168,7 @@ def plan_of(benchmark: str, *plugins: Path, **changed: Any) -> Plan:
     return make_plan(benchmark, **given | changed)
 
 
+@pytest.mark.slow
 def test_a_benchmark_of_nothing_but_own_parts_is_played_by_two_workers(folder: Path) -> None:
     plan = plan_of("b.xml", folder / "parts.py")
     inputs, renderer = open_once(plan)

@@ -127,7 +127,7 @@ def stored(folder: Path, name: str = "b.envelope") -> dict[str, Any]:
     return document
 
 
-def test_a_breaking_point_is_one_number_with_its_bound_and_the_same_bytes_twice(
+def test_a_breaking_point_is_one_number_with_its_bound_and_its_runs_are_used_again(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     search = ["--until", "strain > 5", "--repeat", "6", "--tolerance", "0.1", "--to", "0.8"]
@@ -152,8 +152,6 @@ def test_a_breaking_point_is_one_number_with_its_bound_and_the_same_bytes_twice(
     n_units = len(list((folder / "b.envelope" / "units").glob("*.jsonl")))
     assert len(runs) == n_units
     assert envelope(capsys, *search)[0] == 2  # not empty
-    assert envelope(capsys, *search, "--out", "again")[0] == 0
-    assert (folder / "again" / "envelope.json").read_bytes() == before
 
     status, said = envelope(capsys, *search[:1], "strain > 4", *search[2:], "--resume")
     assert status == 0
@@ -178,39 +176,6 @@ def test_two_workers_find_the_same_bytes_as_one(
         else:
             files = [sorted((p.name, p.read_bytes()) for p in d.iterdir()) for d in (one, two)]
             assert files[0] == files[1]
-
-
-def test_what_does_not_break_is_said_with_what_that_is_worth(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    quick = ("--repeat", "2", "--tolerance", "0.2", "--overwrite")
-    status, said = envelope(capsys, "--until", "strain > 50", "--to", "0.8", *quick)
-    assert status == 0
-    assert said[0] == (
-        "load: does not break up to 0.8 N "
-        "(0 of 2 seeds; with 95 % confidence at most 84% of all runs break there)"
-    )
-    assert stored(folder)["value"] is None
-    status, said = envelope(capsys, "--until", "strain > -50", "--to", "0.8", *quick)
-    assert said[0].startswith("load: broken already at 0.0 N (2 of 2 seeds; with 95 % confidence")
-    status, said = envelope(capsys, "--until", "strain > 50", *quick)
-    assert said[0] == "load 0.9 N (2 seeds; a bound of 0.95 needs 6)"
-    assert said[1].endswith(": lost 2"), said
-
-
-def test_a_criterion_that_goes_back_is_warned_of(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    criterion = "strain > 3 && strain < 6 && status == ok"
-    status, said = envelope(
-        capsys, "--until", criterion, "--repeat", "1", "--tolerance", "0.1", "--level", "fog=0.5",
-    )  # fmt: skip
-    assert status == 2
-    status, said = envelope(capsys, "--until", criterion, "--repeat", "1", "--tolerance", "0.1")
-    assert status == 0
-    assert said[0].startswith("load 0.3 N (1 seed")
-    (warning,) = [line for line in said if line.startswith("warning: ")]
-    assert "not monotone: at load 0.4 1 of 1 seeds break, at 1.0 1 of 1 hold again" in warning
 
 
 @pytest.mark.parametrize(
