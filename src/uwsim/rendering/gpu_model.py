@@ -27,7 +27,8 @@ class Batch:
 
     vertices: moderngl.Buffer
     indices: moderngl.Buffer
-    texture: moderngl.Texture | None
+    texture: Texture | None
+    """Uploaded when first drawn: `GpuModels.texture`."""
     two_sided: bool
     centre: npt.NDArray[np.float64]
     """Of the bounding sphere, model frame, (3,) [m]."""
@@ -60,7 +61,11 @@ def _layout(present: list[str]) -> str:
 
 
 class GpuModels:
-    """Uploads models and textures, each once, for as long as the context lives."""
+    """Uploads models and textures, each once, for as long as the context lives.
+
+    A model is uploaded when it comes into a scene, a texture when it is first seen: of a tank with
+    its house, a camera that looks down needs one of nine.
+    """
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
@@ -91,11 +96,10 @@ class GpuModels:
         points = vertices["vertex"].astype(np.float64)
         box = np.stack([points.min(axis=0), points.max(axis=0)])  # (2, 3) [m]
         centre = box.mean(axis=0)
-        texture = meshes[0].texture
         return Batch(
             vertices=self._context.buffer(vertices.tobytes()),
             indices=self._context.buffer(np.concatenate(triangles).tobytes()),
-            texture=None if texture is None else self._texture(texture),
+            texture=meshes[0].texture,
             two_sided=meshes[0].two_sided,
             centre=centre,
             radius=float(np.sqrt(((points - centre) ** 2).sum(axis=1).max())),
@@ -103,7 +107,8 @@ class GpuModels:
             arrays={},
         )
 
-    def _texture(self, texture: Texture) -> moderngl.Texture:
+    def texture(self, texture: Texture) -> moderngl.Texture:
+        """The texture on the graphics side, with its smaller copies; made once."""
         key = texture.name, id(texture.pixels)
         if key not in self._textures:
             height, width = texture.pixels.shape[:2]

@@ -250,7 +250,7 @@ class Renderer:
             context.front_face = "ccw" if seen[slot].is_mirrored else "cw"
             textured: Switches = ()
             if batch.texture is not None:
-                batch.texture.use(SAMPLERS["base_map"])
+                self._models.texture(batch.texture).use(SAMPLERS["base_map"])
                 textured = (("TEXTURED", 1),)
             self._slots.bind(slot)
             batch.draw(self._program("surface", target, switches + textured))
