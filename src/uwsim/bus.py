@@ -271,7 +271,8 @@ class Bus:
             entry.type = type
         elif entry.type is not type:
             raise BadSetting(
-                f"Topic {topic!r} carries {_type_name(entry.type)}, not {_type_name(type)}."
+                f"Topic {topic!r} carries {_type_name(entry.type)}, not {_type_name(type)}.",
+                name=topic,
             )
         return entry
 

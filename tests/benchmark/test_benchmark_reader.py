@@ -354,7 +354,8 @@ FACE = (
         (text(TIME.replace("onInit", "topic")), 3, "<startOn> lacks <target>"),
         (text(TIME.replace("onInit", "position</type><target>a</target><type>")), 3, ""),
         (text(TIME.replace("</name>", "</name><log>0</log>")), 3, "expected a number > 0 [s]"),
-        (text(function="<function>t+</function>"), 6, "ends too early\n  t+\n    ^"),
+        (text(function="<function>t+</function>"), 6,
+         "<function>: the expression ends too early (column 3: 't+')"),
         (text(function="<function>2*tt</function>"), 6, "no measure is called 'tt'"),
         (text(function="<function></function>"), 6, "<function> is empty"),
         (text(function=""), 1, "<benchmark> lacks <function>"),
@@ -422,9 +423,9 @@ def test_a_path_without_a_topic_is_a_notice(file: Path) -> None:
     assert "<pathFollowing> without <topic> has no path, and no value" in notices
 
 
-def test_a_benchmark_that_never_ends_is_a_notice(file: Path) -> None:
+def test_a_benchmark_that_nothing_ends_is_a_notice(file: Path) -> None:
     file.write_text(text())
-    assert any("it never ends" in fault.message for fault in check_benchmark(file))
+    assert any("it ends after 600 s, in timeout" in fault.message for fault in check_benchmark(file))
 
 
 def test_updaters_nested_to_a_hundred_levels_are_read(file: Path) -> None:

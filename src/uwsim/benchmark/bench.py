@@ -16,9 +16,11 @@ import mujoco
 import numpy as np
 
 from .. import __version__
+from ..errors import BenchmarkError, UwsimError
 from ..simulation import Simulation, Studio
 from . import unit_file
 from .logs import TIME, Log, save_log
+from .names import unknown_names
 from .original_format import save_dat, save_data
 from .plan import Plan, Unit
 from .play import bind_all
@@ -269,7 +271,7 @@ def open_once(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, objec
     try:
         with blamed(plan.plugins):
             check_bound(plan.plugins, plan.benchmark.parts, simulation)
-            bind_all(plan, simulation)
+            _bind_all(plan, simulation)
         robots = {
             vehicle.file: _file_hash(Path(simulation.robots[i].path))
             for i, vehicle in enumerate(plan.scene.vehicles)
@@ -290,6 +292,16 @@ def open_once(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, objec
         "assets": {**robots, **assets},
         **plugins,
     }, renderer
+
+
+def _bind_all(plan: Plan, simulation: Simulation) -> None:
+    """Look up every name of the benchmark; BenchmarkError says all that are wrong."""
+    try:
+        bind_all(plan, simulation)
+    except UwsimError:
+        if faults := unknown_names(plan.benchmark, simulation):
+            raise BenchmarkError(faults) from None
+        raise
 
 
 def _file_hash(path: Path) -> str:

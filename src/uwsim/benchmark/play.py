@@ -23,6 +23,7 @@ from .pictures import Shot, shoot
 from .plan import Plan, Unit
 from .plugin import blamed
 from .score import parse
+from .spec import LONGEST_TASK
 from .trace import Trace, Tracer
 from .updaters import (
     Level,
@@ -41,8 +42,6 @@ SETTLING = 1.0
 """How long an independent level runs at the initial values before the ramp [s]."""
 RAMP = 1.0
 """How long the values of an independent level are ramped in [s]."""
-LONGEST_TASK = 600.0
-"""A level without an interval ends after this, in ``timeout`` [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)

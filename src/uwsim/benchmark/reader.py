@@ -19,6 +19,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
+import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,19 +28,31 @@ from typing import Any, TypeVar
 from lxml import etree
 
 from ..compatibility import COMPATIBILITY
-from ..dialect import NAMESPACE, Faults, check_head, parse, read, slots, text_of
+from ..dialect import NAMESPACE, Faults, check_head, cut, parse, read, slots, text_of
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
 from . import score
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
 from .original_grammar import check_order
 from .plugin import PREFIX
-from .spec import BenchmarkSpec, FunctionSpec
+from .spec import LONGEST_TASK, BenchmarkSpec, FunctionSpec
 from .triggers import TRIGGERS, NeverSpec, TriggerSpec
-from .updaters import MAX_LEVELS, UPDATERS, NoneSpec, SceneUpdaterSpec, chain, references
+from .updaters import (
+    MAX_LEVELS,
+    UPDATERS,
+    CameraNoiseUpdaterSpec,
+    NoneSpec,
+    SceneFogUpdaterSpec,
+    SceneLightUpdaterSpec,
+    SceneUpdaterSpec,
+    chain,
+    references,
+)
 
 RESERVED = ("repeat", "seed", "total", "status", "ended_at")
 """Columns of a result that no measure may be called by."""
+ONE_KNOB = (CameraNoiseUpdaterSpec, SceneFogUpdaterSpec, SceneLightUpdaterSpec)
+"""Updaters of which two in a nest turn the same knob."""
 OF_A_PLUGIN = ", nor of a plugin that was given (--plugin FILE.py)"
 
 T = TypeVar("T")
@@ -120,12 +133,13 @@ class _Reader:
             given["scene_updater"] = updater or NoneSpec()
         if updater is not None:
             self.check_levels(updater)
+            self.notice_overridden(updater)
         given["compatibility"] = self.compatibility(root)
         spec = read(BenchmarkSpec, root, self.faults, given=given)
         self.check_names(found, updater)
         function = None if spec is None else spec.function
         if function is not None:
-            self.check_function(root.find("function"), function, found)
+            self.check_function(root, function, found)
         if spec is not None and updater is not None:
             self.notice_endless(root, spec)
         return spec
@@ -265,6 +279,18 @@ class _Reader:
                 self.faults.add(node, f"with this, there are more than {MAX_LEVELS} levels")
                 return
 
+    def notice_overridden(self, outermost: SceneUpdaterSpec) -> None:
+        """Say where an updater has no effect: another within it turns the same knob."""
+        around: list[SceneUpdaterSpec] = []
+        for updater in chain(outermost):
+            if isinstance(updater, ONE_KNOB) and any(type(o) is type(updater) for o in around):
+                node = self.faults.node_of(updater)
+                name = "" if node is None else _name(node)
+                self.faults.notice(
+                    node, f"<{name}> within another: only the inner one's values have an effect"
+                )
+            around.append(updater)
+
     def compatibility(self, root: etree._Element) -> tuple[str, ...]:
         names = tuple(str(root.get(f"{{{NAMESPACE}}}compatibility", "")).replace(",", " ").split())
         known = [*COMPATIBILITY, "uwsim"]
@@ -296,17 +322,31 @@ class _Reader:
             seen.setdefault(spec.name, spec)
 
     def check_function(
-        self, node: etree._Element | None, function: FunctionSpec, measures: list[MeasureSpec]
+        self, root: etree._Element, function: FunctionSpec, measures: list[MeasureSpec]
     ) -> None:
+        """Parse the function; a measure that has faults of its own may stand in it."""
+        names = [spec.name for spec in measures]
+        were_read = {self.faults.node_of(spec) for spec in measures}
+        for name in root.iterfind("measures/*/name"):
+            if name.getparent() not in were_read:
+                names.append((name.text or "").strip())
         try:
-            score.parse(function.text, [spec.name for spec in measures])
+            score.parse(function.text, names)
         except score.ScoreFault as fault:
-            self.faults.add(node, f"<function>: {fault}")
+            start = max(0, fault.column - 30)
+            piece = cut("..." * (start > 0) + fault.text[start:])
+            message = textwrap.shorten(fault.message, 300, placeholder=" ...")
+            self.faults.add(
+                root.find("function"), f"<function>: {message} (column {fault.column + 1}: {piece})"
+            )
 
     def notice_endless(self, root: etree._Element, spec: BenchmarkSpec) -> None:
         deepest = chain(spec.scene_updater)[-1]
         if deepest.seconds_per_level is None and isinstance(spec.stop_on, NeverSpec):
-            self.faults.notice(root.find("stopOn"), "no interval and no <stopOn>: it never ends")
+            self.faults.notice(
+                root.find("stopOn"),
+                f"no interval and no <stopOn>: it ends after {LONGEST_TASK:g} s, in timeout",
+            )
 
     def children(self, box: etree._Element) -> list[etree._Element]:
         """The elements in a box that has nothing else in it."""

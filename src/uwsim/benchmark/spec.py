@@ -10,6 +10,9 @@ from .measures import MeasureSpec
 from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec, chain
 
+LONGEST_TASK = 600.0
+"""A level without an interval ends after this, in ``timeout`` [s]."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class FunctionSpec:

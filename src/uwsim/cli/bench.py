@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..errors import BadSetting, RunFailed
+from ..errors import BadSetting, BenchmarkError, Fault, FileError, RunFailed, UwsimError
 from .crew import WorkersOption, crew_of
 from .files import benchmark_file, scene_file
 from .plugins import PluginOption, read_plugins
@@ -242,10 +242,13 @@ def make_plan(
 
     own, tables = read_plugins(plugins)
     path = benchmark_file(benchmark, data_path)
-    with blamed(own):
-        spec = read_benchmark(
-            path, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
-        )
+    try:
+        with blamed(own):
+            spec = read_benchmark(
+                path, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
+            )
+    except BenchmarkError as error:
+        raise BenchmarkError([*error.faults, *faults_of_scene(scene, path, data_path)]) from None
     if scene is None and spec.scene is None:
         raise BadSetting(
             f"{path}: the benchmark does not name its scene (u:scene); give it with --scene."
@@ -290,6 +293,22 @@ def make_plan(
     check_parameters(plan.algorithm, plan.parameters)
     latency_of(parameters)
     return plan
+
+
+def faults_of_scene(
+    scene: str | None, benchmark: Path, data_path: tuple[Path, ...]
+) -> Sequence[Fault]:
+    """Return what is wrong with a scene that was given, to be said with the benchmark's faults."""
+    from ..scene.reader import read_scene
+
+    try:
+        if scene is not None:
+            read_scene(scene_file(scene, (benchmark.parent, *data_path)))
+    except FileError as error:
+        return error.faults
+    except UwsimError:
+        pass  # not found: it is said when the benchmark is right
+    return ()
 
 
 def check_length(plan: Plan) -> None:

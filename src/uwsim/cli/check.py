@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from functools import partial
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Annotated
@@ -17,7 +16,6 @@ from .plugins import PluginOption, read_plugins
 if TYPE_CHECKING:
     from ..benchmark.plugin import Plugin, Tables
     from ..scene.spec import SceneSpec
-    from ..simulation import Simulation
 
 
 def check(
@@ -78,13 +76,14 @@ def faults_of(
     A benchmark is held against ``scene``, or against the scene that it names itself; it may use
     what plugins have brought (``own``: they, and the tables with what they add).
     """
-    from ..dialect import parse
+    from ..dialect import parse, shown_tag
     from ..scene.reader import ROOT, check_robot, check_scene
 
     try:
-        root = str(parse(file).root.tag)
+        node = parse(file).root
     except FileError as error:
         return list(error.faults)
+    root = str(node.tag)
     library = Folders(data_path)
     if root == "robot":
         return check_robot(file, library=library)
@@ -94,8 +93,8 @@ def faults_of(
     if root == ROOT:
         further = partial(faults_of_dynamics, data_path=data_path)
         return check_scene(file, strict=strict, library=library, further=further)
-    message = f"the root element is <{root[:60]}>; expected <{ROOT}>, <benchmark> or <robot>"
-    return [Fault(file=str(file), line=1, message=message)]
+    said = f"the root element is {shown_tag(root)}; expected <{ROOT}>, <benchmark> or <robot>"
+    return [Fault(file=str(file), line=int(str(node.sourceline)), message=said)]
 
 
 def faults_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fault]:
@@ -149,66 +148,46 @@ def unknown_names(
 ) -> list[Fault]:
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
     from ..algorithms import load_algorithm
+    from ..benchmark import names
     from ..benchmark.reader import read_benchmark
-    from ..dialect import parse
+    from ..dialect import Faults
     from ..scene.reader import read_scene
     from ..simulation import Simulation
 
     benchmark = read_benchmark(
         file, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
     )
-    root = parse(file).root
-    said: dict[str, int | None] = {}
-
-    def add(error: UwsimError, name: str) -> None:
-        whole, among = [], []  # lines where it stands alone, and among others
-        for node in root.iter("*") if name else ():
-            text, line = (node.text or "").strip(), int(str(node.sourceline))
-            if text == name or name in map(str, node.attrib.values()):
-                whole.append(line)
-            elif name in text.split():
-                among.append(line)
-        where = whole or among
-        said.setdefault(str(error), where[0] if where else None)
-
+    faults = Faults(file)
     if benchmark.algorithm is not None and ":" not in benchmark.algorithm:
         try:
             load_algorithm(benchmark.algorithm, tables.algorithms)
         except BadSetting as error:
-            add(error, benchmark.algorithm)
+            faults.add(root_line(file), str(error))
     wanted = scene or benchmark.scene
-    simulation = None
+    if wanted is None:
+        return faults.all()
     try:
-        if wanted is not None:
-            path = scene_file(str(wanted), (file.parent, *data_path))
-            simulation = Simulation(read_scene(path), data_path=data_path, is_blind=True)
+        path = scene_file(str(wanted), (file.parent, *data_path))
+        simulation = Simulation(read_scene(path), data_path=data_path, is_blind=True)
     except FileError:
         if scene is None:
-            add(
-                BadSetting(f"the scene {str(wanted)!r} has faults: uwsim check {wanted}"),
-                str(wanted),
-            )
+            said = f"the scene {str(wanted)!r} has faults: uwsim check {wanted}"
+            faults.add(root_line(file), said)
     except UwsimError as error:
-        add(error, str(wanted))
-    if simulation is not None:
-        for part in benchmark.parts:
-            for look in (partial(look_for_cameras, part), part.bind):
-                try:
-                    look(simulation)
-                except UwsimError as error:
-                    add(error, error.name)
-    return [Fault(file=str(file), line=line, message=text) for text, line in said.items()]
+        faults.add(root_line(file) if scene is None else None, str(error))
+    else:
+        try:
+            return [*faults.all(), *names.unknown_names(benchmark, simulation)]
+        finally:
+            simulation.close()
+    return faults.all()
 
 
-def look_for_cameras(part: object, simulation: Simulation) -> None:
-    """Look up every field called ``camera`` of a spec and of the specs in it."""
-    if not dataclasses.is_dataclass(part):
-        return
-    for field in dataclasses.fields(part):
-        value = getattr(part, field.name)
-        if field.name == "camera" and isinstance(value, str):
-            simulation.camera(value)
-        look_for_cameras(value, simulation)
+def root_line(file: Path) -> int:
+    """Return the line of the root element, where a benchmark names scene and algorithm."""
+    from ..dialect import parse
+
+    return int(str(parse(file).root.sourceline))
 
 
 class Folders:

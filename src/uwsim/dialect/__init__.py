@@ -31,7 +31,7 @@ never asked. `Faults` in strict mode also holds a file against the order of the 
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
 from .faults import MAX_FAULTS, Faults
 from .grammar import FARTHEST, LARGEST, Slot, camel, element, field_docs, slots
-from .names import NAMESPACE
+from .names import NAMESPACE, cut, shown_tag
 from .reading import read, read_choice, text_of
 from .values import TOKENS, number
 from .writing import uses_extensions, write
@@ -50,12 +50,14 @@ __all__ = [
     "Slot",
     "camel",
     "check_head",
+    "cut",
     "element",
     "field_docs",
     "number",
     "parse",
     "read",
     "read_choice",
+    "shown_tag",
     "slots",
     "text_of",
     "uses_extensions",
