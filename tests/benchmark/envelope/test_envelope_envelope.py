@@ -57,7 +57,7 @@ def envelope(
         ),
         (
             envelope(lambda seed, level: 5 * level, 3),
-            "fog 1.00 1/m (3 seeds; a bound of 0.95 needs 6)",
+            "fog 1.00 1/m (3 seeds; a bound of 95 % needs 6)",
         ),
         (
             envelope(lambda seed, level: 0.0),

@@ -198,7 +198,7 @@ class Envelope:
             fewest = fewest_for_median(asked.confidence)
             n = len(self.found.thresholds)
             seeds = "1 seed" if n == 1 else f"{n} seeds"
-            return f" ({seeds}; a bound of {asked.confidence:.3g} needs {fewest})"
+            return f" ({seeds}; a bound of {asked.confidence * 100:.3g} % needs {fewest})"
         low, high = self._outward(median.low, math.floor), self._outward(median.high, math.ceil)
         return f" ({asked.confidence * 100:.3g} %: {low} .. {high})"
 
