@@ -50,8 +50,8 @@ class Scripted:
 
     ``file`` is the benchmark. It says ``error`` more, in each number, than the truth it knows: what
     the file or autoInit gives, else 0. ``drive`` is a topic of twists (none: it stands), ``speed``
-    what it says there. A service or topic that stops a level is used ``stop_after`` seconds after
-    the start, and again and again.
+    what it says there. ``cloud`` are the points that it reconstructs, x y z x y z ... A service or
+    topic that stops a level is used ``stop_after`` seconds after the start, and again and again.
     """
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -59,6 +59,7 @@ class Scripted:
         "error": 0.0,
         "drive": "",
         "speed": 1.0,
+        "cloud": "0 0 1 0 0 1.1",
         "stop_after": 1.0,
     }
 
@@ -107,8 +108,7 @@ class Scripted:
             self._once(spec.topic, PathMessage, PathMessage(header=header(0.0), poses=ahead))
         elif isinstance(spec, Reconstruction3DSpec):
             publish = self._node.publisher(spec.topic, PointCloud2)
-            grid = np.linspace(-1.0, 1.0, 41)  # [m]
-            cloud = np.stack(np.meshgrid(grid, grid, grid), axis=-1).reshape(-1, 3)
+            cloud = np.array(str(self.parameters["cloud"]).split(), dtype=float).reshape(-1, 3)
             self._node.every(PERIOD, lambda: publish(point_cloud(cloud)))
 
     def _once(self, topic: str, type: type, message: object) -> None:
