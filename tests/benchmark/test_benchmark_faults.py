@@ -244,6 +244,18 @@ def test_an_updater_within_another_of_its_kind_is_a_notice(
     )
 
 
+def test_levels_that_are_over_before_their_current_begins_are_a_notice(
+    file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (FILES / "vision-recursive.xml").read_text()
+    file.write_text(text.replace("<interval>5<", "<interval>2<"))
+    assert main(["check", str(file)]) == 0
+    line = line_of(text, "<interval>", 2)
+    assert f"{file}:{line}: <interval> 2 s: the first 2 s of a new current are calm" in (
+        capsys.readouterr().out
+    )
+
+
 DECLARED = '<?xml version="1.0" encoding="ISO-8859-1"?>'
 REPEATS = "<none/>"
 for _ in range(200):

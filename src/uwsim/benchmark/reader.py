@@ -46,6 +46,7 @@ from .updaters import (
     SceneLightUpdaterSpec,
     SceneUpdaterSpec,
     chain,
+    interval,
     references,
 )
 
@@ -134,6 +135,7 @@ class _Reader:
         if updater is not None:
             self.check_levels(updater)
             self.notice_overridden(updater)
+            self.notice_calm(updater)
         given["compatibility"] = self.compatibility(root)
         spec = read(BenchmarkSpec, root, self.faults, given=given)
         self.check_names(found, updater)
@@ -290,6 +292,18 @@ class _Reader:
                     node, f"<{name}> within another: only the inner one's values have an effect"
                 )
             around.append(updater)
+
+    def notice_calm(self, outermost: SceneUpdaterSpec) -> None:
+        """Say where levels are over before the calm is that they begin with."""
+        length, deepest = interval(outermost), chain(outermost)[-1]
+        for updater in chain(outermost):
+            if length is not None and 0.0 < length <= updater.calm:
+                node = self.faults.node_of(deepest)
+                self.faults.notice(
+                    None if node is None else self.place_of(node, "<interval>"),
+                    f"<interval> {length:g} s: the first {updater.calm:g} s of a new "
+                    f"{updater.name} are calm, so such a level sees nothing of it",
+                )
 
     def compatibility(self, root: etree._Element) -> tuple[str, ...]:
         names = tuple(str(root.get(f"{{{NAMESPACE}}}compatibility", "")).replace(",", " ").split())

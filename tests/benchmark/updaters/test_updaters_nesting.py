@@ -29,6 +29,7 @@ from uwsim.benchmark.updaters import (
     SphericalSpec,
     apply_level,
     bind_updaters,
+    calm,
     initial_level,
     interval,
     levels,
@@ -250,3 +251,13 @@ def test_a_nested_file_is_played_outermost_slowest_in_both_modes(tmp_path: Path,
     )
     assert [name for name, _ in rows[0].values] == ["iteration", "armPosition", "noise"]
     assert {round(row.duration, 6) for row in rows} == {0.1}
+
+
+def test_a_level_that_is_over_before_the_calm_is_measured_whole() -> None:
+    outer = current()
+    spec = nested(outer, RepeatSpec(iterations=2, interval=2.0))
+    first, second, third, *_ = levels(spec)
+    assert [calm(spec, first), calm(spec, second, after=first)] == [0.0, 0.0]
+    longer = nested(outer, RepeatSpec(iterations=2, interval=2.1))
+    assert [calm(longer, first), calm(longer, second, after=first)] == [2.0, 0.0]
+    assert calm(longer, third, after=second) == 2.0

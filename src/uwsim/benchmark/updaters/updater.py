@@ -180,9 +180,14 @@ def steps(level: Level, after: Level | None) -> tuple[bool, ...]:
 
 
 def calm(spec: SceneUpdaterSpec, level: Level, *, after: Level | None = None) -> float:
-    """Return how long after the beginning of ``level`` nothing is measured yet [s]."""
+    """Return how long after the beginning of ``level`` nothing is measured yet [s].
+
+    A level that is no longer than that is measured whole.
+    """
     stepped = zip(chain(spec), steps(level, after), strict=True)
-    return max(updater.calm if steps_now else 0.0 for updater, steps_now in stepped)
+    longest = max(updater.calm if steps_now else 0.0 for updater, steps_now in stepped)
+    length = interval(spec)
+    return 0.0 if length is not None and length <= longest else longest
 
 
 def apply_level(
