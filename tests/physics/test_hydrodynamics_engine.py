@@ -145,6 +145,16 @@ def test_the_callback_may_run_twice_on_one_state() -> None:
     mujoco.mj_fwdVelocity(model, data)
     assert (once[0] == data.M).all()
     assert (data.qfrc_passive == once[1]).all()
+    for again in (mujoco.mj_forward, mujoco.mj_forward):
+        again(model, data)
+        assert (once[0] == data.M).all()
+    mujoco.mj_inverse(model, data)
+    mujoco.mj_fwdVelocity(model, data)
+    assert (once[0] == data.M).all()
+    copy = mujoco.MjData(model)
+    mujoco.mj_copyData(copy, model, data)
+    mujoco.mj_fwdVelocity(model, copy)
+    assert (once[0] == copy.M).all()
 
 
 def test_the_engines_finite_differences_see_the_water() -> None:
@@ -495,3 +505,18 @@ def test_jaws_hold_a_heavy_box_that_is_shaken_in_a_current() -> None:
     assert data.ncon >= 8
     assert abs(slips[-1] - slips[50]) < 2e-3
     assert abs(slips[-1]) < 0.02
+
+
+def test_nobody_looks_at_a_clock_during_a_step_unless_asked() -> None:
+    model = robot(extra_as_mass=False)
+    install(model)
+    callback.stop_profiler.cache_clear()
+    mujoco.set_mjcb_time(lambda: 1.0)
+    callback.stop_profiler()
+    assert mujoco.get_mjcb_time() is not None
+    mujoco.set_mjcb_time(None)
+    callback.stop_profiler.cache_clear()
+    callback.stop_profiler()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data)
+    assert not np.any(data.timer.duration)

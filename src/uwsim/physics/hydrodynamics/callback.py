@@ -1,16 +1,17 @@
 """The kernel as MuJoCo's callback for passive forces, and a loop that does without the callback.
 
 MuJoCo calls ``mjcb_passive`` after it has factorised the mass matrix and before anything uses it
-for accelerations. There the wrapper rebuilds M (the callback may run twice on one state, as in
-``mjd_transitionFD``), adds the water, factorises again, and projects the constraints again where
-the solver needs it. The slot is one per process; models without our tables pass through it
-untouched, so several models live beside one another, in any number of threads.
+for accelerations. There the wrapper rebuilds M if it has had its water (the callback may run twice
+on one state, as in ``mjd_transitionFD``), adds the water, factorises again, and projects the
+constraints again where the solver needs it. The slot is one per process; models without our tables
+pass through it untouched, so several models live beside one another, in any number of threads.
 
 MuJoCo skips the callback when springs and dampers are both disabled.
 """
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import functools
 from collections.abc import Callable
@@ -60,12 +61,13 @@ def wrapper() -> Any:
     make, factor, project = (
         _native(name) for name in ("mj_makeM", "mj_factorM", "mj_projectConstraint")
     )
-    has_tables, add_water = kernel.has_tables, kernel.add_water
+    has_tables, has_water, add_water = kernel.has_tables, kernel.has_water, kernel.add_water
     needs_projection = kernel.needs_projection
 
     def water(m: int, d: int) -> None:
         if has_tables(m, at):
-            make(m, d)
+            if has_water(d, at):
+                make(m, d)
             add_water(m, d, at)
             factor(m, d)
             if needs_projection(m, at):
@@ -83,11 +85,13 @@ def stepper() -> Callable[[int, int, int], None]:
         for name in ("mj_step1", "mj_step2", "mj_makeM", "mj_factorM", "mj_projectConstraint")
     )
     add_water, needs_projection = kernel.add_water, kernel.needs_projection
+    has_water = kernel.has_water
 
     def loop(m: int, d: int, n: int) -> None:
         for _ in range(n):
             one(m, d)
-            make(m, d)
+            if has_water(d, at):
+                make(m, d)
             add_water(m, d, at)
             factor(m, d)
             if needs_projection(m, at):
@@ -127,6 +131,18 @@ def install() -> None:
             "remove it with mujoco.set_mjcb_passive(None), or step with `Hydrodynamics.step`."
         )
     slot.value = wrapper().address
+
+
+@functools.cache
+def stop_profiler() -> None:
+    """Take the clock away with which MuJoCo's bindings time every stage of every step, once.
+
+    It is a twentieth of a step, and nobody reads ``data.timer`` unless they ask for it: a clock set
+    with ``mujoco.set_mjcb_time`` stays.
+    """
+    if mujoco.get_mjcb_time() is None:
+        with contextlib.suppress(ValueError):  # not exported
+            ctypes.c_void_p.in_dll(library(), "mjcb_time").value = None
 
 
 def remove() -> None:

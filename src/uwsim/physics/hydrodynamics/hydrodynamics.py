@@ -159,6 +159,7 @@ def install(model: mujoco.MjModel) -> Hydrodynamics:
     self_test()
     if callback.has_slot():
         callback.install()
+    callback.stop_profiler()
     correct_inverse_weights(model)
     return Hydrodynamics(model)
 

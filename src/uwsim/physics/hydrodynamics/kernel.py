@@ -109,10 +109,13 @@ _CDOF = _NAMES.index("cdof")
 _CDOF_DOT = _NAMES.index("cdof_dot")
 _CVEL = _NAMES.index("cvel")
 _CACC = _NAMES.index("cacc")
+_CRB = _NAMES.index("crb")
 _M = _NAMES.index("M")
 _PASSIVE = _NAMES.index("qfrc_passive")
 _AWAKE = _NAMES.index("tree_awake")
 
+_WET = 1e-300
+"""Stands in the world's composite inertia, which nobody reads and MuJoCo clears with every M."""
 _GRAVITY_OFF = 128  # mjDSBL_GRAVITY
 _DIAGEXACT = 32  # mjENBL_DIAGEXACT
 _RK4, _PGS = 1, 0
@@ -144,6 +147,12 @@ def needs_projection(m: int, at: Ints64) -> bool:
 
 
 @njit
+def has_water(d: int, at: Ints64) -> bool:
+    """Whether ``d.M`` has had its water since MuJoCo made it; if so it must be made anew."""
+    return real(word(d + at[_CRB])) == _WET
+
+
+@njit
 def add_water(m: int, d: int, at: Ints64) -> None:
     """Add the water to ``d.M`` and ``d.qfrc_passive``; both must be as MuJoCo made them."""
     nv, nbody = word(m + at[_NV]), word(m + at[_NBODY])
@@ -151,6 +160,7 @@ def add_water(m: int, d: int, at: Ints64) -> None:
     theta_h = real(m + at[_TIMESTEP])
     if small(m + at[_INTEGRATOR]) == _RK4:
         theta_h = 0.0
+    floats(word(d + at[_CRB]), 1)[0] = _WET
     _bias(m, d, at, work)
     _bodies(m, d, at, theta_h, work, True)
     _thrusters(m, d, at, work)

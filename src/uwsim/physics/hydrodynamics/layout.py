@@ -31,7 +31,7 @@ MODEL_FIELDS = (
 
 DATA_FIELDS = (
     "qvel", "act", "ctrl", "userdata", "xpos", "xmat", "site_xpos", "site_xmat", "subtree_com",
-    "cdof", "cdof_dot", "cvel", "cacc", "M", "qfrc_passive", "tree_awake",
+    "cdof", "cdof_dot", "cvel", "cacc", "crb", "M", "qfrc_passive", "tree_awake",
 )  # fmt: skip
 """What the kernel reads and writes of the data."""
 
