@@ -5,33 +5,31 @@ worker is measured twice: with one thread for its pictures, as each of several w
 it comes, when the software rasteriser takes what is left of the machine. The promise is about the
 first: so much does a second core bring. That all runs leave the same bytes is checked on the way.
 
-Beside it: the CPU time that a unit costs beyond its steps, once its worker has played one, with the
-renderer that a worker keeps and with one made anew.
+Beside it: the CPU time that a unit costs beyond its steps, with the renderer that a worker keeps
+and with one made anew.
 """
 
 from __future__ import annotations
 
 import os
 import tempfile
-import time
-from collections.abc import Callable
 from importlib import resources
 from pathlib import Path
-from statistics import median
 
 from lxml import etree
-from measure import main
+from measure import main, milliseconds
 from visibility import UWSIM, run
 
-from uwsim.benchmark.play import RAMP, SETTLING, play
-from uwsim.cli.bench import make_plan
-from uwsim.simulation import Studio
+from uwsim.assets.find import find
+from uwsim.scene.reader import read_scene
+from uwsim.scene.spec import SceneSpec
+from uwsim.simulation import Simulation, Studio
 
 TIMES = 1.8
 LEVELS = 40
-LENGTH = 5.0
+LENGTH = 10.0
 """Of a level [s]; before it an independent level settles."""
-UNITS = 5
+CAMERA = "bowtech1"
 
 
 def write_benchmark(folder: Path, length: float) -> Path:
@@ -61,27 +59,14 @@ def wall_s(benchmark: Path, out: str, workers: int, threads: str | None) -> floa
     return wall
 
 
-def beyond_its_steps(folder: Path, studio: Callable[[], Studio | None]) -> float:
-    """CPU time of a unit with no steps [ms]: a line through units of two lengths."""
-    lengths = (5.0, 10.0)
-    costs = []
-    for length in lengths:
-        plan = make_plan(
-            str(write_benchmark(folder, length)), scene=None, algorithm=None, seed=0, repeat=1,
-            mode=None, levels=[], settings=[], compat=[], data_path=(),
-        )  # fmt: skip
-        lent = studio()
-        cpu = []
-        for unit in plan.units()[: UNITS + 1]:
-            began = time.process_time()
-            n_rows = sum(1 for _ in play(plan, unit, studio=lent))
-            assert n_rows == 2
-            cpu.append(time.process_time() - began)
-        costs.append(median(cpu[1:]))
-        if lent is not None:
-            lent.close()
-    per_second = (costs[1] - costs[0]) / (lengths[1] - lengths[0])
-    return 1e3 * (costs[0] - per_second * (SETTLING + RAMP + lengths[0]))
+def begin_and_end(scene: SceneSpec, studio: Studio | None) -> None:
+    """Do what every unit does once: make the scene live, draw with noise and without, close."""
+    simulation = Simulation(scene, studio=studio)
+    simulation.open()
+    camera = simulation.camera(CAMERA)
+    camera.shoot()
+    simulation.picture(camera.world_from_camera, camera.intrinsics, fog=0.0)
+    simulation.close()
 
 
 def measure() -> dict[str, object]:
@@ -95,22 +80,27 @@ def measure() -> dict[str, object]:
         two = wall_s(benchmark, "two", 2, None)
         outs = ("one-thread", "one", "two")
         results = {(folder / out / "result.json").read_bytes() for out in outs}
-        own = beyond_its_steps(folder, lambda: None)
-        return {
-            "levels": LEVELS,
-            "1 worker, 1 thread: wall_s": round(alone, 2),
-            "1 worker, as it comes: wall_s": round(as_it_comes, 2),
-            "2 workers: wall_s": round(two, 2),
-            "2 workers over 1 with 1 thread: times": {
-                "value": round(alone / two, 3),
-                "target": TIMES,
-                "ratio": round(TIMES / (alone / two), 3),
-            },
-            "2 workers over 1 as it comes: times": round(as_it_comes / two, 3),
-            "same bytes": len(results) == 1,
-            "a unit beyond its steps: cpu_ms": round(beyond_its_steps(folder, Studio), 1),
-            "the same with a renderer of its own: cpu_ms": round(own, 1),
-        }
+    scene = read_scene(find("currents-scene.xml"))
+    studio = Studio()
+    return {
+        "levels": LEVELS,
+        "1 worker, 1 thread: wall_s": round(alone, 2),
+        "1 worker, as it comes: wall_s": round(as_it_comes, 2),
+        "2 workers: wall_s": round(two, 2),
+        "2 workers over 1 with 1 thread: times": {
+            "value": round(alone / two, 3),
+            "target": TIMES,
+            "ratio": round(TIMES / (alone / two), 3),
+        },
+        "2 workers over 1 as it comes: times": round(as_it_comes / two, 3),
+        "same bytes": len(results) == 1,
+        "a unit beyond its steps": milliseconds(
+            lambda: begin_and_end(scene, studio), calls=3, batches=5
+        ),
+        "the same with a renderer of its own": milliseconds(
+            lambda: begin_and_end(scene, None), calls=3, batches=5
+        ),
+    }
 
 
 if __name__ == "__main__":
