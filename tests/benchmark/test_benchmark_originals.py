@@ -20,7 +20,7 @@ from uwsim.benchmark.triggers import NeverSpec
 from uwsim.benchmark.updaters import SceneUpdaterSpec, chain, references
 from uwsim.cli import main
 from uwsim.compatibility import COMPATIBILITY
-from uwsim.errors import NeverStarted, UwsimError
+from uwsim.errors import BenchmarkError, NeverStarted, UwsimError
 from uwsim.scene.reader import read_scene
 from uwsim.scene.ros_interfaces import ROSTwistToPATSpec
 from uwsim.scene.spec import SceneSpec
@@ -197,3 +197,31 @@ def test_an_original_is_played_by_the_public_command(file: Path, tmp_path: Path)
     for measure in spec.measures:
         log = out / f"benchmark-{measure.name}.data"
         assert log.exists() == (measure.log is not None)
+
+
+@pytest.mark.parametrize("file", BENCHMARKS, ids=lambda file: file.stem)
+def test_an_original_means_the_same_however_it_is_written(file: Path, tmp_path: Path) -> None:
+    data = file.read_bytes()
+    copy = tmp_path / "copy.xml"
+    for changed in (
+        data.replace(b"\r\n", b"\n").replace(b"\n", b"\r\n"),
+        b"\xef\xbb\xbf" + data,
+        data.decode("utf-8").encode("utf-16"),
+        re.sub(rb"<!DOCTYPE[^>]*>", b"", data),
+        re.sub(rb">\s+<", b"><", data),
+        data.replace(b"<measures>", b"<!-- read by --><measures>"),
+    ):
+        copy.write_bytes(changed)
+        assert read_benchmark(copy) == read_benchmark(file)
+
+
+@pytest.mark.parametrize("file", BENCHMARKS, ids=lambda file: file.stem)
+def test_an_original_that_is_cut_off_is_refused_wherever_it_was_cut(
+    file: Path, tmp_path: Path
+) -> None:
+    data = file.read_bytes().rstrip()
+    copy = tmp_path / "copy.xml"
+    for length in range(0, len(data), 97):
+        copy.write_bytes(data[:length])
+        with pytest.raises(BenchmarkError, match="not well-formed XML"):
+            read_benchmark(copy)
