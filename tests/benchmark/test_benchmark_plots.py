@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from synthetic_results import (
@@ -27,7 +28,8 @@ from uwsim.benchmark.plots import (
     small_multiples,
     value_plot,
 )
-from uwsim.benchmark.result import Result
+from uwsim.benchmark.plots.drawing import MOST_NAMED
+from uwsim.benchmark.result import Column, Result
 from uwsim.errors import ResultError
 
 
@@ -42,9 +44,10 @@ def vertical_lines(figure: Figure) -> list[float]:
 
 def test_axes_carry_names_and_units() -> None:
     axes = value_plot(visibility(), "corners").axes[0]
-    assert axes.get_xlabel() == "fog density [1/m]"
+    assert axes.get_xlabel() == "fog density [m⁻¹]"
     assert axes.get_ylabel() == "corners [px]"
     assert axes.get_title() == ""
+    assert value_plot(visibility(), "total").axes[0].get_ylabel() == "total [px]"
 
 
 def test_a_loss_and_its_prediction_are_vertical_lines_with_labels() -> None:
@@ -102,14 +105,81 @@ def test_errors_far_apart_are_drawn_on_a_logarithmic_axis_but_nothing_is_not_an_
 
 
 def test_a_column_without_values_says_why() -> None:
-    assert f"no data: {WHY}" in words(value_plot(nothing_measured(), "corners"))
+    said = words(value_plot(nothing_measured(), "corners"))
+    assert f"no data: {WHY}" in said.replace("\n", " ")
 
 
 def test_nested_levels_are_one_curve_for_each_outer_level() -> None:
     curves = curves_of(nested(), "corners")
-    assert [curve.name for curve in curves] == ["current 0", "current 0.1", "current 0.2"]
+    assert [curve.name for curve in curves] == [
+        "current 0 m/s",
+        "current 0.1 m/s",
+        "current 0.2 m/s",
+    ]
     assert [len(curve.x) for curve in curves] == [27, 27, 27]
     assert [(round(x, 9), status) for x, status in curves[0].losses] == [(1.2, "lost")]
+
+
+def test_nested_curves_end_in_a_cross_and_the_legend_says_where() -> None:
+    figure = value_plot(nested(), "corners")
+    assert [line.get_marker() for line in figure.axes[0].lines].count("x") == 3
+    assert "current 0.1 m/s (lost at 1.2)" in words(figure)
+    assert vertical_lines(figure) == []
+
+
+def test_many_curves_look_all_different_and_stand_in_a_legend_beside_the_axes() -> None:
+    one = visibility(lost_at=2.0)
+    columns = (Column(name="current", kind="level", unit="m/s"), *one.columns)
+    rows = tuple((0.01 * i, *row) for i in range(30) for row in one.rows)
+    many = replace(one, columns=columns, rows=rows, facts={})
+    figure = value_plot(many, "corners")
+    named = [line for line in figure.axes[0].lines if not str(line.get_label()).startswith("_")]
+    assert len({line.get_color() for line in named}) == 30
+    assert figure.axes[0].get_legend() is None
+    (legend,) = figure.legends
+    shown = [text.get_text() for text in legend.get_texts()]
+    assert len(shown) == MOST_NAMED
+    assert (shown[0], shown[-1]) == ("current 0 m/s", "current 0.29 m/s")
+
+
+def test_a_control_far_above_is_named_and_does_not_press_the_curve_flat() -> None:
+    rows = tuple((row[0], *[48.6] * 6, *row[7:]) for row in frozen().rows)
+    figure = value_plot(visibility(), "corners", control=replace(frozen(), rows=rows))
+    assert "frozen: 48.6, above" in words(figure)
+    assert figure.axes[0].get_ylim()[1] < 10
+    near = tuple((row[0], *[4.0] * 6, *row[7:]) for row in frozen().rows)
+    figure = value_plot(visibility(), "corners", control=replace(frozen(), rows=near))
+    assert "above" not in words(figure)
+    assert figure.axes[0].get_ylim()[1] > 4
+
+
+def test_few_levels_have_a_tick_each_and_iterations_are_whole_numbers() -> None:
+    few = replace(frozen(), rows=frozen().rows[:3])
+    assert list(value_plot(few, "corners").axes[0].get_xticks()) == [0.0, 0.05, 0.1]
+    columns = (Column(name="iteration", kind="level"), *frozen().columns[1:])
+    rows = tuple((float(i), *row[1:]) for i, row in enumerate(frozen().rows[:9]))
+    counted = replace(frozen(), columns=columns, rows=rows, facts={})
+    assert all(x.is_integer() for x in value_plot(counted, "corners").axes[0].get_xticks())
+
+
+def test_very_long_names_leave_nothing_outside_the_figure() -> None:
+    base, long = visibility(), "a_measure_whose_name_tells_a_very_long_story_" * 2
+    columns = tuple(replace(c, name=long) if c.name == "corners" else c for c in base.columns)
+    result = replace(
+        base,
+        columns=columns,
+        missing=(),
+        inputs={"benchmark": (f"{long}.xml", "sha256:0")},
+        run={**base.run, "algorithm": f"package:{long}"},
+    )
+    for figure in (value_plot(result, long, control=frozen()), small_multiples(result)):
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        figure.draw(renderer)
+        for text in figure.findobj(Text):
+            if len(text.get_text()) > 20:
+                box = text.get_window_extent(renderer)
+                assert box.x0 >= 0
+                assert box.x1 <= figure.bbox.width + 1
 
 
 def test_several_results_are_one_curve_each_and_the_legend_says_where_they_end() -> None:
@@ -141,6 +211,24 @@ def test_any_result_can_be_drawn(make: Callable[[], Result], tmp_path: Path) -> 
         "all-measures.png",
     ]
     assert all(f.read_bytes().startswith(b"\x89PNG") for f in files)
+
+
+def test_plots_come_as_pdf_too_when_asked(tmp_path: Path) -> None:
+    base = visibility()
+    kept = [base.index(name) for name in ("fog", "total", "status")]
+    result = replace(
+        base,
+        columns=tuple(base.columns[k] for k in kept),
+        rows=tuple(tuple(row[k] for k in kept) for row in base.rows),
+        missing=(),
+    )
+    draw_plots(result, tmp_path)
+    assert [file.name for file in tmp_path.iterdir()] == ["total.png"]
+    draw_plots(result, tmp_path, pdf=True)
+    first = (tmp_path / "total.pdf").read_bytes()
+    assert first.startswith(b"%PDF")
+    draw_plots(result, tmp_path, pdf=True)
+    assert (tmp_path / "total.pdf").read_bytes() == first
 
 
 def test_a_result_without_rows_can_be_drawn(tmp_path: Path) -> None:

@@ -39,7 +39,7 @@ class Page(HTMLParser):
     def __init__(self, text: str) -> None:
         super().__init__()
         self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.text = ""
+        self.source, self.text = text, ""
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
@@ -232,8 +232,8 @@ def test_parameters_are_written_as_people_write_them_and_empty_ones_not_at_all(
     said = {"parameters": {"levels": 3.0, "threshold": 0.25}, "notes": (), "levels": None}
     page_of(replace(visibility(), run=said), tmp_path)
     text = (tmp_path / "report.html").read_text()
-    assert "<td>parameters.levels</td><td>3</td>" in text
-    assert "<td>parameters.threshold</td><td>0.25</td>" in text
+    assert "<td>parameter levels</td><td>3</td>" in text
+    assert "<td>parameter threshold</td><td>0.25</td>" in text
     assert "<td>notes</td>" not in text
     assert "<td>levels</td>" not in text
 
@@ -244,3 +244,144 @@ def test_the_floor_of_another_benchmark_is_not_said(tmp_path: Path) -> None:
     text = page_of(replace(visibility(), inputs=inputs), tmp_path).text
     assert "about 5 px" in text
     assert "about 1 px" not in text
+
+
+def endings_of(page: Page) -> dict[str, str]:
+    """Status -> how many rows, from the table of endings."""
+    found = re.findall(
+        r'<span class="status \w+">([\w ]+)</span><span class="meaning">', page.source
+    )
+    numbers = re.findall(r'<span class="meaning">[^<]*</span></td><td>(\d+)</td>', page.source)
+    return dict(zip(found, numbers, strict=True))
+
+
+def test_every_class_of_ending_is_counted_also_those_that_never_came(tmp_path: Path) -> None:
+    counts = endings_of(page_of(visibility(), tmp_path))
+    assert counts == {
+        "ok": "24",
+        "lost": "3",
+        "timeout": "0",
+        "collision": "0",
+        "algorithm error": "0",
+    }
+
+
+def test_reasons_that_differ_in_numbers_alone_are_told_once_and_counted(tmp_path: Path) -> None:
+    base = visibility()
+    notes = [
+        Missing(row=row, column="total", why=f"tracker lost at {row}.5 s: ZNCC 0.{row} on 5 frames")
+        for row in (24, 25)
+    ]
+    notes.append(Missing(row=26, column="total", why="no estimate for 1.5 s"))
+    text = page_of(replace(base, missing=tuple(notes)), tmp_path).text
+    assert "2 × tracker lost at 24.5 s: ZNCC 0.24 on 5 frames" in text
+    assert "1 × no estimate for 1.5 s" in text
+
+
+def test_a_long_reason_is_not_told_in_every_line_again(tmp_path: Path) -> None:
+    base = visibility()
+    long = "tracker raised: " + "a very long message of a library " * 5
+    notes = [Missing(row=row, column="total", why=f"{long}{row}") for row in (24, 25)]
+    notes.append(Missing(row=26, column="total", why=f"{long}25"))
+    text = page_of(replace(base, missing=tuple(notes)), tmp_path).text
+    assert "as above, with other numbers" in text
+    assert re.search(r"as above(?!,)", text)
+
+
+def test_each_repeat_has_its_first_failure(tmp_path: Path) -> None:
+    page = page_of(visibility(seeds=(1, 2, 3)), tmp_path)
+    assert "Where each repeat first did not end ok" in page.text
+    assert (
+        len(re.findall(r'<tr><td>[123]</td><td class="text">fog 1\.\d+ m⁻¹</td>', page.source)) == 3
+    )
+    assert "Where each repeat" not in page_of(visibility(), tmp_path).text
+
+
+def test_captions_say_unit_statistic_and_what_bands_are(tmp_path: Path) -> None:
+    text = whole_page_of(visibility(seeds=(1, 2, 3)), tmp_path).text
+    for said in (
+        "Figure 1. total [px] = corners+centroid.",
+        "Figure 2. corners [px], mean over each level.",
+        "Points: means over 3 repeats (seeds 1 to 3).",
+        "Bands: 95 % intervals of that mean",
+        "corners: mean over each level; total = corners+centroid; time: when the level ended",
+    ):
+        assert said in text, said
+
+
+def test_intervals_stand_apart_from_their_means(tmp_path: Path) -> None:
+    source = page_of(visibility(seeds=(1, 2, 3)), tmp_path).source
+    assert re.search(r'<td>\d\.\d+<span class="interval">\[\d\.\d+, \d\.\d+\]</span></td>', source)
+    assert '<span class="status ok">3 of 3 ok</span><span class="interval">29 to 100 %' in source
+
+
+def test_the_command_is_given_as_typed_without_what_changes_nothing(tmp_path: Path) -> None:
+    typed = ["bench", "visibility", "--seed", "1", "--out", "/a b", "--workers=2", "--overwrite"]
+    save_provenance({"command": [*typed, "--set", "oceanState.fog.density=0.4"]}, tmp_path)
+    source = page_of(visibility(), tmp_path).source
+    command = "uwsim bench visibility --seed 1 --set oceanState.fog.density=0.4\nuwsim verify"
+    assert command in source
+
+
+def test_without_provenance_the_command_is_put_together(tmp_path: Path) -> None:
+    base = visibility(seeds=(1, 2))
+    run = {
+        **base.run,
+        "settings": [["vehicle[g].virtualCamera[c].std", 0.016]],
+        "levels": [["fog", 0.2]],
+        "compatibility": ["thresholds"],
+    }
+    text = page_of(replace(base, run=run), tmp_path).text
+    assert (
+        "uwsim bench visibility --algorithm esm --seed 1 --repeat 2 --mode sequential "
+        "--set 'vehicle[g].virtualCamera[c].std=0.016' --level fog=0.2 --compat thresholds"
+    ) in text
+    assert "Only these levels of the sweep were played: fog=0.2." in text
+    assert "Played with slips of the original: thresholds." in text
+
+
+def test_an_unfinished_result_says_so_first(tmp_path: Path) -> None:
+    base = visibility()
+    text = page_of(replace(base, run={**base.run, "units": [1, 3]}), tmp_path).text
+    assert "Not finished: 1 of 3 parts are played." in text
+    assert "Not finished" not in page_of(base, tmp_path).text
+
+
+def test_of_many_pictures_forty_are_shown_and_of_other_repeats_the_failures(
+    tmp_path: Path,
+) -> None:
+    several = visibility(seeds=(1, 2, 3))
+    page = page_of(with_picture(several, tmp_path, *range(len(several.rows))), tmp_path)
+    captions = re.findall(r"<figcaption[^>]*>(seed \d) · (fog [\d.]+)", page.source)
+    assert [seed for seed, _ in captions].count("seed 1") == 27
+    assert len(captions) == 27 + 2
+    assert "29 of 81 pictures: every level of the first repeat" in page.text
+    large = nested()
+    (tmp_path / "b").mkdir()
+    page = page_of(with_picture(large, tmp_path / "b", *range(len(large.rows))), tmp_path / "b")
+    assert page.source.count("<figcaption") == 40
+    assert "40 of 81 pictures: evenly chosen" in page.text
+
+
+def test_the_prediction_is_told_only_where_fog_is_swept(tmp_path: Path) -> None:
+    base = visibility()
+    current = (Column(name="current", kind="level", unit="m/s"), *base.columns[1:])
+    text = page_of(replace(base, columns=current), tmp_path).text
+    assert "loss predicted" not in text
+    assert "the paper's fog" not in text
+    assert "loss predicted at f*" in page_of(base, tmp_path).text
+
+
+def test_without_pixels_nothing_is_said_of_their_floor(tmp_path: Path) -> None:
+    base = visibility()
+    columns = tuple(replace(c, unit="m") if c.unit == "px" else c for c in base.columns)
+    assert "floor of the ground truth" not in page_of(replace(base, columns=columns), tmp_path).text
+
+
+def test_a_huge_result_has_a_report_of_sane_size(tmp_path: Path) -> None:
+    base = visibility()
+    rows = tuple((0.001 * i, *base.rows[26][1:]) for i in range(5_000))
+    notes = tuple(Missing(row=i, column="total", why=WHY * 4) for i in range(5_000))
+    page = page_of(replace(base, rows=rows, missing=notes), tmp_path)
+    assert len(page.source) < 2_000_000
+    assert "The first 1000 of 5000 levels" in page.text

@@ -21,7 +21,7 @@ OURS = re.compile(
         result\.json | result\.dat | summary\.csv | provenance\.json | report\.html
       | measure-[^/]+\.csv | benchmark-[^/]+\.data
       | units/\d+\.(jsonl|part)
-      | plots/[^/]+\.png
+      | plots/[^/]+\.(png|pdf)
       | pictures/\d+-[^/]+\.png(\.part)?
       | (plots/|units/|pictures/)?\.[^/]+\.part
     )"""

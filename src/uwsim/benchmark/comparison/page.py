@@ -21,7 +21,8 @@ CAPTIONS = {
     "curves": "Mean over the repeats of each result, with its 95 % interval.",
     "differences": "Paired differences with their 95 % intervals; a filled marker is a level at "
     "which one is better after Holm's correction.",
-    "success": "Share of repeats that ended ok, with its exact 95 % interval.",
+    "success": "Share of repeats that ended ok, with its exact 95 % interval; the results stand a "
+    "little apart, so that none hides another.",
 }
 
 
@@ -38,7 +39,7 @@ def render(comparison: Comparison, plots: Sequence[Path]) -> str:
         title=_title(comparison),
         names=[entry.name for entry in comparison.entries],
         lead=_lead(comparison),
-        cards=[_card(versus) for versus in comparison.versus],
+        cards=[_card(versus, comparison.column.unit) for versus in comparison.versus],
         forced=comparison.forced,
         remarks=comparison.remarks,
         plots=[(CAPTIONS[plot.stem], _data_url(plot.read_bytes())) for plot in plots],
@@ -93,7 +94,7 @@ def _many(n: int, word: str) -> str:
     return f"{n} {word}" + ("s" if n != 1 else "")
 
 
-def _card(versus: Versus) -> dict[str, str]:
+def _card(versus: Versus, unit: str | None) -> dict[str, str]:
     d = versus.overall.value
     said = {
         "first": f"{versus.first.name} better",
@@ -105,17 +106,18 @@ def _card(versus: Versus) -> dict[str, str]:
     return {
         "label": f"{versus.second.name} against {versus.first.name}, the sweep as a whole",
         "value": said,
-        "note": _spread(d.difference),
+        "note": _spread(d.difference, unit),
     }
 
 
-def _spread(d: Interval) -> str:
+def _spread(d: Interval, unit: str | None) -> str:
     if d.mean is None:
         return ""
-    text = f"difference {d.mean:.3g}"
+    behind = f" {written_unit(unit)}" if unit else ""
+    text = f"difference {d.mean:.3g}{behind}"
     if d.low is not None and d.high is not None:
-        text += f", 95 % interval {d.low:.3g} to {d.high:.3g}"
-    return text
+        text += f", 95 % interval {d.low:.3g} to {d.high:.3g}{behind}"
+    return text.replace("-", "−")
 
 
 def _about(result: Result) -> list[tuple[str, str]]:

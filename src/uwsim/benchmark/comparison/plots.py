@@ -12,22 +12,27 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.transforms import offset_copy
 
-from ...statistics import Interval
+from ...statistics import Interval, Rate
 from ..interval import per_level, rows_by_level, success_per_level
 from ..plots import (
     FAINT,
     INK,
-    LEVEL_WORDS,
     MARKERS,
     PALETTE,
     SIZE,
     compare_plot,
+    level_label,
+    level_text,
+    plain,
+    save_pdf,
     save_plot,
     styled_figure,
+    write_note,
+    written_unit,
 )
 from ..result import Column
 from .entries import Entry
@@ -40,24 +45,15 @@ Bar = tuple[str, Interval, bool]
 
 def draw_comparison(comparison: Comparison, directory: Path) -> tuple[Path, ...]:
     """Draw every plot into ``directory``, each as PNG and as PDF; return the PNGs."""
-    figures = {"curves": curves(comparison), "differences": differences_plot(comparison)}
-    ended = success(comparison)
-    if ended is not None:
+    figures = {"curves": curves(comparison)}
+    if (ended := success(comparison)) is not None:
         figures["success"] = ended
+    figures["differences"] = differences_plot(comparison)
     files = []
     for name, figure in figures.items():
         files.append(save_plot(figure, directory / f"{name}.png"))
         save_pdf(figure, directory / f"{name}.pdf")
     return tuple(files)
-
-
-def save_pdf(figure: Figure, path: Path) -> Path:
-    """Write a plot as PDF for a paper: letters as letters, without a date or a program's name."""
-    with mpl.rc_context({"pdf.fonttype": 42}):
-        figure.savefig(
-            path, format="pdf", metadata={"CreationDate": None, "Producer": None, "Creator": None}
-        )
-    return path
 
 
 def curves(comparison: Comparison) -> Figure:
@@ -72,14 +68,14 @@ def curves(comparison: Comparison) -> Figure:
     figure = compare_plot(
         [entry.result for entry in entries], column.name, names=[entry.name for entry in entries]
     )
-    figure.axes[0].set_ylabel(_text(column.label))
+    figure.axes[0].set_ylabel(plain(column.label))
     return figure
 
 
 def differences_plot(comparison: Comparison) -> Figure:
     """Draw second less first over the levels, a panel for each pair of results."""
     column, all_versus = comparison.column, comparison.versus
-    label = f"difference [{column.unit}]" if column.unit else "difference"
+    label = f"difference [{written_unit(column.unit)}]" if column.unit else "difference"
     if _has_one_level(comparison):
         bars = [
             (_pair(versus), at.value.difference, _is_shown(at))
@@ -98,11 +94,11 @@ def differences_plot(comparison: Comparison) -> Figure:
                 continue
             _draw_difference(axes, comparison, all_versus[i])
             if i % across == 0:
-                axes.set_ylabel(_text(label if down > 1 else f"{column.name}, {label}"))
+                axes.set_ylabel(plain(label if down > 1 else f"{column.name}, {label}"))
             if i + across >= len(all_versus):
                 _label_levels(axes, comparison.entries[0])
                 axes.tick_params(labelbottom=True)
-        _note(figure, f"bands: 95 % intervals over repeats{FILLED}")
+        write_note(figure, f"bands: 95 % intervals over repeats{FILLED}")
     return figure
 
 
@@ -132,25 +128,15 @@ def success(comparison: Comparison) -> Figure | None:
         for entry, rates in zip(comparison.entries, drawn, strict=True):
             for outer in dict.fromkeys(level[:-1] for level, _ in rates):
                 line = [(level[-1], rate) for level, rate in rates if level[:-1] == outer]
-                xs = [x for x, _ in line]
                 name = entry.name
                 if several:
                     name += f", {_outer(entry, outer)}"
-                colour = PALETTE[i % len(PALETTE)]
-                axes.plot(
-                    xs, [r.value for _, r in line], color=colour, label=_text(name),
-                    marker=MARKERS[i % len(MARKERS)],
-                )  # fmt: skip
-                if any(r.n > 1 for _, r in line):
-                    axes.fill_between(
-                        xs, [r.low for _, r in line], [r.high for _, r in line],
-                        color=colour, alpha=0.12, linewidth=0,
-                    )  # fmt: skip
+                _draw_rates(figure, line, i, plain(name))
                 i += 1
         axes.set(ylabel="share that ended ok", ylim=(-0.03, 1.03))
         _label_levels(axes, comparison.entries[0])
         figure.legend(loc="outside right upper")
-        _note(figure, "bands: exact 95 % intervals (Clopper and Pearson) over repeats")
+        write_note(figure, "bars: exact 95 % intervals (Clopper and Pearson) over repeats")
     return figure
 
 
@@ -168,7 +154,7 @@ def _draw_difference(axes: Axes, comparison: Comparison, versus: Versus) -> None
         name = _outer(versus.first, outer) if len(outers) > 1 else None
         axes.plot(
             xs, [at.value.difference.mean or 0.0 for at in known], color=colour, zorder=3,
-            label=_text(name) if name else None,
+            label=plain(name) if name else None,
         )  # fmt: skip
         bands = [
             (at.level[-1], d.low, d.high)
@@ -199,12 +185,32 @@ def _draw_difference(axes: Axes, comparison: Comparison, versus: Versus) -> None
         "transform": axes.transAxes,
         "ha": "left",
     }
-    axes.text(0.012, 0.985, _text(f"↑ {above.name} better"), va="top", **style)
-    axes.text(0.012, 0.015, _text(f"↓ {below.name} better"), va="bottom", **style)
+    axes.text(0.012, 0.985, plain(f"↑ {above.name} better"), va="top", **style)
+    axes.text(0.012, 0.015, plain(f"↓ {below.name} better"), va="bottom", **style)
     axes.text(
-        1.0, 1.02, _text(_pair(versus)), transform=axes.transAxes, ha="right", va="bottom",
+        1.0, 1.02, plain(_pair(versus)), transform=axes.transAxes, ha="right", va="bottom",
         fontsize=8.5,
     )  # fmt: skip
+
+
+def _draw_rates(figure: Figure, line: Sequence[tuple[float, Rate]], i: int, name: str) -> None:
+    """Draw one result's rates with their intervals, moved a little so that none hides another."""
+    axes = figure.axes[0]
+    spread = [
+        [rate.value - rate.low for _, rate in line],
+        [rate.high - rate.value for _, rate in line],
+    ]
+    axes.errorbar(
+        [x for x, _ in line],
+        [rate.value for _, rate in line],
+        yerr=spread if any(rate.n > 1 for _, rate in line) else None,
+        color=PALETTE[i % len(PALETTE)],
+        marker=MARKERS[i % len(MARKERS)],
+        elinewidth=0.8,
+        capsize=1.5,
+        label=name,
+        transform=offset_copy(axes.transData, fig=figure, x=2.5 * i, units="points"),
+    )
 
 
 def _bars(bars: Sequence[Bar], label: str, *, zero: bool) -> Figure:
@@ -223,11 +229,11 @@ def _bars(bars: Sequence[Bar], label: str, *, zero: bool) -> Figure:
                 [found.mean], [i], MARKERS[0 if zero else i % len(MARKERS)], color=colour,
                 markersize=5, markerfacecolor=colour if is_filled else "white",
             )  # fmt: skip
-        axes.set_yticks(range(len(bars)), [_text(name) for name, _, _ in bars])
+        axes.set_yticks(range(len(bars)), [plain(name) for name, _, _ in bars])
         axes.set_ylim(len(bars) - 0.5, -0.5)
         axes.grid(visible=False, axis="y")
-        axes.set_xlabel(_text(label))
-        _note(figure, "bars: 95 % intervals over repeats" + FILLED * zero)
+        axes.set_xlabel(plain(label))
+        write_note(figure, "bars: 95 % intervals over repeats" + FILLED * zero)
     return figure
 
 
@@ -236,12 +242,7 @@ def _label_levels(axes: Axes, entry: Entry) -> None:
     xs = sorted({level[-1] for level in rows_by_level(entry.result)})
     pad = 0.03 * (xs[-1] - xs[0])
     axes.set_xlim(xs[0] - pad, xs[-1] + pad)
-    word = LEVEL_WORDS.get(column.name, column.name)
-    axes.set_xlabel(_text(f"{word} [{column.unit}]" if column.unit else word))
-
-
-def _note(figure: Figure, text: str) -> None:
-    figure.text(0.995, 0.004, _text(text), ha="right", va="bottom", fontsize=5.5, color=FAINT)
+    axes.set_xlabel(plain(level_label(column)))
 
 
 def _has_one_level(comparison: Comparison) -> bool:
@@ -259,9 +260,4 @@ def _pair(versus: Versus) -> str:
 
 def _outer(entry: Entry, outer: tuple[float, ...]) -> str:
     columns = entry.result.of_kind("level")[:-1]
-    return ", ".join(f"{c.name} {value:g}" for c, value in zip(columns, outer, strict=True))
-
-
-def _text(text: str) -> str:
-    """Names come from files: a dollar in them is a dollar, not mathematics."""
-    return text.replace("$", r"\$")
+    return ", ".join(level_text(c, value) for c, value in zip(columns, outer, strict=True))
