@@ -204,6 +204,22 @@ def test_repeats_needed_are_those_of_g_power(d: float, n: int) -> None:
     assert repeats_needed(-d) == n
 
 
+@pytest.mark.parametrize("alpha", [0.05, 0.05 / 27, 5e-5])
+def test_power_is_a_number_and_grows_whatever_the_effect_and_the_repeats(alpha: float) -> None:
+    sizes = np.geomspace(0.1, 100, 60)
+    for n in (2, 3, 6, 11, 20, 50):
+        powers = np.array([power(n, float(d), alpha) for d in sizes])
+        assert np.isfinite(powers).all()
+        assert (np.diff(powers) >= -1e-12).all()
+        assert powers[-1] == 1.0 or n == 2
+
+
+@pytest.mark.parametrize("d", [3.0, 8.8, 15.6, 1000.0])
+def test_repeats_needed_are_never_fewer_than_the_sign_flip_test_needs(d: float) -> None:
+    assert repeats_needed(d) == 6
+    assert repeats_needed(d, alpha=0.05 / 27) == 11
+
+
 def test_power_is_the_share_of_experiments_that_show_the_effect() -> None:
     sets = stream(0, "power").normal(0.7, 1.0, (4000, 12))
     shown = stats.ttest_1samp(sets, 0.0, axis=1).pvalue <= 0.05
