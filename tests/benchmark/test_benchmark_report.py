@@ -232,8 +232,8 @@ def test_parameters_are_written_as_people_write_them_and_empty_ones_not_at_all(
     said = {"parameters": {"levels": 3.0, "threshold": 0.25}, "notes": (), "levels": None}
     page_of(replace(visibility(), run=said), tmp_path)
     text = (tmp_path / "report.html").read_text()
-    assert "<td>parameter levels</td><td>3</td>" in text
-    assert "<td>parameter threshold</td><td>0.25</td>" in text
+    assert "parameter levels</td><td>3</td>" in text
+    assert "parameter threshold</td><td>0.25</td>" in text
     assert "<td>notes</td>" not in text
     assert "<td>levels</td>" not in text
 
@@ -361,6 +361,21 @@ def test_of_many_pictures_forty_are_shown_and_of_other_repeats_the_failures(
     page = page_of(with_picture(large, tmp_path / "b", *range(len(large.rows))), tmp_path / "b")
     assert page.source.count("<figcaption") == 40
     assert "40 of 81 pictures: evenly chosen" in page.text
+
+
+def test_one_row_is_no_curve(tmp_path: Path) -> None:
+    assert "Figure 1." not in whole_page_of(one_level(), tmp_path).text
+    assert "1 row, 9 columns" in page_of(one_level(), tmp_path).text
+
+
+def test_cards_have_three_digits_and_nothing_is_zero(tmp_path: Path) -> None:
+    base = visibility()
+    rows = list(base.rows)
+    rows[0] = (0.0, 2.06e-05, *rows[0][2:5], 36.4, *rows[0][6:])
+    rows[23] = (rows[23][0], 1.7, *rows[23][2:5], -2083.2, *rows[23][6:])
+    text = page_of(replace(base, rows=tuple(rows)), tmp_path).text
+    assert "0.00 to 1.70 px" in text
+    assert "36.4 to −2083 px" in text
 
 
 def test_the_prediction_is_told_only_where_fog_is_swept(tmp_path: Path) -> None:

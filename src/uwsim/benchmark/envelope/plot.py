@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from ..plots import DPI, FAINT, INK, LEVEL_WORDS, PALETTE, styled_figure
+from ..plots import DPI, FAINT, INK, LEVEL_WORDS, PALETTE, styled_figure, written_unit
 from .criterion import parse_criterion
 from .envelope import Envelope
 from .evaluate import Evaluation
@@ -30,7 +30,7 @@ def draw(envelope: Envelope, directory: Path) -> Path:
         _draw_seeds(below, envelope)
         for axes in (above, below):
             _draw_found(axes, envelope)
-        unit = "" if asked.unit == "1" else f" [{asked.unit}]"
+        unit = "" if asked.unit == "1" else f" [{written_unit(asked.unit)}]"
         below.set_xlabel(f"{LEVEL_WORDS.get(asked.over) or asked.over}{unit}")
         span = abs(asked.where.stop - asked.where.start)
         ends = sorted((asked.where.start, asked.where.stop))
@@ -62,7 +62,7 @@ def _draw_measure(axes: Axes, envelope: Envelope) -> None:
         axes.axhline(limit, color=FAINT, linewidth=0.8, linestyle=":")
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.12 * (high - low))  # room for those without a value
-    axes.set_ylabel(name if unit == "1" else f"{name} [{unit}]")
+    axes.set_ylabel(name if unit == "1" else f"{name} [{written_unit(unit)}]")
     axes.plot([], [], color=INK, linewidth=1.0, label=envelope.sentence)
     axes.legend(loc="best")
 

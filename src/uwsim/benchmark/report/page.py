@@ -18,7 +18,7 @@ import jinja2
 
 from ...errors import ResultError
 from ..directory import CONTROL, REPORT
-from ..interval import per_level, rows_by_level
+from ..interval import LevelInterval, per_level, rows_by_level
 from ..logs import logs_of
 from ..plots import (
     LEVEL_WORDS,
@@ -90,7 +90,9 @@ def render(
     found = endings(result)
     provenance = load_provenance(directory)
     columns = result.of_kind("score") + result.of_kind("measure")
-    drawn = [plot for plot in plots if plot.stem != OVERVIEW]
+    n_repeats = len(set(repeats_of(result))) or 1
+    n_levels = len(rows_by_level(result))
+    drawn = [plot for plot in plots if plot.stem != OVERVIEW and n_levels * n_repeats != 1]
     pictures = shown_pictures(result, directory)
     return environment.get_template("report.html.j2").render(
         title=title(result),
@@ -101,9 +103,9 @@ def render(
         cards=_cards(result, found),
         heads=heads(result),
         table=level_rows(result),
-        n_levels=len(rows_by_level(result)),
+        n_levels=n_levels,
         values=_values(result),
-        repeats=len(set(repeats_of(result))) or 1,
+        repeats=n_repeats,
         full=all_cells(result),
         n_rows=len(result.rows),
         plots=[
@@ -176,16 +178,22 @@ def _cards(result: Result, found: Sequence[Ending]) -> list[Card]:
         if not known:
             continue
         first, last = known[0], known[-1]
-        ends = [e.interval.mean for e in (first, last) if e.interval.mean is not None]
-        decimals = sensible_decimals(ends)
-        value = number_text(ends[0], decimals)
-        at = ""
+        value, at = _short(first, last), ""
         if len(known) > 1:
-            value += f" to {number_text(ends[1], decimals)}"
+            value += f" to {_short(last, first)}"
             at = f"at {named_level(result, first.level)} and {named_level(result, last.level)}"
         unit = _space(unit_of(result, column))
         cards.append(Card(label=column.name, value=value + unit, note=at))
     return cards[:MAX_CARDS]
+
+
+def _short(entry: LevelInterval, other: LevelInterval) -> str:
+    """A mean in three digits; in those of the other one where it is nothing against that."""
+    value, against = entry.interval.mean or 0.0, other.interval.mean or 0.0
+    measure = against if abs(value) < 1e-3 * abs(against) else value
+    decimals = sensible_decimals([measure])
+    shown = 0.0 if abs(value) < 0.5 * 10**-decimals and measure is not value else value
+    return number_text(shown, decimals).replace("-", "−")
 
 
 def _values(result: Result) -> list[str]:

@@ -7,6 +7,7 @@ import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from PIL import Image
@@ -22,7 +23,9 @@ MAX_PICTURES = 40
 MAX_OTHERS = 8
 """Of other repeats: where they first failed."""
 MAX_BYTES = 3_000_000
-"""Of all pictures together; what does not fit any more is left out, and the report says so."""
+"""Of all pictures together; if they are more, they are thinned out further."""
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,18 +48,22 @@ def shown_pictures(result: Result, directory: Path) -> list[Shown]:
     several = len(set(repeats_of(result))) > 1
     seeds, endings = seeds_of(result), _endings(result)
     shown: list[Shown] = []
-    n_bytes = 0
     for picture in _chosen(result, endings):
         ended = endings[picture.row]
         caption = f"{named_level(result, levels[picture.row])} · {ended or picture.camera}"
         if several:
             caption = f"seed {seeds[picture.row]} · {caption}"
         data = _drawn(picture, directory)
-        n_bytes += len(data or "")
-        if n_bytes > MAX_BYTES:
-            break
         shown.append(Shown(caption=caption, data=data, ok=ended in ("ok", "")))
-    return shown
+    n_bytes = sum(len(one.data or "") for one in shown)
+    return evenly(shown, max(1, len(shown) * MAX_BYTES // max(n_bytes, MAX_BYTES)))
+
+
+def evenly(items: Sequence[T], most: int) -> list[T]:
+    """Return at most so many of the items, the first and the last among them."""
+    if len(items) <= most:
+        return list(items)
+    return [items[i] for i in np.linspace(0, len(items) - 1, most).round().astype(int).tolist()]
 
 
 def pictures_text(result: Result, n_shown: int) -> str:
@@ -79,9 +86,7 @@ def data_url(data: bytes, kind: str) -> str:
 def _chosen(result: Result, endings: Sequence[str]) -> list[TakenPicture]:
     repeats = repeats_of(result)
     own = [picture for picture in result.pictures if repeats[picture.row] == repeats[0]]
-    if len(own) > MAX_PICTURES:
-        evenly = np.linspace(0, len(own) - 1, MAX_PICTURES).round().astype(int)
-        own = [own[i] for i in evenly.tolist()]
+    own = evenly(own, MAX_PICTURES)
     failed: dict[tuple[object, ...], int] = {}
     for row, (repeat, ended) in enumerate(zip(repeats, endings, strict=True)):
         if ended not in ("ok", "") and repeat != repeats[0]:
