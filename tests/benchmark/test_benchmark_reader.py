@@ -425,7 +425,9 @@ def test_a_path_without_a_topic_is_a_notice(file: Path) -> None:
 
 def test_a_benchmark_that_nothing_ends_is_a_notice(file: Path) -> None:
     file.write_text(text())
-    assert any("it ends after 600 s, in timeout" in fault.message for fault in check_benchmark(file))
+    assert any(
+        "it ends after 600 s, in timeout" in fault.message for fault in check_benchmark(file)
+    )
 
 
 def test_updaters_nested_to_a_hundred_levels_are_read(file: Path) -> None:
