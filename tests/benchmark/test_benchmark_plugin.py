@@ -333,6 +333,21 @@ def test_the_line_of_the_plugin_that_raised_is_named(tmp_path: Path) -> None:
     assert own == Plugin(str(path), path.read_bytes())
 
 
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        ("ValueError('two\\nlines')", "own.py:2: ValueError: two lines"),
+        ("SystemExit(5)", "own.py:2: SystemExit: 5"),
+        ("MemoryError", "own.py:2: MemoryError"),
+    ],
+)
+def test_whatever_a_plugin_raises_is_one_line(tmp_path: Path, error: str, said: str) -> None:
+    own = read_plugin(plugin(tmp_path, f"def f():\n    raise {error}\nALGORITHMS = {{}}\n"))
+    with pytest.raises(RunFailed) as caught, blamed([own], is_running=True):
+        own.module().f()
+    assert str(caught.value).endswith(said)
+
+
 def play(folder: Path, was: str, now: str) -> Result:
     assert was in PARTS
     (folder / "parts.py").write_text(PARTS.replace(was, now))
@@ -349,7 +364,11 @@ def test_a_measure_that_raises_ends_the_run_with_its_line(folder: Path) -> None:
 
 @pytest.mark.parametrize(
     ("gives", "why"),
-    [("float('nan')", "it gave nan"), ("'much'", "it gave str 'much', which is no number")],
+    [
+        ("float('nan')", "it gave nan"),
+        ("'much'", "it gave str 'much', which is no number"),
+        ("10**400", "it gave a whole number beyond float64"),
+    ],
 )
 def test_a_measure_that_gives_no_number_leaves_a_reason(folder: Path, gives: str, why: str) -> None:
     result = play(folder, "return self.weight * self.n", f"return {gives}")

@@ -105,6 +105,7 @@ def test_a_result_never_holds_what_is_not_a_number(value: float) -> None:
         ("1.83, 1.79", "NaN, 1.79", "contains NaN; a missing value is null"),
         ("1.83, 1.79", "1e999, 1.79", r"rows\[0\]\[1\] is inf"),
         ("1.83, 1.79", "true, 1.79", "'corners': True cannot be a measure"),
+        ("1.83, 1.79", f"1{'0' * 400}, 1.79", "'corners': 10+ cannot be a measure"),
         ("1.83, 1.79", '"1.83", 1.79', "'corners': '1.83' cannot be a measure"),
         ('"ok"', "1", "'status': 1 cannot be a status"),
         ('"name": "corners.mean"', '"name": "corners"', "two columns are called 'corners'"),

@@ -16,8 +16,11 @@ def finite(value: object) -> tuple[float | None, str | None]:
     if value is None:
         return None, None
     if isinstance(value, Real):
-        number = value if isinstance(value, int | float) else float(value)
-        return (number, None) if math.isfinite(number) else (None, f"it gave {number}")
+        try:
+            number = value if isinstance(value, int | float) else float(value)
+            return (number, None) if math.isfinite(number) else (None, f"it gave {number}")
+        except OverflowError:
+            return None, "it gave a whole number beyond float64"
     return None, f"it gave {type(value).__name__} {str(value)[:40]!r}, which is no number"
 
 

@@ -119,7 +119,7 @@ class Plugin:
             raise self.fault(f"not Python: {error.msg}", line) from error
         except (Exception, SystemExit) as error:
             del sys.modules[name]
-            said = f"cannot be imported: {type(error).__name__}: {error}"
+            said = f"cannot be imported: {raised(error)}"
             if isinstance(error, ModuleNotFoundError):
                 said += " (a plugin is one file; what it imports must be installed)"
             raise self.fault(said, self.line_of(error)) from error
@@ -257,7 +257,7 @@ def _wrong_class(table: str, value: object, module: ModuleType) -> str | None:
     try:
         slots(value)
     except Exception as error:
-        return f"the fields of {name} cannot be read: {type(error).__name__}: {error}"
+        return f"the fields of {name} cannot be read: {raised(error)}"
     if table == "UPDATERS":
         return _wrong_reference(value)
     return None
@@ -284,6 +284,11 @@ def _line(value: object, plugin: Plugin) -> int | None:
         return None
 
 
+def raised(error: BaseException) -> str:
+    """Return what was raised as one line, whatever its message holds."""
+    return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
+
+
 @contextmanager
 def blamed(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[None]:
     """Name the line of the plugin that raised.
@@ -296,11 +301,11 @@ def blamed(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[N
         yield
     except UwsimError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         for plugin in plugins:
             line = plugin.line_of(error)
             if line is not None:
-                said = f"{type(error).__name__}: {error}"
+                said = raised(error)
                 if is_running:
                     raise RunFailed(f"{plugin.path}:{line}: {said}") from error
                 raise plugin.fault(said, line) from error

@@ -318,7 +318,10 @@ def _check_notes(result: Result) -> None:
 
 
 def _is_number(cell: object) -> bool:
-    return isinstance(cell, int | float) and not isinstance(cell, bool) and math.isfinite(cell)
+    try:
+        return isinstance(cell, int | float) and not isinstance(cell, bool) and math.isfinite(cell)
+    except OverflowError:  # a whole number beyond float64
+        return False
 
 
 def _is_row(row: object, n: int) -> bool:

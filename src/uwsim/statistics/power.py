@@ -28,7 +28,7 @@ def power(n: int, d: float, alpha: float = 0.05) -> float:
     critical = float(stdtrit(n - 1, 1 - alpha / 2))
     if shift - critical > 30:
         return 1.0
-    # The square of a noncentral t is a noncentral F; scipy's nctdtr is not a number for large shifts.
+    # The square of a noncentral t is a noncentral F; nctdtr gives NaN for large shifts.
     return 1 - float(ncfdtr(1, n - 1, shift * shift, critical * critical))
 
 
