@@ -66,7 +66,8 @@ def test_every_fault_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> 
     text = """<hydrodynamics name="mine">
   <body link="base_lnk"> <addedMass>1 2 3</addedMass> </body>
   <body link="base_link"> <addedMass>-1 2 3 4 5 6</addedMass> <mss>3</mss> </body>
-  <body link="base_link"> <linearDamping>1 2 x 4 5 6</linearDamping> <shape>bocks</shape> </body>
+  <body link="base_link"> <linearDamping>1 2 x 4 5 6</linearDamping> <shape>bocks</shape>
+    <quadraticDamping>1e10 2 3 4 5 6</quadraticDamping> </body>
   <thruster name="t" link="base_link"> <limits>1 2 3</limits> <forward>40</forward> </thruster>
   <thruster name="t" link="base_link"> <direction><x>0</x><y>0</y><z>0</z></direction>
     <forward>40</forward> <saturation>5 10</saturation> </thruster>
@@ -79,10 +80,11 @@ def test_every_fault_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> 
         "3: <mss> is not an element of <body>. Did you mean mass?",
         "4: two <body> for the link 'base_link'; only one may be",
         "4: <linearDamping> holds 'x'; expected numbers",
+        "5: <quadraticDamping> holds '1e10'; no quantity is beyond 1e+09",
         "4: <shape> is 'bocks'; expected one of 'sphere', 'ellipsoid', 'box'",
-        "5: <limits> has 3 numbers; expected 2",
-        "6: two thrusters are called 't'",
-        "6: thruster 't': direction is 0 0 0",
+        "6: <limits> has 3 numbers; expected 2",
+        "7: two thrusters are called 't'",
+        "7: thruster 't': direction is 0 0 0",
         "saturation are 5 10; expected least <= 0 <= greatest",
     ):
         assert message in said, f"{message}\n--\n{said}"

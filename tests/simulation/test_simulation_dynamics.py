@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from uwsim.currents import ConstantSpec, Place
+from uwsim.errors import RunFailed
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
@@ -121,3 +122,21 @@ def test_a_vehicle_that_is_put_back_is_at_rest() -> None:
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515])
     run(simulation, 5.0)
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515], abs=0.02)
+
+
+def test_a_twist_beyond_its_reach_is_forgotten_with_the_next_one() -> None:
+    simulation = make()
+    command(simulation, 1e300, 0.0)
+    run(simulation, 10.0)
+    command(simulation, 0.0, 0.0)
+    run(simulation, 8.0)
+    before = position(simulation)
+    run(simulation, 2.0)
+    assert np.linalg.norm(position(simulation) - before) < 0.2
+
+
+def test_motion_beyond_all_bounds_is_an_error_that_says_where() -> None:
+    simulation = make()
+    set_current(simulation, (1e30, 0.0, 0.0))
+    with pytest.raises(RunFailed, match=r"'girona500/.*' grew beyond all bounds at 0\.002 s"):
+        run(simulation, 1.0)

@@ -98,7 +98,8 @@ class PythonFunction(Current):
             said = self._function(point, time, vehicle)
         except Exception as error:  # whatever a stranger's function raises is its own failure
             raise BadSetting(
-                f"The current {self._name!r} raised {place}: {type(error).__name__}: {error}"
+                f"The current {self._name!r} raised {place}: {type(error).__name__}: "
+                f"{' '.join(str(error).split()):.200}"
             ) from error
         try:
             x, y, z = (float(value) for value in said)

@@ -11,13 +11,13 @@ with M the mass and added mass and D the drag at the wanted velocity. The gains 
 :math:`T` of the slowest thruster: :math:`k_v = 0.32/T`, :math:`k_i = 0.032/T^2` give the loop
 :math:`T s^3 + s^2 + k_v s + k_i` the poles :math:`0.2/T, 0.4/T, 0.4/T`: it does not swing. A
 faster loop swings by itself and, through a camera that tilts with the hull, keeps a roll up that no
-thruster damps. *Depth and heading* are held where the last
-command left them: their loops wish for a heave or yaw rate in proportion to the error. *Position*
-hold wishes for a surge and sway in proportion to the error as well, at most 0.5 m/s, over ground:
-who knows where they are know how they move. *Wrench*: shared out, nothing is held. *Thrusters*:
-their commands as they are. *Pitch and
-roll* are damped and righted as far as the thrusters reach. Forces are shared out by least squares
-and turned into commands by the thrusters' own curves.
+thruster damps. Where the thrusters are at their limits the integral does not grow (clamping).
+*Depth and heading* are held where the last command left them: their loops wish for a heave or yaw
+rate in proportion to the error. *Position* hold wishes for a surge and sway in proportion to the
+error as well, at most 0.5 m/s, over ground: who knows where they are know how they move. *Wrench*:
+shared out, nothing is held. *Thrusters*: their commands as they are. *Pitch and roll* are damped
+and righted as far as the thrusters reach. Forces are shared out by least squares and turned into
+commands by the thrusters' own curves.
 
 The autopilot knows the true state. Not modelled: noise and delay of its sensors.
 """
@@ -56,6 +56,8 @@ LEAST_LAG = 0.08
 """Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
 FASTEST = 0.5
 """What position hold wishes for at most [m/s]."""
+LARGEST = 1e6
+"""A number of a command is taken as at most this: no vehicle gets there [m, m/s, rad/s, N, N m]."""
 Mode = Literal["velocity", "position", "wrench", "thrusters"]
 
 
@@ -85,8 +87,11 @@ class Autopilot:
         self._reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
         columns = [_column(thruster, self._reference) for thruster in vehicle.thrusters]
         reached = np.array(columns).reshape(-1, 6).T[list(AXES)]  # (5, n): N, N m per N
+        self._reached = reached
         self._share = np.linalg.pinv(reached, rcond=1e-6)  # (n, 5): [N per N or N m]
         self._curves = [_curve(thruster) for thruster in vehicle.thrusters]
+        ends = [(thrusts[0], thrusts[-1]) for thrusts, _ in self._curves]
+        self._least, self._greatest = np.array(ends).reshape(-1, 2).T  # (n,) [N]
         self._wanted = np.zeros(6)  # [m/s, rad/s]
         self._integral = np.zeros(6)
         self._mode: Mode = "velocity"
@@ -113,7 +118,7 @@ class Autopilot:
         if self._mode != "velocity":
             self._mode, self._takes_over = "velocity", True
             self._integral[:] = 0.0
-        self._wanted[:] = [*linear, *angular]
+        self._wanted[:] = np.clip([*linear, *angular], -LARGEST, LARGEST)
 
     def go_to(self, world_from_base: Pose) -> None:
         """Go to a place and its heading, and stay there; roll and pitch are not followed."""
@@ -122,13 +127,14 @@ class Autopilot:
             self._integral[:] = 0.0
         self._takes_over = False
         self._wanted[:] = 0.0
-        self._target = world_from_base.position.copy()
-        self._height = float(world_from_base.position[2])
+        self._target = np.clip(world_from_base.position, -LARGEST, LARGEST)
+        self._height = float(self._target[2])
         self._heading = world_from_base.rotation.copy()
 
     def push(self, force: Array, torque: Array) -> None:
         """Share out a force [N] and a torque about the base's origin [N m], base axes."""
         self._mode = "wrench"
+        force, torque = np.clip([force, torque], -LARGEST, LARGEST)
         self._wrench = np.concatenate([force, torque - np.cross(self._reference, force)])
 
     def set_thrusters(self, commands: Array) -> None:
@@ -147,7 +153,7 @@ class Autopilot:
         if self._mode == "thrusters":
             return self._commands
         if self._mode == "wrench":
-            return self._shared(self._wrench)
+            return self._commanding(self._forces(self._wrench))
         if self._takes_over:
             self._takes_over = False
             self._height = float(world_from_base.position[2])
@@ -163,6 +169,7 @@ class Autopilot:
         lever = np.cross(velocity[3:], self._reference)
         error = wanted - np.concatenate([velocity[:3] + lever, velocity[3:]])
         error[3:5] = -velocity[3:5]
+        before = self._integral.copy()
         self._integral += error * dt
         self._integral[3:5] = 0.0
         tau = self._mass * (self._velocity_gain * error + self._integral_gain * self._integral)
@@ -170,11 +177,21 @@ class Autopilot:
         up = base_from_world[:, 2]  # W's z in base axes
         tilt = math.atan2(up[0], -up[2]) if up[2] < 0.0 else -math.atan2(up[0], up[2])
         tau[4] += self._mass[4] * self._gains.righting * tilt
-        return self._shared(tau)
+        forces = self._forces(tau)
+        lacking = np.zeros(6)  # force and moment beyond the thrusters' limits
+        lacking[list(AXES)] = self._reached @ (
+            forces - np.clip(forces, self._least, self._greatest)
+        )
+        self._integral = np.where(lacking * error > 0.0, before, self._integral)
+        return self._commanding(forces)
 
-    def _shared(self, tau: Array) -> Array:
-        """The thrusters' commands that come nearest to a force and moment, (n,) [1]."""
-        forces = self._share @ tau[list(AXES)]
+    def _forces(self, tau: Array) -> Array:
+        """The thrusts that come nearest to a force and moment, beyond limits too, (n,) [N]."""
+        forces: Array = self._share @ tau[list(AXES)]
+        return forces
+
+    def _commanding(self, forces: Array) -> Array:
+        """The thrusters' commands for these thrusts, as far as they reach, (n,) [1]."""
         return np.array(
             [
                 np.interp(force, thrusts, commands)

@@ -114,11 +114,15 @@ class Servos:
         self._take_aim()
 
     def push(self, efforts: Mapping[int, float]) -> None:
-        """Let these joints go and act on them with [N m or N]; the others keep what they do."""
+        """Let these joints go and act on them with [N m or N], as strong as their servos at most.
+
+        The others keep what they do.
+        """
         for number, effort in efforts.items():
             self._speeds[number] = 0.0
             self._switch(number, is_on=False)
-            self._data.qfrc_applied[self._dofs[number]] = effort
+            most = self._traits[self._vector[number], 2]
+            self._data.qfrc_applied[self._dofs[number]] = min(max(effort, -most), most)
         self._take_aim()
 
     def step(self, dt: float) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import mujoco
 import numpy as np
 
+from ..errors import RunFailed
 from ..geometry import Array, Pose, quaternion_from_rotation
 from ..scene.kinematics import joint_positions
 from ..scene.spec import SceneSpec
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 PILOT_PERIOD = 0.02
 """An autopilot thinks this often [s]."""
+FIRST_UNSTABLE = int(mujoco.mjtWarning.mjWARN_BADQPOS)
+"""MuJoCo's warnings from this on: a position, velocity, acceleration or control is no number."""
 
 
 class State:
@@ -54,6 +57,7 @@ class State:
         self._data = mujoco.MjData(self._model)
         # Views into MuJoCo's memory: to look them up by name costs more than the step.
         self._ids = {self._model.body(i).name: i for i in range(self._model.nbody)}
+        self._warnings = self._data.warning.number[FIRST_UNSTABLE:]
         self._origins, self._axes = self._data.xpos, self._data.xmat  # (nbody, 3), (nbody, 9)
         free = {i: self._model.joint(vehicle_joint(i, "")) for i in range(len(scene.vehicles))}
         self._frees = {
@@ -63,7 +67,8 @@ class State:
             i: self._data.qvel[joint.dofadr[0] : joint.dofadr[0] + 6] for i, joint in free.items()
         }
         bodies = [self._model.body(i).name for i in range(self._model.nbody)]
-        self.motion = Motion(self._model, self._data, [_called(scene, name) for name in bodies])
+        self._body_names = [_called(scene, name) for name in bodies]
+        self.motion = Motion(self._model, self._data, self._body_names)
         """Where everything is and how it moves, as numbers."""
         self._robots = robots
         self._dynamics = dynamics
@@ -123,6 +128,9 @@ class State:
         Args:
             velocity: of the water at each body, in W, (nbody, 3) [m/s].
             acceleration: of the water there, in W, (nbody, 3) [m/s2].
+
+        Raises:
+            RunFailed: numbers grew beyond all bounds; MuJoCo begins anew then, and says nothing.
         """
         if self._water is None:
             return
@@ -134,12 +142,26 @@ class State:
             servos.step(self._timestep)
         before = {i: self._frees[i].copy() for i in self._kinematic}
         self._water.step(self._data)
+        if any(self._warnings.tolist()):
+            raise RunFailed(self._why_unstable())
         self._contacts_hold = True
         for index, pose in before.items():
             self._frees[index][:] = pose
             self._free_velocities[index][:] = 0.0
         self._n_steps += 1
         self._moved()
+
+    def _why_unstable(self) -> str:
+        where = ""
+        for kind in (mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC):
+            if self._data.warning[kind].number:
+                body = self._model.dof_bodyid[self._data.warning[kind].lastinfo]
+                where = f" of {self._body_names[body]!r}"
+        time = (self._n_steps + 1) * self._timestep
+        return (
+            f"The motion{where} grew beyond all bounds at {time:g} s: "
+            f"forces, currents or damping are too strong for steps of {self._timestep:g} s."
+        )
 
     def contacts(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""

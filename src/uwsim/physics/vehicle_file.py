@@ -37,7 +37,7 @@ from typing import Literal
 
 from lxml import etree
 
-from ..dialect import Faults, element, number, parse, read
+from ..dialect import LARGEST, Faults, element, number, parse, read
 from ..errors import FileError, UnknownName, did_you_mean
 from .hydrodynamics.spec import (
     BEST_EFFICIENCY,
@@ -360,6 +360,11 @@ def _numbers(text: str, name: str, node: etree._Element, faults: Faults) -> Numb
         wrong = words[values.index(None)]
         faults.add(_child(node, name), f"<{name}> holds {wrong[:40]!r}; expected numbers")
         return ()
+    for word, value in zip(words, values, strict=False):
+        if value is not None and abs(value) > LARGEST:
+            message = f"<{name}> holds {word[:40]!r}; no quantity is beyond {LARGEST:g}"
+            faults.add(_child(node, name), message)
+            return ()
     return tuple(value for value in values if value is not None)
 
 
