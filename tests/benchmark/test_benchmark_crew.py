@@ -10,8 +10,8 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from short_benchmark import bench_of, fingerprint, run, write_benchmark
 
+from short_benchmark import bench_of, fingerprint, run, write_benchmark
 from uwsim.benchmark import crew
 from uwsim.benchmark.crew import Here, Job, Roster, play_all
 from uwsim.benchmark.processes import Processes, portable

@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from short_benchmark import bench_of, fingerprint, run, write_benchmark
 from test_benchmark_crew import mortal
 
+from short_benchmark import bench_of, fingerprint, run, write_benchmark
 from uwsim.benchmark.ray_cluster import RayCluster, Worker, address
 from uwsim.benchmark.unit_work import LevelEnded, UnitEnded, UnitFailed
 from uwsim.errors import BadSetting, MissingExtra

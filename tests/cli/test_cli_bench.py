@@ -4,8 +4,8 @@ import os
 from pathlib import Path
 
 import pytest
-from short_benchmark import fingerprint, write_benchmark
 
+from short_benchmark import fingerprint, write_benchmark
 from uwsim.benchmark.crew import Here
 from uwsim.benchmark.processes import Processes
 from uwsim.benchmark.provenance import load_provenance
