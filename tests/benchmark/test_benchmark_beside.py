@@ -34,6 +34,19 @@ def test_says_what_it_cannot_do_and_goes_on(tmp_path: Path) -> None:
     assert (tmp_path / "good" / "report.html").exists()
 
 
+def test_a_report_that_cannot_be_written_is_one_line_and_no_death(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    save(visibility(), tmp_path)
+    (tmp_path / "report.html").mkdir()
+    with Beside() as beside:
+        for _ in range(2):
+            beside.ask(tmp_path)
+            with pytest.raises(RunFailed, match=r"^The report failed: .*Finished rows are kept"):
+                beside.wait()
+    assert "Traceback" not in capfd.readouterr().err
+
+
 def test_ends_with_the_block() -> None:
     with Beside() as beside:
         process = beside._process

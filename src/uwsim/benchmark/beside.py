@@ -19,6 +19,7 @@ from typing import Self
 from ..errors import RunFailed, UwsimError
 from .bench import Bench
 from .crew import play_all
+from .plugin import raised
 
 Job = Bench | Path
 """A benchmark is played; of a result directory the report is drawn."""
@@ -71,10 +72,8 @@ class Beside:
             raise RunFailed(why)
 
 
-_GONE = (
-    "The process that plays the control and draws the report died. "
-    "Finished rows are kept; go on with --resume."
-)
+_KEPT = "Finished rows are kept; go on with --resume."
+_GONE = f"The process that plays the control and draws the report died. {_KEPT}"
 
 
 def _serve(there: Connection, parent: int) -> None:
@@ -96,6 +95,9 @@ def _serve(there: Connection, parent: int) -> None:
                 write_report(job)
         except UwsimError as error:
             there.send(str(error))
+        except Exception as error:  # a full disk, a number that no plot can show
+            what = "The control" if isinstance(job, Bench) else "The report"
+            there.send(f"{what} failed: {raised(error)}. {_KEPT}")
         else:
             there.send(None)
 
