@@ -12,11 +12,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from compared_results import INPUTS, entries, made, noisy
 from rich.console import Console
 from scipy import stats
 from synthetic_results import frozen, nested, nothing_measured, one_level, visibility
 
+from compared_results import INPUTS, entries, made, noisy
 from uwsim.benchmark.comparison import (
     Comparison,
     compare,

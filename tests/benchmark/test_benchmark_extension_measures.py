@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
-from short_benchmark import run
 
 import uwsim
 from fakes import FakeActuators, FakeBody, FakeWorld
+from short_benchmark import run
 from uwsim.benchmark.measures import ControlSpec, EnergySpec, MeasureSpec
 from uwsim.benchmark.measures.energy import BatterySpec
 from uwsim.benchmark.reader import check_benchmark, read_benchmark

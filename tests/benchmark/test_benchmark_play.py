@@ -5,8 +5,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from short_benchmark import fingerprint, run, write_benchmark
 
+from short_benchmark import fingerprint, run, write_benchmark
 from uwsim.benchmark.comparison import compare, differences, read_entries, shared_column
 from uwsim.benchmark.result import load
 from uwsim.bus import Node
