@@ -8,6 +8,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+from uwsim.cli.check import faults_of
 from uwsim.dialect import slots
 from uwsim.physics.vehicle_file import BodyElement, HydrodynamicsElement, ThrusterElement
 
@@ -18,21 +21,35 @@ def blocks(language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", PAGE.read_text(), re.MULTILINE | re.DOTALL)
 
 
-def test_a_newcomers_vehicle_swims_as_the_page_shows(tmp_path: Path) -> None:
-    robot, water = blocks("xml")
-    (tmp_path / "my_rov.urdf").write_text(robot)
-    (tmp_path / "my_rov.xml").write_text(water)
-    (tmp_path / "swim.py").write_text("".join(blocks("python")))
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name, text in zip(
+        ("my_rov.urdf", "my_rov.xml", "my_scene.xml"), blocks("xml"), strict=True
+    ):
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def said_by(program: str, folder: Path) -> str:
+    (folder / "program.py").write_text(program)
     done = subprocess.run(
-        [sys.executable, "swim.py"],
-        cwd=tmp_path,
+        [sys.executable, "program.py"],
+        cwd=folder,
         env=os.environ | {"PYTHONPATH": str(PAGE.parents[1] / "src")},
         capture_output=True,
         text=True,
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    assert done.stdout in blocks("text")
+    return done.stdout
+
+
+def test_a_newcomers_vehicle_swims_as_the_page_shows(folder: Path) -> None:
+    assert said_by("".join(blocks("python")[:2]), folder) in blocks("text")
+
+
+def test_it_swims_in_a_scene_as_the_page_shows(folder: Path) -> None:
+    assert said_by(blocks("python")[2], folder) in blocks("text")
 
 
 def test_the_page_names_every_element() -> None:
@@ -44,3 +61,11 @@ def test_the_page_names_every_element() -> None:
                 or f"<{slot.shown}" in text
                 or (f'{slot.shown}="..."' in text)
             ), slot.shown
+
+
+def test_a_vehicle_without_any_mass_is_a_fault_of_its_scene(folder: Path) -> None:
+    side_file = folder / "my_rov.xml"
+    side_file.write_text(side_file.read_text().replace("<mass>20</mass>", ""))
+    said = [str(fault) for fault in faults_of(folder / "my_scene.xml")]
+    assert len(said) == 1
+    assert "my_scene.xml:10: the vehicle 'my_rov' has no mass" in said[0]

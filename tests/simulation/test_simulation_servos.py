@@ -117,3 +117,11 @@ def test_a_joint_that_was_let_go_is_held_where_it_is_found() -> None:
     run(simulation, 6.0)
     assert joints(simulation) == pytest.approx(there, abs=0.05)
     assert np.abs(simulation._state.servos(0).velocities).max() < 1e-3
+
+
+def test_an_effort_ends_at_that_of_the_urdf() -> None:
+    simulation = make()
+    command(simulation, effort=[0.0, -1e9, 0.0, 0.0, 0.0])
+    simulation.advance()
+    simulation.advance()
+    assert simulation._state.servos(0).efforts[SHOULDER] == pytest.approx(-100.0)

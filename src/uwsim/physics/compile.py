@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 import mujoco
 import numpy as np
 
+from ..errors import UwsimError
 from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..scene.spec import SceneSpec
 from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
@@ -131,7 +132,12 @@ def compile_scene(
             _add_shapes(spec, spec.body(name), name, parts, Pose.identity())
     if dynamics:
         _add_water(spec, scene, dynamics, loose)
-    model = spec.compile()
+    try:
+        model = spec.compile()
+    except ValueError as error:
+        raise UwsimError(
+            f"The scene cannot be simulated: {' '.join(str(error).split())}"
+        ) from error
     rebuild_world_tree(model)
     return model
 

@@ -126,6 +126,14 @@ class _Search:
             self.found += error.faults
         except UnknownName as error:
             self._say(str(error), "vehicle", index, f"{U}dynamics", 0)
+        else:
+            given = {body.link: body.mass for body in self.dynamics[index].bodies}
+            if not any(given.get(link.name) or link.mass for link in robot.links):
+                self._say(
+                    f"the vehicle {self._scene.vehicles[index].name!r} has no mass: neither a link "
+                    f"of its URDF nor a <body> of {name!r} gives one",
+                    *("vehicle", index, f"{U}dynamics", 0),
+                )
 
     def _follow_thrusters(self, index: int, vehicle: VehicleSpec) -> None:
         for number, fault in enumerate(vehicle.faults):
