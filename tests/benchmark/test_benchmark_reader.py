@@ -355,7 +355,7 @@ FACE = (
         (text(TIME.replace("onInit", "position</type><target>a</target><type>")), 3, ""),
         (text(TIME.replace("</name>", "</name><log>0</log>")), 3, "expected a number > 0 [s]"),
         (text(function="<function>t+</function>"), 6,
-         "<function>: the expression ends too early (column 3: 't+')"),
+         "<function>: the expression ends too early (column 3)\n  t+\n    ^"),
         (text(function="<function>2*tt</function>"), 6, "no measure is called 'tt'"),
         (text(function="<function></function>"), 6, "<function> is empty"),
         (text(function=""), 1, "<benchmark> lacks <function>"),

@@ -28,7 +28,7 @@ from typing import Any, TypeVar
 from lxml import etree
 
 from ..compatibility import COMPATIBILITY
-from ..dialect import NAMESPACE, Faults, check_head, cut, parse, read, slots, text_of
+from ..dialect import NAMESPACE, Faults, check_head, parse, read, slots, text_of
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
 from . import score
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
@@ -347,11 +347,10 @@ class _Reader:
         try:
             score.parse(function.text, names)
         except score.ScoreFault as fault:
-            start = max(0, fault.column - 30)
-            piece = cut("..." * (start > 0) + fault.text[start:])
             message = textwrap.shorten(fault.message, 300, placeholder=" ...")
             self.faults.add(
-                root.find("function"), f"<function>: {message} (column {fault.column + 1}: {piece})"
+                root.find("function"),
+                f"<function>: {message} (column {fault.column + 1})\n{fault.pointed_at()}",
             )
 
     def notice_endless(self, root: etree._Element, spec: BenchmarkSpec) -> None:

@@ -67,6 +67,9 @@ GRAMMAR = r"""
     %ignore /[ \t\r\n]+/
 """
 
+SHOWN = 60
+"""How much of an expression is shown on either side of what is wrong with it [characters]."""
+
 Function = Callable[..., Any]
 
 
@@ -76,7 +79,15 @@ class ScoreFault(UwsimError):
     def __init__(self, text: str, column: int, message: str) -> None:
         self.text, self.column, self.message = text, column, message
         """Column from 0."""
-        super().__init__(f"{message}\n  {_one_line(text)}\n  {' ' * column}^")
+        super().__init__(f"{message}\n{self.pointed_at()}")
+
+    def pointed_at(self) -> str:
+        """The text, and on the next line a caret under the wrong character; long ones are cut."""
+        start = max(0, self.column - SHOWN)
+        before = "..." if start else ""
+        after = "..." if len(self.text) > self.column + SHOWN else ""
+        piece = before + _one_line(self.text[start : self.column + SHOWN]) + after
+        return f"  {piece}\n  {' ' * (len(before) + self.column - start)}^"
 
 
 @dataclass(frozen=True)
