@@ -7,10 +7,7 @@ this one has loaded what it needs by the time it is asked.
 from __future__ import annotations
 
 import multiprocessing
-import os
 import signal
-import threading
-import time
 from multiprocessing.connection import Connection
 from pathlib import Path
 from types import TracebackType
@@ -19,6 +16,7 @@ from typing import Self
 from ..errors import RunFailed, UwsimError
 from .bench import Bench
 from .crew import play_all
+from .leash import put_on
 from .plugin import raised
 
 Job = Bench | Path
@@ -34,9 +32,11 @@ class Beside:
     def __init__(self) -> None:
         context = multiprocessing.get_context("spawn")
         self._here, there = context.Pipe()
-        self._process = context.Process(target=_serve, args=(there, os.getpid()), daemon=True)
+        leash, self._leash = context.Pipe(duplex=False)
+        self._process = context.Process(target=_serve, args=(there, leash), daemon=True)
         self._process.start()
         there.close()
+        leash.close()
 
     def __enter__(self) -> Self:
         return self
@@ -50,6 +50,7 @@ class Beside:
         self._process.kill()
         self._process.join()
         self._here.close()
+        self._leash.close()
 
     def ask(self, job: Job) -> None:
         """Give it something to do."""
@@ -76,10 +77,12 @@ _KEPT = "Finished rows are kept; go on with --resume."
 _GONE = f"The process that plays the control and draws the report died. {_KEPT}"
 
 
-def _serve(there: Connection, parent: int) -> None:
+def _serve(there: Connection, leash: Connection) -> None:
     """Do what comes, until the parent is gone or wants no more."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent decides
-    threading.Thread(target=_leave_with, args=(parent,), daemon=True).start()
+    put_on(leash)
+    from .report import write_report  # heavy, and loaded while the levels are played
+
     while True:
         try:
             job = there.recv()
@@ -88,10 +91,7 @@ def _serve(there: Connection, parent: int) -> None:
         try:
             if isinstance(job, Bench):
                 play_all([job])
-                from .report import write_report  # while the levels are played
             else:
-                from .report import write_report
-
                 write_report(job)
         except UwsimError as error:
             there.send(str(error))
@@ -100,10 +100,3 @@ def _serve(there: Connection, parent: int) -> None:
             there.send(f"{what} failed: {raised(error)}. {_KEPT}")
         else:
             there.send(None)
-
-
-def _leave_with(parent: int) -> None:
-    """End when the parent is gone, however that came to its end."""
-    while os.getppid() == parent:
-        time.sleep(0.1)
-    os._exit(1)

@@ -8,9 +8,7 @@ one plays its unit again, and has to reproduce the rows that are on disk.
 from __future__ import annotations
 
 import multiprocessing
-import os
 import signal
-import threading
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
@@ -18,6 +16,7 @@ from multiprocessing.connection import Connection, wait
 
 from ..simulation import Studio
 from .crew import Here, Job, Roster, play_and_keep, worker_environment
+from .leash import put_on
 from .unit_work import UnitFailed, portable
 
 PATIENCE = 10.0
@@ -159,7 +158,7 @@ def how(exit_code: int | None) -> str:
 
 def work(pipe: Connection, leash: Connection) -> None:
     """Play what comes through the pipe until ``None`` comes, or until nobody holds the leash."""
-    threading.Thread(target=_leave_with, args=(leash,), daemon=True).start()
+    put_on(leash)
     studio = Studio()
     try:
         while (job := pipe.recv()) is not None:
@@ -175,10 +174,3 @@ def work(pipe: Connection, leash: Connection) -> None:
         pass  # the employer has gone
     finally:
         studio.close()
-
-
-def _leave_with(leash: Connection) -> None:
-    """End this process at once when its employer is gone, however that came to its end."""
-    with suppress(EOFError, OSError):
-        leash.recv()
-    os._exit(1)
