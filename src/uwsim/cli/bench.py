@@ -18,6 +18,7 @@ from rich.console import Console
 from ..errors import BadSetting, BenchmarkError, Fault, FileError, RunFailed, UwsimError
 from .crew import WorkersOption, crew_of
 from .files import benchmark_file, scene_file
+from .options import CompatOption, DataPathOption
 from .plugins import PluginOption, read_plugins
 from .progress import progress
 from .took import Took
@@ -78,10 +79,7 @@ def bench(
             "may be repeated.",
         ),
     ] = None,
-    compat: Annotated[
-        list[str] | None,
-        typer.Option(help="Slips of the original to bring back, by name; uwsim is all of them."),
-    ] = None,
+    compat: CompatOption = None,
     workers: WorkersOption = "1",
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Result directory [./NAME.result].")
@@ -93,10 +91,7 @@ def bench(
         bool, typer.Option("--overwrite", help="Replace an earlier result in --out.")
     ] = False,
     plugin: PluginOption = None,
-    data_path: Annotated[
-        list[Path] | None,
-        typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
-    ] = None,
+    data_path: DataPathOption = None,
 ) -> None:
     """Play a benchmark: every level, scored; a table, logs, plots and a report come out."""
     crew = crew_of(workers)

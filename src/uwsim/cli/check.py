@@ -11,6 +11,7 @@ import typer
 from ..errors import BadSetting, Fault, FileError, PluginError, UwsimError
 from .faults import WRONG_INPUT, printable
 from .files import bundled, scene_file
+from .options import DataPathOption
 from .plugins import PluginOption, read_plugins
 
 if TYPE_CHECKING:
@@ -30,10 +31,7 @@ def check(
         bool, typer.Option("--strict", help="Also hold files against the original's order.")
     ] = False,
     plugin: PluginOption = None,
-    data_path: Annotated[
-        list[Path] | None,
-        typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
-    ] = None,
+    data_path: DataPathOption = None,
 ) -> None:
     """Say everything that is wrong with scene, robot and benchmark files.
 

@@ -16,6 +16,7 @@ from ..errors import BadSetting, UwsimError, did_you_mean
 from .bench import chosen_level, interrupt, make_plan
 from .crew import WorkersOption, crew_of
 from .faults import printable
+from .options import CompatOption, DataPathOption
 from .plugins import PluginOption
 from .progress import progress
 
@@ -85,10 +86,7 @@ def envelope(
             help="Change the scene or the algorithm, as for bench; may be repeated.",
         ),
     ] = None,
-    compat: Annotated[
-        list[str] | None,
-        typer.Option(help="Slips of the original to bring back, by name; uwsim is all of them."),
-    ] = None,
+    compat: CompatOption = None,
     workers: WorkersOption = "1",
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Where it goes [./NAME.envelope].")
@@ -100,10 +98,7 @@ def envelope(
         bool, typer.Option("--overwrite", help="Replace an earlier envelope in --out.")
     ] = False,
     plugin: PluginOption = None,
-    data_path: Annotated[
-        list[Path] | None,
-        typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
-    ] = None,
+    data_path: DataPathOption = None,
 ) -> None:
     """Find the level at which a benchmark breaks: one number, its unit, and its bound.
 

@@ -13,6 +13,7 @@ from PIL import Image
 from ..errors import BadSetting
 from .bench import split
 from .files import scene_file
+from .options import CompatOption, DataPathOption
 
 if TYPE_CHECKING:
     from ..rendering.renderer import Picture
@@ -53,14 +54,8 @@ def render(
             help="Change the scene, as oceanState.fog.density=0.4; may be repeated.",
         ),
     ] = None,
-    compat: Annotated[
-        list[str] | None,
-        typer.Option(help="Slips of the original to bring back, by name; uwsim is all of them."),
-    ] = None,
-    data_path: Annotated[
-        list[Path] | None,
-        typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
-    ] = None,
+    compat: CompatOption = None,
+    data_path: DataPathOption = None,
 ) -> None:
     """Draw what a camera of a scene sees at time 0: with its noise, and through the water."""
     from ..compatibility import compatibility

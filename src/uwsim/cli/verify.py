@@ -11,6 +11,7 @@ import typer
 from ..errors import ResultError
 from .crew import WorkersOption, crew_of
 from .faults import RUN_FAILED, printable
+from .options import DataPathOption
 from .plugins import PluginOption
 from .progress import progress
 from .recorded import NOT_DRAWN, Given, check_inputs, named_input, plan_of
@@ -61,10 +62,7 @@ def verify(
     ] = None,
     workers: WorkersOption = "1",
     plugin: PluginOption = None,
-    data_path: Annotated[
-        list[Path] | None,
-        typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
-    ] = None,
+    data_path: DataPathOption = None,
 ) -> None:
     """Replay a sample of a stored result and compare it with what is stored, byte for byte.
 

@@ -1,0 +1,18 @@
+"""Options that several commands share, said once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+CompatOption = Annotated[
+    list[str] | None,
+    typer.Option(help="Slips of the original to bring back, by name; uwsim is all of them."),
+]
+
+DataPathOption = Annotated[
+    list[Path] | None,
+    typer.Option(metavar="DIR", help="Look for files here, too; may be repeated."),
+]
