@@ -125,15 +125,17 @@ class Pose:
         return matrix
 
     def __matmul__(self, other: Pose) -> Pose:
-        return Pose(self.rotation @ other.position + self.position, self.rotation @ other.rotation)
+        turn = self.rotation.dot  # half as dear as ``@`` for matrices this small
+        return Pose(turn(other.position) + self.position, turn(other.rotation))
 
     def inverse(self) -> Pose:
         """``b_from_a``."""
-        return Pose(-self.rotation.T @ self.position, self.rotation.T)
+        return Pose(-self.rotation.T.dot(self.position), self.rotation.T)
 
     def transform(self, points: Array) -> Array:
         """Points in b (n, 3) as points in a (n, 3) [m]."""
-        moved: Array = points @ self.rotation.T + self.position
+        moved: Array = points.dot(self.rotation.T)
+        moved += self.position
         return moved
 
 
@@ -191,12 +193,12 @@ class Intrinsics:
         Points at or behind the camera plane give NaN; with ``behind`` only those in the plane do,
         and those behind it are projected through the camera's centre, upside down.
         """
-        x, y, depth = points[:, 0], points[:, 1], -points[:, 2]
-        depth[(depth == 0.0) if behind else ~(depth > 0.0)] = np.nan
-        pixels = np.empty((len(points), 2))
-        pixels[:, 0] = self.cx + (self.fx * x + self.skew * y) / depth
-        pixels[:, 1] = self.cy - self.fy * y / depth
-        return pixels
+        pixels = []  # one by one: they are few, and asked for at every step
+        for x, y, z in points.tolist():
+            depth = -z if z < 0.0 or (behind and z != 0.0) else math.nan
+            u = self.cx + (self.fx * x + self.skew * y) / depth
+            pixels.append((u, self.cy - self.fy * y / depth))
+        return np.array(pixels).reshape(-1, 2)
 
     def rays(self) -> Array:
         """Direction of the ray of each pixel centre, camera frame, with -z = 1, (h, w, 3)."""

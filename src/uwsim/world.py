@@ -94,8 +94,8 @@ class Actuators(Protocol):
     def joints(self) -> tuple[str, ...]:
         """Names of its joints, those that mimic included."""
 
-    def powers(self) -> list[float]:
-        """What the thrusters draw from the battery now, then the joints [W]."""
+    def powers(self) -> npt.NDArray[np.float64]:
+        """What the thrusters draw from the battery now, then the joints, (n,) [W]."""
 
 
 class Flow(Protocol):

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from uwsim.physics.hydrodynamics import ThrusterSpec, VehicleHydrodynamics, vehicle_faults
 from uwsim.physics.hydrodynamics.spec import JointDrive
-from uwsim.physics.power import ThrusterPower, joint_power
+from uwsim.physics.power import power_table
+from uwsim.physics.power_law import joint_power, thruster_power
 from uwsim.physics.vehicle_file import VehicleError, read_vehicle, vehicle_sets
 
 T200 = [  # thrust [kgf] and power [W] at 12 V, Blue Robotics, September 2019
@@ -38,31 +40,35 @@ def faults_of(folder: Path, *, thruster: str = "", joint: str = "") -> list[str]
 
 def test_a_propeller_at_rest_gives_the_water_of_its_disc_the_speed_of_momentum_theory() -> None:
     radius, density, thrust = 0.1, 1025.0, 80.0
-    power = ThrusterPower(thruster(radius=radius, efficiency=1.0), density)(thrust)
+    power = partial(thruster_power, power_table(thruster(radius=radius, efficiency=1.0), density))(
+        thrust
+    )
     disc = math.pi * radius**2
     wake = math.sqrt(2.0 * thrust / (density * disc))  # far behind; half of it in the disc
     assert density * disc * (wake / 2.0) * wake == pytest.approx(thrust)
     assert power == pytest.approx(thrust * wake / 2.0, rel=1e-12)
-    half = ThrusterPower(thruster(radius=radius, efficiency=0.5), density)
+    half = partial(thruster_power, power_table(thruster(radius=radius, efficiency=0.5), density))
     assert half(thrust) == half(-thrust) == pytest.approx(2.0 * power, rel=1e-12)
 
 
 def test_twice_the_power_is_not_twice_the_thrust() -> None:
-    power = ThrusterPower(thruster(), 1000.0)
+    power = partial(thruster_power, power_table(thruster(), 1000.0))
     assert power(0.0) == 0.0
     assert power(8.0) / power(2.0) == pytest.approx(8.0)
 
 
 def test_measured_power_replaces_the_law_and_may_differ_backward() -> None:
-    both = ThrusterPower(thruster(power=(1.0, 0.5)), 1000.0)
+    both = partial(thruster_power, power_table(thruster(power=(1.0, 0.5)), 1000.0))
     assert both(4.0) == both(-4.0) == pytest.approx(12.0)
-    uneven = ThrusterPower(thruster(power=(1.0, 0.5), power_backward=(0.0, 2.0)), 1000.0)
+    uneven = partial(
+        thruster_power, power_table(thruster(power=(1.0, 0.5), power_backward=(0.0, 2.0)), 1000.0)
+    )
     assert (uneven(4.0), uneven(-4.0)) == (pytest.approx(12.0), pytest.approx(32.0))
 
 
 def test_the_bundled_t200_draws_what_its_maker_measured() -> None:
     vehicle = read_vehicle(vehicle_sets()["bluerov2_heavy"])
-    power = ThrusterPower(vehicle.thrusters[0], 1000.0)
+    power = partial(thruster_power, power_table(vehicle.thrusters[0], 1000.0))
     for kgf, measured in T200:
         assert power(9.80665 * kgf) == pytest.approx(measured, rel=0.3)
     assert power(30.4) == pytest.approx(180.0, abs=1.0)
@@ -70,7 +76,7 @@ def test_the_bundled_t200_draws_what_its_maker_measured() -> None:
 
 def test_the_bundled_girona_draws_what_the_coefficients_of_its_propeller_say() -> None:
     vehicle = read_vehicle(vehicle_sets()["g500_physical"])
-    power = ThrusterPower(vehicle.thrusters[0], vehicle.density)
+    power = partial(thruster_power, power_table(vehicle.thrusters[0], vehicle.density))
     turns = math.sqrt(140.0 / (0.48 * 1000.0 * 0.18**4))  # [1/s]
     shaft = 2.0 * math.pi * turns * 0.05 * 1000.0 * 0.18**5 * turns**2
     assert power(140.0) == pytest.approx(shaft / 0.8, rel=0.01)
@@ -78,10 +84,12 @@ def test_the_bundled_girona_draws_what_the_coefficients_of_its_propeller_say() -
 
 def test_a_joint_pays_for_its_work_and_for_its_torque_and_gets_nothing_back() -> None:
     drive = JointDrive(name="elbow", efficiency=0.5, copper_loss=0.02)
-    assert joint_power(drive, 10.0, 0.3) == pytest.approx(6.0 + 2.0)
-    assert joint_power(drive, 10.0, 0.0) == pytest.approx(2.0)  # held
-    assert joint_power(drive, -10.0, 0.3) == pytest.approx(2.0)  # let down
-    assert joint_power(drive, -10.0, -0.3) == pytest.approx(8.0)
+    assert joint_power(drive.efficiency, drive.copper_loss, 10.0, 0.3) == pytest.approx(6.0 + 2.0)
+    assert joint_power(drive.efficiency, drive.copper_loss, 10.0, 0.0) == pytest.approx(2.0)  # held
+    assert joint_power(drive.efficiency, drive.copper_loss, -10.0, 0.3) == pytest.approx(
+        2.0
+    )  # let down
+    assert joint_power(drive.efficiency, drive.copper_loss, -10.0, -0.3) == pytest.approx(8.0)
 
 
 def test_a_joint_that_the_file_does_not_name_has_the_documented_drive() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -15,7 +16,8 @@ from uwsim.errors import UnknownName
 from uwsim.messages import Float64MultiArray, JointState, MultiArrayLayout, header
 from uwsim.physics.compile import servo_gains
 from uwsim.physics.hydrodynamics import VehicleHydrodynamics
-from uwsim.physics.power import ThrusterPower, joint_power
+from uwsim.physics.power import power_table
+from uwsim.physics.power_law import joint_power, thruster_power
 from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
 from uwsim.scene.ros_interfaces import (
     ArmToROSJointStateSpec,
@@ -77,7 +79,7 @@ def test_rotors_that_run_up_draw_the_closed_form(vehicle: VehicleHydrodynamics) 
     go_on(simulation, energy, 2.0)
     # delivered in the first step, taken by the autopilot when it acts again, in the eleventh
     turned = 2.0 - 10 * simulation.timestep
-    power = ThrusterPower(vehicle.thrusters[0], vehicle.density)
+    power = partial(thruster_power, power_table(vehicle.thrusters[0], vehicle.density))
     for name, command in (("surge_port", 0.5), ("surge_starboard", 0.25)):
         spent = energy.details[f"thruster.{name}"]
         assert spent == pytest.approx(power(140.0 * command**2) * cubed(turned), rel=1e-4)
@@ -90,7 +92,9 @@ def test_a_constant_thrust_draws_its_power_times_time(vehicle: VehicleHydrodynam
     run(simulation, 5.0)
     energy = start(simulation, hotel_load=50.0)
     go_on(simulation, energy, 1.0)
-    power = ThrusterPower(vehicle.thrusters[0], vehicle.density)(140.0 * 0.16)
+    power = partial(thruster_power, power_table(vehicle.thrusters[0], vehicle.density))(
+        140.0 * 0.16
+    )
     assert energy.details["thrusters"] == pytest.approx(2.0 * power, rel=1e-9)
     assert energy.details["hotel"] == pytest.approx(50.0)
     assert energy.value == pytest.approx(2.0 * power + 50.0 + energy.details["joints"])
@@ -108,7 +112,7 @@ def test_energy_is_the_integral_of_the_thrusts_and_efforts_that_are_told(
     energy = start(simulation)
     actuators = simulation.actuators(NAME)
     assert actuators is not None
-    laws = [ThrusterPower(one, vehicle.density) for one in vehicle.thrusters]
+    laws = [partial(thruster_power, power_table(one, vehicle.density)) for one in vehicle.thrusters]
     drawn = [[law(t) for law, t in zip(laws, actuators.thrusts(), strict=True)]]  # [W]
     works = np.zeros(5)  # [J]
     dampings = np.array([servo_gains(one.effort)[1] for one in simulation.robots[0].movable])
@@ -123,7 +127,8 @@ def test_energy_is_the_integral_of_the_thrusts_and_efforts_that_are_told(
         own = dict(zip(actuators.joints, actuators.efforts(), strict=True))
         assert [own[name] for name in state.name] == pytest.approx(efforts, abs=1e-9)
         for i, name in enumerate(state.name):
-            power = joint_power(vehicle.drive(name), efforts[i], state.velocity[i])
+            drive = vehicle.drive(name)
+            power = joint_power(drive.efficiency, drive.copper_loss, efforts[i], state.velocity[i])
             works[i] += power * simulation.timestep
     thrusters = np.trapezoid(np.array(drawn), dx=simulation.timestep, axis=0)
     for name, expected in zip(actuators.thrusters, thrusters, strict=True):
@@ -146,7 +151,9 @@ def test_a_dead_thruster_draws_nothing_and_half_a_thruster_a_third(
     run(simulation, 5.0)
     energy = start(simulation)
     go_on(simulation, energy, 1.0)
-    power = ThrusterPower(vehicle.thrusters[0], vehicle.density)(140.0 * 0.16)
+    power = partial(thruster_power, power_table(vehicle.thrusters[0], vehicle.density))(
+        140.0 * 0.16
+    )
     assert energy.details["thruster.surge_port"] == 0.0
     assert energy.details["thruster.surge_starboard"] == pytest.approx(power * 0.5**1.5, rel=1e-9)
 
@@ -170,13 +177,15 @@ def test_a_joint_that_is_pushed_draws_for_the_effort_it_was_told(
     vehicle: VehicleHydrodynamics,
 ) -> None:
     simulation = make(INTERFACES)
+    told = simulation.bus.inbox("/joints", JointState)
     bend(simulation, effort=[-3.0])
     run(simulation, 0.1)
     actuators = simulation.actuators(NAME)
     assert actuators is not None
     slew = actuators.joints.index("Slew")
     assert actuators.efforts()[slew] == pytest.approx(-3.0)
-    speed = actuators.speeds()[slew]
+    state = told.take()[-1]
+    speed = state.velocity[state.name.index("Slew")]
     assert speed < 0.0
     drawn = actuators.powers()[len(actuators.thrusters) + slew]
     assert drawn == pytest.approx(3.0 * -speed / 0.5 + 0.01 * 9.0)

@@ -19,6 +19,7 @@ Image coordinates are in pixels from the top left corner of the image, v down.
 from __future__ import annotations
 
 import abc
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -185,10 +186,11 @@ class _Seen(GroundTruth):
             body.rotation.tobytes(),
         )
         if key != self._seen_from:
-            points = self._points @ body.rotation.T + (body.position - camera.position)
-            seen = points @ camera.rotation  # (n, 3) [m], camera frame
+            points = self._points.dot(body.rotation.T) + (body.position - camera.position)
+            seen = points.dot(camera.rotation)  # (n, 3) [m], camera frame
             pixels = self._camera.intrinsics.project(seen, behind=self._unseen)  # (n, 2) [px]
-            self._seen = self._from_pixels(pixels) if np.isfinite(pixels).all() else None
+            is_seen = all(map(math.isfinite, pixels.ravel().tolist()))
+            self._seen = self._from_pixels(pixels) if is_seen else None
             self._seen_from = key
         return self._seen
 

@@ -9,16 +9,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import mujoco
+import numpy as np
+import numpy.typing as npt
 
+from ..geometry import Array
 from ..scene.urdf import RobotSpec
 from .compile import vehicle_joint, vehicle_thruster
-from .hydrodynamics import ThrusterSpec, VehicleHydrodynamics
+from .hydrodynamics import VehicleHydrodynamics
 from .hydrodynamics.columns import WATER_COLUMNS
-from .hydrodynamics.spec import JointDrive
-from .power import ThrusterPower, joint_power
+from .power import power_table
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics
@@ -48,99 +50,70 @@ class Actuators:
             index: number of the vehicle.
             refresh: brings the places in ``data`` up to date.
         """
-        from .hydrodynamics.kernel import curve
+        from . import power_law
 
-        self._refresh, self._curve = refresh, curve
-        self._ctrl, self._act, self._userdata = data.ctrl, data.act, data.userdata
-        self._qpos, self._qvel, self._applied = data.qpos, data.qvel, data.qfrc_applied
-        self._places, self._water, self._still = data.site_xpos, water.water(data), water.surface
-        self._rotors = [
-            _Rotor(model, model.actuator(vehicle_thruster(index, spec.name)).id, spec, water)
-            for spec in vehicle.thrusters
-        ]
-        moving = [joint.name for joint in robot.joints if joint.moves]
-        names = [vehicle_joint(index, name) for name in moving]
-        self._motors = [
-            _Motor(
-                model,
-                model.joint(name).id,
-                model.actuator(f"{name}/servo").id,
-                vehicle.drive(joint),
-            )
-            for name, joint in zip(names, moving, strict=True)
-        ]
+        self._law, self._refresh = power_law, refresh
         self._timestep = float(model.opt.timestep)
+        moving = [joint for joint in robot.joints if joint.moves]
         self.thrusters = tuple(spec.name for spec in vehicle.thrusters)
         """Names of its thrusters."""
-        self.joints = tuple(moving)
+        self.joints = tuple(joint.name for joint in moving)
         """Names of its joints, those that mimic included."""
+        rotors = [model.actuator(vehicle_thruster(index, name)).id for name in self.thrusters]
+        sites = model.actuator_trnid[rotors, 0]
+        controls = model.actuator_ctrladr[rotors]
+        losses = WATER_COLUMNS * model.nbody + np.array(rotors, dtype=np.int64)
+        addresses = [model.actuator_actadr[rotors], controls, sites, model.site_bodyid[sites]]
+        self._rotors = _columns([*addresses, losses, rotors], np.int64)  # (n, 6)
+        radii = [spec.radius for spec in vehicle.thrusters]
+        self._rotor_traits = _columns([*model.actuator_ctrlrange[controls].T, radii], np.float64)
+        terms = max((power_table(one, 1.0).shape[1] - 1 for one in vehicle.thrusters), default=0)
+        self._tables = np.array(
+            [power_table(one, water.density, terms) for one in vehicle.thrusters]
+        ).reshape(-1, 2, 1 + terms)
+        names = [vehicle_joint(index, name) for name in self.joints]
+        joints = [model.joint(name).id for name in names]
+        servos = [model.actuator(f"{name}/servo").id for name in names]
+        places = [model.jnt_qposadr[joints], model.jnt_dofadr[joints]]
+        self._motors = _columns([*places, model.actuator_ctrladr[servos], servos], np.int64)
+        is_limited = model.actuator_forcelimited[servos].astype(bool)
+        strongest = np.where(is_limited, model.actuator_forcerange[servos, 1], math.inf)
+        drives = [vehicle.drive(joint.name) for joint in moving]
+        self._motor_traits = _columns(
+            [strongest, [one.efficiency for one in drives], [one.copper_loss for one in drives]],
+            np.float64,
+        )
+        # Views into the engine's memory: servos are switched off and on there.
+        self._curves, self._still = model.actuator_user, water.surface
+        self._waters = data.ctrl, data.act, data.userdata, data.site_xpos
+        self._servos = model.actuator_gainprm, model.actuator_biasprm, data.ctrl
+        self._joints = data.qpos, data.qvel, data.qfrc_applied
 
-    def thrusts(self) -> list[float]:
-        """Along their directions, as the water has it [N]."""
+    def thrusts(self) -> Array:
+        """Along their directions, as the water has it, (n,) [N]."""
         self._refresh()
-        thrusts = []
-        for one in self._rotors:
-            command = self._ctrl.item(one.control) if one.state < 0 else self._act.item(one.state)
-            surface = self._still + self._water.item(one.body, 6)
-            wet = 0.5 + 0.5 * (surface - self._places.item(one.site, 2)) / one.radius
-            healthy = 1.0 - self._userdata.item(one.loss)
-            thrust = self._curve(one.table, min(max(command, one.least), one.most))
-            thrusts.append(healthy * thrust * min(max(wet, 0.0), 1.0))
-        return thrusts
+        return self._law.thrusts(
+            self._rotors, self._rotor_traits, self._curves, self._still, *self._waters
+        )
 
-    def efforts(self) -> list[float]:
-        """Of the joints' servos, or what was commanded where those are off [N m or N].
+    def efforts(self) -> Array:
+        """Of the joints' servos, or what was commanded where those are off, (m,) [N m or N]."""
+        return self._law.efforts(
+            self._timestep, self._motors, self._motor_traits, *self._servos, *self._joints
+        )
 
-        It is what acted in the last step: the engine pulls towards the target from where the joint
-        was, and damps the speed that it has after the step.
-        """
-        efforts = []
-        for one in self._motors:
-            speed = self._qvel.item(one.dof)
-            before = self._qpos.item(one.position) - speed * self._timestep
-            pull = one.gain.item(0) * self._ctrl.item(one.control)
-            pull += one.bias.item(1) * before + one.bias.item(2) * speed
-            pull = min(max(pull, -one.strongest), one.strongest)
-            efforts.append(pull + self._applied.item(one.dof))
-        return efforts
-
-    def speeds(self) -> list[float]:
-        """Of the joints [rad/s or m/s]."""
-        return [self._qvel.item(one.dof) for one in self._motors]
-
-    def powers(self) -> list[float]:
-        """What the thrusters draw now, then the joints [W]."""
-        rotors = zip(self._rotors, self.thrusts(), strict=True)
-        motors = zip(self._motors, self.efforts(), self.speeds(), strict=True)
-        return [
-            *[one.power(thrust) for one, thrust in rotors],
-            *[joint_power(one.drive, effort, speed) for one, effort, speed in motors],
-        ]
+    def powers(self) -> Array:
+        """What the thrusters draw now, then the joints, (n + m,) [W]."""
+        return self._law.powers(
+            self.thrusts(),
+            self._tables,
+            self.efforts(),
+            self._motors,
+            self._motor_traits,
+            self._joints[1],
+        )
 
 
-class _Rotor:
-    """Where a thruster's numbers stand in the engine."""
-
-    def __init__(
-        self, model: mujoco.MjModel, actuator: int, spec: ThrusterSpec, water: Hydrodynamics
-    ) -> None:
-        self.radius, self.power = spec.radius, ThrusterPower(spec, water.density)
-        self.state = int(model.actuator_actadr[actuator])
-        self.control = int(model.actuator_ctrladr[actuator])
-        self.least, self.most = model.actuator_ctrlrange[self.control].tolist()
-        self.table = model.actuator_user[actuator]
-        self.site = int(model.actuator_trnid[actuator, 0])
-        self.body = int(model.site_bodyid[self.site])
-        self.loss = WATER_COLUMNS * model.nbody + actuator
-
-
-class _Motor:
-    """Where a joint's numbers stand in the engine; views, for servos are switched off and on."""
-
-    def __init__(self, model: mujoco.MjModel, joint: int, servo: int, drive: JointDrive) -> None:
-        self.drive = drive
-        self.position, self.dof = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])
-        self.control = int(model.actuator_ctrladr[servo])
-        self.gain, self.bias = model.actuator_gainprm[servo], model.actuator_biasprm[servo]
-        is_limited = bool(model.actuator_forcelimited[servo])
-        self.strongest = float(model.actuator_forcerange[servo, 1]) if is_limited else math.inf
+def _columns(columns: list[Any], dtype: type) -> npt.NDArray[Any]:
+    """The columns side by side, (n, k); n may be 0."""
+    return np.array([np.asarray(column) for column in columns], dtype=dtype).T.copy()

@@ -33,34 +33,27 @@ import math
 import numpy as np
 
 from ..geometry import Array
-from .hydrodynamics.spec import JointDrive, Numbers, ThrusterSpec
+from .hydrodynamics.spec import Numbers, ThrusterSpec
 
 
-class ThrusterPower:
-    """What a thruster draws as a function of its thrust."""
+def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array:
+    """Return what `power_law.thruster_power` computes with, (2, 1 + n).
 
-    def __init__(self, thruster: ThrusterSpec, density: float) -> None:
-        """Prepare the law; ``density`` is that of the water [kg/m3]."""
-        self._forward = thruster.power
-        self._backward = thruster.power_backward or thruster.power
-        disc = math.pi * thruster.radius**2
-        self._scale = 1.0 / (thruster.efficiency * math.sqrt(2.0 * density * disc))  # [W/N^1.5]
-
-    def __call__(self, thrust: float) -> float:
-        """Return what it draws at a thrust [N] [W]."""
-        size = abs(thrust)
-        curve = self._forward if thrust >= 0.0 else self._backward
+    Args:
+        thruster: what the file says of it.
+        density: of the water [kg/m3].
+        terms: the polynomials have room for so many at least.
+    """
+    forward, backward = thruster.power, thruster.power_backward or thruster.power
+    terms = max(terms, len(forward or ()), len(backward or ()))
+    table = np.zeros((2, 1 + terms))
+    disc = math.pi * thruster.radius**2
+    for row, curve in enumerate((forward, backward)):
         if curve is None:
-            return self._scale * size * math.sqrt(size)
-        power = 0.0
-        for coefficient in reversed(curve):
-            power = (power + coefficient) * size
-        return max(power, 0.0)
-
-
-def joint_power(drive: JointDrive, effort: float, speed: float) -> float:
-    """Return what a joint's motor draws at an effort [N m or N] and a speed [rad/s or m/s] [W]."""
-    return max(0.0, effort * speed) / drive.efficiency + drive.copper_loss * effort**2
+            table[row, 0] = 1.0 / (thruster.efficiency * math.sqrt(2.0 * density * disc))
+        else:
+            table[row, 1 : 1 + len(curve)] = curve
+    return table
 
 
 def power_faults(thruster: ThrusterSpec) -> list[str]:

@@ -14,7 +14,7 @@ from uwsim.benchmark.measures import Signal
 def test_the_running_statistics_are_those_of_the_samples(samples: list[float]) -> None:
     signal = Signal(("a",))
     for sample in samples:
-        signal.add(abs(sample), np.array([sample]))
+        signal.add(abs(sample), [sample])
     expected = {
         "a.mean": np.mean(samples), "a.rms": np.sqrt(np.mean(np.square(samples))),
         "a.max": np.max(np.abs(samples)), "a.std": np.std(samples), "a.n": len(samples),
@@ -37,5 +37,5 @@ def test_without_samples_there_is_nothing_but_their_number() -> None:
 def test_a_small_spread_about_a_large_mean_is_not_lost() -> None:
     signal = Signal(())
     for sample in (1e8, 1e8 + 1.0, 1e8 + 2.0):
-        signal.add(sample, np.empty(0))
+        signal.add(sample, ())
     assert signal.details["std"] == pytest.approx(np.sqrt(2 / 3), rel=1e-6)

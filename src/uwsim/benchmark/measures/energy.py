@@ -14,7 +14,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
+import numpy as np
+
 from ...dialect import element
+from ...geometry import Array
 from ...world import Actuators, World
 from .measure import Measure, MeasureSpec
 
@@ -78,8 +81,9 @@ class Energy(Measure):
         self._n_thrusters = len(thrusters)
         self._names = [f"thruster.{name}" for name in thrusters]
         self._names += [f"joint.{name}" for name in joints]
-        self._powers = [0.0] * len(self._names)  # at the last look [W]
-        self._energies = [0.0] * len(self._names)  # [J]
+        self._powers = np.zeros(len(self._names))  # at the last look [W]
+        self._power = 0.0  # what all drew together at the last look [W]
+        self._energies = np.zeros(len(self._names))  # [J]
         self._peak: float | None = None  # [W]
         self._last = 0  # step of the last look
         self._n_steps = 0
@@ -96,21 +100,13 @@ class Energy(Measure):
         before, last = self._powers, self._last
         self._look(self._actuators.powers())
         steps = self._last - last
-        half = 0.5 * steps * self._world.timestep
-        self._energies = [
-            energy + half * (then + now)
-            for energy, then, now in zip(self._energies, before, self._powers, strict=True)
-        ]
+        self._energies += (before + self._powers) * (0.5 * steps * self._world.timestep)
         self._n_steps += steps
 
-    def _look(self, powers: list[float]) -> None:
+    def _look(self, powers: Array) -> None:
         self._powers, self._last = powers, self._world.step
+        self._power = self._spec.hotel_load + sum(powers.tolist())
         self._peak = max(self._power, self._peak or 0.0)
-
-    @property
-    def _power(self) -> float:
-        """What all draw together [W]."""
-        return self._spec.hotel_load + sum(self._powers)
 
     @property
     def _time(self) -> float:
@@ -122,7 +118,7 @@ class Energy(Measure):
         """Energy drawn so far [J]; None for a vehicle without forces."""
         if self._peak is None:
             return None
-        return self._spec.hotel_load * self._time + sum(self._energies)
+        return self._spec.hotel_load * self._time + sum(self._energies.tolist())
 
     @property
     def why(self) -> str | None:
@@ -136,7 +132,7 @@ class Energy(Measure):
         """Energy by consumer [J], power [W] and charge [1]."""
         is_known = self._peak is not None
         n = self._n_thrusters
-        energies = self._energies
+        energies = self._energies.tolist()
         by_kind = (sum(energies[:n]), sum(energies[n:]), self._spec.hotel_load * self._time)
         return {
             **{

@@ -186,7 +186,7 @@ class EuclideanNorm(Measure):
             self._refused = "" if truth is not None else f"no truth: {self._truth.missing}"
             if truth is not None:
                 error = truth - estimate
-                self._signal.add(float(np.sqrt(error @ error)), error)
+                self._signal.add(float(np.sqrt(error @ error)), error.tolist())
 
     def _publish(self, service: str) -> None:
         truth = self._truth.read()

@@ -13,8 +13,6 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from ...world import World
 from ..ground_truth import CentroidFromCamera
 from .measure import Measure, MeasureSpec
@@ -78,12 +76,13 @@ class ObjectCenteredOnCam(Measure):
         width, height = self._size
         pixel = self._seen.read()
         self._looks += 1
+        u, v = (math.nan, math.nan) if pixel is None else pixel.tolist()
         self._is_visible = pixel is not None and (
-            self._unseen or (0.0 <= pixel[0] <= width and 0.0 <= pixel[1] <= height)
+            self._unseen or (0.0 <= u <= width and 0.0 <= v <= height)
         )
-        if pixel is not None and self._is_visible:
-            off = np.array([width / 2 - pixel[0], pixel[1] - height / 2])
-            self._signal.add(math.hypot(*off.tolist()), off)
+        if self._is_visible:
+            off = (width / 2 - u, v - height / 2)
+            self._signal.add(math.hypot(*off), off)
 
     @property
     def value(self) -> float | None:

@@ -139,7 +139,7 @@ class PathFollowing(Measure):
             step, before = self._before
             self._add(before, distance, (self._world.step - step) * self._world.timestep)
         self._before = (self._world.step, distance)
-        self._signal.add(distance, np.empty(0))
+        self._signal.add(distance, ())
 
     @property
     def value(self) -> float | None:

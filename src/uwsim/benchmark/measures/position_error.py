@@ -11,6 +11,7 @@ r"""Position error: how far a body is from where it should be.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -89,8 +90,8 @@ class PositionError(Measure):
         if self._goal is None:
             self._goal = self._told()
         if self._goal is not None:
-            error = self._pose_position() - self._goal
-            self._signal.add(float(np.linalg.norm(error)), error)
+            error = (self._position() - self._goal).tolist()
+            self._signal.add(math.hypot(*error), error)
 
     @property
     def value(self) -> float | None:
@@ -127,9 +128,10 @@ class PositionError(Measure):
         if self._inbox is not None:
             self._inbox.close()
 
-    def _pose_position(self) -> Array:
+    def _position(self) -> Array:
+        """Where the body is, in the frame of the components, (3,) [m]."""
         frame = self._frame_from_world
-        position: Array = frame.rotation @ self._body.world_from_body.position + frame.position
+        position: Array = frame.rotation.dot(self._body.world_from_body.position) + frame.position
         return position
 
     def _turn(self) -> tuple[float, ...]:

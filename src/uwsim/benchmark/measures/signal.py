@@ -16,9 +16,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
-import numpy.typing as npt
-
 STATISTICS = ("mean", "rms", "max", "std", "n")
 VALUES = ("last", "mean", "rms", "max")
 """What ``u:value`` may be for a measure of a signal."""
@@ -39,9 +36,9 @@ class Signal:
         self._power = [0.0] * size  # sum of squares
         self._max = [0.0] * size
 
-    def add(self, total: float, components: npt.NDArray[np.float64]) -> None:
-        """Take one sample: the total and its components (k,)."""
-        sample = [total, *components.tolist()]
+    def add(self, total: float, components: Sequence[float]) -> None:
+        """Take one sample: the total and its components, k plain floats."""
+        sample = [total, *components]
         self.n += 1
         for i, value in enumerate(sample):
             off = value - self._mean[i]
