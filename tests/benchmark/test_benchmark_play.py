@@ -1,58 +1,26 @@
 """Whole runs of a short benchmark: a black box, fog in three levels of 0.2 s, small pictures."""
 
+import inspect
 import json
+import re
 import sys
 from pathlib import Path
 
 import pytest
 
+import failing
 from short_benchmark import fingerprint, run, write_benchmark
 from uwsim.benchmark.comparison import compare, differences, read_entries, shared_column
 from uwsim.benchmark.result import load
 from uwsim.bus import Node
 from uwsim.errors import BadSetting, NeverStarted
-from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, String
+from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image
+from uwsim.simulation import what_broke
 
 
 @pytest.fixture
 def benchmark(tmp_path: Path) -> Path:
     return write_benchmark(tmp_path, "0.2")
-
-
-class Silent:
-    """Starts the benchmark and then says nothing."""
-
-    def start(self, node: Node) -> None:
-        node.call("startBench", Empty())
-
-
-class Absent:
-    """Never starts anything."""
-
-    def start(self, node: Node) -> None:
-        pass
-
-
-class Raises:
-    """Fails at the fourth picture."""
-
-    def start(self, node: Node) -> None:
-        self.n = 0
-        node.subscribe("/uwsim/camera1", Image, self.look)
-        node.call("startBench", Empty())
-
-    def look(self, image: Image) -> None:
-        self.n += 1
-        if self.n == 4:
-            raise ZeroDivisionError("no focus")
-
-
-class Asks:
-    """Says it failed."""
-
-    def start(self, node: Node) -> None:
-        node.call("startBench", Empty())
-        node.publisher("algorithmStatus", String)(String(data="failed: no template"))
 
 
 class Counts:
@@ -157,23 +125,38 @@ def test_an_algorithm_that_never_starts_the_benchmark_stops_it(
     benchmark: Path, tmp_path: Path
 ) -> None:
     with pytest.raises(NeverStarted, match="10 s of simulation time"):
-        run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Absent")
+        run(benchmark, tmp_path / "a", algorithm="failing:Absent")
     assert load(tmp_path / "a").rows == ()
 
 
 def test_an_algorithm_that_raises_fails_its_rows_and_no_other_measure(
     benchmark: Path, tmp_path: Path
 ) -> None:
-    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Raises")
+    result = run(benchmark, tmp_path / "a", algorithm="failing:Raises")
     assert result.values("status") == ("algorithm error",) * 3
     assert result.values("corners") == (None,) * 3
     assert result.values("total") == (None,) * 3
     assert result.numbers("taskTime") == pytest.approx((0.2, 0.2, 0.2))
-    assert "ZeroDivisionError: no focus" in str(result.why(0, "corners"))
+    line = inspect.getsource(failing).split("no focus")[0].count("\n") + 1
+    raised = f"failing:Raises raised at 0.1 s: failing.py:{line}: ZeroDivisionError: no focus"
+    assert result.why(0, "corners") == raised
+
+
+def test_an_error_of_a_library_is_put_on_the_line_of_the_algorithm_that_called_it() -> None:
+    try:
+        failing.Raises().start(None)  # type: ignore[arg-type]
+    except AttributeError as error:
+        said = what_broke(error, failing.Raises)
+    assert re.fullmatch(r"failing\.py:\d+: AttributeError: 'NoneType' .*", said)
+    try:
+        json.loads("{")
+    except ValueError as error:
+        said = what_broke(error, failing.Raises)
+    assert re.match(r"decoder\.py:\d+: JSONDecodeError: ", said)
 
 
 def test_an_algorithm_that_says_it_failed_is_believed(benchmark: Path, tmp_path: Path) -> None:
-    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Asks")
+    result = run(benchmark, tmp_path / "a", algorithm="failing:Fails")
     assert result.values("status")[0] == "algorithm error"
     assert "no template" in str(result.why(0, "corners"))
 
@@ -182,7 +165,7 @@ def test_silence_for_more_than_a_second_is_a_timeout(tmp_path: Path) -> None:
     result = run(
         write_benchmark(tmp_path, "1.2"),
         tmp_path / "a",
-        algorithm=f"{HERE}:Silent",
+        algorithm="failing:Silent",
         levels=["fog=0"],
     )
     assert result.values("status") == ("timeout",)

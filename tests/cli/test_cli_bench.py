@@ -10,25 +10,9 @@ from uwsim.benchmark.crew import Here
 from uwsim.benchmark.processes import Processes
 from uwsim.benchmark.provenance import load_provenance
 from uwsim.benchmark.result import load
-from uwsim.bus import Node
 from uwsim.cli import main
 from uwsim.cli.bench import crew_of
 from uwsim.errors import BadSetting
-from uwsim.messages import Empty, Image
-
-
-class Breaks:
-    """Raises at its third picture."""
-
-    def start(self, node: Node) -> None:
-        self.n = 0
-        node.subscribe("/uwsim/camera1", Image, self.look)
-        node.call("startBench", Empty())
-
-    def look(self, image: Image) -> None:
-        self.n += 1
-        if self.n == 3:
-            raise ZeroDivisionError("no focus")
 
 
 @pytest.fixture
@@ -71,7 +55,7 @@ def test_when_every_row_broke_all_is_written_and_the_run_has_failed(
     benchmark: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "out"
-    assert main(["bench", benchmark, "--algorithm", f"{__name__}:Breaks", "--out", str(out)]) == 3
+    assert main(["bench", benchmark, "--algorithm", "failing:Raises", "--out", str(out)]) == 3
     said = capsys.readouterr()
     assert (out / "report.html").exists()
     assert f"written: {out}/result.json" in said.out

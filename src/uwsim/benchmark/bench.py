@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -133,10 +133,7 @@ def collect(bench: Bench) -> tuple[Result, list[Log], float]:
         ]
         for name, taken in record["logs"].items():
             samples[name] += [(*led, *values, before + sample[0], *sample[1:]) for sample in taken]
-        pictures += [
-            TakenPicture(row=index, **{k: _tuple(v) for k, v in picture.items()})
-            for picture in record["pictures"]
-        ]
+        pictures += [_picture(index, picture) for picture in record["pictures"]]
     ends = [(unit, found.end) for unit, found in stored if found.end is not None]
     first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.parameters)}
     run = {
@@ -219,8 +216,19 @@ def _units(records: list[unit_file.Record], kind: str) -> dict[str, str]:
     return {name: unit for name, (_, unit) in first.items()}
 
 
-def _tuple(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list) else value
+def _picture(row: int, stored: unit_file.Record) -> TakenPicture:
+    """A picture of a row as the result has it."""
+    return TakenPicture(
+        row=row,
+        camera=stored["camera"],
+        file=stored["file"],
+        truth=_corners(stored["truth"]),
+        estimate=_corners(stored["estimate"]),
+    )
+
+
+def _corners(stored: Sequence[float] | None) -> tuple[float, ...] | None:
+    return None if stored is None else tuple(stored)
 
 
 def _unit(unit: str) -> str | None:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from ..bus import Algorithm
 from ..errors import NeverStarted
 from ..messages import String
-from ..simulation import Simulation, Studio
+from ..simulation import Simulation, Studio, what_broke
 from .facts import Fact, visibility_facts
 from .gate import Gate
 from .gated import Gated, Sample, finite
@@ -334,7 +334,7 @@ def _make(plan: Plan) -> Algorithm:
     except (Exception, SystemExit) as error:
         raise NeverStarted(
             f"Algorithm {plan.algorithm_name!r} cannot be made: "
-            f"{legible(f'{type(error).__name__}: {error}')}"
+            f"{legible(what_broke(error, plan.algorithm))}"
         ) from error
 
 

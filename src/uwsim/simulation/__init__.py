@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .image_publisher import ImagePublisher, sample_step
-from .node import InProcessNode, latency_of
+from .node import InProcessNode, latency_of, what_broke
 from .simulation import Simulation
 from .studio import Studio
 
@@ -14,4 +14,5 @@ __all__ = [
     "Studio",
     "latency_of",
     "sample_step",
+    "what_broke",
 ]

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sys
+import traceback
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
@@ -19,6 +22,19 @@ def latency_of(parameters: Mapping[str, float | str]) -> float:
     if isinstance(latency, str) or latency < 0.0:
         raise BadSetting(f"algorithm.latency_s is {latency!r}; expected a time >= 0 [s].")
     return latency
+
+
+def what_broke(error: BaseException, algorithm: type) -> str:
+    """Say what a stranger's program raised, and at which line of its file.
+
+    The file is the algorithm's, without its folders: results are the same wherever it lies. Where
+    the error did not pass through it, the file is the one that raised.
+    """
+    frames = traceback.extract_tb(error.__traceback__)[1:]  # the first is that of who called it
+    own = getattr(sys.modules.get(algorithm.__module__), "__file__", None)
+    through = [frame for frame in frames if frame.filename == own] or frames
+    place = f"{Path(through[-1].filename).name}:{through[-1].lineno}: " if through else ""
+    return f"{place}{type(error).__name__}: {error}"
 
 
 class InProcessNode:
@@ -46,10 +62,11 @@ class InProcessNode:
         self._delay_steps = round(latency_of(self._parameters) / timestep)
         self._parameters.pop("latency_s", None)
         self._close: list[Callable[[], None]] = []
+        self._algorithm: type = object
         self.name = name
         """Name of the algorithm."""
         self.error: str | None = None
-        """What it raised, if it did."""
+        """What it raised, if it did, and where."""
 
     @property
     def now(self) -> float:
@@ -72,12 +89,13 @@ class InProcessNode:
         Raises:
             BadSetting: it refuses one of its parameters: that is the user's mistake, not its own.
         """
+        self._algorithm = type(algorithm)
         try:
             algorithm.start(self)
         except BadSetting:
             raise
         except (Exception, SystemExit) as error:  # a stranger's program fails on its own
-            self.error = f"{type(error).__name__}: {error}"
+            self.error = what_broke(error, self._algorithm)
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Have ``callback`` called with every message on ``topic``."""
@@ -131,5 +149,5 @@ class InProcessNode:
         try:
             return callback(*arguments)
         except (Exception, SystemExit) as error:  # a stranger's program fails on its own
-            self.error = f"{type(error).__name__}: {error}"
+            self.error = what_broke(error, self._algorithm)
             return None
