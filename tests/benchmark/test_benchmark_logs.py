@@ -46,7 +46,7 @@ def test_a_sample_that_does_not_fit_the_header_is_refused() -> None:
         log_text(Log(measure="m", header=LOG.header, samples=((1.0,),)))
 
 
-@pytest.mark.parametrize("text", ["", "a,b\n1,2,3\n", "a\nfast\n"])
+@pytest.mark.parametrize("text", ["", "a,b\n1,2,3\n", "a\nfast\n", "a\n1e308\n", "a\nnan\n"])
 def test_what_is_no_log_is_a_clean_error(tmp_path: Path, text: str) -> None:
     path = tmp_path / "measure-m.csv"
     path.write_text(text)

@@ -368,6 +368,7 @@ def test_a_measure_that_raises_ends_the_run_with_its_line(folder: Path) -> None:
         ("float('nan')", "it gave nan"),
         ("'much'", "it gave str 'much', which is no number"),
         ("10**400", "it gave a whole number beyond float64"),
+        ("-1e308", "it gave -1e+308, beyond what can be reckoned with (1e+60)"),
     ],
 )
 def test_a_measure_that_gives_no_number_leaves_a_reason(folder: Path, gives: str, why: str) -> None:

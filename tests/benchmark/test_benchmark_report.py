@@ -25,7 +25,7 @@ from synthetic_results import (
 from uwsim.benchmark.logs import Log, save_log
 from uwsim.benchmark.provenance import save_provenance
 from uwsim.benchmark.report import render, write_report
-from uwsim.benchmark.result import Column, Missing, Result, TakenPicture, save
+from uwsim.benchmark.result import MOST, Column, Missing, Result, TakenPicture, save
 from uwsim.cli import main
 from uwsim.errors import ResultError
 
@@ -194,6 +194,20 @@ def test_a_link_out_of_the_directory_is_not_followed(tmp_path: Path) -> None:
 @pytest.mark.parametrize("make", [nothing_measured, one_level, nested, frozen])
 def test_any_result_has_a_report(make: Callable[[], Result], tmp_path: Path) -> None:
     assert "Results by level" in page_of(make(), tmp_path).text
+
+
+def test_the_largest_numbers_of_all_are_drawn_without_a_warning(tmp_path: Path) -> None:
+    swept = visibility(seeds=(1, 2, 3, 4))
+    numbers = {swept.index(name) for name in ("corners", "corners.mean", "centroid", "total")}
+    rows = tuple(
+        tuple(
+            (-1) ** (i // 5) * MOST * (1 - i / 200) if j in numbers and cell is not None else cell
+            for j, cell in enumerate(row)
+        )
+        for i, row in enumerate(swept.rows)
+    )
+    page = page_of(replace(swept, rows=rows), tmp_path)
+    assert "e+59" in page.text
 
 
 def test_a_result_with_no_rows_has_a_report(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ from numbers import Real
 
 from ..world import World
 from .measures import MeasureSpec
+from .result import MOST
 
 Sample = tuple[float | None, ...]
 
@@ -18,7 +19,10 @@ def finite(value: object) -> tuple[float | None, str | None]:
     if isinstance(value, Real):
         try:
             number = value if isinstance(value, int | float) else float(value)
-            return (number, None) if math.isfinite(number) else (None, f"it gave {number}")
+            if math.isfinite(number):
+                beyond = f"it gave {number:.3g}, beyond what can be reckoned with ({MOST:g})"
+                return (number, None) if abs(number) <= MOST else (None, beyond)
+            return None, f"it gave {number}"
         except OverflowError:
             return None, "it gave a whole number beyond float64"
     return None, f"it gave {type(value).__name__} {str(value)[:40]!r}, which is no number"

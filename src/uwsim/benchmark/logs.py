@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultError
-from .result import write_whole
+from .result import MOST, write_whole
 
 Sample = tuple[float | int | None, ...]
 
@@ -82,6 +82,9 @@ def load_log(path: Path) -> Log:
         raise ResultError(f"{path}: cannot be read as a log: {error}.") from None
     if any(len(sample) != len(header) for sample in samples):
         raise ResultError(f"{path}: a line has not as many fields as the header.")
+    for line, sample in enumerate(samples, start=2):
+        if any(value is not None and not abs(value) <= MOST for value in sample):
+            raise ResultError(f"{path}:{line}: expected numbers up to {MOST:g}.")
     name = re.sub(r"^measure-", "", path.stem)
     return Log(measure=name, header=tuple(header), samples=samples)
 

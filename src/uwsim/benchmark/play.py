@@ -298,12 +298,10 @@ class _Playing:
                 details[f"{name}.{detail}"] = (None if blank else finite(value)[0], unit)
             if not blank:
                 missing |= {f"{name}.{detail}": said for detail, said in measure.reasons.items()}
-        total = None if status != "ok" else self._expression.evaluate(values)
+        score = self._expression.score(values)
+        total, slip = finite(score.value if status == "ok" else None)
         if total is None:
-            absent = [name for name, value in values.items() if value is None]
-            missing["total"] = why or (
-                f"no value for {', '.join(absent)}" if absent else "the function has no value here"
-            )
+            missing["total"] = why or score.why or f"the function: {slip}"
         logged = [gated for gated in measures if gated.spec.log is not None]
         return Row(
             values=level.values,

@@ -25,6 +25,8 @@ from typing import Literal, TypeVar, cast, get_args
 from ..errors import ResultError, UnknownName, did_you_mean
 
 FORMAT = "uwsim-result/1"
+MOST = 1e60
+"""No number of a row is larger: what is made of it, powers and sums, is still a float64."""
 
 Kind = Literal["run", "level", "measure", "detail", "score", "status", "time"]
 Cell = float | int | str | None
@@ -99,8 +101,8 @@ class TakenPicture:
 class Result:
     """Everything a benchmark found, and everything it was found with.
 
-    Numbers are finite and every row has as many cells as there are columns; anything else is
-    refused where the result is made, with ResultError.
+    Numbers are finite, those of rows up to `MOST`, and every row has as many cells as there are
+    columns; anything else is refused where the result is made, with ResultError.
     """
 
     inputs: Json
@@ -292,7 +294,8 @@ def _check_rows(result: Result) -> None:
             fits = isinstance(cell, str) if column.kind == "status" else _is_number(cell)
             _expect(
                 fits or (cell is None and column.kind not in ("run", "level")),
-                f"rows[{i}], column {column.name!r}: {cell!r} cannot be a {column.kind}",
+                f"rows[{i}], column {column.name!r}: {repr(cell)[:60]} cannot be a {column.kind}"
+                + f"; expected a number up to {MOST:g}" * (column.kind != "status"),
             )
 
 
@@ -318,10 +321,7 @@ def _check_notes(result: Result) -> None:
 
 
 def _is_number(cell: object) -> bool:
-    try:
-        return isinstance(cell, int | float) and not isinstance(cell, bool) and math.isfinite(cell)
-    except OverflowError:  # a whole number beyond float64
-        return False
+    return isinstance(cell, int | float) and not isinstance(cell, bool) and abs(cell) <= MOST
 
 
 def _is_row(row: object, n: int) -> bool:
