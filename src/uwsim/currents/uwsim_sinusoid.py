@@ -21,6 +21,7 @@ from ..dialect import element
 from .current import Array, Current, CurrentSpec, Place, everywhere
 from .draws import Draws
 
+Vector = tuple[float, float, float]
 RATE = 60.0
 """The random factors are drawn anew this often, and held between [Hz]."""
 
@@ -82,21 +83,24 @@ class UwsimSinusoid(Current):
         self._speed_rate = 2.0 * math.pi / spec.speed_period  # [rad/s]
         self._theta_rate = 2.0 * math.pi / spec.theta_period  # [rad/s]
         self._phi_rate = 2.0 * math.pi / spec.phi_period  # [rad/s]
+        self._time = math.nan  # of the newest motion [s]
+        self._motion: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        spec = self._spec
-        a, b, c = self._factors(time)
-        speed = a * (spec.speed + spec.speed_variation * math.sin(self._speed_rate * time))
-        theta = b * (spec.theta + spec.theta_variation * math.sin(self._theta_rate * time))
-        phi = c * (spec.phi + spec.phi_variation * math.sin(self._phi_rate * time))
-        flat = speed * math.sin(theta)
-        return everywhere(
-            points, -flat * math.sin(phi), flat * math.cos(phi), speed * math.cos(theta)
-        )
+        return everywhere(points, *self._at(time)[0])
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the derivative with the random factors held, in L, (n, 3) [m/s2]."""
+        return everywhere(points, *self._at(time)[1])
+
+    def _at(self, time: float) -> tuple[Vector, Vector]:
+        """Velocity [m/s] and acceleration [m/s2]; both are asked for at every step."""
+        if time != self._time:
+            self._time, self._motion = time, self._move(time)
+        return self._motion
+
+    def _move(self, time: float) -> tuple[Vector, Vector]:
         spec = self._spec
         a, b, c = self._factors(time)
         speed = a * (spec.speed + spec.speed_variation * math.sin(self._speed_rate * time))
@@ -106,12 +110,15 @@ class UwsimSinusoid(Current):
         dtheta = b * spec.theta_variation * self._theta_rate * math.cos(self._theta_rate * time)
         dphi = c * spec.phi_variation * self._phi_rate * math.cos(self._phi_rate * time)
         sine, cosine = math.sin(theta), math.cos(theta)
+        aside, along = -math.sin(phi), math.cos(phi)
         flat, dflat = speed * sine, dspeed * sine + speed * cosine * dtheta
-        return everywhere(
-            points,
-            -dflat * math.sin(phi) - flat * math.cos(phi) * dphi,
-            dflat * math.cos(phi) - flat * math.sin(phi) * dphi,
-            dspeed * cosine - speed * sine * dtheta,
+        return (
+            (flat * aside, flat * along, speed * cosine),
+            (
+                dflat * aside - flat * along * dphi,
+                dflat * along + flat * aside * dphi,
+                dspeed * cosine - speed * sine * dtheta,
+            ),
         )
 
     def _factors(self, time: float) -> tuple[float, float, float]:

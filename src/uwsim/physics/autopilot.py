@@ -35,7 +35,7 @@ from ..geometry import Array, Pose
 from .hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 
 AXES = (0, 1, 2, 4, 5)
-"""Surge, sway, heave, pitch and yaw: what thrusters usually reach."""
+"""Surge, sway, heave, pitch and yaw: what thrusters usually reach, as in `autopilot_law.axis`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,8 +54,6 @@ class Gains:
 
 LEAST_LAG = 0.08
 """Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
-FASTEST = 0.5
-"""What position hold wishes for at most [m/s]."""
 LARGEST = 1e6
 """A number of a command is taken as at most this: no vehicle gets there [m, m/s, rad/s, N, N m]."""
 Mode = Literal["velocity", "position", "wrench", "thrusters"]
@@ -75,28 +73,41 @@ class Autopilot:
             mass: of the whole vehicle with its arm [kg].
             gains: how hard the loops pull.
         """
+        from . import autopilot_law
+
+        self._law = autopilot_law
         body = vehicle.body(link)
-        self._gains = gains or Gains()
+        gains = gains or Gains()
         lag = max([LEAST_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
-        self._velocity_gain, self._integral_gain = 0.32 / lag, 0.032 / lag**2  # [1/s], [1/s2]
+        held = [gains.depth, gains.position, gains.heading, gains.righting]
+        self._gains = np.array([*held, 0.32 / lag, 0.032 / lag**2])  # the last in [1/s], [1/s2]
         added = matrix(body.added_mass) if body else np.zeros((6, 6))
         own = [mass, mass, mass, *(body.inertia[:3] if body and body.inertia else (1.0,) * 3)]
-        self._mass = np.array(own) + np.diag(added)  # (6,) [kg, kg m2]
-        self._linear = np.diag(matrix(body.linear_damping)) if body else np.zeros(6)
-        self._quadratic = np.diag(matrix(body.quadratic_damping)) if body else np.zeros(6)
         self._reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
+        self._traits = (
+            np.array(own) + np.diag(added),  # (6,) [kg, kg m2]
+            np.diag(matrix(body.linear_damping)).copy() if body else np.zeros(6),
+            np.diag(matrix(body.quadratic_damping)).copy() if body else np.zeros(6),
+            self._reference,
+        )
         columns = [_column(thruster, self._reference) for thruster in vehicle.thrusters]
         reached = np.array(columns).reshape(-1, 6).T[list(AXES)]  # (5, n): N, N m per N
-        self._reached = reached
-        self._share = np.linalg.pinv(reached, rcond=1e-6)  # (n, 5): [N per N or N m]
-        self._curves = [_curve(thruster) for thruster in vehicle.thrusters]
-        ends = [(thrusts[0], thrusts[-1]) for thrusts, _ in self._curves]
-        self._least, self._greatest = np.array(ends).reshape(-1, 2).T  # (n,) [N]
+        self._reached = np.ascontiguousarray(reached)
+        # (n, 5): [N per N or N m]
+        self._share = np.ascontiguousarray(np.linalg.pinv(reached, rcond=1e-6))
+        curves = [_curve(thruster) for thruster in vehicle.thrusters]
+        self._curves = (
+            np.array([thrusts for thrusts, _ in curves]).reshape(len(curves), -1),
+            np.array([commands for _, commands in curves]).reshape(len(curves), -1),
+        )
+        ends = [(thrusts[0], thrusts[-1]) for thrusts, _ in curves]
+        self._least, self._greatest = np.array(ends).reshape(-1, 2).T.copy()  # (n,) [N]
         self._wanted = np.zeros(6)  # [m/s, rad/s]
         self._integral = np.zeros(6)
         self._mode: Mode = "velocity"
         self._takes_over = False  # whether depth and heading are still to be taken from the pose
-        self._target = np.zeros(3)  # position to hold, W [m]
+        self._target = np.zeros(3)  # position and height to hold, W [m]
+        self._heading = np.eye(3)  # world_from_base whose yaw is to be held
         self._wrench = np.zeros(6)  # force and moment about the reference [N, N m]
         self._commands = np.zeros(len(vehicle.thrusters))
 
@@ -110,7 +121,7 @@ class Autopilot:
         self._mode, self._takes_over = "velocity", False
         self._wanted[:] = 0.0
         self._integral[:] = 0.0
-        self._height = float(world_from_base.position[2])
+        self._target[2] = world_from_base.position[2]
         self._heading = world_from_base.rotation.copy()
 
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
@@ -128,7 +139,6 @@ class Autopilot:
         self._takes_over = False
         self._wanted[:] = 0.0
         self._target = np.clip(world_from_base.position, -LARGEST, LARGEST)
-        self._height = float(self._target[2])
         self._heading = world_from_base.rotation.copy()
 
     def push(self, force: Array, torque: Array) -> None:
@@ -153,71 +163,30 @@ class Autopilot:
         if self._mode == "thrusters":
             return self._commands
         if self._mode == "wrench":
-            return self._commanding(self._forces(self._wrench))
+            forces = self._law.shared(self._wrench, self._share)
+            return self._law.commands(forces, *self._curves)
         if self._takes_over:
             self._takes_over = False
-            self._height = float(world_from_base.position[2])
+            self._target[2] = world_from_base.position[2]
             self._heading = world_from_base.rotation.copy()
-        base_from_world = world_from_base.rotation.T
-        wanted = self._wanted.copy()
-        if self._mode == "position":
-            way = base_from_world @ (self._target - world_from_base.position)  # (3,) [m]
-            way[2] = 0.0
-            wish = self._gains.position * way
-            wanted[:3] += wish * min(1.0, FASTEST / max(float(np.linalg.norm(wish)), 1e-9))
-        self._steer(world_from_base, wanted, base_from_world, dt)
-        lever = np.cross(velocity[3:], self._reference)
-        error = wanted - np.concatenate([velocity[:3] + lever, velocity[3:]])
-        error[3:5] = -velocity[3:5]
-        before = self._integral.copy()
-        self._integral += error * dt
-        self._integral[3:5] = 0.0
-        tau = self._mass * (self._velocity_gain * error + self._integral_gain * self._integral)
-        tau += self._linear * wanted + self._quadratic * np.abs(wanted) * wanted
-        up = base_from_world[:, 2]  # W's z in base axes
-        tilt = math.atan2(up[0], -up[2]) if up[2] < 0.0 else -math.atan2(up[0], up[2])
-        tau[4] += self._mass[4] * self._gains.righting * tilt
-        forces = self._forces(tau)
-        lacking = np.zeros(6)  # force and moment beyond the thrusters' limits
-        lacking[list(AXES)] = self._reached @ (
-            forces - np.clip(forces, self._least, self._greatest)
+        forces = self._law.loops(
+            dt,
+            self._mode == "position",
+            self._gains,
+            world_from_base.position,
+            world_from_base.rotation,
+            velocity,
+            self._wanted,
+            self._target,
+            self._heading,
+            *self._traits,
+            self._share,
+            self._reached,
+            self._least,
+            self._greatest,
+            self._integral,
         )
-        self._integral = np.where(lacking * error > 0.0, before, self._integral)
-        return self._commanding(forces)
-
-    def _forces(self, tau: Array) -> Array:
-        """The thrusts that come nearest to a force and moment, beyond limits too, (n,) [N]."""
-        forces: Array = self._share @ tau[list(AXES)]
-        return forces
-
-    def _commanding(self, forces: Array) -> Array:
-        """The thrusters' commands for these thrusts, as far as they reach, (n,) [1]."""
-        return np.array(
-            [
-                np.interp(force, thrusts, commands)
-                for force, (thrusts, commands) in zip(forces, self._curves, strict=True)
-            ]
-        )
-
-    def _steer(
-        self, world_from_base: Pose, wanted: Array, base_from_world: Array, dt: float
-    ) -> None:
-        """Add the heave and yaw rate that lead back to depth and heading; move those if asked."""
-        up = base_from_world[2, 2]  # how much of W's z lies along the base's z: +-1 when level
-        self._height += self._wanted[2] * up * dt
-        rate = self._wanted[5] * dt
-        turn = np.array(
-            [
-                [math.cos(rate), -math.sin(rate), 0.0],
-                [math.sin(rate), math.cos(rate), 0.0],
-                [0.0, 0.0, 1.0],
-            ]
-        )
-        self._heading = self._heading @ turn
-        climb = self._gains.depth * (self._height - float(world_from_base.position[2]))
-        wanted[2] += min(max(climb, -0.3), 0.3) * up
-        off = base_from_world @ self._heading  # base_from_wanted
-        wanted[5] += self._gains.heading * math.atan2(off[1, 0], off[0, 0])
+        return self._law.commands(forces, *self._curves)
 
 
 def _column(thruster: ThrusterSpec, reference: Array) -> Array:

@@ -57,6 +57,7 @@ class State:
         self._data = mujoco.MjData(self._model)
         # Views into MuJoCo's memory: to look them up by name costs more than the step.
         self._ids = {self._model.body(i).name: i for i in range(self._model.nbody)}
+        self._bases = {i: self._ids[vehicle_body(i, robots[i].root)] for i in robots}
         self._warnings = self._data.warning.number[FIRST_UNSTABLE:]
         self._origins, self._axes = self._data.xpos, self._data.xmat  # (nbody, 3), (nbody, 9)
         free = {i: self._model.joint(vehicle_joint(i, "")) for i in range(len(scene.vehicles))}
@@ -207,14 +208,13 @@ class State:
 
     def vehicle_pose(self, index: int) -> Pose:
         """Return ``world_from_base`` of a vehicle."""
-        qpos = self._frees[index].copy()
-        return Pose.from_quaternion(qpos[:3], qpos[3:])
+        return self._body_pose(self._bases[index])
 
     def vehicle_velocity(self, index: int) -> Array:
         """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
-        qvel = self._free_velocities[index]
-        rotation = self.vehicle_pose(index).rotation
-        return np.concatenate([rotation.T @ qvel[:3], qvel[3:]])
+        twist: Array = self._free_velocities[index].copy()
+        twist[:3] = self.vehicle_pose(index).rotation.T.dot(twist[:3])
+        return twist
 
     def place_vehicle(self, index: int, world_from_base: Pose) -> None:
         """Put a vehicle somewhere, at rest."""
@@ -253,15 +253,14 @@ class State:
 
     def link_pose(self, index: int, link: str) -> Pose:
         """Return ``world_from_link`` (the kinematic frame) of a vehicle's link."""
-        return self._body_pose(vehicle_body(index, link))
+        return self._body_pose(self._ids[vehicle_body(index, link)])
 
     def object_pose(self, index: int) -> Pose:
         """Return ``world_from_object`` (before its offsets and its scale)."""
-        return self._body_pose(object_body(index))
+        return self._body_pose(self._ids[object_body(index)])
 
     def _make_pilot(self, index: int) -> Autopilot:
-        base = self._model.body(vehicle_body(index, self._robots[index].root)).id
-        mass = float(self._model.body_subtreemass[base])
+        mass = float(self._model.body_subtreemass[self._bases[index]])
         pilot = Autopilot(self._dynamics[index], self._robots[index].root, mass)
         pilot.hold(self.vehicle_pose(index))
         return pilot
@@ -272,11 +271,9 @@ class State:
         twist = self.vehicle_velocity(index)
         pose = self.vehicle_pose(index)
         if not self._over_ground[index] and not pilot.is_over_ground:
-            base = self._ids[vehicle_body(index, self._robots[index].root)]
-            twist[:3] -= pose.rotation.T @ velocity[base]
+            twist[:3] -= pose.rotation.T.dot(velocity[self._bases[index]])
         commands = pilot.thrust(pose, twist, self._pilot_steps * self._timestep)
-        for thruster, command in zip(self._thrusters[index], commands, strict=True):
-            self._water.set_thruster(self._data, thruster, float(command))
+        self._water.set_thrusters(self._data, commands, self._thrusters[index])
 
     def _stop_thruster(self, thruster: int) -> None:
         assert self._water is not None
@@ -295,9 +292,8 @@ class State:
             mujoco.mj_kinematics(self._model, self._data)
             self._is_stale = False
 
-    def _body_pose(self, name: str) -> Pose:
+    def _body_pose(self, body: int) -> Pose:
         self._refresh()
-        body = self._ids[name]
         return Pose(self._origins[body].copy(), self._axes[body].reshape(3, 3).copy())
 
 

@@ -26,11 +26,13 @@ class SampleTimer:
     def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
         self._start, self._rate, self._timestep, self._call = start, rate, timestep, call
         self._n_samples = 0
+        self._due = start  # step of the next sample
 
     def tick(self, step: int) -> None:
         """Call it, if its step has come."""
-        if step >= self._start + sample_step(self._n_samples, self._rate, self._timestep):
+        if step >= self._due:
             self._n_samples += 1
+            self._due = self._start + sample_step(self._n_samples, self._rate, self._timestep)
             self._call()
 
 
@@ -88,7 +90,7 @@ class ImagePublisher:
             return
         if self._blank is None:
             pixels = self.camera.shoot()
-            self._digest.update(pixels.tobytes())
+            self._digest.update(np.ascontiguousarray(pixels).data)
         else:
             pixels = self._blank
         self.last = pixels

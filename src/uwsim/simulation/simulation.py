@@ -235,7 +235,7 @@ class Simulation:
         acceleration = self._flow.acceleration(points, time, self._body_names)
         turn = self._localized_from_world.rotation
         self._thruster_faults.apply(time)
-        self._state.step(velocity @ turn, acceleration @ turn)
+        self._state.step(velocity.dot(turn), acceleration.dot(turn))
 
     def _sway(self) -> None:
         for index, vehicle in self._swaying:

@@ -113,7 +113,7 @@ def has_slot() -> bool:
 
 def is_installed() -> bool:
     """Whether our function sits in the slot."""
-    return has_slot() and _slot().value == wrapper().address
+    return has_slot() and _slot().value == _address()
 
 
 def install() -> None:
@@ -122,15 +122,15 @@ def install() -> None:
     Raises:
         CallbackTaken: there is another one.
     """
-    slot = _slot()
-    if slot.value == wrapper().address:
+    slot, address = _slot(), _address()
+    if slot.value == address:
         return
     if slot.value is not None:
         raise CallbackTaken(
             "MuJoCo's callback for passive forces (mjcb_passive) is taken by another function; "
             "remove it with mujoco.set_mjcb_passive(None), or step with `Hydrodynamics.step`."
         )
-    slot.value = wrapper().address
+    slot.value = address
 
 
 @functools.cache
@@ -164,6 +164,13 @@ def water_wrenches(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:
     return wrenches
 
 
+@functools.cache
+def _address() -> int:
+    """Of our function."""
+    return int(wrapper().address)
+
+
+@functools.cache
 def _slot() -> ctypes.c_void_p:
     return ctypes.c_void_p.in_dll(library(), "mjcb_passive")
 

@@ -37,6 +37,7 @@ class Hydrodynamics:
             int(i) for i in range(1, model.nbody) if model.body_user[i, c.KIND] != c.DRY
         )
         """Body ids that the water acts on."""
+        self._controls = model.actuator_ctrladr[list(self.thrusters)]  # (n,) places in ctrl
 
     @property
     def surface(self) -> float:
@@ -83,14 +84,16 @@ class Hydrodynamics:
 
     def set_thruster(self, data: mujoco.MjData, index: int, command: float) -> None:
         """Command a thruster by its number among the thrusters [1]."""
-        data.ctrl[self.model.actuator_ctrladr[self.thrusters[index]]] = command
+        data.ctrl[self._controls[index]] = command
 
     def set_thrusters(
-        self, data: mujoco.MjData, commands: Sequence[float] | npt.NDArray[np.float64]
+        self,
+        data: mujoco.MjData,
+        commands: Sequence[float] | npt.NDArray[np.float64],
+        indices: slice | Sequence[int] = slice(None),
     ) -> None:
-        """Command all thrusters, (n,) [1]."""
-        for index, command in enumerate(commands):
-            self.set_thruster(data, index, float(command))
+        """Command all thrusters, or those of some numbers among them, (n,) [1]."""
+        data.ctrl[self._controls[indices]] = commands
 
     def set_loss(self, data: mujoco.MjData, index: int, loss: float) -> None:
         """Let a thruster lose a part of its thrust: 0 healthy, 1 dead."""

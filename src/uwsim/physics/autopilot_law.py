@@ -1,0 +1,148 @@
+"""What an autopilot's loops wish for and how thrusters give it, compiled (`autopilot`)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..geometry import Array
+from ..jit import njit
+
+DEPTH, POSITION, HEADING, RIGHTING, VELOCITY, INTEGRAL = range(6)
+"""Places of the gains, as `loops` takes them."""
+FASTEST = 0.5
+"""What position hold wishes for at most [m/s]."""
+FASTEST_CLIMB = 0.3
+"""What depth hold wishes for at most [m/s]."""
+N_AXES = 5
+"""Surge, sway, heave, pitch and yaw: what thrusters usually reach."""
+
+
+@njit
+def axis(i: int) -> int:
+    """Return the place of the i-th axis that thrusters reach among all six: roll is left out."""
+    return i if i < 3 else i + 1
+
+
+@njit
+def loops(
+    dt: float,
+    goes: bool,
+    gains: Array,
+    position: Array,
+    rotation: Array,
+    velocity: Array,
+    commanded: Array,
+    target: Array,
+    heading: Array,
+    mass: Array,
+    linear: Array,
+    quadratic: Array,
+    reference: Array,
+    share: Array,
+    reached: Array,
+    least: Array,
+    greatest: Array,
+    integral: Array,
+) -> Array:
+    """Return the thrusts that the loops on velocity, depth, heading and place ask for, (n,) [N].
+
+    Args:
+        dt: time since the last call [s].
+        goes: whether it goes to ``target`` in the plane, too.
+        gains: (6,), see `DEPTH` and those that follow.
+        position: of the base in W, (3,) [m].
+        rotation: ``world_from_base``, (3, 3).
+        velocity: of the base, base axes, (6,) [m/s, rad/s].
+        commanded: the twist asked for, base axes, (6,) [m/s, rad/s].
+        target: where to be, in W, (3,) [m]; the height moves on as commanded.
+        heading: ``world_from_base`` whose yaw is wanted, (3, 3); turns on as commanded.
+        mass: and added mass along the axes, (6,) [kg, kg m2].
+        linear: damping along the axes, (6,).
+        quadratic: damping along the axes, (6,).
+        reference: what forces and velocities are about, base axes, (3,) [m].
+        share: thrusts from forces and moments along the axes, (n, 5).
+        reached: the other way, (5, n).
+        least: thrusts, (n,) [N].
+        greatest: thrusts, (n,) [N].
+        integral: of the error, (6,) [m, rad]; moves on unless thrusters are at their limits.
+    """
+    wanted = commanded.copy()
+    if goes:
+        ahead, aside = 0.0, 0.0  # [m]
+        for k in range(3):
+            ahead += rotation[k, 0] * (target[k] - position[k])
+            aside += rotation[k, 1] * (target[k] - position[k])
+        size = gains[POSITION] * math.hypot(ahead, aside)
+        slowed = gains[POSITION] * min(1.0, FASTEST / max(size, 1e-9))
+        wanted[0] += slowed * ahead
+        wanted[1] += slowed * aside
+    up = rotation[2, 2]  # how much of W's z lies along the base's z: +-1 when level
+    target[2] += commanded[2] * up * dt
+    climb = gains[DEPTH] * (target[2] - position[2])
+    wanted[2] += min(max(climb, -FASTEST_CLIMB), FASTEST_CLIMB) * up
+    cosine, sine = math.cos(commanded[5] * dt), math.sin(commanded[5] * dt)
+    across = along = 0.0  # of the wanted x axis, in the base
+    for k in range(3):
+        x, y = heading[k, 0], heading[k, 1]
+        heading[k, 0], heading[k, 1] = cosine * x + sine * y, cosine * y - sine * x
+        along += rotation[k, 0] * heading[k, 0]
+        across += rotation[k, 1] * heading[k, 0]
+    wanted[5] += gains[HEADING] * math.atan2(across, along)
+    error = wanted - velocity
+    a, b, c = velocity[3], velocity[4], velocity[5]
+    error[0] -= b * reference[2] - c * reference[1]
+    error[1] -= c * reference[0] - a * reference[2]
+    error[2] -= a * reference[1] - b * reference[0]
+    error[3], error[4] = -a, -b
+    before = integral.copy()
+    integral += error * dt
+    integral[3] = integral[4] = 0.0
+    tau = mass * (gains[VELOCITY] * error + gains[INTEGRAL] * integral)
+    tau += linear * wanted + quadratic * np.abs(wanted) * wanted
+    x, z = rotation[2, 0], rotation[2, 2]  # W's z in base axes
+    tilt = math.atan2(x, -z) if z < 0.0 else -math.atan2(x, z)
+    tau[4] += mass[4] * gains[RIGHTING] * tilt
+    forces = shared(tau, share)
+    for i in range(N_AXES):
+        lacking = 0.0  # force or moment beyond the thrusters' limits
+        for k in range(len(forces)):
+            excess = forces[k] - min(max(forces[k], least[k]), greatest[k])
+            lacking += reached[i, k] * excess
+        place = axis(i)
+        if lacking * error[place] > 0.0:
+            integral[place] = before[place]
+    return forces
+
+
+@njit
+def shared(tau: Array, share: Array) -> Array:
+    """Return the thrusts that come nearest to a force and moment (6,), beyond limits too, (n,)."""
+    forces = np.zeros(len(share))
+    for k in range(len(share)):
+        for i in range(N_AXES):
+            forces[k] += share[k, i] * tau[axis(i)]
+    return forces
+
+
+@njit
+def commands(forces: Array, thrusts: Array, given_by: Array) -> Array:
+    """Return the thrusters' commands for these thrusts, as far as they reach, (n,) [1].
+
+    Args:
+        forces: the thrusts, (n,) [N].
+        thrusts: points of each thruster's curve, rising, (n, k) [N].
+        given_by: the command at each point, (n, k) [1].
+    """
+    found = np.empty(len(forces))
+    for k in range(len(forces)):
+        x, y = thrusts[k], given_by[k]
+        j = np.searchsorted(x, forces[k], side="right") - 1
+        if j < 0:
+            found[k] = y[0]
+        elif j >= len(x) - 1:
+            found[k] = y[-1]
+        else:
+            found[k] = y[j] + (y[j + 1] - y[j]) * (forces[k] - x[j]) / (x[j + 1] - x[j])
+    return found
