@@ -57,7 +57,7 @@ def test_a_root_that_nobody_knows_says_what_was_expected(
     file = tmp_path / "page.xml"
     file.write_text("<html/>")
     assert status(str(file)) == 2
-    assert "expected <UWSimScene>, <benchmark> or <robot>" in capsys.readouterr().out
+    assert "expected <UWSimScene>, <benchmark>, <robot> or <hydrodynamics>" in capsys.readouterr().out
 
 
 CHECK = """
@@ -136,3 +136,17 @@ def test_a_benchmark_whose_scene_is_nowhere_is_a_fault(
 
 def test_bundled_files_are_checked_by_their_bare_names() -> None:
     assert status("visibility-scene", "visibility", "--scene", "visibility-scene") == 0
+
+
+def test_a_side_file_is_checked_by_itself(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "mine.xml"
+    path.write_text(
+        '<hydrodynamics name="mine">\n<body link="hull"/>\n'
+        '<thruster name="t" link="hull"> <forward>0 -40</forward> </thruster>\n</hydrodynamics>'
+    )
+    assert status(str(path)) == 2
+    assert capsys.readouterr().out.startswith(f"{path}:3: thruster 't': forward gives -40 N")
+    path.write_text(path.read_text().replace("-40", "40"))
+    assert status(str(path)) == 0

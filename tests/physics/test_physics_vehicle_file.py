@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +15,10 @@ from uwsim.physics.hydrodynamics import (
     VehicleHydrodynamics,
     vehicle_faults,
 )
+from uwsim.physics.hydrodynamics.faults import body_faults
 from uwsim.physics.hydrodynamics.spec import matrix
 from uwsim.physics.vehicle_file import VehicleError, find_vehicle, read_vehicle, vehicle_sets
-from uwsim.scene.urdf import read_urdf
+from uwsim.scene.urdf_reader import read_urdf
 
 DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data"
 ROBOTS = {
@@ -173,3 +175,85 @@ def test_the_compat_set_is_the_mass_matrix_of_the_original_node() -> None:
     assert base.inertia[:3] == pytest.approx((8 - steiner, 8 - steiner, 8.0))
     thrust = [one.forward[1] for one in vehicle.thrusters]
     assert thrust == pytest.approx([6.835e-5 * 1500**2] * 5)
+
+
+THRUST = "<forward>0 40</forward>"
+
+
+@pytest.mark.parametrize(
+    ("curve", "said"),
+    [
+        ("<forward>0 -40</forward>", "forward gives -40 N at the limit 1; expected more than 0"),
+        ("<forward>0</forward>", "forward gives 0 N at the limit 1; expected more than 0"),
+        ("<forward>40 -30</forward>", "forward falls from 13.33 N to 10 N at the command 1;"),
+        ("<forward>-10 30</forward>", "forward falls from 0 N to -0.8333 N at the command 0.167;"),
+        (f"{THRUST} <backward>0 -30</backward>", "backward gives -30 N at the limit 1"),
+        (f"{THRUST} <backward>40 -30</backward>", "backward falls from 13.33 N to 10 N"),
+        (f"{THRUST} <deadZone>1</deadZone>", "dead zone is 1; expected below 1"),
+        (
+            f"{THRUST} <limits>-0.2 1</limits> <deadZone>0.5</deadZone>",
+            "dead zone is 0.5; expected below 0.2, the limit of a backward command",
+        ),
+        (f"{THRUST} <limits>1 -1</limits>", "limits are 1 -1; expected least <= 0 <= greatest"),
+        (f"{THRUST} <limits>0 0</limits>", "limits are 0 0; expected least <= 0 <= greatest, not"),
+        (f"{THRUST} <limits>0.5 1</limits>", "limits are 0.5 1; expected least <= 0"),
+        (f"{THRUST} <saturation>0 0</saturation>", "saturation are 0 0; expected least <= 0"),
+        (f"{THRUST} <torque>0.2</torque>", "torque is 0.2 per thrust; expected at most the prop"),
+        (f"{THRUST} <timeConstant>61</timeConstant>", "<timeConstant> is '61'; expected a number"),
+        ("<forward>,</forward>", "<forward> holds ','; expected numbers"),
+        ("<forward>nan</forward>", "<forward> holds 'nan'; expected numbers"),
+        (f"{THRUST} <radius>-inf</radius>", "<radius> is '-inf'; expected a number > 0 [m]"),
+        (f"<forward>{'1 ' * 37}</forward>", "<forward> holds 37 numbers; expected 36 at most"),
+    ],
+)
+def test_a_thruster_that_cannot_be_is_refused(curve: str, said: str, tmp_path: Path) -> None:
+    (fault,) = faults_of(tmp_path, MINIMAL.replace(THRUST, curve))
+    assert fault.startswith("7: ")
+    assert said in fault
+
+
+@pytest.mark.parametrize(
+    "curve",
+    [
+        "<forward>0 40</forward> <limits>0 1</limits> <backward>0</backward>",
+        "<forward>0 40</forward> <limits>-1 0</limits>",
+        "<forward>8.9 0 176 0 -404.1 0 389.9 0 -140.3</forward>",  # sags by 0.7 % at the end
+        "<forward>0.4</forward> <limits>-300 300</limits> <deadZone>20</deadZone>",
+    ],
+)
+def test_a_thruster_of_one_way_or_measured_or_of_other_units_may_be(
+    curve: str, tmp_path: Path
+) -> None:
+    (tmp_path / "mine.xml").write_text(MINIMAL.replace(THRUST, curve))
+    assert len(read_vehicle(tmp_path / "mine.xml").thrusters) == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("<z>0.1</z>", "<z>-600</z>", "centre of buoyancy is 0 0 -600; expected none beyond 500"),
+        ("<volume>0.01", "<volume>-0.01", "<volume> is '-0.01'; expected a number >= 0 [m3]"),
+        ("<volume>0.01", "<volume>inf", "<volume> is 'inf'; expected a number >= 0 [m3]"),
+        ("1, 2, 3,", "1, NaN, 3,", "<addedMass> holds 'NaN'; expected numbers"),
+        ("<body", "<density>1.025</density> <body", "<density> is '1.025'; expected a number >= 1"),
+        ("<volume>", "<mass>-3</mass> <volume>", "<mass> is '-3'; expected a number > 0 [kg]"),
+    ],
+)
+def test_a_number_that_no_vehicle_has_is_refused(
+    old: str, new: str, said: str, tmp_path: Path
+) -> None:
+    (fault,) = faults_of(tmp_path, MINIMAL.replace(old, new, 1))
+    assert said in fault
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize(
+    "name", ["volume", "mass", "reference", "inertia", "size", "added_mass", "implicitness"]
+)
+def test_a_body_made_in_python_with_a_number_that_is_none_is_refused(
+    name: str, number: float
+) -> None:
+    how_many = {"reference": 3, "inertia": 6, "size": 1, "added_mass": 6}.get(name)
+    value = number if how_many is None else (number,) * how_many
+    (said,) = body_faults(BodyHydrodynamics(link="a", **{name: value}))  # type: ignore[arg-type]
+    assert "expected finite numbers" in said

@@ -12,7 +12,10 @@ import pytest
 
 from uwsim.cli.check import faults_of
 from uwsim.dialect import slots
+from uwsim.errors import SceneError
 from uwsim.physics.vehicle_file import BodyElement, HydrodynamicsElement, ThrusterElement
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
 
 PAGE = Path(__file__).parents[2] / "docs" / "your-own-vehicle.md"
 
@@ -69,3 +72,20 @@ def test_a_vehicle_without_any_mass_is_a_fault_of_its_scene(folder: Path) -> Non
     said = [str(fault) for fault in faults_of(folder / "my_scene.xml")]
     assert len(said) == 1
     assert "my_scene.xml:10: the vehicle 'my_rov' has no mass" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("volume", "severity"),
+    [("1e9", "fault"), ("20.1", "fault"), ("0.2", "notice"), ("0.0001", "notice")],
+)
+def test_a_vehicle_far_from_floating_is_said(volume: str, severity: str, folder: Path) -> None:
+    side_file = folder / "my_rov.xml"
+    side_file.write_text(side_file.read_text().replace("0.0201", volume))
+    (fault,) = faults_of(folder / "my_scene.xml")
+    assert (fault.line, fault.severity) == (10, severity)
+    assert f"has 20 kg and displaces {float(volume) * 1000:g} kg of water" in fault.message
+    if severity == "notice":
+        Simulation(read_scene(folder / "my_scene.xml"), is_blind=True).close()
+    else:
+        with pytest.raises(SceneError, match="lighter than any foam"):
+            Simulation(read_scene(folder / "my_scene.xml"), is_blind=True)

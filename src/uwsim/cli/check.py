@@ -1,4 +1,4 @@
-"""``uwsim check``: every fault of scene, robot and benchmark files at once, with its line."""
+"""``uwsim check``: every fault of scene, robot, side and benchmark files at once, with its line."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ if TYPE_CHECKING:
 
 def check(
     files: Annotated[
-        list[Path], typer.Argument(metavar="FILE.xml ...", help="Scenes, robots, benchmarks.")
+        list[Path],
+        typer.Argument(
+            metavar="FILE.xml ...", help="Scenes, robots, side files of vehicles, benchmarks."
+        ),
     ],
     scene: Annotated[
         Path | None,
@@ -33,7 +36,7 @@ def check(
     plugin: PluginOption = None,
     data_path: DataPathOption = None,
 ) -> None:
-    """Say everything that is wrong with scene, robot and benchmark files.
+    """Say everything that is wrong with scene, robot, side and benchmark files.
 
     Exit status 0 without faults, else 2; what is read and not simulated yet is a notice.
     """
@@ -91,8 +94,23 @@ def faults_of(
     if root == ROOT:
         further = partial(faults_of_dynamics, data_path=data_path)
         return check_scene(file, strict=strict, library=library, further=further)
-    said = f"the root element is {shown_tag(root)}; expected <{ROOT}>, <benchmark> or <robot>"
+    if root == "hydrodynamics":
+        return faults_of_side_file(file)
+    said = (
+        f"the root element is {shown_tag(root)}; expected <{ROOT}>, <benchmark>, <robot> or "
+        "<hydrodynamics>"
+    )
     return [Fault(file=str(file), line=int(str(node.sourceline)), message=said)]
+
+
+def faults_of_side_file(file: Path) -> list[Fault]:
+    """Return everything wrong with a vehicle's side file; its links are looked up with a scene."""
+    from ..dialect import Faults
+    from ..physics.vehicle_file import read_vehicle_into
+
+    faults = Faults(file)
+    read_vehicle_into(file, None, faults)
+    return faults.all()
 
 
 def faults_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fault]:

@@ -39,6 +39,12 @@ from lxml import etree
 
 from ..dialect import LARGEST, Faults, element, number, parse, read
 from ..errors import FileError, UnknownName, did_you_mean
+from .hydrodynamics.faults import (
+    LIQUIDS,
+    SLOWEST_ROTOR,
+    body_faults,
+    thruster_faults,
+)
 from .hydrodynamics.spec import (
     BEST_EFFICIENCY,
     BodyHydrodynamics,
@@ -46,13 +52,13 @@ from .hydrodynamics.spec import (
     Numbers,
     ThrusterSpec,
     VehicleHydrodynamics,
-    body_faults,
-    thruster_faults,
 )
 from .power import power_faults
 
 Triple = tuple[float, float, float]
 ZERO: Triple = (0.0, 0.0, 0.0)
+MOST_NUMBERS = 36
+"""In one element: a full matrix."""
 
 
 class VehicleError(FileError):
@@ -115,7 +121,7 @@ class ThrusterElement:
     """Least and greatest command [1]."""
     saturation: str = ""
     """Least and greatest thrust [N]."""
-    time_constant: float = element(default=0.0, minimum=0.0)
+    time_constant: float = element(default=0.0, minimum=0.0, maximum=SLOWEST_ROTOR)
     """First-order lag of the rotor [s]."""
     torque: float = 0.0
     """Torque about the direction per thrust, positive right-handed [m]."""
@@ -150,7 +156,7 @@ class HydrodynamicsElement:
     """What scenes call the set in ``<u:dynamics>``."""
     source: str = ""
     """Where the numbers come from, and which are estimates."""
-    density: float = element(default=1000.0, above=0.0)
+    density: float = element(default=1000.0, minimum=LIQUIDS[0], maximum=LIQUIDS[1])
     """Of the water the numbers were given for [kg/m3]."""
     include: tuple[str, ...] = ()
     """Other side files, beside this one."""
@@ -322,7 +328,7 @@ def _thruster(one: ThrusterElement, node: etree._Element, faults: Faults) -> Thr
         link=one.link,
         position=one.position,
         direction=one.direction,
-        forward=_numbers(one.forward, "forward", node, faults) or (0.0,),
+        forward=_numbers(one.forward, "forward", node, faults) or ThrusterSpec.forward,
         backward=_numbers(one.backward, "backward", node, faults) or None,
         dead_zone=one.dead_zone,
         limits=_pair(one.limits, "limits", node, faults) or (-1.0, 1.0),
@@ -355,7 +361,13 @@ def _pair(text: str, name: str, node: etree._Element, faults: Faults) -> tuple[f
 def _numbers(text: str, name: str, node: etree._Element, faults: Faults) -> Numbers:
     """The numbers of an element, separated by blanks; commas may stand between them."""
     words = text.replace(",", " ").split()
-    values = [number(word) for word in words[:1000]]
+    if text and not words:
+        faults.add(_child(node, name), f"<{name}> holds {text[:40]!r}; expected numbers")
+    if len(words) > MOST_NUMBERS:
+        said = f"<{name}> holds {len(words)} numbers; expected {MOST_NUMBERS} at most"
+        faults.add(_child(node, name), said)
+        return ()
+    values = [number(word) for word in words]
     if None in values:
         wrong = words[values.index(None)]
         faults.add(_child(node, name), f"<{name}> holds {wrong[:40]!r}; expected numbers")

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
+from typing import Literal
 
 from lxml import etree
 
@@ -45,11 +46,17 @@ from ..scene.ros_interfaces import (
     ROSWrenchToPATSpec,
     VirtualCameraToROSImageSpec,
 )
-from ..scene.spec import SceneSpec, VehicleSpec
-from ..scene.urdf import RobotSpec, read_urdf
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec
+from ..scene.urdf_reader import read_urdf
+from ..scene.vehicle import VehicleSpec
 from .bodies import find_file
 
 U = f"{{{NAMESPACE}}}"
+LIGHTEST = 100.0
+"""Buoyancy per weight that no vehicle has: the lightest foam has 10 kg/m3 [1]."""
+LIGHT, HEAVY = 2.0, 25.0
+"""Buoyancy per weight, and weight per buoyancy (osmium has 23), that are worth a notice [1]."""
 MESSAGES: Mapping[type[InterfaceSpec], Mapping[str, type]] = {
     ROSPoseToPATSpec: {"topic": Pose},
     ROSTwistToPATSpec: {"topic": TwistStamped},
@@ -74,8 +81,8 @@ def read_dynamics(
         SceneError: a name leads nowhere or a file is wrong; with every fault.
     """
     search = _Search(scene, robots, data_path)
-    if search.found:
-        raise SceneError(search.found)
+    if faults := [fault for fault in search.found if fault.severity == "fault"]:
+        raise SceneError(faults)
     return search.dynamics
 
 
@@ -127,13 +134,29 @@ class _Search:
         except UnknownName as error:
             self._say(str(error), "vehicle", index, f"{U}dynamics", 0)
         else:
-            given = {body.link: body.mass for body in self.dynamics[index].bodies}
-            if not any(given.get(link.name) or link.mass for link in robot.links):
-                self._say(
-                    f"the vehicle {self._scene.vehicles[index].name!r} has no mass: neither a link "
-                    f"of its URDF nor a <body> of {name!r} gives one",
-                    *("vehicle", index, f"{U}dynamics", 0),
-                )
+            self._weigh(index, name, robot)
+
+    def _weigh(self, index: int, name: str, robot: RobotSpec) -> None:
+        """Hold what a vehicle weighs against what it displaces."""
+        dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
+        place = ("vehicle", index, f"{U}dynamics", 0)
+        given = {body.link: body.mass for body in dynamics.bodies}
+        mass = sum(given.get(link.name) or link.mass for link in robot.links)
+        displaced = dynamics.density * sum(body.volume for body in dynamics.bodies)
+        said = (
+            f"the vehicle {vehicle!r} has {mass:g} kg and displaces {displaced:g} kg of water; "
+            f"expected nearly the same (<mass> in kg and <volume> in m3 of the set {name!r})"
+        )
+        if not mass > 0.0:
+            self._say(
+                f"the vehicle {vehicle!r} has no mass: neither a link of its URDF nor a <body> of "
+                f"{name!r} gives one",
+                *place,
+            )
+        elif displaced > LIGHTEST * mass:
+            self._say(f"{said}; {LIGHTEST:g} times the mass is lighter than any foam", *place)
+        elif displaced > LIGHT * mass or mass > HEAVY * displaced > 0.0:
+            self._say(said, *place, severity="notice")
 
     def _follow_thrusters(self, index: int, vehicle: VehicleSpec) -> None:
         for number, fault in enumerate(vehicle.faults):
@@ -205,13 +228,23 @@ class _Search:
             except UwsimError as error:
                 self._say(str(error), f"oceanState/{U}current", 0, "*", number)
 
-    def _say(self, message: str, parent: str, index: int, child: str, number: int) -> None:
+    def _say(
+        self,
+        message: str,
+        parent: str,
+        index: int,
+        child: str,
+        number: int,
+        *,
+        severity: Literal["fault", "notice"] = "fault",
+    ) -> None:
         """Keep a fault of the ``number``th ``child`` of the ``index``th ``parent``."""
         self.found.append(
             Fault(
                 file=self._scene.path or "the scene",
                 line=self._line(parent, index, child, number),
                 message=message,
+                severity=severity,
             )
         )
 

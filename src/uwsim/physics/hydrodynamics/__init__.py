@@ -6,12 +6,12 @@ compiles a kernel when it is imported: who simulates nothing does not wait for i
 
 from __future__ import annotations
 
+from .faults import vehicle_faults
 from .spec import (
     BadHydrodynamics,
     BodyHydrodynamics,
     ThrusterSpec,
     VehicleHydrodynamics,
-    vehicle_faults,
 )
 from .table import prepare
 

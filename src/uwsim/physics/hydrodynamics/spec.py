@@ -1,4 +1,4 @@
-"""What the water does to a body, and what a thruster does: numbers, checked all at once.
+"""What the water does to a body, and what a thruster does, in numbers; `faults` checks them.
 
 Every 6x6 matrix is in the literature's order (surge, sway, heave, roll, pitch, yaw) in the axes of
 the body (link) it belongs to, about its reference point. Forces oppose motion with positive
@@ -7,8 +7,7 @@ coefficients; published derivatives (``X_udot``, ``X_u``) mostly carry the other
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -16,7 +15,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ...errors import UwsimError, did_you_mean
+from ...errors import UwsimError
 
 Triple = tuple[float, float, float]
 Numbers = tuple[float, ...]
@@ -158,162 +157,3 @@ def matrix(numbers: Numbers) -> npt.NDArray[np.float64]:
     """A (6, 6) matrix from its diagonal or its rows."""
     values = np.array(numbers, dtype=np.float64)
     return np.diag(values) if len(values) == 6 else values.reshape(6, 6)
-
-
-def body_faults(body: BodyHydrodynamics) -> list[str]:
-    """Everything that is wrong with the numbers of a body."""
-    who = f"link {body.link!r}"
-    faults = []
-    for name in ("added_mass", "linear_damping", "quadratic_damping"):
-        numbers: Numbers = getattr(body, name)
-        if len(numbers) not in (6, 36):
-            faults.append(f"{who}: {_words(name)} has {len(numbers)} numbers; expected 6 or 36")
-        elif not all(math.isfinite(number) for number in numbers):
-            faults.append(f"{who}: {_words(name)} holds a number that is not finite")
-        elif name == "added_mass":
-            faults += _mass_faults(who, matrix(numbers))
-        elif min(np.diag(matrix(numbers))) < 0.0:
-            faults.append(
-                f"{who}: {_words(name)} has the diagonal {_list(np.diag(matrix(numbers)))}; "
-                "expected none below 0 (drag opposes motion with positive coefficients)"
-            )
-    if not body.volume >= 0.0:
-        faults.append(f"{who}: volume is {body.volume:g}; expected >= 0 [m3]")
-    if body.shape not in SIZES:
-        faults.append(
-            f"{who}: shape is {body.shape!r}; expected one of {', '.join(SIZES)}."
-            f"{did_you_mean(body.shape, SIZES)}"
-        )
-    elif body.size and len(body.size) != SIZES[body.shape]:
-        faults.append(
-            f"{who}: a {body.shape} has {SIZES[body.shape]} lengths; found {len(body.size)}"
-        )
-    elif not body.size and body.shape != "sphere":
-        faults.append(f"{who}: a {body.shape} needs its {SIZES[body.shape]} lengths (size) [m]")
-    if any(not length > 0.0 for length in body.size):
-        faults.append(f"{who}: size is {_list(body.size)}; expected lengths > 0 [m]")
-    if body.mass is not None and not body.mass > 0.0:
-        faults.append(f"{who}: mass is {body.mass:g}; expected > 0 [kg]")
-    if body.inertia is not None:
-        faults += _inertia_faults(who, body.inertia)
-    if not 0.0 <= body.implicitness <= 1.0:
-        faults.append(f"{who}: implicitness is {body.implicitness:g}; expected 0..1")
-    return faults
-
-
-def thruster_faults(thruster: ThrusterSpec) -> list[str]:
-    """Everything that is wrong with the numbers of a thruster."""
-    who = f"thruster {thruster.name!r}"
-    faults = []
-    if not math.hypot(*thruster.direction) > 1e-9:
-        faults.append(f"{who}: direction is 0 0 0; expected a direction")
-    for side in ("forward", "backward", "power", "power_backward"):
-        curve = getattr(thruster, side)
-        if curve is not None and not 1 <= len(curve) <= N_CURVE:
-            faults.append(
-                f"{who}: {_words(side)} has {len(curve)} coefficients; expected 1 to {N_CURVE}"
-            )
-    if thruster.power is None and thruster.power_backward is not None:
-        faults.append(f"{who}: power backward is given without power")
-    if not 0.0 < thruster.efficiency <= BEST_EFFICIENCY:
-        faults.append(
-            f"{who}: efficiency is {thruster.efficiency:g}; expected > 0 and <= {BEST_EFFICIENCY:g}"
-        )
-    if not thruster.dead_zone >= 0.0:
-        faults.append(f"{who}: dead zone is {thruster.dead_zone:g}; expected >= 0")
-    for name in ("limits", "saturation"):
-        ends = getattr(thruster, name)
-        if ends is not None and not ends[0] <= 0.0 <= ends[1]:
-            faults.append(f"{who}: {name} are {_list(ends)}; expected least <= 0 <= greatest")
-    if not thruster.limits[0] < thruster.limits[1]:
-        faults.append(f"{who}: limits are {_list(thruster.limits)}; expected least < greatest")
-    if not thruster.time_constant >= 0.0:
-        faults.append(f"{who}: time constant is {thruster.time_constant:g}; expected >= 0 [s]")
-    if not thruster.radius > 0.0:
-        faults.append(f"{who}: radius is {thruster.radius:g}; expected > 0 [m]")
-    return faults
-
-
-def drive_faults(drive: JointDrive) -> list[str]:
-    """Everything that is wrong with the numbers of a joint's drive."""
-    who = f"joint {drive.name!r}"
-    faults = []
-    if not 0.0 < drive.efficiency <= 1.0:
-        faults.append(f"{who}: efficiency is {drive.efficiency:g}; expected > 0 and <= 1")
-    if not drive.copper_loss >= 0.0:
-        faults.append(f"{who}: copper loss is {drive.copper_loss:g}; expected >= 0")
-    return faults
-
-
-def vehicle_faults(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[str]:
-    """Everything that is wrong with a set, for a robot with these links."""
-    known = list(links)
-    faults = []
-    links_named = [body.link for body in vehicle.bodies]
-    for kind, names in (
-        ("link", links_named),
-        ("thruster", [thruster.name for thruster in vehicle.thrusters]),
-        ("joint", [drive.name for drive in vehicle.joints]),
-    ):
-        faults += [
-            f"two entries for the {kind} {name!r}; only one may be"
-            for name in sorted({name for name in names if names.count(name) > 1})
-        ]
-    for body in vehicle.bodies:
-        faults += body_faults(body)
-    for thruster in vehicle.thrusters:
-        faults += thruster_faults(thruster)
-    for drive in vehicle.joints:
-        faults += drive_faults(drive)
-    places = [("", link) for link in links_named]
-    places += [(f"thruster {one.name!r}: ", one.link) for one in vehicle.thrusters]
-    for who, link in places:
-        if link not in known:
-            faults.append(
-                f"{who}the robot has no link {link!r}.{did_you_mean(link, known)} "
-                f"Links: {', '.join(known) or 'none'}"
-            )
-    if not vehicle.density > 0.0:
-        faults.append(f"density is {vehicle.density:g}; expected > 0 [kg/m3]")
-    return faults
-
-
-def _mass_faults(who: str, added: npt.NDArray[np.float64]) -> list[str]:
-    scale = float(np.abs(added).max())
-    skew = np.abs(added - added.T)
-    if scale and skew.max() > 1e-6 * scale:
-        i, j = np.unravel_index(int(np.argmax(skew)), skew.shape)
-        return [
-            f"{who}: added mass is not symmetric: entry ({i + 1},{j + 1}) is {added[i, j]:g} and "
-            f"({j + 1},{i + 1}) is {added[j, i]:g}"
-        ]
-    least = float(np.linalg.eigvalsh(0.5 * (added + added.T))[0])
-    if least < -1e-9 * scale:
-        return [
-            f"{who}: added mass is not positive semi-definite: its least eigenvalue is "
-            f"{least:g} (published derivatives carry the opposite sign)"
-        ]
-    return []
-
-
-def _inertia_faults(who: str, inertia: Numbers) -> list[str]:
-    if len(inertia) != 6:
-        return [f"{who}: inertia has {len(inertia)} numbers; expected xx yy zz xy xz yz"]
-    xx, yy, zz, xy, xz, yz = inertia
-    principal = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
-    if not principal[0] > 0.0:
-        return [f"{who}: inertia has the least principal moment {principal[0]:g}; expected > 0"]
-    if principal[2] > (principal[0] + principal[1]) * (1.0 + 1e-6):
-        return [
-            f"{who}: inertia has the principal moments {_list(principal)}; no body can have one "
-            "above the sum of the two others"
-        ]
-    return []
-
-
-def _words(name: str) -> str:
-    return name.replace("_", " ")
-
-
-def _list(values: Iterable[float]) -> str:
-    return " ".join(f"{value:g}" for value in values)

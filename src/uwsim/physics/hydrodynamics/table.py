@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import columns as c
-from .spec import BadHydrodynamics, BodyHydrodynamics, ThrusterSpec, body_faults, matrix
-from .spec import thruster_faults as _thruster_faults
+from .faults import body_faults, density_faults, thruster_faults
+from .spec import BadHydrodynamics, BodyHydrodynamics, ThrusterSpec, matrix
 
 _SHAPES = {
     "sphere": c.SPHERE, "ellipsoid": c.ELLIPSOID, "box": c.BOX, "cylinder": c.CYLINDER,
@@ -42,7 +42,7 @@ def prepare(
         BadHydrodynamics: with every fault.
     """
     propellers = thrusters or {}
-    _check(spec, bodies, propellers)
+    _check(spec, bodies, propellers, density)
     spec.nuser_body = c.BODY_COLUMNS
     spec.nuser_actuator = max(spec.nuser_actuator, c.THRUSTER_COLUMNS)
     if spec.nuser_actuator != c.THRUSTER_COLUMNS:
@@ -103,9 +103,11 @@ def _check(
     spec: mujoco.MjSpec,
     bodies: Mapping[str, BodyHydrodynamics],
     thrusters: Mapping[str, tuple[str, ThrusterSpec]],
+    density: float,
 ) -> None:
-    faults = [fault for body in bodies.values() for fault in body_faults(body)]
-    faults += [fault for _, one in thrusters.values() for fault in _thruster_faults(one)]
+    faults = density_faults(density)
+    faults += [fault for body in bodies.values() for fault in body_faults(body)]
+    faults += [fault for _, one in thrusters.values() for fault in thruster_faults(one)]
     for name in (*bodies, *(link for link, _ in thrusters.values())):
         if name == "world" or spec.body(name) is None:
             faults.append(f"the model has no body {name!r} that the water could act on")

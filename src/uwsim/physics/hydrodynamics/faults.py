@@ -1,0 +1,285 @@
+"""Everything that is wrong with the numbers of bodies, thrusters and drives, all at once."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from ...errors import did_you_mean
+from ...geometry import Array
+from .passivity import Kind, bearable_share, driving_motion
+from .spec import (
+    BEST_EFFICIENCY,
+    N_CURVE,
+    SIZES,
+    BodyHydrodynamics,
+    JointDrive,
+    Numbers,
+    ThrusterSpec,
+    VehicleHydrodynamics,
+    matrix,
+)
+
+LONGEST = 500.0
+"""No length or place of a vehicle is beyond that of the longest ship [m]."""
+SLOWEST_ROTOR = 60.0
+"""Longest lag of a thruster [s]."""
+LIQUIDS = (100.0, 20000.0)
+"""Least and greatest density of what a vehicle may swim in: liquid hydrogen has 71, mercury 13 534
+[kg/m3]."""
+SAG = 0.02
+"""A measured thrust curve, or the polynomial through it, may fall by this share of its greatest
+thrust."""
+LENGTHS = ("reference", "centre_of_buoyancy", "size", "centre_of_mass", "position", "radius")
+DRAG: dict[str, Kind] = {"linear_damping": "linear", "quadratic_damping": "quadratic"}
+
+
+def body_faults(body: BodyHydrodynamics) -> list[str]:
+    """Everything that is wrong with the numbers of a body."""
+    who = f"link {body.link!r}"
+    if faults := _no_numbers(who, body):
+        return faults
+    for name in ("added_mass", *DRAG):
+        numbers: Numbers = getattr(body, name)
+        if len(numbers) not in (6, 36):
+            faults.append(f"{who}: {_words(name)} has {len(numbers)} numbers; expected 6 or 36")
+        elif name == "added_mass":
+            faults += _mass_faults(who, matrix(numbers))
+        else:
+            faults += _drag_faults(who, name, matrix(numbers))
+    if not body.volume >= 0.0:
+        faults.append(f"{who}: volume is {body.volume:g}; expected >= 0 [m3]")
+    if body.shape not in SIZES:
+        faults.append(
+            f"{who}: shape is {body.shape!r}; expected one of {', '.join(SIZES)}."
+            f"{did_you_mean(body.shape, SIZES)}"
+        )
+    elif body.size and len(body.size) != SIZES[body.shape]:
+        faults.append(
+            f"{who}: a {body.shape} has {SIZES[body.shape]} lengths; found {len(body.size)}"
+        )
+    elif not body.size and body.shape != "sphere":
+        faults.append(f"{who}: a {body.shape} needs its {SIZES[body.shape]} lengths (size) [m]")
+    if any(not length > 0.0 for length in body.size):
+        faults.append(f"{who}: size is {_list(body.size)}; expected lengths > 0 [m]")
+    if body.mass is not None and not body.mass > 0.0:
+        faults.append(f"{who}: mass is {body.mass:g}; expected > 0 [kg]")
+    if body.inertia is not None:
+        faults += _inertia_faults(who, body.inertia)
+    if not 0.0 <= body.implicitness <= 1.0:
+        faults.append(f"{who}: implicitness is {body.implicitness:g}; expected 0..1")
+    return faults
+
+
+def thruster_faults(thruster: ThrusterSpec) -> list[str]:
+    """Everything that is wrong with the numbers of a thruster."""
+    who = f"thruster {thruster.name!r}"
+    if faults := _no_numbers(who, thruster):
+        return faults
+    if not math.hypot(*thruster.direction) > 1e-9:
+        faults.append(f"{who}: direction is 0 0 0; expected a direction")
+    for side in ("forward", "backward", "power", "power_backward"):
+        curve = getattr(thruster, side)
+        if curve is not None and not 1 <= len(curve) <= N_CURVE:
+            faults.append(
+                f"{who}: {_words(side)} has {len(curve)} coefficients; expected 1 to {N_CURVE}"
+            )
+    if thruster.power is None and thruster.power_backward is not None:
+        faults.append(f"{who}: power backward is given without power")
+    if not 0.0 < thruster.efficiency <= BEST_EFFICIENCY:
+        faults.append(
+            f"{who}: efficiency is {thruster.efficiency:g}; expected > 0 and <= {BEST_EFFICIENCY:g}"
+        )
+    if not thruster.dead_zone >= 0.0:
+        faults.append(f"{who}: dead zone is {thruster.dead_zone:g}; expected >= 0")
+    for name in ("limits", "saturation"):
+        ends = getattr(thruster, name)
+        if ends is not None and not (ends[0] <= 0.0 <= ends[1] and ends[0] < ends[1]):
+            faults.append(
+                f"{who}: {name} are {_list(ends)}; expected least <= 0 <= greatest, not both 0"
+            )
+    if not 0.0 <= thruster.time_constant <= SLOWEST_ROTOR:
+        faults.append(
+            f"{who}: time constant is {thruster.time_constant:g}; expected >= 0 and "
+            f"<= {SLOWEST_ROTOR:g} [s]"
+        )
+    if not thruster.radius > 0.0:
+        faults.append(f"{who}: radius is {thruster.radius:g}; expected > 0 [m]")
+    if abs(thruster.torque) > 2.0 * thruster.radius > 0.0:
+        faults.append(
+            f"{who}: torque is {thruster.torque:g} per thrust; expected at most the propeller's "
+            f"diameter, {2.0 * thruster.radius:g} [m]"
+        )
+    return faults or _thrust_faults(who, thruster)
+
+
+def drive_faults(drive: JointDrive) -> list[str]:
+    """Everything that is wrong with the numbers of a joint's drive."""
+    who = f"joint {drive.name!r}"
+    if faults := _no_numbers(who, drive):
+        return faults
+    if not 0.0 < drive.efficiency <= 1.0:
+        faults.append(f"{who}: efficiency is {drive.efficiency:g}; expected > 0 and <= 1")
+    if not drive.copper_loss >= 0.0:
+        faults.append(f"{who}: copper loss is {drive.copper_loss:g}; expected >= 0")
+    return faults
+
+
+def density_faults(density: float) -> list[str]:
+    """Say what is wrong with the density of the water."""
+    if LIQUIDS[0] <= density <= LIQUIDS[1]:
+        return []
+    return [
+        f"density is {density:g}; expected that of a liquid, {LIQUIDS[0]:g} to {LIQUIDS[1]:g} "
+        "(fresh water 1000, sea water 1025) [kg/m3]"
+    ]
+
+
+def vehicle_faults(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[str]:
+    """Everything that is wrong with a set, for a robot with these links."""
+    known = list(links)
+    faults = []
+    links_named = [body.link for body in vehicle.bodies]
+    for kind, names in (
+        ("link", links_named),
+        ("thruster", [thruster.name for thruster in vehicle.thrusters]),
+        ("joint", [drive.name for drive in vehicle.joints]),
+    ):
+        faults += [
+            f"two entries for the {kind} {name!r}; only one may be"
+            for name in sorted({name for name in names if names.count(name) > 1})
+        ]
+    for body in vehicle.bodies:
+        faults += body_faults(body)
+    for thruster in vehicle.thrusters:
+        faults += thruster_faults(thruster)
+    for drive in vehicle.joints:
+        faults += drive_faults(drive)
+    places = [("", link) for link in links_named]
+    places += [(f"thruster {one.name!r}: ", one.link) for one in vehicle.thrusters]
+    for who, link in places:
+        if link not in known:
+            faults.append(
+                f"{who}the robot has no link {link!r}.{did_you_mean(link, known)} "
+                f"Links: {', '.join(known) or 'none'}"
+            )
+    return faults + density_faults(vehicle.density)
+
+
+def _no_numbers(who: str, spec: BodyHydrodynamics | ThrusterSpec | JointDrive) -> list[str]:
+    """Say what is not finite, and which lengths are beyond those of any vehicle."""
+    faults = []
+    for each in dataclasses.fields(spec):
+        value = getattr(spec, each.name)
+        values = value if isinstance(value, tuple) else (value,)
+        numbers = [one for one in values if isinstance(one, int | float)]
+        if not all(math.isfinite(number) for number in numbers):
+            faults.append(
+                f"{who}: {_words(each.name)} is {_list(numbers)}; expected finite numbers"
+            )
+        elif each.name in LENGTHS and any(abs(number) > LONGEST for number in numbers):
+            faults.append(
+                f"{who}: {_words(each.name)} is {_list(numbers)}; expected none beyond "
+                f"{LONGEST:g} (metres, not millimetres) [m]"
+            )
+    return faults
+
+
+def _mass_faults(who: str, added: Array) -> list[str]:
+    scale = float(np.abs(added).max())
+    skew = np.abs(added - added.T)
+    if scale and skew.max() > 1e-6 * scale:
+        i, j = np.unravel_index(int(np.argmax(skew)), skew.shape)
+        return [
+            f"{who}: added mass is not symmetric: entry ({i + 1},{j + 1}) is {added[i, j]:g} and "
+            f"({j + 1},{i + 1}) is {added[j, i]:g}"
+        ]
+    least = float(np.linalg.eigvalsh(0.5 * (added + added.T))[0])
+    if least < -1e-9 * scale:
+        return [
+            f"{who}: added mass is not positive semi-definite: its least eigenvalue is "
+            f"{least:g} (published derivatives carry the opposite sign)"
+        ]
+    return []
+
+
+def _drag_faults(who: str, name: str, drag: Array) -> list[str]:
+    if min(np.diag(drag)) < 0.0:
+        return [
+            f"{who}: {_words(name)} has the diagonal {_list(np.diag(drag))}; "
+            "expected none below 0 (drag opposes motion with positive coefficients)"
+        ]
+    driving = driving_motion(DRAG[name], drag)
+    if driving is None:
+        return []
+    motion, power = driving
+    share = bearable_share(DRAG[name], drag)
+    bearable = f"at most {share:.2f} times as large" if share > 0.0 else "0 where that is 0"
+    return [
+        f"{who}: {_words(name)} drives the body: at the velocity "
+        f"{_list(np.round(motion, 3) + 0.0)} [m/s, rad/s] it gives it {power:.3g} W; expected drag "
+        f"that only takes energy: entries beside this diagonal {bearable}"
+    ]
+
+
+def _thrust_faults(who: str, thruster: ThrusterSpec) -> list[str]:
+    """Say where more command is less thrust, or none at all."""
+    backward = thruster.forward if thruster.backward is None else thruster.backward
+    sides = [
+        ("forward", thruster.forward, thruster.limits[1], "0 at most"),
+        ("backward", backward, -thruster.limits[0], "0 at least"),
+    ]
+    faults = []
+    for side, curve, end, without in sides:
+        if end == 0.0:
+            continue
+        if thruster.dead_zone >= end:
+            return [
+                f"{who}: dead zone is {thruster.dead_zone:g}; expected below {end:g}, the limit of "
+                f"a {side} command: none gives thrust"
+            ]
+        sizes = np.linspace(0.0, end - thruster.dead_zone, 1001)
+        thrusts = np.polynomial.polynomial.polyval(sizes, (0.0, *curve))  # (1001,) [N]
+        before = np.maximum.accumulate(thrusts)
+        worst = int(np.argmax(before - thrusts))
+        if not thrusts[-1] > 0.0:
+            faults.append(
+                f"{who}: {side} gives {thrusts[-1]:g} N at the limit {end:g}; expected more than 0 "
+                f"(a propeller that pushes the other way has another direction, one that does not "
+                f"run {side} the limit {without})"
+            )
+        elif before[worst] - thrusts[worst] > SAG * before[-1]:
+            at = sizes[worst] + thruster.dead_zone
+            faults.append(
+                f"{who}: {side} falls from {before[worst]:.4g} N to {thrusts[worst]:.4g} N at the "
+                f"command {at:.3g}; expected thrust that grows with the command"
+            )
+        if thruster.backward is None and thruster.limits[0] == -thruster.limits[1]:
+            break  # both sides are one
+    return faults
+
+
+def _inertia_faults(who: str, inertia: Numbers) -> list[str]:
+    if len(inertia) != 6:
+        return [f"{who}: inertia has {len(inertia)} numbers; expected xx yy zz xy xz yz"]
+    xx, yy, zz, xy, xz, yz = inertia
+    principal = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
+    if not principal[0] > 0.0:
+        return [f"{who}: inertia has the least principal moment {principal[0]:g}; expected > 0"]
+    if principal[2] > (principal[0] + principal[1]) * (1.0 + 1e-6):
+        return [
+            f"{who}: inertia has the principal moments {_list(principal)}; no body can have one "
+            "above the sum of the two others"
+        ]
+    return []
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def _list(values: Iterable[float]) -> str:
+    return " ".join(f"{value:g}" for value in values)
