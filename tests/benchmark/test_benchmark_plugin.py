@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import re
 import subprocess
 import sys
 import textwrap
@@ -360,6 +361,80 @@ def play(folder: Path, was: str, now: str) -> Result:
 def test_a_measure_that_raises_ends_the_run_with_its_line(folder: Path) -> None:
     with pytest.raises(RunFailed, match=r"parts\.py:33: ZeroDivisionError: division by zero"):
         play(folder, "self.n += 1", "self.n = 1 / 0")
+
+
+@pytest.mark.parametrize(
+    ("attribute", "gives", "said"),
+    [
+        ("details", "[1.0]", "is list; expected a dict by names of details"),
+        ("details", "{1: 2.0}", "has the key 1; expected a name"),
+        ("detail_units", "{'a': None}", "has NoneType for 'a', no text"),
+        ("reasons", "{'fastest': 'asleep'}", "is about 'fastest', which is no detail without a"),
+        ("why", "404", "is int '404'; expected text or None"),
+        ("notes", "'slow'", "is str 'slow'; expected a tuple of text"),
+        ("ends_level", "7", "is int '7'; expected text or None"),
+        ("longest_silence", "None", "is NoneType; expected a time [s]"),
+        ("log_values", "(1.0, 2.0)", "has 2 values; log_header has 1 names"),
+        ("log_values", "1.0", "is float '1.0'; expected a tuple of numbers"),
+        ("log_header", "('a', 'b')", "has 1 values; log_header has 2 names"),
+    ],
+)
+def test_a_measure_that_answers_otherwise_than_promised_ends_the_run_with_its_line(
+    folder: Path, attribute: str, gives: str, said: str
+) -> None:
+    value = "    @property\n    def value(self) -> float:\n"
+    own = f"    @property\n    def {attribute}(self):\n        return {gives}\n\n"
+    (folder / "b.xml").write_text(BENCHMARK.replace("</name>", "</name> <log>0.02</log>", 1))
+    with pytest.raises(RunFailed) as caught:
+        play(folder, value, own + value)
+    whose = "log_values" if attribute == "log_header" else attribute
+    at = value if whose == attribute else "class Count(Measure)"
+    line = PARTS.split(at)[0].count("\n") + 1
+    expected = re.escape(f"{folder}/parts.py:{line}: Count.{whose} {said}")
+    assert re.match(expected, str(caught.value)), str(caught.value)
+
+
+def test_a_detail_that_is_no_number_leaves_a_reason(folder: Path) -> None:
+    value = "    @property\n    def value(self) -> float:\n"
+    own = "    @property\n    def details(self):\n        return {'a': 'x', 'b': 1e99, 'c': None}\n"
+    result = play(folder, value, own + value)
+    assert [result.values(f"steps.{name}") for name in "abc"] == [(None,)] * 3
+    assert result.why(0, "steps.a") == "it gave str 'x', which is no number"
+    assert result.why(0, "steps.b") == "it gave 1e+99, beyond what can be reckoned with (1e+60)"
+
+
+@pytest.mark.parametrize(
+    ("parameters", "said"),
+    [
+        ("['kp']", "is list; expected a dict of name -> number or text"),
+        ("{'kp': [0.4]}", "has list for 'kp'; expected a name, and a number or text"),
+        ("{'kp': float('inf')}", "has float 'inf' for 'kp'; expected"),
+    ],
+)
+def test_parameters_that_no_result_can_hold_are_refused_before_the_first_level(
+    folder: Path, parameters: str, said: str
+) -> None:
+    start = "    def start(self, node) -> None:\n"
+    with pytest.raises(RunFailed, match=re.escape(f"Idle: its attribute parameters {said}")):
+        play(folder, start, f"{start}        self.parameters = {parameters}\n")
+
+
+@pytest.mark.parametrize(
+    ("gives", "said"),
+    [
+        ("[]", "MurkSpec.files gives list; expected name -> path"),
+        ("{'sky': Path('sky.png')}", "MurkSpec.files gives 'sky.png' for 'sky'; expected the path"),
+    ],
+)
+def test_files_of_an_updater_that_are_not_there_are_said_with_its_line(
+    folder: Path, gives: str, said: str
+) -> None:
+    bind = '    def bind(self, stage: Stage) -> "Murk":\n'
+    files = (
+        f"    def files(self, stage):\n        from pathlib import Path\n        return {gives}\n"
+    )
+    with pytest.raises(PluginError, match=rf"parts\.py:\d+: {re.escape(said)}"):
+        play(folder, bind, f"{files}\n{bind}")
 
 
 @pytest.mark.parametrize(

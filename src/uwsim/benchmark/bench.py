@@ -19,6 +19,7 @@ from .. import __version__
 from ..errors import BenchmarkError, UwsimError
 from ..simulation import Simulation, Studio
 from . import unit_file
+from .answers import files_of
 from .logs import TIME, Log, save_log
 from .names import unknown_names
 from .original_format import save_dat, save_data
@@ -287,7 +288,8 @@ def open_once(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, objec
         assets = {name: f"sha256:{digest}" for name, digest in simulation.asset_hashes.items()}
         assets |= {name: _file_hash(path) for name, path in simulation.files.items()}
         for updater in chain(plan.benchmark.scene_updater):
-            files = updater.files(simulation)
+            with blamed(plan.plugins):
+                files = files_of(updater, simulation)
             assets |= {name: _file_hash(path) for name, path in files.items()}
         renderer = simulation.renderer_name
     finally:

@@ -6,6 +6,7 @@ import math
 from numbers import Real
 
 from ..world import World
+from .answers import sample_of
 from .measures import MeasureSpec
 from .result import MOST
 
@@ -65,6 +66,6 @@ class Gated:
         assert self.spec.log is not None
         timestep = self._world.timestep
         elapsed = (self._world.step - self._began) * timestep
-        self.log.append((elapsed, *(finite(value)[0] for value in self.measure.log_values)))
+        self.log.append((elapsed, *(finite(value)[0] for value in sample_of(self.measure))))
         n_next = math.floor(elapsed / self.spec.log + 1e-9) + 1
         self._log_due = math.ceil(n_next * self.spec.log / timestep - 1e-9)

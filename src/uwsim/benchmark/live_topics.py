@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from ..messages import Float32MultiArray, String, floats
 from ..simulation import Simulation
-from .gated import Gated
+from .gated import Gated, finite
 from .original_format import details
 from .score import Expression
 from .spec import FunctionSpec
@@ -60,7 +60,7 @@ class LiveTopics:
             return
         if not self._simulation.has_readers(RESULTS):
             return
-        values = {gated.spec.name: gated.measure.value for gated in measures}
+        values = {gated.spec.name: finite(gated.measure.value)[0] for gated in measures}
         total = self._expression.evaluate(values)
         if total is None or any(value is None for value in values.values()):
             return

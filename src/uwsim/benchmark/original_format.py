@@ -27,6 +27,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from .answers import sample_of
+from .gated import finite
 from .logs import TIME, Log, file_name
 from .measures import (
     CollisionSpec,
@@ -140,8 +142,8 @@ def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
 
 def details(spec: MeasureSpec, measure: Measure) -> tuple[float | None, ...]:
     """Return the details of a measure as of now, in the order of `detail_names`."""
-    values = measure.log_values
-    return values[: len(detail_names(spec, len(values)))]
+    values = [finite(value)[0] for value in sample_of(measure)]
+    return tuple(values[: len(detail_names(spec, len(values)))])
 
 
 def data_text(log: Log, spec: MeasureSpec) -> str:

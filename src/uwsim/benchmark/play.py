@@ -15,6 +15,7 @@ from ..bus import Algorithm
 from ..errors import NeverStarted
 from ..messages import String
 from ..simulation import Simulation, Studio, what_broke
+from .answers import check_answers, parameters_of
 from .facts import Fact, visibility_facts
 from .gate import Gate
 from .gated import Gated, Sample, finite
@@ -163,8 +164,9 @@ class _Playing:
         plan, simulation = self._plan, self._simulation
         simulation.open()
         facts: dict[str, Fact] = {}
+        parameters = parameters_of(self._algorithm, plan.parameters)
         if not plan.is_blind:
-            facts = visibility_facts(simulation, plan, getattr(self._algorithm, "parameters", {}))
+            facts = visibility_facts(simulation, plan, parameters)
         self._wait("The benchmark never started")
         before: Level | None = None
         for level in self._unit.levels:
@@ -175,7 +177,7 @@ class _Playing:
             before = level
         yield UnitEnd(
             facts=facts,
-            parameters=dict(getattr(self._algorithm, "parameters", plan.parameters)),
+            parameters=parameters,
             streams=() if plan.is_blind else self._streams(),
             notes=tuple(self._notes),
             trace=self._tracer.trace(),
@@ -268,6 +270,8 @@ class _Playing:
             ended = next((why for gated in measures if (why := gated.measure.ends_level)), None)
             if stopped or ended is not None:
                 break
+        for gated in measures:
+            check_answers(gated.measure)
         overran = LONGEST_TASK if length is None and not stopped and ended is None else None
         status, why = verdict.status(measures, overran=overran, ended=ended)
         for gated in measures:
@@ -295,7 +299,10 @@ class _Playing:
             for detail, value in measure.details.items():
                 unit = "1" if detail.split(".")[-1] == "n" else measure.unit
                 unit = measure.detail_units.get(detail, unit)
-                details[f"{name}.{detail}"] = (None if blank else finite(value)[0], unit)
+                number, slip = (None, None) if blank else finite(value)
+                details[f"{name}.{detail}"] = (number, unit)
+                if slip is not None:
+                    missing[f"{name}.{detail}"] = slip
             if not blank:
                 missing |= {f"{name}.{detail}": said for detail, said in measure.reasons.items()}
         score = self._expression.score(values)

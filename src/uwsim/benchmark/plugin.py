@@ -36,6 +36,7 @@ from ..bus import Algorithm
 from ..dialect import slots
 from ..errors import BadSetting, Fault, PluginError, RunFailed, UwsimError, did_you_mean
 from ..world import Stage
+from .answers import WrongAnswer
 from .measures import Measure, MeasureSpec
 from .triggers import Trigger, TriggerSpec
 from .updaters import SceneUpdater, SceneUpdaterSpec
@@ -284,8 +285,22 @@ def _line(value: object, plugin: Plugin) -> int | None:
         return None
 
 
+def _line_of_answer(error: WrongAnswer, plugin: Plugin) -> int | None:
+    """Line of the property that answered wrongly, or of its class."""
+    cls = type(error.part)
+    if cls.__module__ != plugin.module_name:
+        return None
+    getter = getattr(inspect.getattr_static(cls, error.attribute, None), "fget", None)
+    code = getattr(getter, "__code__", None)
+    if isinstance(code, CodeType) and code.co_filename == plugin.path:
+        return code.co_firstlineno
+    return _line(cls, plugin)
+
+
 def raised(error: BaseException) -> str:
     """Return what was raised as one line, whatever its message holds."""
+    if isinstance(error, WrongAnswer):
+        return str(error)
     return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
 
 
@@ -304,6 +319,8 @@ def blamed(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[N
     except (Exception, SystemExit) as error:
         for plugin in plugins:
             line = plugin.line_of(error)
+            if line is None and isinstance(error, WrongAnswer):
+                line = _line_of_answer(error, plugin)
             if line is not None:
                 said = raised(error)
                 if is_running:

@@ -1,0 +1,130 @@
+"""What a stranger's part answers when it is asked, held against what it has promised.
+
+Annotations are not looked at when Python runs, and a result is only whole if names are text and
+samples fit their header; so what leaves a measure is checked where it is taken.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from numbers import Real
+from pathlib import Path
+
+from ..errors import RunFailed
+from ..world import Stage
+from .measures import Measure
+from .updaters import SceneUpdaterSpec
+
+TEXTS = ("why", "ends_level")
+"""What a measure says in words, or None."""
+BY_NAME = ("details", "detail_units", "reasons")
+"""What it has by the names of its details."""
+
+
+class WrongAnswer(Exception):
+    """A part does not answer what it has promised."""
+
+    def __init__(self, part: object, attribute: str, message: str) -> None:
+        self.part, self.attribute = part, attribute
+        super().__init__(f"{type(part).__name__}.{attribute} {message}")
+
+
+def check_answers(measure: Measure) -> None:
+    """Look at everything that a measure says at the end of a level but its numbers.
+
+    Raises:
+        WrongAnswer: names are no text, or a reason belongs to nothing.
+    """
+
+    def expect(attribute: str, fits: Callable[[object], bool], expected: str) -> None:
+        answer = getattr(measure, attribute)
+        if not fits(answer):
+            raise WrongAnswer(measure, attribute, f"is {_shown(answer)}; expected {expected}")
+
+    for attribute in TEXTS:
+        expect(attribute, lambda answer: isinstance(answer, str | None), "text or None")
+    for attribute in BY_NAME:
+        expect(attribute, lambda answer: isinstance(answer, Mapping), "a dict by names of details")
+        for key in getattr(measure, attribute):
+            if not isinstance(key, str) or key == "":
+                raise WrongAnswer(measure, attribute, f"has the key {key!r}; expected a name")
+    for attribute in ("detail_units", "reasons"):
+        for key, text in getattr(measure, attribute).items():
+            if not isinstance(text, str) or text == "":
+                raise WrongAnswer(measure, attribute, f"has {_shown(text)} for {key!r}, no text")
+    details = measure.details
+    for key in measure.reasons:
+        if key not in details or details[key] is not None:
+            what = f"is about {key!r}, which is no detail without a value"
+            raise WrongAnswer(measure, "reasons", what)
+    expect("longest_silence", lambda answer: isinstance(answer, Real), "a time [s]")
+    expect("notes", _are_texts, "a tuple of text")
+    expect("log_header", _are_texts, "a tuple of text")
+
+
+def sample_of(measure: Measure) -> Sequence[object]:
+    """Return a line of a measure's log, as of now.
+
+    Raises:
+        WrongAnswer: it has not as many values as the header has names.
+    """
+    values: object = measure.log_values
+    if not isinstance(values, tuple | list):
+        said = f"is {_shown(values)}; expected a tuple of numbers"
+        raise WrongAnswer(measure, "log_values", said)
+    if len(values) != len(measure.log_header):
+        said = f"has {len(values)} values; log_header has {len(measure.log_header)} names"
+        raise WrongAnswer(measure, "log_values", said)
+    return values
+
+
+def parameters_of(
+    algorithm: object, given: Mapping[str, float | str]
+) -> dict[str, float | int | str]:
+    """Return the parameters that an algorithm says it runs with; without that, those given.
+
+    Raises:
+        RunFailed: they are no dict of name -> number or text, which is what a result can hold.
+    """
+    said: object = getattr(algorithm, "parameters", given)
+    who = f"Algorithm {type(algorithm).__name__}: its attribute parameters"
+    if not isinstance(said, Mapping):
+        raise RunFailed(f"{who} is {_shown(said)}; expected a dict of name -> number or text.")
+    found: dict[str, float | int | str] = {}
+    for name, value in said.items():
+        number = float(value) if isinstance(value, Real) else None
+        if not isinstance(name, str) or not (
+            isinstance(value, str) or (number is not None and math.isfinite(number))
+        ):
+            raise RunFailed(
+                f"{who} has {_shown(value)} for {name!r}; expected a name, and a number or text."
+            )
+        found[name] = value if isinstance(value, str | int) or number is None else number
+    return found
+
+
+def files_of(updater: SceneUpdaterSpec, stage: Stage) -> Mapping[str, Path]:
+    """Return the files that an updater reads.
+
+    Raises:
+        WrongAnswer: it is no dict of name -> path, or one is not there.
+    """
+    files: object = updater.files(stage)
+    if not isinstance(files, Mapping):
+        raise WrongAnswer(updater, "files", f"gives {_shown(files)}; expected name -> path")
+    for name, path in files.items():
+        if not (isinstance(name, str) and isinstance(path, Path) and path.exists()):
+            said = f"gives {str(path)[:200]!r} for {name!r}; expected the path of a file"
+            raise WrongAnswer(updater, "files", said)
+    return files
+
+
+def _are_texts(answer: object) -> bool:
+    return isinstance(answer, tuple | list) and all(isinstance(text, str) for text in answer)
+
+
+def _shown(answer: object) -> str:
+    """Say what something is, in a few words that are the same in every run."""
+    kind = type(answer).__name__
+    return f"{kind} {str(answer)[:40]!r}" if isinstance(answer, str | Real) else kind
