@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from uwsim.assets import find, load_model
 from uwsim.geometry import Pose
 from uwsim.scene.kinematics import link_poses
-from uwsim.scene.urdf import read_urdf
+from uwsim.scene.urdf_reader import read_urdf
 
 POSTURES = [
     (0.0, 0.0, 2.15, 0.0, 0.8),

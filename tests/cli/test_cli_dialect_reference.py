@@ -13,7 +13,7 @@ from uwsim.benchmark.triggers import TRIGGERS
 from uwsim.benchmark.updaters import UPDATERS
 from uwsim.cli import dialect_reference
 from uwsim.dialect import slots
-from uwsim.scene.spec import VehicleSpec
+from uwsim.scene.vehicle import VehicleSpec
 
 ROOT = Path(__file__).parents[2]
 

@@ -16,7 +16,7 @@ from uwsim.physics.hydrodynamics import (
     prepare,
 )
 from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
-from uwsim.scene.urdf import read_urdf
+from uwsim.scene.urdf_reader import read_urdf
 
 FAR_BELOW = 1000.0  # a surface that nothing reaches [m]
 

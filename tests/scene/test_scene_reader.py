@@ -23,7 +23,7 @@ from uwsim.scene.kinematics import link_poses
 from uwsim.scene.reader import check_scene
 from uwsim.scene.ros_interfaces import INTERFACES, ROSOdomToPATSpec
 from uwsim.scene.spec import ObjectSpec, ShowTrajectorySpec
-from uwsim.scene.urdf import read_urdf
+from uwsim.scene.urdf_reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
 from uwsim.sensors.sensor import link_from_sensor
 

@@ -11,7 +11,8 @@ import pytest
 from uwsim.dialect import element
 from uwsim.errors import BadSetting
 from uwsim.scene.settings import apply_setting
-from uwsim.scene.spec import ObjectSpec, SceneSpec, VehicleSpec
+from uwsim.scene.spec import ObjectSpec, SceneSpec
+from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 
 Triple = tuple[float, float, float]

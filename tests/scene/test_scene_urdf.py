@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from uwsim.dialect import Faults
 from uwsim.errors import SceneError
 from uwsim.scene.kinematics import joint_positions, link_poses
-from uwsim.scene.urdf import RobotSpec, read_robot, read_urdf
+from uwsim.scene.urdf import RobotSpec
+from uwsim.scene.urdf_reader import read_robot, read_urdf
 
 G500 = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "scenes" / "g500ARM5.urdf"
 

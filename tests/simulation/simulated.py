@@ -11,7 +11,8 @@ from uwsim.currents import ConstantSpec, Place
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.scene.reader import read_scene
 from uwsim.scene.ros_interfaces import InterfaceSpec, ROSTwistToPATSpec
-from uwsim.scene.spec import ObjectSpec, VehicleSpec
+from uwsim.scene.spec import ObjectSpec
+from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 
 SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"

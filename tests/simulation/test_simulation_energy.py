@@ -24,7 +24,7 @@ from uwsim.scene.ros_interfaces import (
     ROSJointStateToArmSpec,
     ROSThrustersToPATSpec,
 )
-from uwsim.scene.spec import VehicleSpec
+from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 
 NAME = "girona500"

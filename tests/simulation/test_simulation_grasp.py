@@ -13,7 +13,7 @@ from uwsim.scene.kinematics import link_poses
 from uwsim.scene.reader import read_scene
 from uwsim.scene.ros_interfaces import ROSJointStateToArmSpec, ROSPoseToPATSpec
 from uwsim.scene.spec import ObjectSpec, PhysicsSpec
-from uwsim.scene.urdf import read_urdf
+from uwsim.scene.urdf_reader import read_urdf
 from uwsim.simulation import Simulation
 
 ARM = [0.0, 0.48, 0.563, 0.0]  # the jaw points down

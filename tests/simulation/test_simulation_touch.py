@@ -12,7 +12,8 @@ from uwsim.errors import UnknownName, UwsimError
 from uwsim.messages import Bool
 from uwsim.scene.reader import read_scene
 from uwsim.scene.ros_interfaces import ContactSensorToROSSpec
-from uwsim.scene.spec import ObjectSpec, PhysicsSpec, VehicleSpec
+from uwsim.scene.spec import ObjectSpec, PhysicsSpec
+from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 
 TANK, BLACKBOX = read_scene(SCENE).objects

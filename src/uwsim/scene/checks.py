@@ -19,8 +19,9 @@ from .ros_interfaces import (
     SimulatedDeviceROSSpec,
     VirtualCameraToROSImageSpec,
 )
-from .spec import ObjectSpec, SceneSpec, VehicleSpec
+from .spec import ObjectSpec, SceneSpec
 from .urdf import RobotSpec
+from .vehicle import VehicleSpec
 
 SOLVERS = ("dantzig", "solveprojectedgauss", "sequentialimpulse")
 SHAPES = ("box", "sphere", "compound box", "compound cylinder", "trimesh", "compound trimesh")

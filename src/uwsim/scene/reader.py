@@ -14,7 +14,8 @@ from .checks import check_names
 from .legacy import upgrade
 from .not_yet import not_simulated
 from .spec import SceneSpec
-from .urdf import RobotSpec, read_robot, read_urdf
+from .urdf import RobotSpec
+from .urdf_reader import read_robot, read_urdf
 
 ROOT = "UWSimScene"
 """Name of the root element."""

@@ -15,7 +15,8 @@ from ..errors import AssetNotFound, UnknownName, UwsimError
 from ..geometry import Pose
 from ..physics.state import State
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec, read_urdf
+from ..scene.urdf import RobotSpec
+from ..scene.urdf_reader import read_urdf
 from ..world import Box
 from .scenery import Part
 

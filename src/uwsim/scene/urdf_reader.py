@@ -1,0 +1,403 @@
+"""A robot file (URDF) becomes a `RobotSpec`, or every fault it has.
+
+UWSim's rules: the tree is walked depth first, children in the alphabetical order of their joints'
+names, and the movable joints in that order are the joint vector; only the first visual and the
+first collision of a link count; limits hold for continuous joints too, and a ``<limit>`` without
+bounds means 0 to 0; without one a joint goes from -pi to pi, prismatic ones included. Its
+``effort`` and ``velocity``, which UWSim passes over, limit the joints of simulated vehicles.
+
+What a plug-in or another program wrote into the file (``<gazebo>``, ``<transmission>``, ...) is
+passed over, as the original does. Not read: joint dynamics, safety controllers, textures.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import cast
+
+from lxml import etree
+
+from ..dialect import FARTHEST, Faults, number, parse
+from ..errors import SceneError
+from .urdf import (
+    ZERO,
+    Colour,
+    JointKind,
+    JointSpec,
+    LinkSpec,
+    MimicSpec,
+    RobotSpec,
+    ShapeKind,
+    Triple,
+    VisualSpec,
+)
+
+LONGEST_CHAIN = 256
+"""Most joints between the root and a link."""
+
+MOVABLE = ("revolute", "continuous", "prismatic")
+STIFF = ("floating", "planar")
+
+
+def read_urdf(path: Path) -> RobotSpec:
+    """Read a robot file.
+
+    Raises:
+        SceneError: with every fault of the file.
+    """
+    faults = Faults(path)
+    robot = read_robot(path, faults)
+    faults.check(SceneError)
+    assert robot is not None
+    return robot
+
+
+def read_robot(path: Path, faults: Faults) -> RobotSpec | None:
+    """Read a robot file into ``faults``; None when there is no tree to build."""
+    root = parse(path, error=SceneError).root
+    if root.tag != "robot":
+        faults.add(root, f"the root element is <{str(root.tag)[:60]}>; expected <robot>")
+        return None
+    materials = {
+        _name(node): colour
+        for node in root.findall("material")
+        if (colour := _colour(node, faults)) is not None
+    }
+    links: dict[str, LinkSpec] = {}
+    for node in root.findall("link"):
+        if _unique(node, links, "link", faults):
+            links[_name(node)] = _link(node, materials, faults)
+    joints: dict[str, JointSpec] = {}
+    for node in root.findall("joint"):
+        if _unique(node, joints, "joint", faults):
+            joint = _joint(node, links, faults)
+            if joint is not None:
+                joints[joint.name] = joint
+                faults.remember(joint, node)
+    for joint in joints.values():
+        _check_mimic(joint, joints, faults)
+    if not links:
+        faults.add(root, "the robot has no <link>")
+    if faults.any:
+        return None
+    return _tree(root, path, links, joints, faults)
+
+
+def _tree(
+    root: etree._Element,
+    path: Path,
+    links: dict[str, LinkSpec],
+    joints: dict[str, JointSpec],
+    faults: Faults,
+) -> RobotSpec | None:
+    """Put links and joints into UWSim's order."""
+    children: dict[str, list[JointSpec]] = {}
+    hung: dict[str, JointSpec] = {}
+    for joint in sorted(joints.values(), key=lambda joint: joint.name):
+        if joint.child in hung:
+            faults.add(
+                faults.node_of(joint),
+                f"link {joint.child!r} hangs on two joints, {hung[joint.child].name!r} and "
+                f"{joint.name!r}",
+            )
+        hung[joint.child] = joint
+        children.setdefault(joint.parent, []).append(joint)
+    roots = [name for name in links if name not in hung]
+    if len(roots) != 1:
+        what = f"{len(roots)} links hang on none: {', '.join(roots[:5])}" if roots else "a loop"
+        faults.add(root, f"the joints are no tree with one root; found {what}")
+        return None
+    ordered: list[JointSpec] = []
+    depths = {roots[0]: 0}
+    waiting = list(reversed(children.get(roots[0], [])))
+    while waiting:
+        joint = waiting.pop()
+        ordered.append(joint)
+        depths[joint.child] = depths[joint.parent] + 1
+        if depths[joint.child] > LONGEST_CHAIN:
+            faults.add(
+                faults.node_of(joint),
+                f"joint {joint.name!r} ends a chain of more than {LONGEST_CHAIN} joints",
+            )
+            return None
+        waiting += reversed(children.get(joint.child, []))
+    if len(ordered) < len(joints):
+        lost = sorted(set(joints) - {joint.name for joint in ordered})
+        faults.add(faults.node_of(joints[lost[0]]), f"joint {lost[0]!r} is part of a loop")
+        return None
+    return RobotSpec(
+        name=_name(root),
+        root=roots[0],
+        links=(links[roots[0]], *(links[joint.child] for joint in ordered)),
+        joints=tuple(ordered),
+        path=str(path),
+    )
+
+
+def _link(node: etree._Element, materials: dict[str, Colour], faults: Faults) -> LinkSpec:
+    inertial = node.find("inertial")
+    mass, centre, turn = 0.0, ZERO, ZERO
+    inertia = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if inertial is not None:
+        centre, turn = _origin(inertial, faults)
+        if (weight := inertial.find("mass")) is not None:
+            mass = _size(weight, "value", faults, 0.0)
+        if (tensor := inertial.find("inertia")) is not None:
+            xx, yy, zz, xy, xz, yz = (
+                _number(tensor, f"i{axes}", faults, 0.0)
+                for axes in ("xx", "yy", "zz", "xy", "xz", "yz")
+            )
+            inertia = (xx, yy, zz, xy, xz, yz)
+    return LinkSpec(
+        name=_name(node),
+        visual=_shape(node.find("visual"), materials, faults),
+        collision=_shape(node.find("collision"), materials, faults),
+        mass=mass,
+        centre_of_mass=centre,
+        inertia_rpy=turn,
+        inertia=inertia,
+    )
+
+
+def _shape(
+    node: etree._Element | None, materials: dict[str, Colour], faults: Faults
+) -> VisualSpec | None:
+    if node is None:
+        return None
+    position, rpy = _origin(node, faults)
+    geometry = node.find("geometry")
+    shape = None if geometry is None else next(_elements(geometry), None)
+    if shape is None:
+        faults.add(node, f"<{node.tag}> lacks a <geometry> with a mesh, box, cylinder or sphere")
+        return None
+    colour = None
+    if (material := node.find("material")) is not None:
+        colour = _colour(material, faults) or materials.get(_name(material))
+    kind = shape.tag
+    file, size, scale = "", (1.0, 1.0, 1.0), (1.0, 1.0, 1.0)
+    if kind == "mesh":
+        file = (shape.get("filename") or "").strip()
+        if not file:
+            faults.add(shape, "<mesh> lacks the attribute filename")
+        scale = _triple(shape, "scale", faults, scale)
+    elif kind == "box":
+        size = _triple(shape, "size", faults, None)
+        if min(size) < 0:
+            said = shape.get("size", "")
+            faults.add(shape, f"size of <box> is {said[:60]!r}; expected numbers >= 0")
+    elif kind in ("cylinder", "sphere"):
+        wide = 2 * _size(shape, "radius", faults, None)
+        tall = _size(shape, "length", faults, None) if kind == "cylinder" else wide
+        size = (wide, wide, tall)
+    else:
+        kinds = ("mesh", "box", "cylinder", "sphere")
+        said = str(kind)
+        faults.unknown(shape, f"<{said[:60]}> is not a geometry", said, kinds)
+        return None
+    return VisualSpec(
+        kind=cast(ShapeKind, kind),
+        file=file,
+        size=size,
+        scale=scale,
+        position=position,
+        rpy=rpy,
+        colour=colour,
+    )
+
+
+def _joint(node: etree._Element, links: dict[str, LinkSpec], faults: Faults) -> JointSpec | None:
+    name, said = _name(node), (node.get("type") or "").strip()
+    if said not in (*MOVABLE, *STIFF, "fixed"):
+        faults.unknown(
+            node,
+            f"joint {name!r} has the type {said[:60]!r}; expected one of "
+            f"{', '.join((*MOVABLE, 'fixed', *STIFF))}",
+            said,
+            (*MOVABLE, "fixed", *STIFF),
+        )
+        return None
+    if said in STIFF:
+        faults.notice(node, f"joint {name!r} is {said}; held fixed, as in the original")
+    parent, child = (_end(node, end, links, faults) for end in ("parent", "child"))
+    if parent is None or child is None:
+        return None
+    position, rpy = _origin(node, faults)
+    kind: JointKind = "fixed"
+    axis, lower, upper = (1.0, 0.0, 0.0), 0.0, 0.0
+    if said in MOVABLE:
+        kind = said  # type: ignore[assignment]  # one of MOVABLE
+        lower, upper = _limits(node, said, faults)
+        if (axis_node := node.find("axis")) is not None:
+            axis = _triple(axis_node, "xyz", faults, axis)
+        if not any(axis):
+            faults.notice(node, f"joint {name!r} has the axis 0 0 0; held fixed")
+            kind = "fixed"
+    return JointSpec(
+        name=name,
+        kind=kind,
+        parent=parent,
+        child=child,
+        position=position,
+        rpy=rpy,
+        axis=axis,
+        lower=lower,
+        upper=upper,
+        effort=_most(node, "effort", faults),
+        velocity=_most(node, "velocity", faults),
+        mimic=_mimic(node, faults) if said in MOVABLE else None,
+    )
+
+
+def _limits(node: etree._Element, kind: str, faults: Faults) -> tuple[float, float]:
+    limit = node.find("limit")
+    if limit is None:
+        if kind != "continuous" and node.find("mimic") is None:
+            faults.notice(node, f"joint {_name(node)!r} is {kind} without <limit>; -pi to pi")
+        return -math.pi, math.pi
+    lower, upper = (_number(limit, end, faults, 0.0) for end in ("lower", "upper"))
+    if lower > upper:
+        faults.notice(limit, f"joint {_name(node)!r}: lower {lower:g} is above upper {upper:g}")
+    elif "lower" not in limit.attrib and "upper" not in limit.attrib:
+        faults.notice(
+            limit, f"joint {_name(node)!r} has a <limit> without lower and upper: it is held at 0"
+        )
+    return lower, upper
+
+
+def _most(node: etree._Element, what: str, faults: Faults) -> float:
+    """An effort or speed of a ``<limit>``; none, or 0 as many files have it, is no limit."""
+    limit = node.find("limit")
+    most = 0.0 if limit is None else _number(limit, what, faults, 0.0)
+    return most if most > 0.0 else math.inf
+
+
+def _mimic(node: etree._Element, faults: Faults) -> MimicSpec | None:
+    mimic = node.find("mimic")
+    if mimic is None:
+        return None
+    return MimicSpec(
+        joint=(mimic.get("joint") or "").strip(),
+        multiplier=_number(mimic, "multiplier", faults, 1.0),
+        offset=_number(mimic, "offset", faults, 0.0),
+    )
+
+
+def _check_mimic(joint: JointSpec, joints: dict[str, JointSpec], faults: Faults) -> None:
+    if joint.mimic is not None and joint.mimic.joint not in joints:
+        source = joint.mimic.joint
+        faults.add(
+            faults.node_of(joint),
+            f"joint {joint.name!r} mimics {source[:60]!r}, which is no joint"
+            f".{faults.near(source, joints)}",
+        )
+        return
+    passed: list[str] = []
+    while joint.mimic is not None and joint.name not in passed and joint.mimic.joint in joints:
+        passed.append(joint.name)
+        joint = joints[joint.mimic.joint]
+    if passed and joint.name == passed[0]:
+        loop = " mimics ".join(repr(name) for name in (*passed, joint.name))
+        faults.add(faults.node_of(joint), f"joint {loop[:200]}: a loop")
+
+
+def _end(node: etree._Element, end: str, links: dict[str, LinkSpec], faults: Faults) -> str | None:
+    child = node.find(end)
+    link = "" if child is None else (child.get("link") or "").strip()
+    if link in links:
+        return link
+    if not link:
+        faults.add(node, f'joint {_name(node)!r} lacks <{end} link="...">')
+    else:
+        faults.add(
+            node,
+            f"joint {_name(node)!r}: its {end} {link[:60]!r} is no link.{faults.near(link, links)}",
+        )
+    return None
+
+
+def _origin(node: etree._Element, faults: Faults) -> tuple[Triple, Triple]:
+    origin = node.find("origin")
+    if origin is None:
+        return ZERO, ZERO
+    return _triple(origin, "xyz", faults, ZERO), _triple(origin, "rpy", faults, ZERO)
+
+
+def _colour(node: etree._Element, faults: Faults) -> Colour | None:
+    colour = node.find("color")
+    if colour is None:
+        return None
+    values = _numbers(colour, "rgba", 4, faults)
+    return None if values is None else (values[0], values[1], values[2], values[3])
+
+
+def _triple(node: etree._Element, attribute: str, faults: Faults, default: Triple | None) -> Triple:
+    if attribute not in node.attrib and default is not None:
+        return default
+    values = _numbers(node, attribute, 3, faults)
+    if values is not None and not max(map(abs, values)) <= FARTHEST:
+        said = node.get(attribute, "")
+        faults.add(
+            node,
+            f"{attribute} of <{node.tag}> is {said[:60]!r}; expected numbers up to {FARTHEST:g}",
+        )
+        return ZERO
+    return ZERO if values is None else (values[0], values[1], values[2])
+
+
+def _size(node: etree._Element, attribute: str, faults: Faults, default: float | None) -> float:
+    """A length or mass: not below 0."""
+    value = _number(node, attribute, faults, default)
+    if not 0 <= value <= FARTHEST:
+        said = node.get(attribute, "")
+        faults.add(
+            node, f"{attribute} of <{node.tag}> is {said[:60]!r}; expected 0 to {FARTHEST:g}"
+        )
+        return 0.0
+    return value
+
+
+def _number(node: etree._Element, attribute: str, faults: Faults, default: float | None) -> float:
+    if attribute not in node.attrib and default is not None:
+        return default
+    values = _numbers(node, attribute, 1, faults)
+    return 0.0 if values is None else values[0]
+
+
+def _numbers(
+    node: etree._Element, attribute: str, count: int, faults: Faults
+) -> list[float] | None:
+    text = node.get(attribute)
+    if text is None:
+        faults.add(node, f"<{node.tag}> lacks the attribute {attribute}")
+        return None
+    words = text.split() if len(text) < 1000 else [text]
+    values = [number(word) for word in words if not word.lstrip("-").startswith("M_")]
+    if len(words) == count and len(values) == count and None not in values:
+        return [value for value in values if value is not None]
+    hint = "; expand the file with xacro first" if "${" in text else ""
+    what = "a number" if count == 1 else f"{count} numbers"
+    shown = text if len(text) <= 60 else text[:57] + "..."
+    faults.add(node, f"{attribute} of <{node.tag}> is {shown!r}; expected {what}{hint}")
+    return None
+
+
+def _unique(
+    node: etree._Element, known: dict[str, LinkSpec] | dict[str, JointSpec], what: str,
+    faults: Faults,
+) -> bool:  # fmt: skip
+    name = _name(node)
+    if not name:
+        faults.add(node, f"a <{what}> lacks the attribute name")
+    elif name in known:
+        faults.add(node, f"two {what}s are called {name!r}")
+    return bool(name) and name not in known
+
+
+def _name(node: etree._Element) -> str:
+    return (node.get("name") or "").strip()
+
+
+def _elements(node: etree._Element) -> Iterator[etree._Element]:
+    return (child for child in node if isinstance(child.tag, str))
