@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from uwsim.currents import ConstantSpec, Place
-from uwsim.errors import RunFailed
+from uwsim.errors import BadSetting, RunFailed
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
@@ -140,3 +140,18 @@ def test_motion_beyond_all_bounds_is_an_error_that_says_where() -> None:
     set_current(simulation, (1e30, 0.0, 0.0))
     with pytest.raises(RunFailed, match=r"'girona500/.*' grew beyond all bounds at 0\.002 s"):
         run(simulation, 1.0)
+
+
+@pytest.mark.parametrize("timestep", [0.021, 0.05, 0.0, -0.002, float("nan"), float("inf")])
+def test_a_step_that_the_physics_does_not_bear_is_refused(timestep: float) -> None:
+    scene = read_scene(SCENE)
+    said = "expected 0.02 s at most" if 0.0 < timestep < 1.0 else "expected a time > 0"
+    with pytest.raises(BadSetting, match=said):
+        Simulation(scene, timestep=timestep, is_blind=True)
+
+
+def test_without_a_simulated_vehicle_a_step_may_be_long() -> None:
+    scene = read_scene(SCENE)
+    vehicle = replace(scene.vehicles[0], dynamics=None, virtual_cameras=())
+    still = replace(scene, vehicles=(vehicle,), ros_interfaces=())
+    Simulation(still, timestep=0.05, is_blind=True).close()

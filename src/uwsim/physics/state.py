@@ -18,6 +18,7 @@ from .actuators import Actuators
 from .autopilot import Autopilot
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .contacts import contacts_of
+from .engine_warnings import why_untrue
 from .hydrodynamics import VehicleHydrodynamics
 from .motion import Motion
 from .servos import Servos
@@ -28,8 +29,6 @@ if TYPE_CHECKING:
 
 PILOT_PERIOD = 0.02
 """An autopilot thinks this often [s]."""
-FIRST_UNSTABLE = int(mujoco.mjtWarning.mjWARN_BADQPOS)
-"""MuJoCo's warnings from this on: a position, velocity, acceleration or control is no number."""
 
 
 class State:
@@ -58,7 +57,7 @@ class State:
         # Views into MuJoCo's memory: to look them up by name costs more than the step.
         self._ids = {self._model.body(i).name: i for i in range(self._model.nbody)}
         self._bases = {i: self._ids[vehicle_body(i, robots[i].root)] for i in robots}
-        self._warnings = self._data.warning.number[FIRST_UNSTABLE:]
+        self._warnings = self._data.warning.number
         self._origins, self._axes = self._data.xpos, self._data.xmat  # (nbody, 3), (nbody, 9)
         free = {i: self._model.joint(vehicle_joint(i, "")) for i in range(len(scene.vehicles))}
         self._frees = {
@@ -131,7 +130,7 @@ class State:
             acceleration: of the water there, in W, (nbody, 3) [m/s2].
 
         Raises:
-            RunFailed: numbers grew beyond all bounds; MuJoCo begins anew then, and says nothing.
+            RunFailed: the engine warned: what follows would not be true.
         """
         if self._water is None:
             return
@@ -144,7 +143,7 @@ class State:
         before = {i: self._frees[i].copy() for i in self._kinematic}
         self._water.step(self._data)
         if any(self._warnings.tolist()):
-            raise RunFailed(self._why_unstable())
+            raise RunFailed(self._why_untrue())
         self._contacts_hold = True
         for index, pose in before.items():
             self._frees[index][:] = pose
@@ -152,17 +151,10 @@ class State:
         self._n_steps += 1
         self._moved()
 
-    def _why_unstable(self) -> str:
-        where = ""
-        for kind in (mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC):
-            if self._data.warning[kind].number:
-                body = self._model.dof_bodyid[self._data.warning[kind].lastinfo]
-                where = f" of {self._body_names[body]!r}"
+    def _why_untrue(self) -> str:
+        names = [self._body_names[body] for body in self._model.dof_bodyid]
         time = (self._n_steps + 1) * self._timestep
-        return (
-            f"The motion{where} grew beyond all bounds at {time:g} s: "
-            f"forces, currents or damping are too strong for steps of {self._timestep:g} s."
-        )
+        return why_untrue(self._data, time, self._timestep, names)
 
     def contacts(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""
