@@ -18,6 +18,8 @@ from .bus import Inbox
 from .geometry import Intrinsics, Pose
 
 M = TypeVar("M")
+TIMESTEP = 0.002
+"""Length of a physics step, unless another is asked for [s]."""
 
 
 @dataclass(frozen=True)

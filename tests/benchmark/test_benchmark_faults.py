@@ -87,6 +87,14 @@ def said(capsys: pytest.CaptureFixture[str], file: Path) -> object:
     return refused
 
 
+CURRENT = (
+    "<currentForceUpdater><initialValue>0</initialValue><finalValue>0.1</finalValue>"
+    "<sphericalDirection><theta>0</theta><phi>0</phi></sphericalDirection>"
+    "<forceVariation>0</forceVariation>\n<forcePeriod>4</forcePeriod>\n"
+    "<directionVariation><theta>0</theta><phi>0</phi></directionVariation>"
+    "<directionPeriod><theta>4</theta><phi>4</phi></directionPeriod>"
+    "<random>0</random><step>0.1</step>LENGTH<target>girona500</target></currentForceUpdater>"
+)
 CAMERA = "<camera>bowtech1</camera>"
 FAULTS = {
     "an unknown measure": (
@@ -132,6 +140,26 @@ FAULTS = {
     "a step of 0": (changed("<step>0.05", "<step>0"), "<step>", "expected a number > 0 [1/m]"),
     "an interval of 0": (
         changed("<interval>5", "<interval>0"), "<interval>", "expected a number > 0 [s]",
+    ),
+    "an interval of less than half a step": (
+        changed("<interval>5", "<interval>0.0009"),
+        "<interval>", "<interval> is 0.0009 s: less than half a step of 0.002 s, so nothing would",
+    ),
+    "a level that is over with its calm": (
+        with_updater(CURRENT.replace("LENGTH", "\n<interval>2.0004</interval>")),
+        "<interval>", "<interval> is 2.0004 s: the first 2 s are calm and the rest is less than",
+    ),
+    "a period of less than half a step": (
+        with_updater(CURRENT.replace("LENGTH", "<interval>9</interval>").replace(">4<", ">4e-4<")),
+        "<forcePeriod>", "<forcePeriod> is 0.0004 s: less than half a step",
+    ),
+    "a log of less than half a step": (
+        with_measure(f"<time><name>t</name>\n<log>0.0004</log>{GATE}</time>"),
+        "<log>0.0004", "<log> is 0.0004 s: less than half a step of 0.002 s",
+    ),
+    "results published within a step": (
+        changed("<function", '<function publishRate="0.0009"'),
+        "<function", "publishRate is 0.0009 s: less than half a step of 0.002 s; 0 publishes",
     ),
     "a final value below the initial one": (
         changed("<initialValue>0", "<initialValue>3"),

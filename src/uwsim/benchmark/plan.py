@@ -14,6 +14,7 @@ from typing import Any, Literal
 from ..bus import Algorithm
 from ..errors import BadSetting
 from ..scene.spec import SceneSpec
+from ..world import TIMESTEP
 from .measures import EuclideanNormSpec
 from .plugin import Plugin
 from .spec import BenchmarkSpec
@@ -75,7 +76,7 @@ class Plan:
     """``--level``: only levels whose reference has one of these values."""
     compatibility: frozenset[str] = frozenset()
     """The original's slips asked for."""
-    timestep: float = 0.002
+    timestep: float = TIMESTEP
     """Length of a physics step [s]."""
     data_path: tuple[Path, ...] = ()
     """Folders in which files are looked for."""

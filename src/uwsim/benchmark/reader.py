@@ -30,7 +30,9 @@ from lxml import etree
 from ..compatibility import COMPATIBILITY
 from ..dialect import NAMESPACE, Faults, check_head, parse, read, slots, text_of
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
+from ..world import TIMESTEP
 from . import score
+from .durations import too_short
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
 from .original_grammar import check_order
@@ -65,14 +67,15 @@ def read_benchmark(
     measures: Mapping[str, type[MeasureSpec]] = MEASURES,
     triggers: Mapping[str, type[TriggerSpec]] = TRIGGERS,
     updaters: Mapping[str, type[SceneUpdaterSpec]] = UPDATERS,
+    timestep: float = TIMESTEP,
 ) -> BenchmarkSpec:
-    """Read a benchmark file.
+    """Read a benchmark file; what it says shall last must not be less than half a ``timestep`` [s].
 
     Raises:
         BenchmarkError: with everything that is wrong about it.
     """
     faults = Faults(path)
-    spec = _Reader(faults, measures, triggers, updaters).benchmark(path)
+    spec = _Reader(faults, measures, triggers, updaters, timestep).benchmark(path)
     faults.check(BenchmarkError)
     assert spec is not None
     return spec
@@ -85,6 +88,7 @@ def check_benchmark(
     measures: Mapping[str, type[MeasureSpec]] = MEASURES,
     triggers: Mapping[str, type[TriggerSpec]] = TRIGGERS,
     updaters: Mapping[str, type[SceneUpdaterSpec]] = UPDATERS,
+    timestep: float = TIMESTEP,
 ) -> list[Fault]:
     """Return everything that is wrong or worth knowing about a benchmark file, line by line.
 
@@ -94,10 +98,11 @@ def check_benchmark(
         measures: element -> spec.
         triggers: type -> spec.
         updaters: element -> spec.
+        timestep: length of a step [s].
     """
     faults = Faults(path)
     try:
-        _Reader(faults, measures, triggers, updaters).benchmark(path, strict=strict)
+        _Reader(faults, measures, triggers, updaters, timestep).benchmark(path, strict=strict)
     except BenchmarkError as error:
         return list(error.faults)
     return faults.all()
@@ -111,6 +116,7 @@ class _Reader:
     measures: Mapping[str, type[MeasureSpec]]
     triggers: Mapping[str, type[TriggerSpec]]
     updaters: Mapping[str, type[SceneUpdaterSpec]]
+    timestep: float
 
     def benchmark(self, path: Path, *, strict: bool = False) -> BenchmarkSpec | None:
         document = parse(path, error=BenchmarkError)
@@ -142,6 +148,8 @@ class _Reader:
         function = None if spec is None else spec.function
         if function is not None:
             self.check_function(root, function, found)
+        for node, message in too_short(self.faults, found, updater, function, self.timestep):
+            self.faults.add(node, message)
         if spec is not None and updater is not None:
             self.notice_endless(root, spec)
         return spec

@@ -34,7 +34,7 @@ from ..rendering.water import Light, Water
 from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
 from ..sensors.virtual_camera import VirtualCamera
-from ..world import Actuators, Contact, Flow
+from ..world import TIMESTEP, Actuators, Contact, Flow
 from .bodies import (
     SceneBody,
     find_body,
@@ -79,7 +79,7 @@ class Simulation:
         *,
         seed: int = 0,
         stream_prefix: str = "",
-        timestep: float = 0.002,
+        timestep: float = TIMESTEP,
         data_path: tuple[Path, ...] = (),
         compatibility: frozenset[str] = frozenset(),
         is_blind: bool = False,

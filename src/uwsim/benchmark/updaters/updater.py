@@ -179,6 +179,11 @@ def steps(level: Level, after: Level | None) -> tuple[bool, ...]:
     return tuple(after is None or after.values[:i] != level.values[:i] for i in range(1, n + 1))
 
 
+def longest_calm(spec: SceneUpdaterSpec) -> float:
+    """Return how long nothing is measured yet where every updater steps [s]."""
+    return max(updater.calm for updater in chain(spec))
+
+
 def calm(spec: SceneUpdaterSpec, level: Level, *, after: Level | None = None) -> float:
     """Return how long after the beginning of ``level`` nothing is measured yet [s].
 

@@ -1,0 +1,78 @@
+"""Times in a benchmark file that are shorter than time itself: the world goes in whole steps.
+
+A level of less than half a step would be one of none at all; a period of less than half a step
+would be played as another one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from lxml import etree
+
+from ..dialect import Faults
+from .measures import MeasureSpec
+from .spec import FunctionSpec
+from .updaters import CurrentForceUpdaterSpec, SceneUpdaterSpec, chain, interval, longest_calm
+
+Said = tuple[etree._Element | None, str]
+
+
+def too_short(
+    faults: Faults,
+    measures: Sequence[MeasureSpec],
+    updater: SceneUpdaterSpec | None,
+    function: FunctionSpec | None,
+    timestep: float,
+) -> Iterator[Said]:
+    """Yield what is shorter than half a step, and the element that says so.
+
+    Args:
+        faults: knows from which element a spec was read.
+        measures: what could be read.
+        updater: the outermost, if it could be read.
+        function: the score's element, if it could be read.
+        timestep: length of a step [s].
+    """
+    step = f"less than half a step of {timestep:g} s"
+    periods = [(faults.node_of(spec), "log", spec.log) for spec in measures]
+    for each in () if updater is None else chain(updater):
+        if isinstance(each, CurrentForceUpdaterSpec):
+            periods.append((faults.node_of(each), "forcePeriod", each.force_period))
+    for node, tag, period in periods:
+        if period is not None and _is_nothing(period, timestep):
+            yield _child(node, tag), f"<{tag}> is {period:g} s: {step}"
+    rate = 0.0 if function is None else function.publish_rate
+    if rate > 0.0 and _is_nothing(rate, timestep):
+        said = f"publishRate is {rate:g} s: {step}; 0 publishes at every step"
+        yield faults.node_of(function), said
+    if updater is not None:
+        yield from _empty_level(faults, updater, timestep, step)
+
+
+def _empty_level(
+    faults: Faults, updater: SceneUpdaterSpec, timestep: float, step: str
+) -> Iterator[Said]:
+    """Say that levels would be over before anything is measured."""
+    length, deepest = interval(updater), chain(updater)[-1]
+    if length is None:
+        return
+    calm = longest_calm(updater)
+    place = _child(faults.node_of(deepest), "interval")
+    if _is_nothing(length, timestep):
+        yield place, f"<interval> is {length:g} s: {step}, so nothing would be played"
+    elif length > calm and _is_nothing(length - calm, timestep):
+        yield (
+            place,
+            f"<interval> is {length:.9g} s: the first {calm:g} s are calm and the rest is {step}, "
+            "so nothing would be measured",
+        )
+
+
+def _is_nothing(seconds: float, timestep: float) -> bool:
+    return round(seconds / timestep) < 1
+
+
+def _child(node: etree._Element | None, tag: str) -> etree._Element | None:
+    child = None if node is None else node.find(tag)
+    return node if child is None else child
