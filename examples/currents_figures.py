@@ -24,7 +24,8 @@ from uwsim.assets.find import find
 from uwsim.benchmark.figures import picture_with_inset
 from uwsim.benchmark.logs import load_log
 from uwsim.benchmark.plots import save_plot
-from uwsim.benchmark.result import Result, load
+from uwsim.benchmark.result import Result
+from uwsim.benchmark.result_file import load
 from uwsim.benchmark.station_figures import Line, over_current, over_time
 from uwsim.benchmark.station_keeping import (
     Loop,

@@ -30,7 +30,8 @@ from uwsim.benchmark.figures import (
 )
 from uwsim.benchmark.overlay import overlay
 from uwsim.benchmark.plots import compare_plot, save_plot, value_plot
-from uwsim.benchmark.result import Result, load
+from uwsim.benchmark.result import Result
+from uwsim.benchmark.result_file import load
 from uwsim.cli import main as uwsim
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import Renderer

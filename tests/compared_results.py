@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from uwsim.benchmark.comparison import Entry
-from uwsim.benchmark.result import Cell, Column, Missing, Result, save
+from uwsim.benchmark.result import Cell, Column, Missing, Result
+from uwsim.benchmark.result_file import save
 
 Values = Mapping[float, Sequence[float | None]]
 """Fog -> the value of each seed; None: lost."""

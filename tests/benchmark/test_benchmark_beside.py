@@ -11,7 +11,7 @@ import pytest
 from synthetic_results import visibility
 
 from uwsim.benchmark.beside import Beside
-from uwsim.benchmark.result import save
+from uwsim.benchmark.result_file import save
 from uwsim.errors import RunFailed
 
 

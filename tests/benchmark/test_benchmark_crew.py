@@ -15,7 +15,7 @@ from short_benchmark import bench_of, fingerprint, run, write_benchmark
 from uwsim.benchmark import crew
 from uwsim.benchmark.crew import Here, Job, Roster, play_all
 from uwsim.benchmark.processes import Processes, portable
-from uwsim.benchmark.result import load
+from uwsim.benchmark.result_file import load
 from uwsim.bus import Node
 from uwsim.errors import NeverStarted, RunFailed
 from uwsim.messages import Empty, Image

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from uwsim.benchmark.reader import read_benchmark
-from uwsim.benchmark.result import Result, load
+from uwsim.benchmark.result import Result
+from uwsim.benchmark.result_file import load
 from uwsim.benchmark.updaters import n_levels
 from uwsim.cli import main
 from uwsim.cli.files import bundled

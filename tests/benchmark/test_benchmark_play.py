@@ -11,7 +11,7 @@ import pytest
 import failing
 from short_benchmark import fingerprint, run, write_benchmark
 from uwsim.benchmark.comparison import compare, differences, read_entries, shared_column
-from uwsim.benchmark.result import load
+from uwsim.benchmark.result_file import load
 from uwsim.bus import Node
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image

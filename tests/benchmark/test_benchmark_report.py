@@ -25,7 +25,8 @@ from synthetic_results import (
 from uwsim.benchmark.logs import Log, save_log
 from uwsim.benchmark.provenance import save_provenance
 from uwsim.benchmark.report import render, write_report
-from uwsim.benchmark.result import MOST, Column, Missing, Result, TakenPicture, save
+from uwsim.benchmark.result import MOST, Column, Missing, Result, TakenPicture
+from uwsim.benchmark.result_file import save
 from uwsim.cli import main
 from uwsim.errors import ResultError
 

@@ -12,18 +12,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from uwsim.benchmark.result import (
-    MOST,
-    Column,
-    ImageStream,
-    Missing,
-    Result,
-    TakenPicture,
-    dumps,
-    load,
-    loads,
-    save,
-)
+from uwsim.benchmark.result import MOST, Column, ImageStream, Missing, Result, TakenPicture
+from uwsim.benchmark.result_file import dumps, load, loads, save
 from uwsim.errors import ResultError, UnknownName
 
 COLUMNS = (

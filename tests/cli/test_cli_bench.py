@@ -9,7 +9,7 @@ from short_benchmark import fingerprint, write_benchmark
 from uwsim.benchmark.crew import Here
 from uwsim.benchmark.processes import Processes
 from uwsim.benchmark.provenance import load_provenance
-from uwsim.benchmark.result import load
+from uwsim.benchmark.result_file import load
 from uwsim.cli import main
 from uwsim.cli.bench import crew_of
 from uwsim.errors import BadSetting

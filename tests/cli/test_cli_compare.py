@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from compared_results import made, noisy, saved
-from uwsim.benchmark.result import save
+from uwsim.benchmark.result_file import save
 from uwsim.cli import main
 
 

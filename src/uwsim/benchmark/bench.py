@@ -26,7 +26,8 @@ from .original_format import save_dat, save_data
 from .plan import Plan, Unit
 from .play import bind_all
 from .plugin import blamed, check_bound, hashes
-from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture, save
+from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture
+from .result_file import save
 from .summary import save_summary
 from .updaters import chain, references
 

@@ -20,7 +20,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultError
-from .result import MOST, write_whole
+from .result import MOST
+from .whole_file import write_whole
 
 Sample = tuple[float | int | None, ...]
 

@@ -42,7 +42,8 @@ from .measures import (
     Reconstruction3DSpec,
     TimeSpec,
 )
-from .result import Cell, Column, Result, write_whole
+from .result import Cell, Column, Result
+from .whole_file import write_whole
 
 LEVEL_NAMES = {
     "none": "None",

@@ -13,7 +13,7 @@ import platform
 from collections.abc import Mapping
 from pathlib import Path
 
-from .result import write_whole
+from .whole_file import write_whole
 
 
 def save_provenance(provenance: Mapping[str, object], directory: Path) -> Path:

@@ -17,8 +17,9 @@ import io
 from pathlib import Path
 
 from .interval import per_level, success_per_level
-from .result import Result, write_whole
+from .result import Result
 from .table import unit_of
+from .whole_file import write_whole
 
 FILE = "summary.csv"
 HEADER = (

@@ -20,7 +20,8 @@ from .bench import Bench
 from .crew import Crew, Here, Job, OnLevel, Roster
 from .differences import Difference
 from .plan import Plan, Unit
-from .result import Result, dumps
+from .result import Result
+from .result_file import dumps
 from .unit_work import PICTURES
 
 ENVIRONMENT = ("version", "physics", "renderer", "numpy")

@@ -112,7 +112,7 @@ def with_baseline(results: list[Path], baseline: Path | None) -> tuple[list[Path
     """Return the results with the baseline among them, and its place."""
     if baseline is None:
         return results, None
-    from ..benchmark.result import file_of
+    from ..benchmark.result_file import file_of
 
     files = [file_of(path).resolve() for path in results]
     if file_of(baseline).resolve() in files:

@@ -76,7 +76,7 @@ def verify(
     2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
     """
     from ..benchmark.bench import Bench, open_once
-    from ..benchmark.result import file_of, load
+    from ..benchmark.result_file import file_of, load
     from ..benchmark.verify import choose, finished
     from ..benchmark.verify import verify as compare
 

@@ -11,7 +11,7 @@ import pytest
 from fakes import FakeWorld
 from played import make_plan, rows_of
 from uwsim.benchmark.reader import check_benchmark
-from uwsim.benchmark.result import load
+from uwsim.benchmark.result_file import load
 from uwsim.benchmark.updaters import (
     SceneFogUpdaterSpec,
     bind_updaters,

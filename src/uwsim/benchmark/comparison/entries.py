@@ -9,7 +9,8 @@ from pathlib import Path
 
 from ...errors import ResultError
 from ..plots import algorithm_of
-from ..result import Column, Result, file_of, load
+from ..result import Column, Result
+from ..result_file import file_of, load
 from ..table import unit_of
 
 SHORT = 12

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from ..result import write_whole
+from ..whole_file import write_whole
 from .document import csv_text, json_text
 from .findings import Comparison
 from .page import render

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...statistics import Median, fewest_for_median, median_interval, rate
-from ..result import Json, write_whole
+from ..result import Json
+from ..whole_file import write_whole
 from .criterion import reasons
 from .evaluate import Evaluation
 from .search import Range, Search

@@ -31,8 +31,10 @@ from ..plots import (
     written_unit,
 )
 from ..provenance import load_provenance
-from ..result import Result, file_of, load, write_whole
+from ..result import Result
+from ..result_file import file_of, load
 from ..table import number_text, sensible_decimals, unit_of
+from ..whole_file import write_whole
 from .captions import caption, marks, seeds_text, statistic_of
 from .configuration import command, facts, hashes, logs_text, machine, remarks, settings, title
 from .endings import Ending, breaks, endings, named_level
