@@ -196,3 +196,68 @@ def test_another_kind_of_file_and_one_that_is_not_there_are_errors(tmp_path: Pat
         read_grid(tmp_path / "field.mat")
     with pytest.raises(AssetError, match="No such file"):
         read_grid(tmp_path / "field.csv")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (
+            "x,u,v\n0,0,0\n1,1e300,0\n",
+            r"field\.csv:3: u is 1e\+300; expected a number from -100 to",
+        ),
+        (
+            "x,u,v\n0,0,-101\n1,0,0\n",
+            r"field\.csv:2: v is -101; expected a number from -100 to 100",
+        ),
+        ("x,u,v\n0,0,inf\n1,0,0\n", r"field\.csv:2: 'inf'; expected a number"),
+        ("x,u,v\n0,0,1_0\n1,0,0\n", r"field\.csv:2: '1_0'; expected a number"),
+        ("x,u,v\n1e30,0,0\n1,0,0\n", r"field\.csv:2: x is 1e\+30; expected a number from -1e\+09"),
+        ("x,u,v\n" + "0" * 200_000 + ",0,0\n", r"field\.csv: is not a table that can be read"),
+        (
+            "x,y,z,t,u,v\n" + "".join(f"{i},{i},{i},{i},0,0\n" for i in range(70_000)),
+            "has 70000 nodes; expected a full grid of 70000 x 70000 x 70000 x 70000 nodes",
+        ),
+    ],
+)
+def test_a_table_that_no_water_moves_by_is_refused(text: str, said: str, tmp_path: Path) -> None:
+    path = tmp_path / "field.csv"
+    path.write_text(text)
+    with pytest.raises(AssetError, match=said):
+        read_grid(path)
+
+
+def test_a_table_of_a_spreadsheet_may_begin_with_a_mark_of_its_encoding(tmp_path: Path) -> None:
+    path = tmp_path / "field.csv"
+    path.write_text("x,u,v\n0,1,2\n", encoding="utf-8-sig")
+    assert read_grid(path).velocities.tolist() == [[[[[1.0, 2.0, 0.0]]]]]
+
+
+@pytest.mark.parametrize("value", [1e300, -100.5])
+def test_a_netcdf_file_with_water_faster_than_any_names_the_node(
+    value: float, tmp_path: Path
+) -> None:
+    path = nc_file(tmp_path)
+    with netcdf_file(path, "a", mmap=False) as data:
+        data.variables["v"][1, 2, 0, 1] = value
+    with pytest.raises(
+        AssetError, match=rf"v is {value:g} at t 10, z 3, y 0, x 0; expected".replace("+", r"\+")
+    ):
+        read_grid(path)
+
+
+def test_whatever_stands_in_a_netcdf_file_there_is_one_line(tmp_path: Path) -> None:
+    whole = nc_file(tmp_path).read_bytes()
+    random = stream(0, "fuzz")
+    path = tmp_path / "broken.nc"
+    for i in range(300):
+        broken = bytearray(whole[: int(random.integers(4, len(whole)))] if i % 3 == 0 else whole)
+        for _ in range(int(random.integers(1, 5))):
+            broken[int(random.integers(4, min(len(broken), 600)))] = int(random.integers(0, 256))
+        path.write_bytes(broken)
+        said = str(path)
+        try:
+            read_grid(path)
+        except AssetError as error:
+            said = str(error)
+        assert said.startswith(str(path))
+        assert "\n" not in said

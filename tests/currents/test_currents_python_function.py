@@ -26,6 +26,19 @@ def short(point, time, vehicle):
 def wild(point, time, vehicle):
     return 0.0, float("nan"), 0.0
 
+def tsunami(point, time, vehicle):
+    return 0.0, 0.0, -1e300
+
+class Odd:
+    def __iter__(self):
+        raise KeyError("odd")
+
+    def __repr__(self):
+        raise OSError("odd")
+
+def odd(point, time, vehicle):
+    return Odd()
+
 def broken(point, time, vehicle):
     return 1 / 0
 """
@@ -64,8 +77,10 @@ def test_its_acceleration_is_a_difference_also_at_time_0() -> None:
 @pytest.mark.parametrize(
     ("function", "said"),
     [
-        ("short", r"returned \(1\.0, 2\.0\) at \[0\.0, 0\.0, 0\.0\], 0 s; expected three finite"),
-        ("wild", "expected three finite numbers"),
+        ("short", r"returned \(1\.0, 2\.0\) at \[0\.0, 0\.0, 0\.0\], 0 s; expected three numb"),
+        ("wild", "expected three numbers from -100 to 100"),
+        ("tsunami", "expected three numbers from -100 to 100"),
+        ("odd", "returned a Odd at"),
         ("broken", r"raised at \[0\.0, 0\.0, 0\.0\], 0 s: ZeroDivisionError: division by zero"),
     ],
 )

@@ -117,3 +117,38 @@ def test_the_example_of_every_current_is_one(name: str, tmp_path: Path) -> None:
     assert block is not None
     specs = read_scene(scene(tmp_path, inspect.cleandoc(block[1]))).ocean_state.currents
     assert CURRENTS[name] in {type(spec) for spec in specs}
+
+
+@pytest.mark.parametrize(
+    ("inside", "said"),
+    [
+        (
+            "<u:gaussMarkov> <u:deviation><x>-0.1</x><y>0</y><z>0</z></u:deviation>"
+            "<u:mu>1</u:mu></u:gaussMarkov>",
+            "<x> of <u:deviation> is '-0.1'; expected a number >= 0 and <= 100",
+        ),
+        (
+            "<u:gaussMarkov> <u:deviation><x>1</x><y>0</y><z>0</z></u:deviation>"
+            "<u:mu>1</u:mu><u:step>1e-9</u:step></u:gaussMarkov>",
+            "<u:step> is '1e-9'; expected a number >= 0.001",
+        ),
+        (
+            "<u:constant><u:velocity><x>0</x><y>1e8</y><z>0</z></u:velocity></u:constant>",
+            "<y> of <u:velocity> is '1e8'; expected a number >= -100 and <= 100 [m/s]",
+        ),
+        ("<u:uwsimSinusoid><u:speed>101</u:speed></u:uwsimSinusoid>", "<u:speed> is '101'"),
+        (
+            "<u:layers><u:layer><u:depth>0</u:depth><u:velocity><x>0</x><y>0</y><z>-200</z>"
+            "</u:velocity></u:layer></u:layers>",
+            "<z> of <u:velocity> is '-200'",
+        ),
+        (
+            "<u:tidal><u:constituent><u:name>M2</u:name><u:semiMajor>400</u:semiMajor>"
+            "</u:constituent></u:tidal>",
+            "<u:semiMajor> is '400'; expected a number >= 0 and <= 100 [m/s]",
+        ),
+    ],
+)
+def test_water_that_cannot_move_so_is_refused(inside: str, said: str, tmp_path: Path) -> None:
+    (fault,) = [each for each in check_scene(scene(tmp_path, inside)) if each.severity == "fault"]
+    assert said in fault.message

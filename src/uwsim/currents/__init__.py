@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .constant import Constant, ConstantSpec
-from .current import Current, CurrentSpec, Place
+from .current import FASTEST, Current, CurrentSpec, Place
 from .field import Field, FieldSpec, Grid, read_grid
 from .gauss_markov import GaussMarkov, GaussMarkovSpec
 from .late import LateCurrent
@@ -36,6 +36,7 @@ CURRENTS: dict[str, type[CurrentSpec]] = {
 
 __all__ = [
     "CURRENTS",
+    "FASTEST",
     "Constant",
     "ConstantSpec",
     "ConstituentSpec",

@@ -13,14 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..dialect import element
-from .current import Array, Current, CurrentSpec, Place, everywhere
+from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
 
 
 @dataclass(frozen=True, kw_only=True)
 class ConstantSpec(CurrentSpec):
     """A ``<u:constant>``: the same velocity everywhere and always."""
 
-    velocity: tuple[float, float, float] = element(namespaced=True)
+    velocity: tuple[float, float, float] = element(
+        namespaced=True, minimum=-FASTEST, maximum=FASTEST
+    )
     """Of the water, in L [m/s]."""
 
     def bind(self, place: Place) -> Constant:

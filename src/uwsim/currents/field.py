@@ -15,7 +15,8 @@ from __future__ import annotations
 
 import csv
 import itertools
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -23,10 +24,11 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ..dialect import element
+from ..dialect import LARGEST, element, number
 from ..errors import AssetError
-from .current import Array, Current, CurrentSpec, Place
+from .current import FASTEST, Array, Current, CurrentSpec, Place
 
+Ints = npt.NDArray[np.int64]
 AXES = ("t", "x", "y", "z")
 COMPONENTS = ("u", "v", "w")
 
@@ -79,11 +81,15 @@ def read_grid(path: Path) -> Grid:
         return reader(path)
     except OSError as error:
         raise AssetError(f"{path}: {error.strerror or error}.") from error
+    except csv.Error as error:
+        raise AssetError(f"{path}: is not a table that can be read ({error}).") from error
+    except MemoryError as error:
+        raise AssetError(f"{path}: is larger than the memory.") from error
 
 
 def read_csv(path: Path) -> Grid:
     """Read a table with a line for every node."""
-    with path.open(newline="", encoding="utf-8", errors="replace") as file:
+    with path.open(newline="", encoding="utf-8-sig", errors="replace") as file:
         lines = csv.reader(file)
         names = [name.strip() for name in next(lines, [])]
         _check_names(path, names)
@@ -96,7 +102,8 @@ def read_csv(path: Path) -> Grid:
                     f"{path}:{lines.line_num}: {len(row)} values; expected {len(names)}: "
                     f"{', '.join(names)}."
                 )
-            rows.append([_number(cell, path, lines.line_num) for cell in row])
+            where = f"{path}:{lines.line_num}"
+            rows.append([_number(*each, where) for each in zip(names, row, strict=True)])
     if not rows:
         raise AssetError(f"{path}: has no line of numbers.")
     table = np.array(rows)  # (n, names)
@@ -105,18 +112,7 @@ def read_csv(path: Path) -> Grid:
     found = [np.unique(columns.get(name, still), return_inverse=True) for name in AXES]
     axes = tuple(values for values, _ in found)
     shape = tuple(len(values) for values in axes)
-    node = np.ravel_multi_index(tuple(index for _, index in found), shape)  # (n,)
-    counts = np.bincount(node, minlength=int(np.prod(shape)))
-    for wrong, what in ((counts > 1, "stands twice"), (counts == 0, "is missing")):
-        if wrong.any():
-            where = np.unravel_index(int(np.argmax(wrong)), shape)
-            place = ", ".join(
-                f"{name} {axis[i]:g}" for name, axis, i in zip(AXES, axes, where, strict=True)
-            )
-            raise AssetError(
-                f"{path}: the node {place} {what} ({np.count_nonzero(wrong)} such); expected a "
-                f"full grid of {' x '.join(map(str, shape))} nodes over {', '.join(AXES)}."
-            )
+    node = _nodes(path, axes, tuple(index for _, index in found))  # (n,)
     velocities = np.empty((*shape, 3))
     flat = velocities.reshape(-1, 3)
     for i, name in enumerate(COMPONENTS):
@@ -147,11 +143,12 @@ def read_netcdf(path: Path) -> Grid:
         raise AssetError(f"{path}: is not a NetCDF file that can be read ({error}).") from error
     _check_names(path, list(arrays))
     axes = [_axis(path, name, *arrays[name]) if name in arrays else np.zeros(1) for name in AXES]
+    known = {name: axis for name, axis in zip(AXES, axes, strict=True) if name in arrays}
     shape = tuple(len(axis) for axis in axes)
     velocities = np.zeros((*shape, 3))
     for i, name in enumerate(COMPONENTS):
         if name in arrays:
-            velocities[..., i] = _component(path, name, *arrays[name], tuple(arrays))
+            velocities[..., i] = _component(path, name, *arrays[name], known)
     return Grid((axes[0], axes[1], axes[2], axes[3]), velocities)
 
 
@@ -160,16 +157,22 @@ def _axis(path: Path, name: str, dimensions: tuple[str, ...], values: Array) -> 
         raise AssetError(
             f"{path}: {name} is over ({', '.join(dimensions)}); expected a coordinate over itself."
         )
-    if not np.isfinite(values).all() or not (np.diff(values) > 0.0).all() or len(values) == 0:
-        raise AssetError(f"{path}: the values of {name} do not increase.")
+    if (
+        not (np.abs(values) <= LARGEST).all()
+        or not (np.diff(values) > 0.0).all()
+        or len(values) == 0
+    ):
+        raise AssetError(
+            f"{path}: the values of {name} do not increase, or are beyond {LARGEST:g}."
+        )
     return values
 
 
 def _component(
-    path: Path, name: str, dimensions: tuple[str, ...], values: Array, known: tuple[str, ...]
+    path: Path, name: str, dimensions: tuple[str, ...], values: Array, axes: Mapping[str, Array]
 ) -> Array:
     """The values over t, x, y, z, those it does not change along of length 1."""
-    strange = [each for each in dimensions if each not in AXES or each not in known]
+    strange = [each for each in dimensions if each not in axes]
     if strange or len(set(dimensions)) < len(dimensions):
         raise AssetError(
             f"{path}: {name} is over ({', '.join(dimensions)}); expected coordinates of "
@@ -179,6 +182,15 @@ def _component(
         raise AssetError(
             f"{path}: {n_missing} of {values.size} values of {name} are missing; "
             "expected a number at every node (0 on land)."
+        )
+    if np.abs(values).max(initial=0.0) > FASTEST:
+        worst = np.unravel_index(int(np.argmax(np.abs(values))), values.shape)
+        where = ", ".join(
+            f"{axis} {axes[axis][i]:g}" for axis, i in zip(dimensions, worst, strict=True)
+        )
+        raise AssetError(
+            f"{path}: {name} is {values[worst]:g} at {where}; "
+            f"expected numbers from -{FASTEST:g} to {FASTEST:g} [m/s]."
         )
     order = [dimensions.index(axis) for axis in AXES if axis in dimensions]
     absent = [i for i, axis in enumerate(AXES) if axis not in dimensions]
@@ -196,13 +208,36 @@ def _check_names(path: Path, names: list[str]) -> None:
         )
 
 
-def _number(cell: str, path: Path, line: int) -> float:
-    try:
-        value = float(cell)
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        raise AssetError(f"{path}:{line}: {cell.strip()[:40]!r}; expected a number.")
+def _nodes(path: Path, axes: tuple[Array, ...], indices: tuple[Ints, ...]) -> Ints:
+    """The number of each line's node; every node of the grid must have one line."""
+    shape = tuple(len(values) for values in axes)
+    n_lines, n_nodes = len(indices[0]), math.prod(shape)
+    expected = f"expected a full grid of {' x '.join(map(str, shape))} nodes over {', '.join(AXES)}"
+    if n_nodes > max(1000, 10 * n_lines):
+        raise AssetError(f"{path}: has {n_lines} nodes; {expected}.")
+    node: Ints = np.ravel_multi_index(indices, shape)
+    counts = np.bincount(node, minlength=n_nodes)
+    for wrong, what in ((counts > 1, "stands twice"), (counts == 0, "is missing")):
+        if wrong.any():
+            where = np.unravel_index(int(np.argmax(wrong)), shape)
+            place = ", ".join(
+                f"{name} {axis[i]:g}" for name, axis, i in zip(AXES, axes, where, strict=True)
+            )
+            n_wrong = np.count_nonzero(wrong)
+            raise AssetError(f"{path}: the node {place} {what} ({n_wrong} such); {expected}.")
+    return node
+
+
+def _number(name: str, cell: str, where: str) -> float:
+    value = number(cell.strip())
+    if value is None:
+        raise AssetError(f"{where}: {cell.strip()[:40]!r}; expected a number.")
+    most = FASTEST if name in COMPONENTS else LARGEST
+    if abs(value) > most:
+        unit = " [m/s]" if name in COMPONENTS else ""
+        raise AssetError(
+            f"{where}: {name} is {value:g}; expected a number from -{most:g} to {most:g}{unit}."
+        )
     return value
 
 

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..dialect import element
-from .current import Array, Current, CurrentSpec, Place, everywhere
+from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
 from .draws import Draws
 
 Triple = tuple[float, float, float]
@@ -26,13 +26,15 @@ Triple = tuple[float, float, float]
 class GaussMarkovSpec(CurrentSpec):
     """A ``<u:gaussMarkov>``: a first-order Gauss-Markov process about a mean."""
 
-    mean: Triple = element(namespaced=True, default=(0.0, 0.0, 0.0))
+    mean: Triple = element(
+        namespaced=True, default=(0.0, 0.0, 0.0), minimum=-FASTEST, maximum=FASTEST
+    )
     """What the velocity returns to, in L [m/s]."""
-    deviation: Triple = element(namespaced=True)
+    deviation: Triple = element(namespaced=True, minimum=0.0, maximum=FASTEST)
     """Standard deviation of the velocity along each axis of L [m/s]."""
     mu: float = element(namespaced=True, above=0)
     """How fast it returns; 1/mu is the correlation time [1/s]."""
-    step: float = element(namespaced=True, default=0.05, above=0)
+    step: float = element(namespaced=True, default=0.05, minimum=0.001)
     """Distance of the times at which it is drawn; between them it runs straight [s]."""
 
     def bind(self, place: Place) -> GaussMarkov:

@@ -34,7 +34,7 @@ import numpy as np
 
 from ..dialect import element
 from ..errors import BadSetting
-from .current import Array, Current, CurrentSpec, Place
+from .current import FASTEST, Array, Current, CurrentSpec, Place
 
 Triple = tuple[float, float, float]
 KARMAN = 0.41
@@ -45,7 +45,7 @@ KARMAN = 0.41
 class PowerProfileSpec(CurrentSpec):
     """A ``<u:powerProfile>``: speed grows with a power of the height above ground."""
 
-    velocity: Triple = element(namespaced=True)
+    velocity: Triple = element(namespaced=True, minimum=-FASTEST, maximum=FASTEST)
     """Of the water at the surface, in L [m/s]."""
     depth: float = element(namespaced=True, above=0)
     """Of the ground below the still surface [m]."""
@@ -61,7 +61,7 @@ class PowerProfileSpec(CurrentSpec):
 class LogProfileSpec(CurrentSpec):
     """A ``<u:logProfile>``: speed grows with the logarithm of the height above ground."""
 
-    velocity: Triple = element(namespaced=True)
+    velocity: Triple = element(namespaced=True, minimum=-FASTEST, maximum=FASTEST)
     """Of the water at the surface, in L [m/s]."""
     depth: float = element(namespaced=True, above=0)
     """Of the ground below the still surface [m]."""
@@ -93,7 +93,7 @@ class LayerSpec:
 
     depth: float = element(namespaced=True)
     """Below the still surface [m]."""
-    velocity: Triple = element(namespaced=True)
+    velocity: Triple = element(namespaced=True, minimum=-FASTEST, maximum=FASTEST)
     """Of the water there, in L [m/s]."""
 
 

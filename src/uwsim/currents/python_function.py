@@ -24,7 +24,7 @@ import numpy as np
 
 from ..dialect import element
 from ..errors import BadSetting, did_you_mean
-from .current import Array, Current, CurrentSpec, Place
+from .current import FASTEST, Array, Current, CurrentSpec, Place
 
 Function = Callable[[Array, float, str], Sequence[float]]
 
@@ -84,7 +84,8 @@ class PythonFunction(Current):
         """Return the velocity of the water, in L, (n, 3) [m/s].
 
         Raises:
-            BadSetting: the function raised, or returned something else than three finite numbers.
+            BadSetting: the function raised, or returned something else than three numbers up to
+                `FASTEST`.
         """
         names = vehicles if len(vehicles) else [""] * len(points)
         velocities = np.empty((len(points), 3))
@@ -103,11 +104,20 @@ class PythonFunction(Current):
             ) from error
         try:
             x, y, z = (float(value) for value in said)
-        except (TypeError, ValueError):
-            x = math.nan
-        if not math.isfinite(x) or not math.isfinite(y) or not math.isfinite(z):
+        except Exception:  # a stranger's object may do anything when it is made a number
+            x = y = z = math.nan
+        if not (abs(x) <= FASTEST and abs(y) <= FASTEST and abs(z) <= FASTEST):
             raise BadSetting(
-                f"The current {self._name!r} returned {said!r:.80} {place}; "
-                "expected three finite numbers [m/s]."
+                f"The current {self._name!r} returned {shown(said)} {place}; "
+                f"expected three numbers from -{FASTEST:g} to {FASTEST:g} [m/s]."
             )
         return x, y, z
+
+
+def shown(said: object) -> str:
+    """What a stranger's function returned, in one short line."""
+    try:
+        text = " ".join(repr(said).split())
+    except Exception:  # its own repr raises
+        text = f"a {type(said).__name__}"
+    return text if len(text) <= 80 else text[:77] + "..."

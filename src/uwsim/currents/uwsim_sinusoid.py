@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..dialect import element
-from .current import Array, Current, CurrentSpec, Place, everywhere
+from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
 from .draws import Draws
 
 Vector = tuple[float, float, float]
@@ -33,9 +33,11 @@ class UwsimSinusoidSpec(CurrentSpec):
     A level of a ``<currentForceUpdater>`` is one.
     """
 
-    speed: float = element(namespaced=True)
+    speed: float = element(namespaced=True, minimum=-FASTEST, maximum=FASTEST)
     """Mean speed [m/s]."""
-    speed_variation: float = element(namespaced=True, default=0.0)
+    speed_variation: float = element(
+        namespaced=True, default=0.0, minimum=-FASTEST, maximum=FASTEST
+    )
     """Amplitude of its swelling [m/s]."""
     speed_period: float = element(namespaced=True, default=1.0, above=0)
     """Period of its swelling [s]."""
@@ -51,7 +53,7 @@ class UwsimSinusoidSpec(CurrentSpec):
     """Amplitude of its turning in phi [rad]."""
     phi_period: float = element(namespaced=True, default=1.0, above=0)
     """Period of its turning in phi [s]."""
-    random: float = element(namespaced=True, default=0.0, minimum=0)
+    random: float = element(namespaced=True, default=0.0, minimum=0, maximum=10)
     """Half-width of the uniform noise on speed and both angles, relative [1]."""
 
     def bind(self, place: Place) -> UwsimSinusoid:

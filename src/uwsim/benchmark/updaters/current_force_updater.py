@@ -20,7 +20,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...currents import LateCurrent, Place, UwsimSinusoidSpec
+from ...currents import FASTEST, LateCurrent, Place, UwsimSinusoidSpec
 from ...dialect import element
 from ...errors import BadSetting, UnknownName
 from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
@@ -57,13 +57,13 @@ class CurrentForceUpdaterSpec(SweepSpec):
     unit: ClassVar[str] = "m/s"
     calm: ClassVar[float] = GRACE
 
-    initial_value: float = element(aliases=("initialCurrent",))
+    initial_value: float = element(aliases=("initialCurrent",), minimum=-FASTEST, maximum=FASTEST)
     """Speed of the current in the first level [m/s]."""
-    final_value: float = element(aliases=("finalCurrent",))
+    final_value: float = element(aliases=("finalCurrent",), minimum=-FASTEST, maximum=FASTEST)
     """Speed that is not exceeded [m/s]."""
     spherical_direction: SphericalSpec
     """Its direction [rad]."""
-    force_variation: float
+    force_variation: float = element(minimum=-FASTEST, maximum=FASTEST)
     """Amplitude of its swelling [m/s]."""
     force_period: float = element(above=0.0)
     """Period of its swelling [s]."""
@@ -71,7 +71,7 @@ class CurrentForceUpdaterSpec(SweepSpec):
     """Amplitudes of its turning [rad]."""
     direction_period: SphericalSpec
     """Periods of its turning [s]."""
-    random: float = element(minimum=0.0)
+    random: float = element(minimum=0.0, maximum=10.0)
     """Half-width of the uniform noise, relative."""
     step: float = element(above=0.0)
     """What each level adds [m/s]."""
