@@ -9,7 +9,7 @@ import pytest
 
 PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
 
-GROUND = {"errors", "geometry", "chance", "compatibility", "jit", "dialect", "clock"}
+GROUND = {"errors", "geometry", "chance", "compatibility", "environment", "jit", "dialect", "clock"}
 BASE = GROUND | {"world", "messages", "bus"}
 PARTS = BASE | {"currents", "sensors", "devices", "scene", "assets"}
 ENGINES = PARTS | {"physics", "rendering"}

@@ -6,10 +6,8 @@ unit has lost its worker, and whose units are not worth playing any more; a crew
 
 from __future__ import annotations
 
-import os
 from collections import Counter, deque
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -196,20 +194,3 @@ def play_all(
     for _, error in outcome.failures:
         raise error
     return outcome.results
-
-
-def chosen_environment() -> dict[str, str]:
-    """Return `ENVIRONMENT` as far as the user has not chosen himself."""
-    return {name: value for name, value in ENVIRONMENT.items() if name not in os.environ}
-
-
-@contextmanager
-def worker_environment() -> Iterator[None]:
-    """Let processes that are started meanwhile have `ENVIRONMENT`."""
-    ours = chosen_environment()
-    os.environ.update(ours)
-    try:
-        yield
-    finally:
-        for name in ours:
-            del os.environ[name]

@@ -14,8 +14,9 @@ from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 
+from ..environment import environment
 from ..simulation import Studio
-from .crew import Here, Job, Roster, play_and_keep, worker_environment
+from .crew import ENVIRONMENT, Here, Job, Roster, play_and_keep
 from .leash import put_on
 from .unit_work import UnitFailed, portable
 
@@ -85,7 +86,7 @@ class Worker:
         self._process = context.Process(target=work, args=(theirs, leash))
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
-            with worker_environment():
+            with environment(ENVIRONMENT):
                 self._process.start()  # deaf to Ctrl-C, which is for the employer alone
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -24,11 +24,12 @@ from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from typing import Any
 
+from ..environment import environment, not_chosen
 from ..errors import BadSetting, MissingExtra, RunFailed, UwsimError
 from ..simulation import Studio
 from . import unit_file
 from .bench import Bench, open_once
-from .crew import Job, Roster, chosen_environment
+from .crew import ENVIRONMENT, Job, Roster
 from .plan import Unit
 from .unit_work import Event, Keeper, UnitEnded, UnitFailed, perform, portable
 
@@ -74,7 +75,7 @@ class RayCluster:
         with self._cluster(), redirect_stdout(io.StringIO()):
             n_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
             remote = ray.remote(num_cpus=1, max_restarts=0)(Worker)
-            remote = remote.options(runtime_env={"env_vars": chosen_environment()})
+            remote = remote.options(runtime_env={"env_vars": not_chosen(ENVIRONMENT)})
             idle: list[Any] = []
             tasks: dict[Any, Task] = {}
             try:
@@ -130,7 +131,7 @@ class RayCluster:
             return
         folder = tempfile.mkdtemp(prefix="uwsim-ray-", dir=_short_folder())
         try:
-            with _undisturbed(QUIET):
+            with environment(QUIET), _signals_kept():
                 self._connect(folder)
             yield
         finally:
@@ -258,16 +259,12 @@ def _short_folder() -> str | None:
 
 
 @contextmanager
-def _undisturbed(environment: dict[str, str]) -> Iterator[None]:
-    """Let Ray find an environment, and keep the handlers of signals that it would replace."""
-    ours = {name: value for name, value in environment.items() if name not in os.environ}
+def _signals_kept() -> Iterator[None]:
+    """Keep the handler of a signal that Ray would replace."""
     is_main = threading.current_thread() is threading.main_thread()
     handler = signal.getsignal(signal.SIGTERM)
-    os.environ.update(ours)
     try:
         yield
     finally:
-        for name in ours:
-            del os.environ[name]
         if is_main:
             signal.signal(signal.SIGTERM, handler)

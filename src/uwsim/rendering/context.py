@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import moderngl
 
+from ..environment import environment
 from ..errors import NoGraphics
 
 ENVIRONMENT = {
@@ -33,7 +32,7 @@ def create_context() -> moderngl.Context:
     for device in range(N_DEVICES):
         settings: dict[str, Any] = {"standalone": True, "backend": "egl", "device_index": device}
         try:
-            with _environment():
+            with environment(ENVIRONMENT):  # processes started later choose for themselves
                 context = moderngl.create_context(require=330, **settings)
         except Exception as error:  # glcontext and moderngl raise bare Exceptions
             failures.append(error)
@@ -45,15 +44,3 @@ def create_context() -> moderngl.Context:
         "No OpenGL 3.3 context could be made. Install Mesa's software renderer with: "
         f"apt-get install libegl1 libgl1 libgl1-mesa-dri ({why})"
     ) from failures[0]
-
-
-@contextmanager
-def _environment() -> Iterator[None]:
-    """Set `ENVIRONMENT` while Mesa looks: processes started later choose for themselves."""
-    ours = {name: value for name, value in ENVIRONMENT.items() if name not in os.environ}
-    os.environ.update(ours)
-    try:
-        yield
-    finally:
-        for name in ours:
-            del os.environ[name]

@@ -6,11 +6,10 @@ import base64
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import jinja2
-
 from ... import __version__
 from ...statistics import Interval
 from ..interval import rows_by_level, success_per_level
+from ..pages import template
 from ..plots import written_unit
 from ..result import Result
 from .findings import Comparison, Versus
@@ -28,14 +27,7 @@ CAPTIONS = {
 
 def render(comparison: Comparison, plots: Sequence[Path]) -> str:
     """Return the page's HTML."""
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent.parent / "templates"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    return environment.get_template("comparison.html.j2").render(
+    return template("comparison.html.j2").render(
         title=_title(comparison),
         names=[entry.name for entry in comparison.entries],
         lead=_lead(comparison),

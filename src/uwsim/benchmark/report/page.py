@@ -14,12 +14,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import jinja2
-
 from ...errors import ResultError
 from ..directory import CONTROL, REPORT
 from ..interval import LevelInterval, per_level, rows_by_level
 from ..logs import logs_of
+from ..pages import template
 from ..plots import (
     LEVEL_WORDS,
     MOST_INSIDE,
@@ -82,13 +81,6 @@ def render(
     result: Result, directory: Path, *, plots: Iterable[Path], control: Result | None = None
 ) -> str:
     """Return the report's HTML."""
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent.parent / "templates"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     found = endings(result)
     provenance = load_provenance(directory)
     columns = result.of_kind("score") + result.of_kind("measure")
@@ -96,7 +88,7 @@ def render(
     n_levels = len(rows_by_level(result))
     drawn = [plot for plot in plots if plot.stem != OVERVIEW and n_levels * n_repeats != 1]
     pictures = shown_pictures(result, directory)
-    return environment.get_template("report.html.j2").render(
+    return template("report.html.j2").render(
         title=title(result),
         algorithm=algorithm_of(result) or "no algorithm",
         lead=_lead(result),
