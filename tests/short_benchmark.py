@@ -7,7 +7,7 @@ from typing import Any
 from uwsim.benchmark.bench import Bench, open_once
 from uwsim.benchmark.crew import play_all
 from uwsim.benchmark.result import Result
-from uwsim.cli.bench import make_plan
+from uwsim.cli.plan import make_plan
 
 BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="esm">
   <measures>

@@ -3,7 +3,16 @@ import pickle
 import pytest
 
 from uwsim.benchmark.score import ScoreFault
-from uwsim.errors import BenchmarkError, Fault, NeverStarted, UnknownName, UwsimError
+from uwsim.errors import (
+    AllErrors,
+    BadSetting,
+    BenchmarkError,
+    Fault,
+    NeverStarted,
+    SeveralErrors,
+    UnknownName,
+    UwsimError,
+)
 
 
 @pytest.mark.parametrize(
@@ -12,6 +21,7 @@ from uwsim.errors import BenchmarkError, Fault, NeverStarted, UnknownName, Uwsim
         NeverStarted("nobody called startBench"),
         UnknownName("body", "girona50", ["girona500"]),
         BenchmarkError([Fault(file="a", line=n, message="no") for n in (3, None)]),
+        SeveralErrors([NeverStarted("a"), BadSetting("b")]),
         ScoreFault("1 +", 3, "something is missing"),
     ],
 )  # fmt: skip
@@ -21,3 +31,21 @@ def test_an_error_sent_home_by_a_worker_is_the_one_that_was_raised(error: UwsimE
     assert type(back) is type(error)
     assert str(back) == str(error)
     assert back.__dict__ == error.__dict__
+
+
+def test_errors_are_kept_in_order_each_once_and_a_single_one_as_it_is() -> None:
+    none, one, many = AllErrors(), AllErrors(), AllErrors()
+    none.check()
+    for _ in range(2):
+        with one.kept():
+            raise BadSetting("a")
+    with pytest.raises(BadSetting, match="a"):
+        one.check()
+    for error in (BadSetting("b"), SeveralErrors([NeverStarted("c"), BadSetting("b")])):
+        with many.kept():
+            raise error
+    with pytest.raises(SeveralErrors) as caught:
+        many.check()
+    assert list(map(str, caught.value.errors)) == ["b", "c"]
+    with pytest.raises(KeyError), many.kept():
+        raise KeyError

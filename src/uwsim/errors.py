@@ -3,6 +3,7 @@
 .. code-block:: text
 
     UwsimError
+      SeveralErrors        ... all that is wrong with a call, at once
       FileError            a file is wrong: all its faults at once, each with its place
         SceneError         ... a scene or robot file
         BenchmarkError     ... a benchmark file
@@ -11,6 +12,7 @@
       AssetNotFound        a file that is nowhere; names every folder searched
       AssetError           a file that was found and cannot be used
       BadSetting           a command-line setting or a parameter that cannot be used
+      BadMessage           a message or request that its topic or service does not take
       MissingExtra         an optional part that is not installed; says how to install it
       NoGraphics           no OpenGL context; says what to install
       RunFailed            a run that broke in the middle
@@ -22,7 +24,8 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -68,6 +71,14 @@ class FileError(UwsimError):
         super().__init__("\n".join(str(fault) for fault in self.faults))
 
 
+class SeveralErrors(UwsimError):
+    """Several things are wrong with one call; each is said as if it were alone."""
+
+    def __init__(self, errors: Sequence[UwsimError]) -> None:
+        self.errors = tuple(errors)
+        super().__init__("\n".join(str(error) for error in self.errors))
+
+
 class SceneError(FileError):
     """A scene or robot file is wrong."""
 
@@ -104,6 +115,10 @@ class BadSetting(UwsimError):
     """A command-line setting or parameter that cannot be used."""
 
 
+class BadMessage(UwsimError):
+    """A message or request that its topic or service does not take: the sender's fault."""
+
+
 class MissingExtra(UwsimError):
     """An optional part that is not installed."""
 
@@ -126,6 +141,29 @@ class ResultError(UwsimError):
 
 class ReplayDiffers(ResultError):
     """A replay did not give the rows that are stored; found only by running."""
+
+
+class AllErrors:
+    """Collects what is wrong with one call, so that all of it is said at once."""
+
+    def __init__(self) -> None:
+        self._found: list[UwsimError] = []
+
+    @contextmanager
+    def kept(self) -> Iterator[None]:
+        """Keep what is raised within, and go on behind it."""
+        try:
+            yield
+        except SeveralErrors as error:
+            self._found += error.errors
+        except UwsimError as error:
+            self._found.append(error)
+
+    def check(self) -> None:
+        """Raise what was kept, if anything: one error as it is, several as `SeveralErrors`."""
+        found = list({str(error): error for error in reversed(self._found)}.values())[::-1]
+        if found:
+            raise found[0] if len(found) == 1 else SeveralErrors(found)
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -6,7 +6,7 @@ import pytest
 
 from uwsim.benchmark.bench import Bench, open_once
 from uwsim.benchmark.crew import play_all
-from uwsim.cli.bench import make_plan
+from uwsim.cli.plan import make_plan
 
 TRACKERS = ("ecc", "esm", "ic", "orb", "ssd-esm")
 

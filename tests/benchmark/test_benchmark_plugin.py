@@ -20,7 +20,7 @@ from uwsim.benchmark.plugin import Plugin, blamed, read_plugin
 from uwsim.benchmark.processes import Processes
 from uwsim.benchmark.result import Result
 from uwsim.cli import main
-from uwsim.cli.bench import make_plan
+from uwsim.cli.plan import make_plan
 from uwsim.cli.plugins import bundled_tables, read_plugins
 from uwsim.errors import BadSetting, PluginError, RunFailed
 

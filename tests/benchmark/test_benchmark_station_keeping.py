@@ -25,7 +25,7 @@ from uwsim.benchmark.station_keeping import (
     whole_periods,
 )
 from uwsim.benchmark.updaters import levels
-from uwsim.cli.bench import make_plan
+from uwsim.cli.plan import make_plan
 from uwsim.currents import Place, UwsimSinusoidSpec
 from uwsim.errors import ResultError
 from uwsim.geometry import Array

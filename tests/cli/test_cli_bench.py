@@ -11,7 +11,7 @@ from uwsim.benchmark.processes import Processes
 from uwsim.benchmark.provenance import load_provenance
 from uwsim.benchmark.result_file import load
 from uwsim.cli import main
-from uwsim.cli.bench import crew_of
+from uwsim.cli.crew import crew_of
 from uwsim.errors import BadSetting
 
 
@@ -62,6 +62,51 @@ def test_when_every_row_broke_all_is_written_and_the_run_has_failed(
     [line] = said.err.splitlines()
     assert line.startswith("uwsim: Every row ended in 'algorithm error': ")
     assert "ZeroDivisionError: no focus" in line
+
+
+def test_all_that_is_wrong_with_a_call_is_said_at_once_a_line_each(
+    benchmark: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "notes.txt").touch()
+    options = "--workers 0 --algorithm esm --algorithm orbb --set oceanState.fog.densty=1 --set x "
+    options += "--set algorithm.kp=1 --set algorithm.latency_s=-1 --level fogg=1 --level fog=7 "
+    options += "--compat thresh --mode paralel --repeat 100000 --out"
+    assert main(["bench", benchmark, *options.split(), str(out)]) == 2
+    said = capsys.readouterr().err.splitlines()
+    expected = [
+        "--workers 0: expected", "--set 'x': expected", "there is no <densty>. Did you mean",
+        "no parameter 'kp'", "latency_s is -1.0", "--mode is 'paralel'", "Did you mean 'thresholds",
+        "--level fogg: this benchmark sweeps fog. Did", "--level fog=7 is not a level",
+        "--repeat 100000: at most", "No algorithm is called 'orbb'. Did", f"--out {out}: not empty",
+    ]  # fmt: skip
+    assert [sum(words in line for line in said) for words in expected] == [1] * len(expected), said
+    assert len(said) == len(expected)
+    assert sorted(os.listdir(out)) == ["notes.txt"]
+
+
+def test_what_names_a_benchmark_that_is_nowhere_is_said_with_the_rest(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    call = ["bench", "visibilty", "--algorithm", "esmm", "--level", "fog", "--scene", "nowhere.xml"]
+    assert main([*call, "--plugin", "a.py", "--plugin", "b.py"]) == 2
+    *plugins, named, level = capsys.readouterr().err.splitlines()
+    assert [line.split(":")[0] for line in plugins] == ["a.py", "b.py"]
+    assert "Did you mean 'visibility'?" in named  # the scene may lie beside it, a plugin know esmm
+    assert level == "uwsim: --level 'fog': expected NAME=VALUE."
+
+
+def test_options_that_cannot_be_read_are_said_all_at_once(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["bench", "visibility", "--seed", "one", "--repeat", "0"]) == 2
+    seed, repeat = capsys.readouterr().err.splitlines()
+    assert seed.startswith("uwsim: Invalid value for '--seed': ")
+    assert repeat.startswith("uwsim: Invalid value for '--repeat': ")
+    assert main(["envelope", "visibility"]) == 2
+    said = capsys.readouterr().err
+    assert said == "uwsim: Missing option '--over'.\nuwsim: Missing option '--until'.\n"
 
 
 def test_workers_are_a_number_or_ray() -> None:

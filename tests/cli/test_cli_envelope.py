@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from uwsim.cli import main
-from uwsim.cli.envelope import round_down
+from uwsim.cli.question import round_down
 
 PARTS = '''
 from dataclasses import dataclass
@@ -205,6 +205,17 @@ def test_each_slip_is_one_clean_fault_and_nothing_is_written(
     assert status == 2
     assert wrong in said
     assert not (folder / "b.envelope").exists()
+
+
+def test_all_slips_are_said_at_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    call = ["envelope", "b.xml", "--plugin", "own.py", "--over", "load", "--until", "stran > 5"]
+    slips = ["--to", "-1", "--confidence", "95", "--level", "fog=1", "--set", "x", "--workers", "0"]
+    assert main([*call, *slips]) == 2
+    said = capsys.readouterr().err
+    assert sum(line.startswith("uwsim: ") for line in said.splitlines()) == 3
+    assert main([*call, *slips[:6]]) == 2
+    said = capsys.readouterr().err
+    assert sum(line.startswith("uwsim: ") for line in said.splitlines()) == 4
 
 
 def test_a_second_updater_must_be_told_where_to_stay(

@@ -15,8 +15,8 @@ from uwsim.benchmark.crew import play_all
 from uwsim.benchmark.differences import leaves, of_row, of_text
 from uwsim.benchmark.verify import choose
 from uwsim.cli import main
-from uwsim.cli.bench import make_plan
 from uwsim.cli.files import bundled
+from uwsim.cli.plan import make_plan
 from uwsim.simulation import Simulation
 
 BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="tank.xml" u:algorithm="esm"

@@ -43,12 +43,19 @@ def prepare(directory: Path, *, resume: bool, overwrite: bool, results: Sequence
         BadSetting: it is not empty and nothing was said; or it is to be overwritten and holds
             anything that uwsim did not write.
     """
+    check(directory, resume=resume, overwrite=overwrite, results=results)
+    if not resume:
+        empty(directory)
+
+
+def check(directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()) -> None:
+    """Refuse what `prepare` refuses, and change nothing."""
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
     if not resume:
         hint = "Use --resume to go on, or --overwrite to start anew."
         folders = (*FOLDERS, *results)
-        make_room(directory, overwrite=overwrite, ours=OURS, folders=folders, hint=hint)
+        check_room(directory, overwrite=overwrite, ours=OURS, folders=folders, hint=hint)
 
 
 def make_room(
@@ -59,7 +66,20 @@ def make_room(
     folders: tuple[str, ...],
     hint: str = "Use --overwrite to replace what is there.",
 ) -> None:
-    """Empty a directory, if that was said and all in it is of our making.
+    """Empty a directory, if that was said and all in it is of our making; see `check_room`."""
+    check_room(directory, overwrite=overwrite, ours=ours, folders=folders, hint=hint)
+    empty(directory)
+
+
+def check_room(
+    directory: Path,
+    *,
+    overwrite: bool,
+    ours: re.Pattern[str],
+    folders: tuple[str, ...],
+    hint: str,
+) -> None:
+    """Refuse a directory that may not be emptied; nothing is changed.
 
     Args:
         directory: need not be there.
@@ -84,6 +104,12 @@ def make_room(
             f"--out {directory}: holds {strange!r}, which does not belong there; "
             "nothing was overwritten."
         )
+
+
+def empty(directory: Path) -> None:
+    """Remove all that is in a directory, which need not be there."""
+    if not directory.is_dir():
+        return
     for name in [path.name for path in directory.iterdir()]:
         path = directory / name
         shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()

@@ -6,13 +6,13 @@ sequential, one seed's one level when it is independent (DESIGN 5).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, Literal
 
 from ..bus import Algorithm
-from ..errors import BadSetting
+from ..errors import BadSetting, did_you_mean
 from ..scene.spec import SceneSpec
 from ..world import TIMESTEP
 from .measures import EuclideanNormSpec
@@ -113,25 +113,7 @@ class Plan:
         Raises:
             BadSetting: ``--level`` names no reference, or a value the sweep does not have.
         """
-        levels = tuple(levels_of(self.benchmark.scene_updater))
-        for name in dict.fromkeys(name for name, _ in self.chosen):
-            wanted = [value for chosen, value in self.chosen if chosen == name]
-            has = {value for level in levels for n, value in level.values if n == name}
-            if not has:
-                known = ", ".join(n for n, _ in levels[0].values)
-                raise BadSetting(f"--level {name}: this benchmark sweeps {known}.")
-            for value in wanted:
-                if not any(_same(value, other) for other in has):
-                    nearest = min(has, key=lambda other: abs(other - value))
-                    raise BadSetting(
-                        f"--level {name}={value:g} is not a level; the nearest is {nearest:g}."
-                    )
-            levels = tuple(
-                level
-                for level in levels
-                if any(_same(dict(level.values)[name], value) for value in wanted)
-            )
-        return levels
+        return chosen_levels(levels_of(self.benchmark.scene_updater), self.chosen)
 
     def units(self) -> tuple[Unit, ...]:
         """Cut the plan into its units, repeat by repeat, level by level."""
@@ -148,6 +130,36 @@ class Plan:
             for repeat in range(self.repeats)
             for i, group in enumerate(groups)
         )
+
+
+def chosen_levels(
+    levels: Sequence[Level], chosen: Sequence[tuple[str, float]]
+) -> tuple[Level, ...]:
+    """Return those of the levels whose references have one of the values chosen for them.
+
+    Raises:
+        BadSetting: a name is no reference, or a value is not in the sweep.
+    """
+    kept = tuple(levels)
+    for name in dict.fromkeys(name for name, _ in chosen):
+        wanted = [value for other, value in chosen if other == name]
+        has = {value for level in kept for n, value in level.values if n == name}
+        if not has:
+            known = [n for n, _ in kept[0].values]
+            near = did_you_mean(name, known)
+            raise BadSetting(f"--level {name}: this benchmark sweeps {', '.join(known)}.{near}")
+        for value in wanted:
+            if not any(_same(value, other) for other in has):
+                nearest = min(has, key=lambda other: abs(other - value))
+                raise BadSetting(
+                    f"--level {name}={value:g} is not a level; the nearest is {nearest:g}."
+                )
+        kept = tuple(
+            level
+            for level in kept
+            if any(_same(dict(level.values)[name], value) for value in wanted)
+        )
+    return kept
 
 
 def _unpacked(plugins: tuple[Plugin, ...], others: dict[str, Any]) -> Plan:

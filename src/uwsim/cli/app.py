@@ -9,12 +9,15 @@ from __future__ import annotations
 import importlib
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperCommand
 
 from .. import __version__
+from ..errors import AllErrors, BadSetting
 from .faults import INTERRUPTED, exit_status, one_line
 
 
@@ -151,10 +154,34 @@ def build(arguments: Sequence[str]) -> typer.Typer:
     app.callback()(global_options)
     for name, command in COMMANDS.items():
         examples = "\b\nExamples:\n" + "\n".join(f"  $ {line}" for line in command.examples)
-        app.command(name, short_help=command.summary, epilog=examples, no_args_is_help=False)(
+        app.command(name, cls=AllAtOnce, short_help=command.summary, epilog=examples)(
             command.load() if name == wanted else not_wanted
         )
     return app
+
+
+class AllAtOnce(TyperCommand):
+    """A command that says of all its options what is wrong with them, not of the first alone."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the options; raises SeveralErrors, or typer's own where there is but one."""
+        given = list(args)
+        try:
+            return super().parse_args(ctx, args)
+        except typer.TyperException as first:
+            wrong = AllErrors()
+            values, rest, _ = self.make_parser(ctx).parse_args(args=given)
+            for parameter in self.get_params(ctx):
+                if parameter.is_eager:
+                    continue
+                with wrong.kept():
+                    try:
+                        parameter.handle_parse_result(ctx, values, rest)
+                    except typer.TyperException as error:
+                        raise BadSetting(error.format_message()) from None
+            with suppress(BadSetting):  # the only one: as typer says it
+                wrong.check()
+            raise first
 
 
 def not_wanted() -> None:

@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..errors import BadSetting, BenchmarkError, Fault, FileError, RunFailed, UwsimError
+from ..errors import AllErrors, BadSetting, RunFailed
 from .crew import WorkersOption, crew_of
-from .files import benchmark_file, scene_file
 from .options import CompatOption, DataPathOption
-from .plugins import PluginOption, read_plugins
+from .plan import make_plan
+from .plugins import PluginOption
 from .progress import progress
 from .took import Took
 
@@ -34,9 +34,6 @@ CONTROL = "frozen"
 ALGORITHM_ERROR = "algorithm error"
 UNWRAPPED = 1000
 """Columns for a reader that is a program: wide enough to leave every line whole."""
-MAX_REPEATS = 10_000
-LONGEST = 1e8
-"""A benchmark that would simulate longer than this is a slip of the pen [s]."""
 
 
 def bench(
@@ -94,29 +91,38 @@ def bench(
     data_path: DataPathOption = None,
 ) -> None:
     """Play a benchmark: every level, scored; a table, logs, plots and a report come out."""
-    crew = crew_of(workers)
-    algorithms: Sequence[str | None] = algorithm or (None,)
-    plans = [
-        make_plan(
-            benchmark,
-            scene=scene,
-            algorithm=name,
-            seed=seed,
-            repeat=repeat,
-            mode=mode,
-            levels=level or [],
-            settings=settings or [],
-            compat=compat or [],
-            data_path=tuple(data_path or ()),
-            plugins=plugin or [],
-        )
-        for name in algorithms
-    ]
-    directory = out or Path(f"{Path(plans[0].benchmark.path).stem}.result")
-    folders = folders_of(plans)
+    from ..benchmark.directory import check, prepare
+
+    wrong, crew, folders = AllErrors(), None, []
+    with wrong.kept():
+        crew = crew_of(workers)
+    plans: list[Plan] = []
+    for name in algorithm or (None,):
+        with wrong.kept():
+            plans.append(
+                make_plan(
+                    benchmark,
+                    scene=scene,
+                    algorithm=name,
+                    seed=seed,
+                    repeat=repeat,
+                    mode=mode,
+                    levels=level or [],
+                    settings=settings or [],
+                    compat=compat or [],
+                    data_path=tuple(data_path or ()),
+                    plugins=plugin or [],
+                )
+            )
+    with wrong.kept():
+        folders = folders_of(algorithm or ())
+    directory = out or Path(f"{Path(benchmark).stem}.result")
+    with wrong.kept():
+        check(directory, resume=resume, overwrite=overwrite, results=folders)
+    wrong.check()
+    assert crew is not None
 
     from ..benchmark.bench import Bench, open_once
-    from ..benchmark.directory import prepare
 
     began = time.time()
     inputs, renderer = open_once(plans[0])
@@ -167,18 +173,18 @@ def play_and_finish(
     refuse_if_all_broke(runs, outcome.results)
 
 
-def folders_of(plans: Sequence[Plan]) -> list[str]:
+def folders_of(algorithms: Sequence[str]) -> list[str]:
     """Name the folder of each algorithm's result; none where there is one algorithm.
 
     Raises:
         BadSetting: an algorithm is given twice.
     """
-    if len(plans) == 1:
+    if len(algorithms) < 2:
         return []
-    names = [plan.algorithm_name.replace(":", ".") for plan in plans]
+    names = [name.replace(":", ".") for name in algorithms]
     for i, name in enumerate(names):
         if name in names[:i]:
-            raise BadSetting(f"--algorithm {plans[i].algorithm_name}: is given twice.")
+            raise BadSetting(f"--algorithm {algorithms[i]}: is given twice.")
     return names
 
 
@@ -205,145 +211,6 @@ def refuse_if_all_broke(runs: Sequence[Bench], results: Sequence[Result]) -> Non
 def interrupt(number: int, frame: object) -> None:
     """Stop as for Ctrl-C: what is finished is kept, and workers are told."""
     raise KeyboardInterrupt
-
-
-def make_plan(
-    benchmark: str,
-    *,
-    scene: str | None,
-    algorithm: str | None,
-    seed: int,
-    repeat: int,
-    mode: str | None,
-    levels: list[str],
-    settings: list[str],
-    compat: list[str],
-    data_path: tuple[Path, ...],
-    plugins: Sequence[Path] = (),
-) -> Plan:
-    """Read the files and put together what is to be played.
-
-    Raises:
-        UwsimError: a file, a name or a setting that is wrong.
-    """
-    from ..algorithms import check_parameters, load_algorithm
-    from ..benchmark.plan import Plan
-    from ..benchmark.plugin import blamed
-    from ..benchmark.reader import read_benchmark
-    from ..compatibility import compatibility
-    from ..scene.reader import read_scene
-    from ..scene.settings import apply_setting
-    from ..simulation import latency_of
-
-    own, tables = read_plugins(plugins)
-    path = benchmark_file(benchmark, data_path)
-    try:
-        with blamed(own):
-            spec = read_benchmark(
-                path, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
-            )
-    except BenchmarkError as error:
-        raise BenchmarkError([*error.faults, *faults_of_scene(scene, path, data_path)]) from None
-    if scene is None and spec.scene is None:
-        raise BadSetting(
-            f"{path}: the benchmark does not name its scene (u:scene); give it with --scene."
-        )
-    beside = (path.parent, *data_path)
-    scene_spec = read_scene(scene_file(scene or str(spec.scene), beside))
-    parameters: dict[str, float | str] = {}
-    pairs = [split(setting, "--set") for setting in settings]
-    for name, value in pairs:
-        if name.startswith("algorithm."):
-            parameters[name.removeprefix("algorithm.")] = number_or_text(value)
-        else:
-            scene_spec = apply_setting(scene_spec, name, value)
-    wanted = algorithm or spec.algorithm
-    if wanted is None:
-        raise BadSetting(
-            f"{path}: the benchmark does not name an algorithm (u:algorithm); "
-            "give one with --algorithm."
-        )
-    if ":" in wanted and "" not in sys.path and str(Path.cwd()) not in sys.path:
-        sys.path.insert(0, str(Path.cwd()))  # module:Class may lie where the user stands
-    chosen_mode = mode or spec.mode or "sequential"
-    if chosen_mode not in ("sequential", "independent"):
-        raise BadSetting(f"--mode is {chosen_mode!r}; expected sequential or independent.")
-    asked = [word for words in compat for word in words.replace(",", " ").split()]
-    plan = Plan(
-        benchmark=spec,
-        scene=scene_spec,
-        algorithm=load_algorithm(wanted, tables.algorithms),
-        algorithm_name=wanted,
-        parameters=parameters,
-        settings=tuple(pairs),
-        mode="independent" if chosen_mode == "independent" else "sequential",
-        seed=seed,
-        repeats=repeat,
-        chosen=tuple(chosen_level(text) for text in levels),
-        compatibility=compatibility([*spec.compatibility, *asked]),
-        data_path=data_path,
-        plugins=own,
-    )
-    check_length(plan)
-    check_parameters(plan.algorithm, plan.parameters)
-    latency_of(parameters)
-    return plan
-
-
-def faults_of_scene(
-    scene: str | None, benchmark: Path, data_path: tuple[Path, ...]
-) -> Sequence[Fault]:
-    """Return what is wrong with a scene that was given, to be said with the benchmark's faults."""
-    from ..scene.reader import read_scene
-
-    try:
-        if scene is not None:
-            read_scene(scene_file(scene, (benchmark.parent, *data_path)))
-    except FileError as error:
-        return error.faults
-    except UwsimError:
-        pass  # not found: it is said when the benchmark is right
-    return ()
-
-
-def check_length(plan: Plan) -> None:
-    """Refuse what nobody can mean to wait for; raises BadSetting."""
-    from ..benchmark.updaters import interval
-
-    if plan.repeats > MAX_REPEATS:
-        raise BadSetting(f"--repeat {plan.repeats}: at most {MAX_REPEATS}.")
-    length = interval(plan.benchmark.scene_updater) or 0.0
-    total = length * len(plan.levels()) * plan.repeats
-    if total > LONGEST:
-        raise BadSetting(
-            f"The benchmark would simulate {total:.3g} s; at most {LONGEST:g} s can be asked for."
-        )
-
-
-def split(setting: str, option: str) -> tuple[str, str]:
-    """Cut ``NAME=VALUE``; raises BadSetting."""
-    name, equals, value = setting.partition("=")
-    if not equals or not name.strip():
-        raise BadSetting(f"{option} {setting!r}: expected NAME=VALUE.")
-    return name.strip(), value.strip()
-
-
-def chosen_level(text: str) -> tuple[str, float]:
-    """Read ``fog=0.5``; raises BadSetting."""
-    name, value = split(text, "--level")
-    number = number_or_text(value)
-    if isinstance(number, str):
-        raise BadSetting(f"--level {text!r}: expected a number behind {name!r}.")
-    return name, number
-
-
-def number_or_text(text: str) -> float | str:
-    """Return a finite number where the text is one, else the text."""
-    try:
-        number = float(text)
-    except ValueError:
-        return text
-    return number if abs(number) < float("inf") else text
 
 
 def play_with_progress(runs: Sequence[Bench], crew: Crew) -> Outcome:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 import signal
 import sys
@@ -12,23 +11,22 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BadSetting, UwsimError, did_you_mean
-from .bench import chosen_level, interrupt, make_plan
+from ..errors import AllErrors, BadSetting
+from .bench import interrupt
 from .crew import WorkersOption, crew_of
 from .faults import printable
 from .options import CompatOption, DataPathOption
+from .plan import chosen_level, make_plan
 from .plugins import PluginOption
 from .progress import progress
+from .question import Question, question_of
 
 if TYPE_CHECKING:
     from ..benchmark.bench import Bench
     from ..benchmark.crew import Crew
-    from ..benchmark.envelope import Criterion, Envelope, Range
+    from ..benchmark.envelope import Envelope
     from ..benchmark.plan import Plan
-    from ..benchmark.updaters import Level, SceneUpdaterSpec
 
-MOST_CUTS = 30
-"""A range is not cut finer than 2 to the power of minus this."""
 MAX_REPEATS = 1000
 
 
@@ -113,51 +111,73 @@ def envelope(
     runs in --out are used again, whatever criterion, range, tolerance or number of seeds is asked
     for now.
     """
-    from ..benchmark.envelope import parse_criterion, plan_for
+    from ..benchmark.envelope import plan_for
 
-    crew = crew_of(workers)
+    wrong, crew, plan = AllErrors(), None, None
+    with wrong.kept():
+        crew = crew_of(workers)
+    with wrong.kept():
+        check_numbers(confidence, repeat)
+    with wrong.kept():
+        plan = make_plan(
+            benchmark,
+            scene=scene,
+            algorithm=algorithm,
+            seed=seed,
+            repeat=1,
+            mode="independent",
+            levels=[],
+            settings=settings or [],
+            compat=compat or [],
+            data_path=tuple(data_path or ()),
+            plugins=plugin or [],
+        )
+    chosen = []
+    for text in level or []:
+        with wrong.kept():
+            chosen.append(chosen_level(text))
+    directory = out or Path(f"{Path(benchmark).stem}.envelope")
+    with wrong.kept():
+        check_out(directory, resume=resume, overwrite=overwrite)
+    question = None
+    if plan is not None:
+        question = question_of(plan, over, until, (start, stop, tolerance), chosen, wrong)
+    wrong.check()
+    assert crew is not None
+    assert plan is not None
+    assert question is not None
+    seeds = tuple(range(seed, seed + repeat))
+    play(
+        plan_for(plan), directory, question, seeds, confidence=confidence, crew=crew,
+        resume=resume, overwrite=overwrite,
+    )  # fmt: skip
+
+
+def check_numbers(confidence: float, repeat: int) -> None:
+    """Refuse what no search can be asked for; raises BadSetting."""
     if not 0.0 < confidence < 1.0:
         raise BadSetting(f"--confidence is {confidence:g}; expected more than 0 and less than 1.")
     if repeat > MAX_REPEATS:
         raise BadSetting(f"--repeat {repeat}: at most {MAX_REPEATS}.")
-    plan = make_plan(
-        benchmark,
-        scene=scene,
-        algorithm=algorithm,
-        seed=seed,
-        repeat=1,
-        mode="independent",
-        levels=[],
-        settings=settings or [],
-        compat=compat or [],
-        data_path=tuple(data_path or ()),
-        plugins=plugin or [],
-    )
-    spec = updater_of(plan, over)
-    where = range_of(spec, over, start, stop, tolerance)
-    at = fixed_levels(plan, over, [chosen_level(text) for text in level or []])
-    try:
-        criterion = parse_criterion(until, [m.name for m in plan.benchmark.measures])
-    except UwsimError as error:
-        raise BadSetting(f"--until: {error}") from None
-    directory = out or Path(f"{Path(plan.benchmark.path).stem}.envelope")
-    seeds = tuple(range(seed, seed + repeat))
-    play(
-        plan_for(plan), directory, spec, criterion, where, at, seeds, over=over,
-        confidence=confidence, crew=crew, resume=resume, overwrite=overwrite,
-    )  # fmt: skip
+
+
+def check_out(directory: Path, *, resume: bool, overwrite: bool) -> None:
+    """Refuse a directory that may not be written into; raises BadSetting."""
+    from ..benchmark.directory import check_room
+
+    if resume and overwrite:
+        raise BadSetting("--resume and --overwrite exclude each other.")
+    if not resume:
+        hint = "Use --resume to use its runs, or --overwrite to start anew."
+        check_room(directory, overwrite=overwrite, ours=OURS, folders=FOLDERS, hint=hint)
 
 
 def play(
     plan: Plan,
     directory: Path,
-    spec: SceneUpdaterSpec,
-    criterion: Criterion,
-    where: Range,
-    at: Level,
+    question: Question,
     seeds: tuple[int, ...],
     *,
-    over: str,
     confidence: float,
     crew: Crew,
     resume: bool,
@@ -165,31 +185,30 @@ def play(
 ) -> None:
     """Search, write and say what was found."""
     from ..benchmark.bench import Bench, open_once
-    from ..benchmark.directory import alone_in, make_room
+    from ..benchmark.directory import alone_in, empty
     from ..benchmark.envelope import Asked, Envelope, Evaluations, strategy
     from ..benchmark.envelope.plot import draw
     from ..benchmark.provenance import machine, save_provenance
 
-    if resume and overwrite:
-        raise BadSetting("--resume and --overwrite exclude each other.")
     inputs, renderer = open_once(plan)
     signal.signal(signal.SIGTERM, interrupt)
+    check_out(directory, resume=resume, overwrite=overwrite)
     if not resume:
-        hint = "Use --resume to use its runs, or --overwrite to start anew."
-        make_room(directory, overwrite=overwrite, ours=OURS, folders=FOLDERS, hint=hint)
+        empty(directory)
+    over, where, at = question.over, question.where, question.at
     began = time.time()
     with alone_in(directory):
         bench = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
         most = 9 + len(seeds) * (where.most_cuts() + 1)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
         with progress(title, most, of="runs") as on_run:
-            runs = Evaluations(bench, at=at, over=over, criterion=criterion)
+            runs = Evaluations(bench, at=at, over=over, criterion=question.criterion)
             found = runs.run(strategy(seeds, where), crew, on_run)
         envelope = Envelope(
             asked=Asked(
                 over=over,
-                unit=spec.reference_unit,
-                until=criterion.text,
+                unit=question.spec.reference_unit,
+                until=question.criterion.text,
                 fixed={name: value for name, value in at.values if name != over},
                 where=where,
                 seeds=seeds,
@@ -216,116 +235,6 @@ OURS = re.compile(
 )
 """Files that this command writes."""
 FOLDERS = ("units", "pictures")
-
-
-def updater_of(plan: Plan, over: str) -> SceneUpdaterSpec:
-    """Find the updater that is searched over.
-
-    Raises:
-        BadSetting: the benchmark does not sweep it, or there is nothing between its values.
-    """
-    from ..benchmark.updaters import chain, references
-
-    names = references(plan.benchmark.scene_updater)
-    if over not in names:
-        swept = ", ".join(name for name in names if name != "none") or "nothing"
-        raise BadSetting(
-            f"--over {over}: this benchmark sweeps {swept}.{did_you_mean(over, names)}"
-        )
-    spec = chain(plan.benchmark.scene_updater)[names.index(over)]
-    if spec.name == "none" or spec.blend(spec.initial + 1.0, 0.5) == spec.initial + 1.0:
-        raise BadSetting(f"--over {over}: there is nothing between two values of it.")
-    return spec
-
-
-def range_of(
-    spec: SceneUpdaterSpec,
-    over: str,
-    start: float | None,
-    stop: float | None,
-    tolerance: float | None,
-) -> Range:
-    """Put the range together.
-
-    Raises:
-        BadSetting: it is empty, too fine, or reaches where the updater cannot go.
-    """
-    from ..benchmark.envelope import Range
-
-    values = spec.values()
-    ends = {"--from": values[0] if start is None else start}
-    ends["--to"] = values[-1] if stop is None else stop
-    for option, value in ends.items():
-        if not math.isfinite(value):
-            raise BadSetting(f"{option} is {value}; expected a number.")
-        if limit := beyond(spec, value):
-            raise BadSetting(f"{option} {value:g}: {over} must be {limit}.")
-    near, far = ends.values()
-    width = abs(far - near)
-    if width == 0.0:
-        raise BadSetting(f"--from and --to are both {near:g}: there is nothing to search.")
-    step = round_down(width / 100) if tolerance is None else tolerance
-    if not 0.0 < step < width:
-        raise BadSetting(f"--tolerance is {step:g}; expected more than 0 and less than {width:g}.")
-    if width / step > 2.0**MOST_CUTS:
-        raise BadSetting(f"--tolerance {step:g} is too fine for a range of {width:g}.")
-    return Range(start=near, stop=far, tolerance=step)
-
-
-def beyond(spec: SceneUpdaterSpec, value: float) -> str | None:
-    """Say what the updater's file would have to hold, where a value is beyond that."""
-    from ..dialect import slots
-
-    slot = {slot.field: slot for slot in slots(type(spec))}.get("initial_value")
-    if slot is None:
-        low, high = min(spec.values()), max(spec.values())
-        return None if low <= value <= high else f"from {low:g} to {high:g}"
-    xml = slot.xml
-    fits = (
-        (xml.minimum is None or value >= xml.minimum)
-        and (xml.maximum is None or value <= xml.maximum)
-        and (xml.above is None or value > xml.above)
-        and (xml.below is None or value < xml.below)
-    )
-    return None if fits else slot.expected
-
-
-def round_down(width: float) -> float:
-    """Return the nearest 1, 2 or 5 of a power of ten that is not larger."""
-    power = 10.0 ** math.floor(math.log10(width))
-    digit = next(d for d in (5.0, 2.0, 1.0) if d * power <= width * (1 + 1e-9))
-    return float(f"{digit * power:.1g}")
-
-
-def fixed_levels(plan: Plan, over: str, chosen: list[tuple[str, float]]) -> Level:
-    """Return where every reference stands but the one that is searched over.
-
-    Raises:
-        BadSetting: a reference is not in the sweep, or has several values and none was chosen.
-    """
-    from ..benchmark.updaters import Level, chain, references
-
-    names = references(plan.benchmark.scene_updater)
-    for name, _ in chosen:
-        if name == over:
-            raise BadSetting(f"--level {name}: that is what is searched over.")
-        if name not in names:
-            near = did_you_mean(name, names)
-            raise BadSetting(f"--level {name}: this benchmark sweeps {', '.join(names)}.{near}")
-    values = []
-    for name, spec in zip(names, chain(plan.benchmark.scene_updater), strict=True):
-        given = [value for wanted, value in chosen if wanted == name]
-        if len(given) > 1:
-            raise BadSetting(f"--level {name} is given twice; a search plays one.")
-        if name != over and not given and len(spec.values()) > 1:
-            raise BadSetting(
-                f"The benchmark also sweeps {name} ({len(spec.values())} levels); choose one, as "
-                f"--level {name}={spec.values()[0]:g}."
-            )
-        if given and (limit := beyond(spec, given[0])):
-            raise BadSetting(f"--level {name}={given[0]:g}: {name} must be {limit}.")
-        values.append((name, given[0] if given else spec.initial))
-    return Level(tuple(values))
 
 
 def played(bench: Bench) -> dict[str, object]:

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import typer
 
-from ..errors import FileError, NeverStarted, ReplayDiffers, RunFailed, UwsimError
+from ..errors import (
+    FileError,
+    NeverStarted,
+    ReplayDiffers,
+    RunFailed,
+    SeveralErrors,
+    UwsimError,
+)
 
 WRONG_INPUT = 2
 RUN_FAILED = 3
@@ -33,6 +40,8 @@ def one_line(error: BaseException) -> str:
     """Return what the reader is told; a wrong file has one line for each of its faults."""
     if isinstance(error, KeyboardInterrupt | typer.Abort):
         return "uwsim: interrupted; what was finished is kept."
+    if isinstance(error, SeveralErrors):
+        return "\n".join(one_line(each) for each in error.errors)
     if isinstance(error, FileError):
         return printable(str(error))
     if isinstance(error, typer.TyperException):

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..errors import AllErrors
+
 if TYPE_CHECKING:
     from ..benchmark.plugin import Plugin, Tables
 
@@ -41,5 +43,9 @@ def read_plugins(files: Sequence[Path] | None) -> tuple[tuple[Plugin, ...], Tabl
     """
     from ..benchmark.plugin import read_plugin, with_plugins
 
-    plugins = tuple(read_plugin(file) for file in files or ())
-    return plugins, with_plugins(bundled_tables(), plugins)
+    wrong, plugins = AllErrors(), []
+    for file in files or ():
+        with wrong.kept():
+            plugins.append(read_plugin(file))
+    wrong.check()
+    return tuple(plugins), with_plugins(bundled_tables(), plugins)

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import AssetNotFound, ResultError
-from .bench import make_plan
 from .files import bundled
+from .plan import make_plan
 
 if TYPE_CHECKING:
     from ..benchmark.plan import Plan

@@ -10,10 +10,10 @@ import numpy as np
 import typer
 from PIL import Image
 
-from ..errors import BadSetting
-from .bench import split
+from ..errors import AllErrors, BadSetting
 from .files import scene_file
 from .options import CompatOption, DataPathOption
+from .plan import compatibility_of, pairs_of
 
 if TYPE_CHECKING:
     from ..rendering.renderer import Picture
@@ -58,19 +58,24 @@ def render(
     data_path: DataPathOption = None,
 ) -> None:
     """Draw what a camera of a scene sees at time 0: with its noise, and through the water."""
-    from ..compatibility import compatibility
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting
     from ..simulation import Simulation
 
-    if out.suffix.lower() != ".png":
-        raise BadSetting(f"-o {out}: only .png pictures are written.")
+    wrong, spec = AllErrors(), None
     folders = tuple(data_path or ())
-    spec = read_scene(scene_file(scene, folders))
-    for setting in settings or []:
-        spec = apply_setting(spec, *split(setting, "--set"))
-    asked = [word for words in compat or [] for word in words.replace(",", " ").split()]
-    simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=compatibility(asked))
+    with wrong.kept():
+        if out.suffix.lower() != ".png":
+            raise BadSetting(f"-o {out}: only .png pictures are written.")
+    with wrong.kept():
+        spec = read_scene(scene_file(scene, folders))
+    for name, value in pairs_of(settings or [], wrong):
+        with wrong.kept():
+            spec = None if spec is None else apply_setting(spec, name, value)
+    slips = compatibility_of(compat or [], wrong)
+    wrong.check()
+    assert spec is not None
+    simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=slips)
     try:
         eye = simulation.camera(camera)
         written = [save(out, eye.shoot())]
