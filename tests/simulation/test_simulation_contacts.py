@@ -7,7 +7,7 @@ import pytest
 from simulated import SCENE, TWIST, command, make, position, run, set_current
 
 from uwsim.benchmark.measures.collision import CollisionSpec
-from uwsim.errors import UnknownName, UwsimError
+from uwsim.errors import UnknownName
 from uwsim.messages import Bool
 from uwsim.physics.loose import ellipsoid_added_mass
 from uwsim.scene.reader import read_scene
@@ -209,9 +209,11 @@ def test_a_vehicle_in_the_middle_of_the_tank_touches_nothing() -> None:
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515], abs=0.01)
 
 
-def test_who_cannot_be_touched_is_not_said_to_touch_nothing() -> None:
-    simulation = make(objects=(BLACKBOX,))
-    with pytest.raises(UwsimError, match="cannot be touched"):
-        simulation.contacts("girona500")
+def test_without_any_physics_everything_is_touched_where_it_stands() -> None:
+    over = replace(BLACKBOX, position=(3.0, 1.5, 2.0))
+    simulation = make(objects=(over,))
+    [*contacts] = simulation.contacts("girona500")
+    assert {contact.other for contact in contacts} == {"blackbox"}
+    assert simulation.contacts("blackbox")
     with pytest.raises(UnknownName, match="blackbox"):
         simulation.contacts("blackbux")

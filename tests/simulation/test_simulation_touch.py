@@ -153,10 +153,15 @@ def test_looking_changes_nothing() -> None:
     assert places[0] == places[1]
 
 
+def test_where_nothing_has_physics_all_is_touched_and_the_ground_by_its_faces() -> None:
+    open_water = scene(TANK, replace(wall(4.0), physics=None))
+    assert open_water.contacts("girona500") == []  # though it is within the box around the tank
+    drive(open_water, 1.0, 3.0)
+    assert {contact.other for contact in open_water.contacts("girona500")} == {"wall"}
+    assert CollisionSpec(name="hits", target="wall").bind(open_water)
+
+
 def test_who_cannot_be_touched_is_told_why() -> None:
-    plain = scene(BLACKBOX)
-    with pytest.raises(UwsimError, match="no object of the scene has <physics>"):
-        plain.contacts("girona500")
     both = scene(BLACKBOX, wall(4.0))
     assert both.contacts("girona500") == []
     with pytest.raises(UwsimError, match="it has no <physics>; of the objects have: wall"):

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..errors import BadSetting, UwsimError
 from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
-from ..scene.spec import SceneSpec
+from ..scene.spec import PhysicsSpec, SceneSpec
 from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
 from .engine_warnings import hush
 from .hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics, prepare
@@ -80,6 +80,11 @@ def object_body(index: int) -> str:
     return f"object/{index}"
 
 
+def loose_joint(index: int) -> str:
+    """Name in the model of the joint of the loose object number ``index``."""
+    return f"object/{index}/joint"
+
+
 def compile_scene(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
@@ -100,13 +105,15 @@ def compile_scene(
         BadHydrodynamics: with every fault.
         BadSetting: the step is no time, or longer than the physics bears.
     """
-    _check_step(timestep, is_simulated=bool(dynamics))
+    _check_step(timestep, is_simulated=bool(dynamics) or scene.things_fall)
     hush()
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
     spec.option.timestep = timestep
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.gravity = [0.0, 0.0, -GRAVITY if dynamics else 0.0]
+    if scene.things_fall:
+        spec.option.gravity = list(scene.sim_params.original_gravity)
     world_from_localized = scene.world_from_localized
     for index, vehicle in enumerate(scene.vehicles):
         robot = robots[index]
@@ -120,16 +127,15 @@ def compile_scene(
         )
         base.add_freejoint(name=vehicle_joint(index, ""))
         _add_children(spec, base, robot, robot.root, index, links if is_dynamic else {})
-    loose: dict[str, BodyHydrodynamics] = {}
+    loose: dict[str, PhysicsSpec] = {}
     for index, thing in enumerate(scene.objects):
         name = object_body(index)
         world_from_object = world_from_localized @ thing.localized_from_object
-        if name in shapes and thing.physics is not None and thing.physics.is_loose:
-            link = loose_link(name, thing.physics, shapes[name])
+        if name in shapes and thing.solid.is_loose:
+            link = loose_link(name, thing.solid, shapes[name])
             body = _add_body(spec.worldbody, name, world_from_object, link)
-            body.add_freejoint(name=f"{name}/joint")
-            density = next(iter(dynamics.values())).density
-            loose[name] = loose_hydrodynamics(name, thing.physics, shapes[name], density)
+            body.add_freejoint(name=loose_joint(index))
+            loose[name] = thing.solid
         else:
             _add_body(spec.worldbody, name, world_from_object, None)
             if name in shapes:  # on the world's body the engine need not sort them every step
@@ -138,7 +144,12 @@ def compile_scene(
         if name in loose or not name.startswith("object/"):
             _add_shapes(spec, spec.body(name), name, parts, Pose.identity())
     if dynamics:
-        _add_water(spec, scene, dynamics, loose)
+        density = next(iter(dynamics.values())).density
+        wet = {
+            name: loose_hydrodynamics(name, physics, shapes[name], density)
+            for name, physics in loose.items()
+        }
+        _add_water(spec, scene, dynamics, wet)
     try:
         model = spec.compile()
     except ValueError as error:

@@ -34,8 +34,8 @@ THICKNESS = 0.1
 """Of the plates of a fixed trimesh; not more than its shortest extent, unless it is `FLAT` [m]."""
 FLAT = 0.01
 """A mesh no thicker than this is a plane [m]."""
-MOST_PIECES = 3000
-"""Plates of one fixed trimesh."""
+MOST_PIECES = 10_000
+"""Plates of one fixed trimesh; with 4000 a scene opens in 3 s and takes 8000 steps/s."""
 THINNEST = 1e-3
 """Least edge of a box [m]."""
 SQUARE = 1e-3

@@ -19,6 +19,7 @@ from .autopilot import Autopilot
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .contacts import contacts_of
 from .engine_warnings import why_untrue
+from .falling import Falling
 from .hydrodynamics import VehicleHydrodynamics
 from .motion import Motion
 from .servos import Servos
@@ -98,6 +99,7 @@ class State:
             for i in dynamics
             if self._water is not None
         }
+        self._falling = Falling(scene, self._model, self._data) if scene.things_fall else None
 
     @property
     def is_dynamic(self) -> bool:
@@ -148,6 +150,21 @@ class State:
         for index, pose in before.items():
             self._frees[index][:] = pose
             self._free_velocities[index][:] = 0.0
+        self._n_steps += 1
+        self._moved()
+
+    def fall(self) -> None:
+        """Let the original's physics act for one step, where the scene asks for it.
+
+        Raises:
+            RunFailed: the engine warned: what follows would not be true.
+        """
+        if self._falling is None:
+            return
+        self._falling.step()
+        if any(self._warnings.tolist()):
+            raise RunFailed(self._why_untrue())
+        self._contacts_hold = True
         self._n_steps += 1
         self._moved()
 

@@ -84,7 +84,9 @@ NOT_YET: dict[tuple[str, str], str] = {
 """(parent, element) -> what it belongs to."""
 
 CONTACTS = (("object", "physics"), ("rosInterfaces", "contactSensorToROS"))
-"""Simulated where a vehicle has ``u:dynamics``."""
+"""Simulated where a vehicle has ``u:dynamics``, or ``enablePhysics`` is 1."""
+FALL = (("simParams", "enablePhysics"), ("simParams", "gravity"))
+"""Simulated where ``enablePhysics`` is 1 and no vehicle has ``u:dynamics``."""
 LIMITS = ("minLinearLimit", "maxLinearLimit", "minAngularLimit", "maxAngularLimit")
 """Of an object's physics; not simulated."""
 
@@ -96,15 +98,16 @@ def not_simulated(root: etree._Element, faults: Faults) -> None:
     """Name every kind of thing that is read and not simulated yet, with its lines."""
     lines: dict[str, list[int]] = {}
     is_dynamic = root.find(f"vehicle/{{{NAMESPACE}}}dynamics") is not None
+    falls = not is_dynamic and (root.findtext("simParams/enablePhysics") or "").strip() == "1"
     for node in root.iter("*"):
         parent = node.getparent()
         if parent is None:
             continue
         place = (str(parent.tag), str(node.tag))
         kind = NOT_YET.get(place)
-        if is_dynamic and place in CONTACTS:
+        if (place in CONTACTS and (is_dynamic or falls)) or (place in FALL and falls):
             kind = None
-        elif is_dynamic and parent.tag == "physics" and node.tag in LIMITS:
+        elif (is_dynamic or falls) and parent.tag == "physics" and node.tag in LIMITS:
             kind = "limits of objects"
         if kind is not None and OFF.get(str(node.tag)) != (node.text or "").strip():
             lines.setdefault(kind, []).append(_line(node))

@@ -34,6 +34,9 @@ Triple = tuple[float, float, float]
 ZERO: Triple = (0.0, 0.0, 0.0)
 ONE: Triple = (1.0, 1.0, 1.0)
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
+TERRAIN = "terrain"
+"""An object of this name is the ground: nothing picks it up, and without ``<physics>`` it is
+fixed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,6 +131,11 @@ class SimParamsSpec:
     light_rate: float = element(default=1.0, minimum=0, maximum=1e6)
     """Factor on the light of the scene [1]."""
 
+    @property
+    def original_gravity(self) -> Triple:
+        """What things fall with by the original's physics, in the world [m/s2]."""
+        return self.gravity if any(self.gravity) else (0.0, 0.0, -1.0)
+
 
 @dataclass(frozen=True, kw_only=True)
 class ViewerCameraSpec:
@@ -209,7 +217,13 @@ class PhysicsSpec:
     @property
     def is_loose(self) -> bool:
         """Whether forces move it, in a scene where anything is simulated."""
-        return self.mass > 0.0 and not self.is_kinematic
+        return self.mass > 0.0 and not self.is_kinematic and not self.is_locked
+
+    @property
+    def is_locked(self) -> bool:
+        """Whether limits leave it no way to move or turn."""
+        lowest = (*self.min_linear_limit, *self.min_angular_limit)
+        return lowest == (*self.max_linear_limit, *self.max_angular_limit)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -236,6 +250,18 @@ class ObjectSpec:
     """How it moves when physics is on."""
     buried: float = element(attribute=True, default=0.0)
     """How much of its height lies under sand [1]."""
+
+    @property
+    def solid(self) -> PhysicsSpec:
+        """Its ``<physics>``; without one what the original gives it, a loose box of 1 kg.
+
+        But an object called ``terrain`` stands fixed, as its faces: in the original it falls too.
+        """
+        if self.physics is not None:
+            return self.physics
+        if self.name == TERRAIN:
+            return PhysicsSpec(mass=0.0, collision_shape_type="trimesh")
+        return PhysicsSpec()
 
     @property
     def localized_from_object(self) -> Pose:
@@ -287,3 +313,28 @@ class SceneSpec:
     def world_from_localized(self) -> Pose:
         """W from L: what ``simParams`` says."""
         return Pose.from_xyz(self.sim_params.offsetp, self.sim_params.offsetr)
+
+    @property
+    def is_original_physics(self) -> bool:
+        """Whether the original's physics is asked for: ``enablePhysics``, nothing in water."""
+        return self.sim_params.enable_physics and all(
+            vehicle.dynamics is None for vehicle in self.vehicles
+        )
+
+    @property
+    def things_fall(self) -> bool:
+        """Whether objects move by the original's physics."""
+        return self.is_original_physics and any(thing.solid.is_loose for thing in self.objects)
+
+    @property
+    def solid_objects(self) -> dict[int, PhysicsSpec]:
+        """What can be touched, by number: those with ``<physics>``; by the original's physics all.
+
+        All, too, and fixed, where none has one: there the original ends when asked for contacts.
+        """
+        if self.is_original_physics:
+            return {i: thing.solid for i, thing in enumerate(self.objects)}
+        if all(thing.physics is None for thing in self.objects):
+            solid = [thing.solid for thing in self.objects]
+            return {i: dataclasses.replace(each, is_kinematic=True) for i, each in enumerate(solid)}
+        return {i: thing.solid for i, thing in enumerate(self.objects) if thing.physics is not None}

@@ -162,13 +162,12 @@ def touchable(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"]
     objects = [thing.name for thing in scene.objects]
     if name not in vehicles and name not in objects:
         raise UnknownName("vehicle or object", name, [*vehicles, *objects])
-    solid = [thing.name for thing in scene.objects if thing.physics is not None]
-    if not solid:
-        raise untouchable(name, "no object of the scene has <physics>")
     if name in vehicles:
         return "vehicle", vehicles.index(name)
-    if scene.objects[objects.index(name)].physics is None:
-        raise untouchable(name, f"it has no <physics>; of the objects have: {', '.join(solid)}")
+    solid = scene.solid_objects
+    if objects.index(name) not in solid:
+        have = ", ".join(objects[index] for index in solid)
+        raise untouchable(name, f"it has no <physics>; of the objects have: {have}")
     return "object", objects.index(name)
 
 

@@ -42,7 +42,7 @@ from .bodies import (
     name_bodies,
     read_robots,
 )
-from .collision_shapes import collision_shapes
+from .collision_shapes import simulated_shapes
 from .commands import Commands
 from .dynamics import read_dynamics
 from .image_publisher import ImagePublisher, SampleTimer
@@ -98,7 +98,7 @@ class Simulation:
         dynamics = read_dynamics(scene, self.robots, data_path)
         self.files = {path.name: path for one in dynamics.values() for path in one.files}
         """Side files of vehicles, and files of currents, by name."""
-        shapes = collision_shapes(scene, self.robots, dynamics, data_path)
+        shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
         self._state = State(scene, self.robots, dynamics, timestep, shapes)
         self._scenery = Scenery(scene, self.robots, self._state, data_path, studio)
         self._bodies = name_bodies(
@@ -228,6 +228,7 @@ class Simulation:
     def _push(self) -> None:
         """Let the forces act on what is simulated, in the water as it moves now."""
         if not self._state.is_dynamic:
+            self._state.fall()
             return
         points = self._localized_from_world.transform(self._state.body_positions())
         time = self.time - self._timestep

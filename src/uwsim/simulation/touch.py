@@ -65,13 +65,15 @@ class Touch:
                 self._touching.look(self._step)
             contacts = self._touching.contacts(kind, index)
         if contacts is None:
-            raise untouchable(name, "none of its links has a <collision> or a <visual>")
+            what = "none of its links has a <collision> or a <visual>"
+            raise untouchable(name, what if kind == "vehicle" else "its mesh is empty")
         return contacts
 
     def _lay(self) -> Touching:
         scene, state = self._scene, self._state
         vehicles = range(len(scene.vehicles))
-        shapes = collision_shapes(scene, self._robots, vehicles, self._data_path)
+        solid = scene.solid_objects
+        shapes = collision_shapes(scene, self._robots, vehicles, solid, self._data_path)
         poses: dict[str, Callable[[], Pose]] = {}
         for body in shapes:
             kind, number, *link = body.split("/")

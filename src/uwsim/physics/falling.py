@@ -1,0 +1,137 @@
+r"""The original's own physics: things that fall, roll and are pushed, without any water.
+
+A scene with ``<enablePhysics> 1`` and no vehicle with ``u:dynamics`` is played by it, as the
+original's engine played it: gravity is that of ``<gravity>`` and 1 m/s² down where it is all zero,
+objects do not float, and nothing slows them but their damping d, which before every step
+multiplies the velocity of the centre of mass, and that of turning (Bullet, `applyDamping`), by
+
+.. math:: (1 - d)^{\Delta t}
+
+Vehicles go where they are told, through walls if need be, and push what is loose: each jump counts
+as made evenly over the time since the one before (`LONGEST_JUMP` at most), for as much time after
+it. Not modelled: limits of objects, Bullet's friction and its solvers (ours is MuJoCo's, with
+`compile.FRICTION`), ``physicsFrequency`` (the step is the simulation's).
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from ..geometry import Array
+from ..scene.spec import PhysicsSpec, SceneSpec
+from .touching import LONGEST_JUMP
+
+HEAVY = 1e4
+"""Mass and inertia of a vehicle's links: nothing that is loose moves them [kg, kg m2]."""
+
+
+class Falling:
+    """Objects that forces move, among vehicles that are put somewhere.
+
+    Args:
+        scene: what the file says; its ``things_fall`` is true.
+        model: of the scene; changed here to what this engine needs.
+        data: its state.
+    """
+
+    def __init__(self, scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self._model, self._data = model, data
+        n_vehicles = len(scene.vehicles)
+        joints: list[list[int]] = [[] for _ in range(n_vehicles)]
+        loose: list[tuple[int, int]] = []  # number of the object, its joint
+        for joint in range(model.njnt):
+            kind, index = model.joint(joint).name.split("/")[:2]
+            if kind == "vehicle":
+                joints[int(index)].append(joint)
+            else:
+                loose.append((int(index), joint))
+        for body in range(1, model.nbody):
+            if model.body(body).name.startswith("vehicle/"):
+                model.body_mass[body] = HEAVY
+                model.body_inertia[body] = HEAVY
+        mujoco.mj_setConst(model, data)
+        bodies = model.jnt_bodyid[[joint for _, joint in loose]]
+        own = np.column_stack([model.body_mass[bodies], model.body_inertia[bodies]])
+        model.stat.meaninertia = float(own.mean())  # the solver's scale: not the vehicles' own
+        damped = [(scene.objects[index].solid, joint) for index, joint in loose]
+        self._damped = [
+            _Damped(physics, model, data, joint)
+            for physics, joint in damped
+            if physics.linear_damping > 0.0 or physics.angular_damping > 0.0
+        ]
+        self._movers = [_Mover(model, data, of_vehicle) for of_vehicle in joints]
+
+    def step(self) -> None:
+        """Take a step; vehicles stay where they are."""
+        for mover in self._movers:
+            mover.look()
+        for thing in self._damped:
+            thing.slow_down()
+        mujoco.mj_step(self._model, self._data)
+        for mover in self._movers:
+            mover.put_back()
+
+
+class _Damped:
+    """A loose object whose velocities fade."""
+
+    def __init__(
+        self, physics: PhysicsSpec, model: mujoco.MjModel, data: mujoco.MjData, joint: int
+    ) -> None:
+        given = (physics.linear_damping, physics.angular_damping)
+        step = model.opt.timestep
+        self._keeps, self._keeps_turning = ((1.0 - min(max(d, 0.0), 1.0)) ** step for d in given)
+        dof, body = int(model.jnt_dofadr[joint]), int(model.jnt_bodyid[joint])
+        self._velocity = data.qvel[dof : dof + 6]  # of its origin, W; of its turning, own axes
+        self._rotation = data.xmat[body]
+        self._middle = model.body_ipos[body].copy()
+
+    def slow_down(self) -> None:
+        """Take from its velocities what one step takes."""
+        rotation = self._rotation.reshape(3, 3)
+        turning = self._velocity[3:]
+        of_middle = self._velocity[:3] + rotation @ np.cross(turning, self._middle)
+        turning *= self._keeps_turning
+        self._velocity[:3] = self._keeps * of_middle - rotation @ np.cross(turning, self._middle)
+
+
+class _Mover:
+    """A vehicle that jumps: all its joints together."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: list[int]) -> None:
+        self._model, self._data = model, data
+        widths = np.diff([*model.jnt_qposadr.tolist(), model.nq])  # of each joint's position
+        self._q = np.flatnonzero(np.isin(np.repeat(np.arange(model.njnt), widths), joints))
+        self._v = np.flatnonzero(np.isin(model.dof_jntid, joints))
+        self._now: Array = data.qpos[self._q].copy()
+        self._velocity: Array = np.zeros(len(self._v))
+        self._longest = max(1, round(LONGEST_JUMP / model.opt.timestep))
+        self._since = 0  # steps since the last jump
+        self._n_steps = 0  # that it took
+
+    def look(self) -> None:
+        """Take note of where it is, and give it the speed of its last jump."""
+        data, here = self._data, self._data.qpos[self._q].copy()
+        self._since += 1
+        if not np.array_equal(here, self._now):
+            self._n_steps = min(self._since, self._longest)
+            self._velocity = self._speed(here)
+            self._now, self._since = here, 0
+        data.qvel[self._v] = self._velocity if self._since < self._n_steps else 0.0
+
+    def put_back(self) -> None:
+        """Undo what the step did to it."""
+        self._data.qpos[self._q] = self._now
+        self._data.qvel[self._v] = 0.0
+
+    def _speed(self, here: Array) -> Array:
+        """Speed of the jump to ``here``, joint by joint, (n,) [m/s, rad/s]."""
+        after = self._data.qpos.copy()
+        before = after.copy()
+        before[self._q] = self._now
+        speed = np.zeros(self._model.nv)
+        time = self._n_steps * self._model.opt.timestep
+        mujoco.mj_differentiatePos(self._model, speed, time, before, after)
+        own: Array = speed[self._v]
+        return own
