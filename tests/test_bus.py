@@ -1,9 +1,25 @@
+from typing import TypeVar
+
 import numpy as np
 import pytest
 
 from uwsim.bus import Bus
-from uwsim.errors import BadSetting, UnknownName, UwsimError
-from uwsim.messages import Bool, Empty, EmptyResponse, Float32MultiArray, String, floats
+from uwsim.errors import BadMessage, BadSetting, UnknownName, UwsimError
+from uwsim.messages import (
+    Bool,
+    Empty,
+    EmptyResponse,
+    Float32MultiArray,
+    JointState,
+    String,
+    Twist,
+    TwistStamped,
+    Vector3,
+    floats,
+    header,
+)
+
+M = TypeVar("M")
 
 
 def test_messages_wait_for_the_end_of_the_step_and_keep_their_order() -> None:
@@ -63,7 +79,7 @@ def test_a_topic_has_one_type() -> None:
 
 def test_a_message_of_another_type_is_refused() -> None:
     publish = Bus().publisher("a", String)
-    with pytest.raises(BadSetting, match="std_msgs/msg/Bool"):
+    with pytest.raises(BadMessage, match="std_msgs/msg/Bool"):
         publish(Bool(data=True))  # type: ignore[arg-type]
 
 
@@ -108,3 +124,72 @@ def test_a_latched_inbox_begins_with_the_newest_message() -> None:
     bus.deliver()
     assert [m.data for m in inbox.take()] == ["third"]
     assert bus.inbox("path", String).take() == []
+
+
+@pytest.mark.parametrize(
+    ("message", "said"),
+    [
+        (String(data=3), "data is 3, expected text"),
+        (Bool(data="yes"), "data is 'yes', expected True or False"),
+        (
+            Float32MultiArray(layout=floats([]).layout, data=["a", "b"]),
+            r"data is \['a', 'b'\], expected an array of numbers",
+        ),
+        (
+            TwistStamped(header=header(0.0), twist=Twist(linear=Vector3(0, "x", 0), angular=None)),
+            "twist.linear.y is 'x', expected a number",
+        ),
+        (TwistStamped(header=header(0.0), twist=None), "twist is None, expected a message"),
+        (
+            JointState(header=header(0.0), name=[1], position=[], velocity=[], effort=[]),
+            r"name is \[1\], expected a list",
+        ),
+    ],
+)
+def test_a_field_that_holds_something_else_is_the_senders_fault(message: M, said: str) -> None:
+    bus = Bus()
+    heard = bus.inbox("a", type(message))
+    with pytest.raises(BadMessage, match=rf"^Topic 'a' carries .*: {said}.*\.$"):
+        bus.publisher("a", type(message))(message)
+    bus.deliver()
+    assert heard.take() == []
+
+
+def test_a_list_of_numbers_is_an_array_and_the_senders_own_no_more() -> None:
+    bus = Bus()
+    heard = bus.inbox("a", JointState)
+    mine = [1, 2.5]
+    bus.publisher("a", JointState)(
+        JointState(header=header(0.0), name=["j"], position=mine, velocity=(), effort=np.zeros(0))
+    )
+    mine[0] = 9
+    bus.deliver()
+    (message,) = heard.take()
+    assert message.position.tolist() == [1.0, 2.5]
+    assert message.velocity.dtype == np.float64
+
+
+def test_a_reader_may_refuse_what_it_can_do_nothing_with() -> None:
+    def check(message: String) -> None:
+        if not message.data:
+            raise BadMessage("Say something.")
+
+    bus = Bus()
+    heard: list[String] = []
+    stop = bus.subscribe("a", String, heard.append, check=check)
+    publish = bus.publisher("a", String, delay_steps=3)
+    with pytest.raises(BadMessage, match="Say something"):
+        publish(String(data=""))
+    stop()
+    publish(String(data=""))
+    assert heard == []
+
+
+@pytest.mark.parametrize("data", [None, "?"])
+def test_a_request_that_holds_something_else_is_the_callers_fault(data: object) -> None:
+    bus = Bus()
+    bus.serve("s", Float32MultiArray, lambda request: request)
+    request = floats(np.zeros(1))
+    request.data = data
+    with pytest.raises(BadMessage, match=r"Service 's' takes .*: data is"):
+        bus.call("s", request)

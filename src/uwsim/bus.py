@@ -11,11 +11,12 @@ from __future__ import annotations
 import dataclasses
 from collections import deque
 from collections.abc import Callable, Mapping
-from typing import Any, Generic, Protocol, TypeVar, cast, runtime_checkable
+from typing import Any, Generic, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
-from .errors import BadSetting, UnknownName, UwsimError
+from .errors import BadMessage, BadSetting, UnknownName, UwsimError
+from .message_fields import freeze, unfit
 
 M = TypeVar("M")
 MAX_MESSAGES_PER_STEP = 100_000
@@ -104,6 +105,7 @@ class Inbox(Generic[M]):
 class _Topic:
     type: type | None = None
     readers: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
+    checks: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
     kept: deque[Any] | None = None
     """The newest message, once somebody asked for it to be kept."""
 
@@ -126,16 +128,33 @@ class Bus:
         """The current step; set by whoever owns the clock."""
 
     def subscribe(
-        self, topic: str, type: type[M], callback: Callable[[M], None]
+        self,
+        topic: str,
+        type: type[M],
+        callback: Callable[[M], None],
+        *,
+        check: Callable[[M], None] | None = None,
     ) -> Callable[[], None]:
         """Call ``callback`` with every message on ``topic``; returns the way to stop it.
+
+        ``check`` is called while a message is published, and raises BadMessage to its sender if
+        the reader could do nothing with it.
 
         ``object`` as the type stands for any: such a reader hears whatever the topic carries, and
         leaves it to others to say what that is.
         """
         entry = self._typed(topic, type)
         entry.readers.append(callback)
-        return lambda: entry.readers.remove(callback) if callback in entry.readers else None
+        if check is not None:
+            entry.checks.append(check)
+
+        def stop() -> None:
+            if callback in entry.readers:
+                entry.readers.remove(callback)
+                if check is not None:
+                    entry.checks.remove(check)
+
+        return stop
 
     def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
         """Return an inbox that collects the messages of ``topic`` from now on.
@@ -164,13 +183,17 @@ class Bus:
 
         def publish(message: M) -> None:
             if not isinstance(message, type):
-                raise BadSetting(
+                raise BadMessage(
                     f"Topic {topic!r} carries {_type_name(type)}, "
                     f"not {_type_name(message.__class__)}."
                 )
             if not entry.readers:
                 return
+            if wrong := unfit(message):
+                raise BadMessage(f"Topic {topic!r} carries {_type_name(type)}: {wrong}.")
             freeze(message)
+            for check in entry.checks:
+                check(message)
             if delay_steps:
                 self._posted += 1
                 self._due_later.append((self.step + delay_steps, self._posted, name, message))
@@ -223,15 +246,17 @@ class Bus:
 
         Raises:
             UnknownName: nobody serves it.
-            BadSetting: the request is of another type.
+            BadMessage: the request is of another type, or its fields are.
         """
         if _plain(name) not in self._services:
             raise UnknownName("service", name, self._services)
         type, handler = self._services[_plain(name)]
         if not isinstance(request, type):
-            raise BadSetting(
+            raise BadMessage(
                 f"Service {name!r} takes {_type_name(type)}, not {_type_name(request.__class__)}."
             )
+        if wrong := unfit(request):
+            raise BadMessage(f"Service {name!r} takes {_type_name(type)}: {wrong}.")
         return handler(freeze(request))
 
     def deliver(self) -> None:
@@ -275,23 +300,6 @@ class Bus:
                 name=topic,
             )
         return entry
-
-
-def freeze(message: M) -> M:
-    """Make every array inside a message read-only, and return it."""
-    for field in dataclasses.fields(cast("Any", message)):
-        _freeze_value(getattr(message, field.name))
-    return message
-
-
-def _freeze_value(value: object) -> None:
-    if isinstance(value, np.ndarray):
-        value.flags.writeable = False
-    elif dataclasses.is_dataclass(value):
-        freeze(value)
-    elif isinstance(value, list):
-        for item in value:
-            _freeze_value(item)
 
 
 def _plain(name: str) -> str:

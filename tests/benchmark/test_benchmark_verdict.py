@@ -5,14 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
 from played import DATA, make_plan, rows_of
 from uwsim.benchmark.verdict import Verdict
 from uwsim.bus import Inbox, Node
-from uwsim.messages import String
+from uwsim.messages import Float64MultiArray, MultiArrayLayout, String
 from uwsim.scene.reader import read_scene
+from uwsim.scene.ros_interfaces import ROSThrustersToPATSpec
 from uwsim.scene.spec import PhysicsSpec, SceneSpec
 
 REPEAT = "<repeat> <iterations>2</iterations> <interval>3</interval> </repeat>"
@@ -106,3 +108,46 @@ def test_the_first_status_that_applies_counts(
     found = verdict.status([measure(silence)], overran=overran, ended=ended)  # type: ignore[list-item]
     assert found[0] == status
     assert (found[1] is None) is (status == "ok")
+
+
+class Drives:
+    """Commands the thrusters once a second."""
+
+    data: Any = (0.0, 0.0, 0.0)
+
+    def start(self, node: Node) -> None:
+        say = node.publisher("/thrusters", Float64MultiArray)
+        layout = MultiArrayLayout(dim=[], data_offset=0)
+        node.every(1.0, lambda: say(Float64MultiArray(layout=layout, data=self.data)))
+
+
+class DrivesWithWords(Drives):
+    data = ("full", "ahead")
+
+
+class DrivesAtOnce(Drives):
+    def start(self, node: Node) -> None:
+        node.publisher("/thrusters", Float64MultiArray)(String(data="go"))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "said"),
+    [
+        (Drives, "for the thrusters of 'girona500' has 3 values; expected 5: surge_port, surge_"),
+        (DrivesWithWords, "data is ('full', 'ahead'), expected an array of numbers."),
+        (DrivesAtOnce, "carries std_msgs/msg/Float64MultiArray, not std_msgs/msg/String."),
+    ],
+)
+def test_a_message_that_no_thruster_takes_is_the_algorithms_error(
+    algorithm: type[Drives], said: str, tmp_path: Path
+) -> None:
+    scene = read_scene(DATA / "scenes" / "currents-scene.xml")
+    interface = ROSThrustersToPATSpec(topic="/thrusters", vehicle_name="girona500")
+    vehicle = replace(scene.vehicles[0], virtual_cameras=())
+    scene = replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=(interface,))
+    plan = make_plan(tmp_path, algorithm, REPEAT.replace("3<", "1.2<"), scene=scene)
+    rows = rows_of(plan)
+    assert [row.status for row in rows] == ["algorithm error"] * 2
+    assert said in rows[0].missing["total"]
+    assert "test_benchmark_verdict.py" in rows[0].missing["total"]
+    assert [row.measures["t"][0] for row in rows] == pytest.approx([1.2, 1.2])

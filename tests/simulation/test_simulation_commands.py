@@ -108,3 +108,27 @@ def test_joints_are_found_by_name_and_clamped(simulation: Simulation) -> None:
     assert after[2] == pytest.approx(2.15294)
     assert after[0] == pytest.approx(-0.3)
     assert after[[1, 3, 4]] == pytest.approx(before[[1, 3, 4]])
+
+
+def test_numbers_that_lead_nowhere_leave_a_vehicle_where_a_renderer_finds_it(
+    simulation: Simulation,
+) -> None:
+    before = pose_in_l(simulation)
+    say_twist = simulation.bus.publisher("/twist", TwistStamped)
+    say_pose = simulation.bus.publisher("/pose", PoseMessage)
+    still = Quaternion(x=0.0, y=0.0, z=0.0, w=1e-300)
+    for number in (np.nan, np.inf, -np.inf):
+        say_twist(twist(number, 0.0))
+        say_twist(twist(0.0, number))
+        say_pose(PoseMessage(position=Point(x=number, y=0.0, z=0.0), orientation=still))
+        simulation.advance()
+    assert pose_in_l(simulation).position == pytest.approx(before.position)
+    for _ in range(3):
+        say_twist(twist(1e308, 1e308))
+        simulation.advance()
+    say_pose(PoseMessage(position=Point(x=1e308, y=0.0, z=0.0), orientation=still))
+    simulation.advance()
+    simulation.advance()
+    after = pose_in_l(simulation)
+    assert after.position == pytest.approx([1e6, 0.0, 0.0], abs=1e-6)
+    assert after.rotation == pytest.approx(np.eye(3), abs=1e-9)

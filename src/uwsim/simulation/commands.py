@@ -20,8 +20,9 @@ A vehicle that is simulated (``u:dynamics``) is never put anywhere by a message:
 (`uwsim.physics.autopilot`) takes a pose for the place to go to and stay at, and holds a twist, a
 wrench or thruster commands until the next of any of them. Its joints' servos
 (`uwsim.physics.servos`) take positions, else velocities, else efforts, held likewise. What is not
-finite is passed over. Not modelled: that a joint command of a vehicle that is not simulated is
-refused when it would touch something.
+finite is passed over, what is beyond 1e6 taken as that; a wrong number of thruster commands is the
+sender's fault, told to it when it publishes them. Not modelled: that a joint command of a vehicle
+that is not simulated is refused when it would touch something.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ..bus import Bus
-from ..errors import UwsimError
+from ..errors import BadMessage
 from ..geometry import Array, Pose, rotation_from_quaternion, rotation_from_xyz
 from ..messages import (
     Float64MultiArray,
@@ -42,6 +43,7 @@ from ..messages import (
     WrenchStamped,
 )
 from ..messages import Pose as PoseMessage
+from ..physics.autopilot import LARGEST
 from ..physics.state import State
 from ..scene.ros_interfaces import (
     ROSJointStateToArmSpec,
@@ -125,6 +127,7 @@ class Commands:
                 interface.topic,
                 Float64MultiArray,
                 lambda m: later(lambda: self._thrust(vehicle, m)),
+                check=lambda m: self._check_thrust(vehicle, m),
             )
         elif isinstance(interface, ROSWrenchToPATSpec):
             self._bus.subscribe(
@@ -140,23 +143,31 @@ class Commands:
     def _place(self, vehicle: int, pose: PoseMessage) -> None:
         p, q = pose.position, pose.orientation
         wxyz = np.array([q.w, q.x, q.y, q.z])
-        if not np.isfinite(wxyz).all() or not wxyz.any():
-            wxyz = np.array([1.0, 0.0, 0.0, 0.0])
-        localized_from_base = Pose(np.array([p.x, p.y, p.z]), rotation_from_quaternion(wxyz))
+        largest = float(np.abs(wxyz).max())
+        if not 0.0 < largest < np.inf:
+            wxyz, largest = np.array([1.0, 0.0, 0.0, 0.0]), 1.0
+        position = np.array([p.x, p.y, p.z])
+        if not np.isfinite(position).all():
+            return
+        localized_from_base = Pose(
+            np.clip(position, -LARGEST, LARGEST), rotation_from_quaternion(wxyz / largest)
+        )
         world_from_base = self._scene.world_from_localized @ localized_from_base
-        if not self._state.is_simulated(vehicle):
-            self._state.place_vehicle(vehicle, world_from_base)
-        elif np.isfinite(world_from_base.position).all():
+        if self._state.is_simulated(vehicle):
             self._state.pilot(vehicle).go_to(world_from_base)
+        else:
+            self._state.place_vehicle(vehicle, world_from_base)
+
+    def _check_thrust(self, vehicle: int, message: Float64MultiArray) -> None:
+        names = self._state.thrusters(vehicle)
+        if message.data.shape != (len(names),):
+            raise BadMessage(
+                f"A message for the thrusters of {self._scene.vehicles[vehicle].name!r} has "
+                f"{message.data.size} values; expected {len(names)}: {', '.join(names)}."
+            )
 
     def _thrust(self, vehicle: int, message: Float64MultiArray) -> None:
-        names = self._state.thrusters(vehicle)
         commands: Array = np.array(message.data, dtype=np.float64)  # (n,) [1]
-        if commands.shape != (len(names),):
-            raise UwsimError(
-                f"A message for the thrusters of {self._scene.vehicles[vehicle].name!r} has "
-                f"{commands.size} values; expected {len(names)}: {', '.join(names)}."
-            )
         if np.isfinite(commands).all():
             self._state.pilot(vehicle).set_thrusters(commands)
 
@@ -168,15 +179,15 @@ class Commands:
 
     def _push(self, vehicle: int, twist: Twist, time: float) -> None:
         v, w = twist.linear, twist.angular
-        if self._state.is_simulated(vehicle):
-            numbers = (v.x, v.y, v.z, w.x, w.y, w.z)
-            if np.isfinite(numbers).all():
-                self._state.pilot(vehicle).command(numbers[:3], numbers[3:])
+        numbers = np.array([v.x, v.y, v.z, w.x, w.y, w.z])
+        if not np.isfinite(numbers).all():
             return
-        before_from_after = Pose(
-            np.array([v.x, v.y, v.z]) * time,
-            rotation_from_xyz(w.x * time, w.y * time, w.z * time),
-        )
+        numbers = np.clip(numbers, -LARGEST, LARGEST)
+        if self._state.is_simulated(vehicle):
+            self._state.pilot(vehicle).command(numbers[:3].tolist(), numbers[3:].tolist())
+            return
+        step = numbers * time  # (6,) [m, rad]
+        before_from_after = Pose(step[:3], rotation_from_xyz(*step[3:].tolist()))
         self._state.place_vehicle(vehicle, self._state.vehicle_pose(vehicle) @ before_from_after)
 
     def _follow(self, vehicle: int, odometry: Odometry, time: float) -> None:

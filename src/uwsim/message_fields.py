@@ -1,0 +1,124 @@
+"""Messages before they are given away: every field is what its definition says, and stays so.
+
+The definition is the message's dataclass, whose annotations are ROS's own: ``float``, ``str``,
+``np.ndarray[..., np.dtype[np.float64]]``, ``list[...]`` and other messages.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import re
+from collections.abc import Hashable
+from typing import Any, TypeVar, cast
+
+import numpy as np
+
+M = TypeVar("M")
+_FITTING: dict[str, tuple[type, ...]] = {
+    "float": (float, int, np.number, np.bool_),
+    "int": (int, np.integer, np.bool_),
+    "bool": (bool, int, np.bool_),
+    "str": (str,),
+}
+_WORDS = {
+    "float": "a number",
+    "int": "a whole number",
+    "bool": "True or False",
+    "str": "text",
+    "array": "an array of numbers",
+    "list": "a list of what is defined there",
+    "message": "a message",
+}
+_ARRAY = re.compile(r"np\.ndarray\[.*np\.dtype\[np\.(\w+)\]\]")
+_LIST = re.compile(r"list\[(.*)\]")
+
+
+def unfit(message: object, of: str = "") -> str | None:
+    """Say which field of a message holds something else than its definition has there, or None.
+
+    Lists and tuples that stand for arrays become arrays. ``of`` is the path to a message in
+    another, with a dot behind it.
+    """
+    for name, kind, inner in _definition(cast(Hashable, message.__class__)):
+        value = getattr(message, name)
+        wrong: str | None = None
+        if kind == "array" and not isinstance(value, np.ndarray):
+            value = _array(value, inner)
+            if value is not None:
+                object.__setattr__(message, name, value)  # of a frozen one, too
+        if kind == "array":
+            is_fit = value is not None and value.dtype.kind in "biuf"
+        elif kind == "list":
+            is_fit = isinstance(value, list | tuple)
+            for i, item in enumerate(value if is_fit else ()):
+                if inner == "str":
+                    is_fit = is_fit and isinstance(item, str)
+                elif wrong is None:
+                    wrong = unfit(item, f"{of}{name}[{i}].") if _is_message(item) else None
+                    is_fit = is_fit and _is_message(item)
+        elif kind == "message":
+            is_fit = _is_message(value)
+            wrong = unfit(value, f"{of}{name}.") if is_fit else None
+        else:
+            is_fit = isinstance(value, _FITTING[kind])
+        if not is_fit:
+            said = " ".join(repr(getattr(message, name)).split())
+            said = said if len(said) <= 60 else said[:57] + "..."
+            return f"{of}{name} is {said}, expected {_WORDS[kind]}"
+        if wrong is not None:
+            return wrong
+    return None
+
+
+def freeze(message: M) -> M:
+    """Make every array inside a message read-only, and return it."""
+    for name in _names(cast(Hashable, message.__class__)):
+        _freeze_value(getattr(message, name))
+    return message
+
+
+def _freeze_value(value: object) -> None:
+    if isinstance(value, np.ndarray):
+        value.flags.writeable = False
+    elif dataclasses.is_dataclass(value):
+        freeze(value)
+    elif isinstance(value, list):
+        for item in value:
+            _freeze_value(item)
+
+
+@functools.cache
+def _names(cls: Hashable) -> tuple[str, ...]:
+    return tuple(field.name for field in dataclasses.fields(cast("Any", cls)))
+
+
+@functools.cache
+def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
+    """Field, kind (a key of `_WORDS`), and of arrays the dtype, of lists what is in them."""
+    assert isinstance(cls, type)
+    found = []
+    for field in dataclasses.fields(cls):
+        said = str(field.type)
+        if array := _ARRAY.fullmatch(said):
+            found.append((field.name, "array", array[1]))
+        elif inner := _LIST.fullmatch(said):
+            found.append((field.name, "list", inner[1]))
+        elif said in _FITTING:
+            found.append((field.name, said, ""))
+        elif "__msg__" in said:
+            found.append((field.name, "message", ""))
+    return tuple(found)
+
+
+def _array(value: object, dtype: str) -> np.ndarray[Any, Any] | None:
+    if not isinstance(value, list | tuple):
+        return None
+    try:
+        return np.array(value, dtype=dtype)
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
+def _is_message(value: object) -> bool:
+    return dataclasses.is_dataclass(value) and not isinstance(value, type)
