@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 from uwsim.benchmark.trace import EVERY, MAX_MARKS, Trace, Tracer, parting
+from uwsim.scene.spec import SceneSpec
+from uwsim.simulation import Simulation
 
 
 class FakeMotion:
@@ -129,3 +131,13 @@ def test_a_trace_is_read_back_as_it_was_stored() -> None:
     assert Trace.of(trace.plain()) == trace
     assert Trace.of(None) is None
     assert Trace.of({"every": 1}) is None
+
+
+def test_a_scene_in_which_nothing_can_move_leaves_a_trace_too() -> None:
+    simulation = Simulation(SceneSpec())
+    tracer = Tracer(simulation)
+    simulation.open()
+    for _ in range(100):
+        simulation.advance()
+    assert len(tracer.fingerprint) == 16
+    assert tracer.trace().n_steps == 100

@@ -28,7 +28,17 @@ from typing import Any, TypeVar
 from lxml import etree
 
 from ..compatibility import COMPATIBILITY
-from ..dialect import NAMESPACE, Faults, check_head, parse, read, slots, text_of
+from ..dialect import (
+    NAMESPACE,
+    Faults,
+    advice,
+    check_head,
+    parse,
+    read,
+    shown_tag,
+    slots,
+    text_of,
+)
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
 from ..world import TIMESTEP
 from . import score
@@ -124,6 +134,7 @@ class _Reader:
         check_head(document, "benchmark", self.faults)
         if root.tag != "benchmark":
             return None
+        self.faults.lenient = document.has_doctype  # the original read its numbers with atof
         if strict:
             check_order(root, self.faults)
         given: dict[str, object] = {"path": str(path)}
@@ -381,7 +392,7 @@ class _Reader:
 
     def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
         name = _name(node)
-        said = f"<{name[:60]}> is not an element of <{box.tag}>"
+        said = f"{shown_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
         self.faults.unknown(node, said + OF_A_PLUGIN * name.startswith(PREFIX), name, known)
 
 

@@ -12,6 +12,7 @@ That costs a third of a microsecond a step and a few kilobytes a unit, however l
 from __future__ import annotations
 
 import hashlib
+import itertools
 from dataclasses import dataclass
 from typing import Any
 
@@ -109,11 +110,10 @@ class Tracer:
         self._simulation, self._motion = simulation, simulation.motion
         self._block = np.zeros((BLOCK, self._motion.size))
         self._n = self._step = 0
-        ends = np.cumsum([size for _, size in self._motion.parts]).tolist()
-        starts = [0, *ends[:-1]]
+        ends = np.cumsum([0, *(size for _, size in self._motion.parts)], dtype=int).tolist()
         self._hashes = [
             (slice(start, end), hashlib.blake2b(digest_size=BYTES))
-            for start, end in zip(starts, ends, strict=True)
+            for start, end in itertools.pairwise(ends)
         ]
         self._marks: list[str] = []
         self._every = EVERY * BLOCK

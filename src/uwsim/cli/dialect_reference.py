@@ -37,7 +37,8 @@ What may stand in a benchmark file, made from the specs that read it by `scripts
 stand in any order; what equals its default may be left out. Numbers may be `M_PI`, `M_PI_2`,
 `M_PI_4` and their negatives. `u:` is the namespace `urn:uwsim:1`: a file that uses it carries no
 DOCTYPE. What it all means: [measures](measures.md), [levels](levels.md). `uwsim check FILE.xml`
-holds a file against it, `--strict` also against the original's order.
+holds a file against it, `--strict` also against the original's order. In a file with the original's
+DOCTYPE what stands behind a number (`2 s`) is passed over with a notice; a decimal comma is a fault.
 
 The grammar for editors is [uwsim-benchmark.rng](grammar/uwsim-benchmark.rng) (RELAX NG). It knows
 today's names only, and neither the limits of numbers nor the parts of a plugin.

@@ -31,7 +31,7 @@ never asked. `Faults` in strict mode also holds a file against the order of the 
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
 from .faults import MAX_FAULTS, Faults
 from .grammar import FARTHEST, LARGEST, Slot, camel, element, field_docs, slots
-from .names import NAMESPACE, cut, shown_tag
+from .names import NAMESPACE, advice, cut, shown_tag
 from .reading import read, read_choice, text_of
 from .values import TOKENS, number
 from .writing import uses_extensions, write
@@ -48,6 +48,7 @@ __all__ = [
     "Document",
     "Faults",
     "Slot",
+    "advice",
     "camel",
     "check_head",
     "cut",

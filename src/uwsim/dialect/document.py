@@ -24,6 +24,14 @@ _DECLARATION = re.compile(rb"<!(ENTITY|ATTLIST|ELEMENT|NOTATION)\b")
 _ENCODING = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
 _ENCODINGS = re.compile(r"utf-?8|us-ascii|ascii|iso-?8859-\d+|latin-?1|windows-125\d", re.I)
 
+STRAY = {
+    "xmlParseEntityRef: no name": "a bare '&'; write &amp;",
+    "EntityRef: expecting ';'": "a bare '&'; write &amp;",
+    "StartTag: invalid element name": "a '<' that begins no element; for 'less than' write &lt;",
+}
+"""What the parser says of a sign of the score language, and what we say."""
+_NICKNAME = re.compile(r"latin-?1", re.I)
+
 
 @dataclass(frozen=True, eq=False)
 class Document:
@@ -82,6 +90,9 @@ def _said(entry: etree._LogEntry, data: bytes) -> str:
         and not entry.message.startswith(("Extra content", "Start tag expected"))
     ):
         return "the file ends in the middle; it was cut off"
+    for found, meant in STRAY.items():
+        if found in entry.message:
+            return meant
     message = re.sub(r",? (use|try) XML_PARSE_HUGE( option)?", "", entry.message)
     return textwrap.shorten(message, 200, placeholder=" ...")
 
@@ -109,6 +120,8 @@ def _bytes(path: Path, faults: Faults) -> bytes:
         name = declared[1].decode("ascii")
         if name.lower() != "utf-16":
             faults.add(1, f"the encoding {name!r} is not read; write the file as UTF-8")
+    if declared and _NICKNAME.fullmatch(declared[1].decode("ascii")):  # unknown to the parser
+        data = data[: declared.start(1)] + b"ISO-8859-1" + data[declared.end(1) :]
     if b"\0" in data:
         faults.add(None, "holds zero bytes; not a text file in UTF-8")
     if declaration := _DECLARATION.search(data):

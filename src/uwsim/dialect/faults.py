@@ -21,6 +21,8 @@ class Faults:
     def __init__(self, file: Path | str, *, strict: bool = False) -> None:
         self.file = str(file)
         self.strict = strict
+        self.lenient = False
+        """Whether junk behind a number is a notice, as where the original used atof."""
         self._found: list[Fault] = []
         self._uncounted = {"fault": 0, "notice": 0}
         self._nodes: dict[int, tuple[object, etree._Element]] = {}

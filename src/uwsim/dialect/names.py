@@ -26,6 +26,25 @@ def shown_tag(tag: str) -> str:
     return f"<{tag[:60]}>"
 
 
+FOREIGN = {
+    "http://ros.org/wiki/xacro": "; expand the file with xacro first",
+    "http://www.ros.org/wiki/xacro": "; expand the file with xacro first",
+    "http://wiki.ros.org/xacro": "; expand the file with xacro first",
+    "http://www.w3.org/2001/XInclude": "; nothing is included: write it here",
+}
+"""Namespaces that are met in such files, and what is to be done about them."""
+
+
+def advice(tag: str) -> str:
+    """What to do about an element of somebody else's namespace; empty when we do not know."""
+    return FOREIGN.get(tag[1:].partition("}")[0], "") if tag.startswith("{") else ""
+
+
+def shown_attribute(name: str) -> str:
+    """A qualified name as an attribute, with the namespace when it is none of ours."""
+    return shown_tag(name).replace("<", "", 1).replace(">", "", 1)
+
+
 def cut(text: str) -> str:
     """A value in quotes, cut when it is long."""
     return repr(text if len(text) <= 60 else text[:57] + "...")

@@ -12,7 +12,7 @@ from lxml import etree
 
 from .faults import Faults
 from .grammar import Slot, slots
-from .names import cut, local, shown, shown_tag
+from .names import advice, cut, local, shown, shown_attribute
 from .values import BAD, BLANKS, Bad, scalar
 
 T = TypeVar("T")
@@ -267,7 +267,9 @@ def _unknown_element(
 ) -> None:
     names = [local(name) for name in known]
     faults.unknown(
-        child, f"{shown(child)} is not an element of {shown(parent)}", local(str(child.tag)),
+        child,
+        f"{shown(child)} is not an element of {shown(parent)}{advice(str(child.tag))}",
+        local(str(child.tag)),
         names,
     )  # fmt: skip
 
@@ -276,7 +278,7 @@ def _unknown_attribute(
     node: etree._Element, name: str, known: Iterable[str], faults: Faults
 ) -> None:
     names = [local(each) for each in known]
-    said = shown_tag(name)[1:-1]
+    said = shown_attribute(name)
     faults.unknown(node, f"{said} is not an attribute of {shown(node)}", local(name), names)
 
 

@@ -25,6 +25,7 @@ TOKENS = {
 
 BLANKS = " \t\n\r"
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _LEADING_INT = re.compile(r"[+-]?\d+", re.ASCII)
 
 
@@ -42,7 +43,8 @@ def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: s
         value = text
     elif slot.kind in ("float", "triple"):
         value = number(text)
-        if value is None and slot.xml.lenient and (leading := _NUMBER.match(text)):
+        is_lenient = (slot.xml.lenient or faults.lenient) and not _COMMA.fullmatch(text)
+        if value is None and is_lenient and (leading := _NUMBER.match(text)):
             value = number(leading[0])
             faults.notice(node, f"{shown} is {cut(text)}; read as {value:g}, as the original does")
         value = BAD if value is None else value
@@ -73,6 +75,8 @@ def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: s
         return BAD
     if value is BAD:
         near = did_you_mean(text, slot.type) if slot.kind == "word" and len(text) < 80 else ""
+        if slot.kind in ("float", "triple") and len(text) < 80 and _COMMA.fullmatch(text):
+            near = f" Did you mean {text.replace(',', '.')}?"
         faults.add(node, f"{shown} is {cut(text)}; expected {slot.expected}.{near}".rstrip("."))
     return value
 
