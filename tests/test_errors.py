@@ -21,7 +21,6 @@ from uwsim.errors import (
         NeverStarted("nobody called startBench"),
         UnknownName("body", "girona50", ["girona500"]),
         BenchmarkError([Fault(file="a", line=n, message="no") for n in (3, None)]),
-        SeveralErrors([NeverStarted("a"), BadSetting("b")]),
         ScoreFault("1 +", 3, "something is missing"),
     ],
 )  # fmt: skip

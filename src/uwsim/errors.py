@@ -161,7 +161,10 @@ class AllErrors:
 
     def check(self) -> None:
         """Raise what was kept, if anything: one error as it is, several as `SeveralErrors`."""
-        found = list({str(error): error for error in reversed(self._found)}.values())[::-1]
+        first: dict[str, UwsimError] = {}
+        for error in self._found:
+            first.setdefault(str(error), error)
+        found = list(first.values())
         if found:
             raise found[0] if len(found) == 1 else SeveralErrors(found)
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+import shlex
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -150,6 +152,72 @@ def test_a_result_json_that_says_other_than_its_units_is_found_without_a_replay(
     assert "1 of 2 units replayed" in said
 
 
+@pytest.mark.parametrize(
+    ("where", "now", "said"),
+    [
+        (("run", "version"), "9.9", 'run version: "9.9" there, "'),
+        (("run", "physics"), "mujoco 1", 'run physics: "mujoco 1" there, "mujoco '),
+        (("run", "mode"), "sequential", 'run mode: "sequential" there, "independent"'),
+        (("run", "parameters"), {}, "run parameters: {} there, "),
+        (("run", "kp"), 1, "run kp: 1 there, nothing by"),
+        (("inputs", "scene"), ["other.xml", "sha256:0"], 'inputs scene 0: "other.xml" there'),
+        (("seed",), 4, "seed: 4 there, 3 by"),
+        (("levels",), [[0.1]], "levels 0 0: 0.1 there, 0.4 by"),
+        (("note",), "new", 'note: "new" there, nothing by'),
+    ],
+)
+def test_every_altered_value_in_the_head_of_a_unit_is_named(
+    folder: Path, capsys: pytest.CaptureFixture[str], where: tuple[str, ...], now: Any, said: str
+) -> None:
+    def alter(lines: list[dict[str, Any]]) -> None:
+        part = lines[0]["unit"]
+        for key in where[:-1]:
+            part = part[key]
+        part[where[-1]] = now
+
+    change(folder, alter, unit=1)
+    status, text = verify(capsys, "--sample", "1")
+    assert status == 3
+    assert f"units/00001.jsonl: {said}" in text
+    assert text.count("units/00001.jsonl: ") == 1
+
+
+def test_where_no_result_is_it_is_said_what_is_there_and_how_to_go_on(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def said(*words: str) -> str:
+        assert main([*words]) == 2
+        [line] = capsys.readouterr().err.splitlines()
+        return line
+
+    (folder / "out" / "result.json").unlink()
+    resume = (
+        "uwsim: out: no result here yet: its run was interrupted. Go on with: uwsim bench b.xml "
+        "--algorithm esm --seed 3 --mode independent --set algorithm.zncc_threshold=0.4 "
+        "--out out --resume."
+    )
+    assert said("report", "out") == resume
+    assert said("verify", "out") == resume
+    assert said("compare", "out", "other") == resume
+    call = resume.removesuffix(".").partition("uwsim bench")[2]
+    assert main(["bench", *shlex.split(call)]) == 0
+    assert verify(capsys, "--sample", "1")[0] == 0
+
+    (folder / "both").mkdir()
+    for name in ("esm", "frozen"):
+        shutil.copytree(folder / "out", folder / "both" / name)
+    both = "both: holds 2 results (esm, frozen); name one, as both/esm."
+    assert said("report", "both") == said("verify", "both") == f"uwsim: {both}"
+    for name in ("esm", "frozen"):
+        (folder / "both" / name / "result.json").unlink()
+    assert "--algorithm esm --algorithm esm --seed 3" in said("report", "both")
+    (folder / "empty").mkdir()
+    assert said("report", "empty") == "uwsim: empty: no result here (no result.json)."
+    assert said("report", "nix") == (
+        "uwsim: nix: no result here (there is no such file or directory)."
+    )
+
+
 def test_result_json_alone_can_be_verified_by_its_rows(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -176,8 +244,8 @@ def test_a_changed_scene_is_refused_and_the_right_one_may_be_called_otherwise(
     assert said.startswith("uwsim: The scene is not the one that was played, tank.xml (sha256:")
     assert f"{scene} (sha256:" in said
     scene.rename(folder / "elsewhere.xml").write_text(scene_text)
-    path = folder / "out" / "result.json"
-    path.write_text(path.read_text().replace('"renderer": "', '"renderer": "NVIDIA '))
+    for path in [folder / "out" / "result.json", *(folder / "out" / "units").iterdir()]:
+        path.write_text(re.sub(r'("renderer": ?")', r"\1NVIDIA ", path.read_text()))
     (folder / "out" / "provenance.json").write_text('{"cpu": "abacus"}')
     status, said = verify(capsys, "--scene", "elsewhere.xml", "--sample", "1")
     assert status == 0

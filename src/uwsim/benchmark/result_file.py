@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TypeVar, cast
 
 from ..errors import ResultError, did_you_mean
+from .interrupted import instead_of_a_result
 from .result import Column, ImageStream, Missing, Result, TakenPicture
 from .whole_file import write_whole
 
@@ -46,7 +47,7 @@ def load(path: Path) -> Result:
     try:
         text = file.read_text(encoding="utf-8")
     except FileNotFoundError:
-        raise ResultError(f"{path}: no result here (no result.json).") from None
+        raise ResultError(f"{path}: {instead_of_a_result(path)}.") from None
     except UnicodeDecodeError as error:
         raise ResultError(f"{file}: not a result: not UTF-8 at byte {error.start}.") from None
     except OSError as error:

@@ -76,12 +76,12 @@ def verify(
     2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
     """
     from ..benchmark.bench import Bench, open_once
+    from ..benchmark.interrupted import resuming
     from ..benchmark.result_file import file_of, load
     from ..benchmark.verify import choose, finished
     from ..benchmark.verify import verify as compare
 
     crew = crew_of(workers)
-    refuse_several(result)
     stored = load(result)
     directory = file_of(result).parent
     given = Given(
@@ -97,7 +97,9 @@ def verify(
     bench = Bench(plan=plan, out=directory, inputs=stored.inputs, renderer=renderer)
     whole_units = finished(directory, plan, stored)
     if not whole_units:
-        raise ResultError(f"{directory}: no unit of it is finished; there is nothing to verify.")
+        command = resuming(directory)
+        how = f" Go on with: {command}" if command else ""
+        raise ResultError(f"{directory}: no unit of it is finished: nothing to verify.{how}")
     units = choose(whole_units, None if whole else sample, seed)
     n_levels = sum(len(unit.levels) for unit in units)
     typer.echo(head(stored, directory, len(whole_units), len(plan.units())))
@@ -110,17 +112,6 @@ def verify(
         typer.echo(printable(line))
     if found.differences:
         raise typer.Exit(RUN_FAILED)
-
-
-def refuse_several(path: Path) -> None:
-    """Refuse a directory that holds the results of several algorithms; raises ResultError."""
-    if path.is_dir() and not (path / "result.json").exists():
-        names = sorted(file.parent.name for file in path.glob("*/result.json"))
-        if names:
-            raise ResultError(
-                f"{path}: holds {count(len(names), 'result')} ({', '.join(names)}); verify one, as "
-                f"uwsim verify {path / names[0]}"
-            )
 
 
 def head(stored: Result, directory: Path, n_whole: int, n_units: int) -> str:
