@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
-from synthetic_results import visibility
+from synthetic_results import one_level
 
 from uwsim.benchmark.beside import Beside
 from uwsim.benchmark.result_file import save
@@ -16,7 +16,7 @@ from uwsim.errors import RunFailed
 
 
 def test_draws_a_report(tmp_path: Path) -> None:
-    save(visibility(), tmp_path)
+    save(one_level(), tmp_path)
     with Beside() as beside:
         beside.ask(tmp_path)
         beside.wait()
@@ -24,7 +24,7 @@ def test_draws_a_report(tmp_path: Path) -> None:
 
 
 def test_says_what_it_cannot_do_and_goes_on(tmp_path: Path) -> None:
-    save(visibility(), tmp_path / "good")
+    save(one_level(), tmp_path / "good")
     with Beside() as beside:
         beside.ask(tmp_path / "nowhere")
         beside.ask(tmp_path / "good")
@@ -37,7 +37,7 @@ def test_says_what_it_cannot_do_and_goes_on(tmp_path: Path) -> None:
 def test_a_report_that_cannot_be_written_is_one_line_and_no_death(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    save(visibility(), tmp_path)
+    save(one_level(), tmp_path)
     (tmp_path / "report.html").mkdir()
     with Beside() as beside:
         for _ in range(2):

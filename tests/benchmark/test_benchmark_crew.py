@@ -61,6 +61,7 @@ def test_one_worker_and_two_give_the_same_bytes(benchmark: Path, tmp_path: Path)
     assert len(n_levels) == 6
 
 
+@pytest.mark.slow
 def test_a_worker_that_is_killed_leaves_the_same_bytes(benchmark: Path, tmp_path: Path) -> None:
     """Its unit is sequential: the level that was over is played again and must be the same."""
     n_levels: list[None] = []
@@ -92,7 +93,9 @@ class Absent:
         pass
 
 
-@pytest.mark.parametrize("crew", [Here(), Processes(2)], ids=["here", "processes"])
+@pytest.mark.parametrize(
+    "crew", [Here(), pytest.param(Processes(2), marks=pytest.mark.slow)], ids=["here", "processes"]
+)
 def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
     benchmark: Path, tmp_path: Path, crew: crew.Crew
 ) -> None:

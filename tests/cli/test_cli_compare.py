@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from compared_results import made, noisy, saved
+from uwsim.benchmark.comparison import write
 from uwsim.benchmark.result_file import save
 from uwsim.cli import main
 
@@ -17,6 +18,12 @@ from uwsim.cli import main
 def two(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     monkeypatch.chdir(tmp_path)
     return saved(tmp_path, noisy("esm", 1.0, n=8, salt=1), noisy("ic", 1.5, n=8, salt=2))
+
+
+@pytest.fixture
+def without_plots(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Draw nothing: what is asked here is what a command does, and drawing is most of its time."""
+    monkeypatch.setattr(write, "draw_comparison", lambda comparison, directory: [])
 
 
 def one_line(capsys: pytest.CaptureFixture[str]) -> str:
@@ -37,6 +44,7 @@ def test_two_results_are_compared_into_a_directory(
     }  # fmt: skip
 
 
+@pytest.mark.usefixtures("without_plots")
 def test_an_earlier_comparison_is_replaced_only_if_that_was_said(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -53,6 +61,7 @@ def test_an_earlier_comparison_is_replaced_only_if_that_was_said(
     assert "holds 'thesis.txt', which does not belong there" in one_line(capsys)
 
 
+@pytest.mark.usefixtures("without_plots")
 def test_another_experiment_is_refused_in_one_line_and_forced_with_a_warning(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -68,6 +77,7 @@ def test_another_experiment_is_refused_in_one_line_and_forced_with_a_warning(
     assert json.loads(Path("comparison/comparison.json").read_text())["differing_experiments"]
 
 
+@pytest.mark.usefixtures("without_plots")
 def test_the_baseline_may_be_among_the_results_or_not(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -78,6 +88,7 @@ def test_the_baseline_may_be_among_the_results_or_not(
     assert one["pairs"] == other["pairs"]
 
 
+@pytest.mark.usefixtures("without_plots")
 def test_results_of_one_algorithm_are_told_apart_by_their_directories(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
-import sys
+import runpy
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -33,26 +32,27 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def said_by(program: str, folder: Path) -> str:
-    (folder / "program.py").write_text(program)
-    done = subprocess.run(
-        [sys.executable, "program.py"],
-        cwd=folder,
-        env=os.environ | {"PYTHONPATH": str(PAGE.parents[1] / "src")},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+@pytest.fixture
+def said_by(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[[str], str]:
+    """Run a program in the folder, as ``python program.py`` would; return what it prints."""
+
+    def run(program: str) -> str:
+        (folder / "program.py").write_text(program)
+        monkeypatch.chdir(folder)
+        runpy.run_path("program.py", run_name="__main__")
+        return capsys.readouterr().out
+
+    return run
 
 
-def test_a_newcomers_vehicle_swims_as_the_page_shows(folder: Path) -> None:
-    assert said_by("".join(blocks("python")[:2]), folder) in blocks("text")
+def test_a_newcomers_vehicle_swims_as_the_page_shows(said_by: Callable[[str], str]) -> None:
+    assert said_by("".join(blocks("python")[:2])) in blocks("text")
 
 
-def test_it_swims_in_a_scene_as_the_page_shows(folder: Path) -> None:
-    assert said_by(blocks("python")[2], folder) in blocks("text")
+def test_it_swims_in_a_scene_as_the_page_shows(said_by: Callable[[str], str]) -> None:
+    assert said_by(blocks("python")[2]) in blocks("text")
 
 
 def test_the_page_names_every_element() -> None:
