@@ -1,5 +1,6 @@
 """A simulated Girona 500 under its autopilot, in still and in moving water."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from importlib import resources
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 from uwsim.currents import ConstantSpec, Place
 from uwsim.errors import BadSetting, RunFailed
 from uwsim.messages import Twist, TwistStamped, Vector3, header
+from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 
@@ -155,3 +157,32 @@ def test_without_a_simulated_vehicle_a_step_may_be_long() -> None:
     vehicle = replace(scene.vehicles[0], dynamics=None, virtual_cameras=())
     still = replace(scene, vehicles=(vehicle,), ros_interfaces=())
     Simulation(still, timestep=0.05, is_blind=True).close()
+
+
+class Asked:
+    """Still water that remembers where it was asked about."""
+
+    def __init__(self) -> None:
+        self.points: list[list[float]] = []
+        self.names: set[str] = set()
+
+    def velocity(self, points: np.ndarray, time: float, vehicles: Sequence[str] = ()) -> np.ndarray:
+        self.points += points.tolist()
+        self.names |= set(vehicles)
+        return np.zeros((len(points), 3))
+
+    acceleration = velocity
+
+
+def test_water_is_asked_only_where_it_acts() -> None:
+    scene = read_scene(SCENE)
+    vehicle = replace(scene.vehicles[0], virtual_cameras=())
+    simulation = Simulation(replace(scene, vehicles=(vehicle,)), is_blind=True)
+    simulation.open()
+    asked = Asked()
+    simulation.set_current(asked)
+    simulation.advance()
+    assert asked.names == {"girona500"}
+    assert len(asked.points) == 2 * len(read_vehicle(vehicle_sets()["g500_physical"]).bodies)
+    away = np.linalg.norm(np.array(asked.points) - vehicle.position, axis=1)
+    assert away.max() < 2.0

@@ -72,9 +72,9 @@ class PythonFunction(Current):
     """What ``function(point, time, vehicle)`` returns: three numbers, the velocity in L [m/s].
 
     ``point`` is in L, (3,) [m], its own copy; ``time`` is simulation time [s]; ``vehicle`` is the
-    name of the vehicle whose part is there, ``""`` for anything else. The function is called for
-    every body at every step and twice more for the acceleration, so its cost is the simulation's; a
-    result is repeatable only if it depends on its arguments alone.
+    name of the vehicle whose part is there, ``""`` for a loose object. The function is called at
+    every step for every body that the water acts on, and twice more for the acceleration, so its
+    cost is the simulation's; a result is repeatable only if it depends on its arguments alone.
     """
 
     def __init__(self, name: str, function: Function) -> None:

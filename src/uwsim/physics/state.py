@@ -80,6 +80,9 @@ class State:
         self._n_steps = 0
         self._pilot_steps = max(1, round(PILOT_PERIOD / timestep))
         self._water: Hydrodynamics | None = _water_of(self._model) if dynamics else None
+        bases = {self._bases[i] for i in dynamics}  # autopilots feel the water there
+        self._wet = np.array(sorted({*(self._water.bodies if self._water else ()), *bases}), int)
+        self._base_rows = {i: self._wet.tolist().index(self._bases[i]) for i in dynamics}
         self._over_ground = {i: scene.vehicles[i].velocity_loop == "ground" for i in dynamics}
         self._kinematic = [i for i in robots if i not in dynamics]
         self.version = 0
@@ -110,16 +113,16 @@ class State:
         """Whether a vehicle is moved by forces."""
         return index in self._dynamics
 
-    def body_positions(self) -> Array:
-        """Return where the bodies of the model are, in W, (nbody, 3) [m]."""
+    def wet_positions(self) -> Array:
+        """Return where the bodies are that the water acts on, in W, (n, 3) [m]."""
         self._refresh()
-        positions: Array = self._origins.copy()
+        positions: Array = self._origins[self._wet]
         return positions
 
-    def body_vehicles(self) -> tuple[int | None, ...]:
-        """Return the number of the vehicle that each body of the model belongs to."""
+    def wet_vehicles(self) -> tuple[int | None, ...]:
+        """Return the number of the vehicle that each of them belongs to."""
         numbers: list[int | None] = []
-        for i in range(self._model.nbody):
+        for i in self._wet.tolist():
             parts = self._model.body(i).name.split("/")
             numbers.append(int(parts[1]) if parts[0] == "vehicle" else None)
         return tuple(numbers)
@@ -128,15 +131,15 @@ class State:
         """Let the forces act for one step.
 
         Args:
-            velocity: of the water at each body, in W, (nbody, 3) [m/s].
-            acceleration: of the water there, in W, (nbody, 3) [m/s2].
+            velocity: of the water at each body that it acts on, in W, (n, 3) [m/s].
+            acceleration: of the water there, in W, (n, 3) [m/s2].
 
         Raises:
             RunFailed: the engine warned: what follows would not be true.
         """
         if self._water is None:
             return
-        self._water.set_current(self._data, velocity, acceleration)
+        self._water.set_current(self._data, velocity, acceleration, body=self._wet)
         if self._n_steps % self._pilot_steps == 0:
             for index, pilot in self._pilots.items():
                 self._fly(index, pilot, velocity)
@@ -280,7 +283,7 @@ class State:
         twist = self.vehicle_velocity(index)
         pose = self.vehicle_pose(index)
         if not self._over_ground[index] and not pilot.is_over_ground:
-            twist[:3] -= pose.rotation.T.dot(velocity[self._bases[index]])
+            twist[:3] -= pose.rotation.T.dot(velocity[self._base_rows[index]])
         commands = pilot.thrust(pose, twist, self._pilot_steps * self._timestep)
         self._water.set_thrusters(self._data, commands, self._thrusters[index])
 

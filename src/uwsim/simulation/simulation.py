@@ -130,8 +130,8 @@ class Simulation:
         self._current: Flow | None = None
         self._timers: list[SampleTimer] = []
         self._watchers: list[Callable[[], None]] = []
-        self._body_names = tuple(
-            "" if i is None else scene.vehicles[i].name for i in self._state.body_vehicles()
+        self._wet_names = tuple(
+            "" if i is None else scene.vehicles[i].name for i in self._state.wet_vehicles()
         )
         self._swaying = [(i, v) for i, v in enumerate(scene.vehicles) if v.sways]
         robots = [self.robots[i] for i in range(len(scene.vehicles))]
@@ -230,10 +230,10 @@ class Simulation:
         if not self._state.is_dynamic:
             self._state.fall()
             return
-        points = self._localized_from_world.transform(self._state.body_positions())
+        points = self._localized_from_world.transform(self._state.wet_positions())
         time = self.time - self._timestep
-        velocity = self._flow.velocity(points, time, self._body_names)
-        acceleration = self._flow.acceleration(points, time, self._body_names)
+        velocity = self._flow.velocity(points, time, self._wet_names)
+        acceleration = self._flow.acceleration(points, time, self._wet_names)
         turn = self._localized_from_world.rotation
         self._thruster_faults.apply(time)
         self._state.step(velocity.dot(turn), acceleration.dot(turn))

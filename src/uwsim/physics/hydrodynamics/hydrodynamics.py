@@ -61,15 +61,15 @@ class Hydrodynamics:
         velocity: Sequence[float] | Floats,
         acceleration: Sequence[float] | Floats = (0.0, 0.0, 0.0),
         *,
-        body: int | None = None,
+        body: int | npt.NDArray[np.int64] | None = None,
     ) -> None:
-        """Let the water move at a body, or everywhere.
+        """Let the water move at a body or some, or everywhere.
 
         Args:
             data: the state.
-            velocity: of the water in W, (3,) [m/s]; with ``body`` None also (nbody, 3).
+            velocity: of the water in W, (3,) [m/s]; of several bodies also (n, 3).
             acceleration: of the water in W, the same shapes [m/s2].
-            body: id in the model; None for all.
+            body: id in the model, or (n,) such; None for all.
         """
         rows = self.water(data)
         chosen = slice(None) if body is None else body
