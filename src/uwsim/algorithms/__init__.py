@@ -12,6 +12,7 @@ from .direct import Esm, InverseCompositional, SsdEsm
 from .ecc import Ecc
 from .frozen import Frozen
 from .orb import Orb
+from .scripted import Scripted
 from .tracker_node import chosen
 
 __all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
@@ -24,6 +25,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "orb": Orb,
     "p": P,
     "pi": PI,
+    "scripted": Scripted,
     "ssd-esm": SsdEsm,
 }
 

@@ -1,0 +1,87 @@
+"""``scripted``: what original benchmarks wait for is done, level after level."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from uwsim.algorithms.scripted import Scripted, twist_of
+from uwsim.benchmark.plan import Plan
+from uwsim.benchmark.play import Row, play
+from uwsim.benchmark.reader import read_benchmark
+from uwsim.cli.files import bundled
+from uwsim.errors import BadSetting, NeverStarted
+from uwsim.scene.reader import read_scene
+from uwsim.scene.ros_interfaces import ROSTwistToPATSpec
+
+DISTANCE = """<distance> <name>way</name> <target>girona500</target>
+  <startOn> {gate} </startOn> <stopOn> <type>never</type> </stopOn> </distance>"""
+FILE = """<benchmark> <measures> {measure} </measures>
+  <startOn> <type>service</type> <target>startBench</target> </startOn>
+  <stopOn> {stop} </stopOn>
+  <function>way</function>
+  <sceneUpdater> {updater} </sceneUpdater> </benchmark>"""
+REPEAT = "<repeat> <iterations>3</iterations> <interval>2</interval> </repeat>"
+ON_INIT = "<type>onInit</type>"
+STOP = "<type>service</type> <target>stopBench</target>"
+DRIVE = {"twist_topic": "/twist", "twist": "0.5 0 0 0 0 0"}
+
+
+def rows(
+    tmp_path: Path,
+    *,
+    gate: str = ON_INIT,
+    stop: str = STOP,
+    updater: str = "<none/>",
+    **given: object,
+) -> list[Row]:
+    file = tmp_path / "benchmark.xml"
+    file.write_text(FILE.format(measure=DISTANCE.format(gate=gate), stop=stop, updater=updater))
+    scene = read_scene(bundled("scenes")["visibility-scene"])
+    twist = ROSTwistToPATSpec(topic="/twist", vehicle_name="girona500")
+    plan = Plan(
+        benchmark=read_benchmark(file),
+        scene=replace(scene, ros_interfaces=(twist,)),
+        algorithm=Scripted,
+        algorithm_name="scripted",
+        parameters=given,  # type: ignore[arg-type]
+        is_blind=True,
+    )
+    return [row for unit in plan.units() for row in play(plan, unit) if isinstance(row, Row)]
+
+
+def test_a_task_lasts_from_its_start_to_its_stop(tmp_path: Path) -> None:
+    [row] = rows(tmp_path, stop_after=1.0, **DRIVE)
+    assert (row.status, row.duration) == ("ok", 1.0)
+    assert row.total == pytest.approx(0.45)  # nine jumps of 0.05 m
+
+
+def test_it_waits_before_it_starts(tmp_path: Path) -> None:
+    [row] = rows(tmp_path, start_after=0.4, stop_after=1.0)
+    assert row.duration == pytest.approx(0.6)
+
+
+def test_every_level_is_started_and_stopped(tmp_path: Path) -> None:
+    played = rows(tmp_path, updater=REPEAT, stop_after=1.0, **DRIVE)
+    assert [row.status for row in played] == ["ok"] * 3
+    assert [row.duration for row in played] == pytest.approx([1.0] * 3, abs=0.01)
+
+
+def test_a_measure_that_waits_for_a_topic_begins_in_every_level(tmp_path: Path) -> None:
+    gate = "<type>topic</type> <target>/go</target>"
+    never = "<type>never</type>"
+    played = rows(tmp_path, gate=gate, stop=never, updater=REPEAT, start_topics="/go", **DRIVE)
+    assert all(row.total is not None and row.total > 0.8 for row in played)
+
+
+def test_without_its_call_nothing_starts(tmp_path: Path) -> None:
+    with pytest.raises(NeverStarted, match="startBench"):
+        rows(tmp_path, start="somebodyElse")
+
+
+@pytest.mark.parametrize("text", ["", "1 2 3", "0 0 0 0 0 nan", "a b c d e f"])
+def test_a_twist_is_six_numbers(text: str) -> None:
+    with pytest.raises(BadSetting, match="expected six numbers"):
+        twist_of(text)
