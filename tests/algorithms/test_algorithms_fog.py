@@ -29,7 +29,7 @@ def contrast_at_loss(sigma: float, zncc_threshold: float, *, seed: int) -> float
     tracker = DirectTracker.remember(first, QUAD, levels=3, method=Method())
     assert isinstance(tracker, DirectTracker)
     loss = LossTest(zncc_threshold=zncc_threshold, frames=5)
-    transmission = 3.0 * law(picture, sigma, zncc_threshold)
+    transmission = 1.5 * law(picture, sigma, zncc_threshold)
     while transmission > 0.01:
         transmission *= 0.98
         for _ in range(10):

@@ -224,7 +224,7 @@ def test_without_measures_there_is_still_a_report(tmp_path: Path) -> None:
 def test_uwsim_report_draws_it_again_from_the_directory_or_the_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    save(visibility(), tmp_path)
+    save(one_level(), tmp_path)
     assert main(["report", str(tmp_path)]) == 0
     first = (tmp_path / "report.html").read_bytes()
     assert main(["report", str(tmp_path / "result.json")]) == 0
