@@ -52,6 +52,8 @@ class Gains:
     """Angular acceleration per pitch angle [1/s2]."""
 
 
+N_POINTS = 401
+"""Of a thruster's curve as the autopilot knows it."""
 LEAST_LAG = 0.08
 """Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
 LARGEST = 1e6
@@ -97,8 +99,8 @@ class Autopilot:
         self._share = np.ascontiguousarray(np.linalg.pinv(reached, rcond=1e-6))
         curves = [_curve(thruster) for thruster in vehicle.thrusters]
         self._curves = (
-            np.array([thrusts for thrusts, _ in curves]).reshape(len(curves), -1),
-            np.array([commands for _, commands in curves]).reshape(len(curves), -1),
+            np.array([thrusts for thrusts, _ in curves]).reshape(-1, N_POINTS),
+            np.array([commands for _, commands in curves]).reshape(-1, N_POINTS),
         )
         ends = [(thrusts[0], thrusts[-1]) for thrusts, _ in curves]
         self._least, self._greatest = np.array(ends).reshape(-1, 2).T.copy()  # (n,) [N]
@@ -199,7 +201,7 @@ def _column(thruster: ThrusterSpec, reference: Array) -> Array:
 
 def _curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
     """Thrust [N] and the command that gives it [1], both rising."""
-    commands = np.linspace(*thruster.limits, 401)
+    commands = np.linspace(*thruster.limits, N_POINTS)
     backward = thruster.forward if thruster.backward is None else thruster.backward
     thrusts = []
     for command in commands:
