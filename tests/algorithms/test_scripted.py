@@ -14,7 +14,7 @@ from uwsim.benchmark.reader import read_benchmark
 from uwsim.cli.files import bundled
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import ROSTwistToPATSpec
+from uwsim.scene.ros_interfaces import ROSOdomToPATSpec, ROSTwistToPATSpec
 
 DISTANCE = """<distance> <name>way</name> <target>girona500</target>
   <startOn> {gate} </startOn> <stopOn> <type>never</type> </stopOn> </distance>"""
@@ -41,9 +41,10 @@ def rows(
     file.write_text(FILE.format(measure=DISTANCE.format(gate=gate), stop=stop, updater=updater))
     scene = read_scene(bundled("scenes")["visibility-scene"])
     twist = ROSTwistToPATSpec(topic="/twist", vehicle_name="girona500")
+    odometry = ROSOdomToPATSpec(topic="/odom", vehicle_name="girona500")
     plan = Plan(
         benchmark=read_benchmark(file),
-        scene=replace(scene, ros_interfaces=(twist,)),
+        scene=replace(scene, ros_interfaces=(twist, odometry)),
         algorithm=Scripted,
         algorithm_name="scripted",
         parameters=given,  # type: ignore[arg-type]
@@ -52,8 +53,9 @@ def rows(
     return [row for unit in plan.units() for row in play(plan, unit) if isinstance(row, Row)]
 
 
-def test_a_task_lasts_from_its_start_to_its_stop(tmp_path: Path) -> None:
-    [row] = rows(tmp_path, stop_after=1.0, **DRIVE)
+@pytest.mark.parametrize(("drive", "topic"), [("twist_topic", "/twist"), ("odom_topic", "/odom")])
+def test_a_task_lasts_from_its_start_to_its_stop(tmp_path: Path, drive: str, topic: str) -> None:
+    [row] = rows(tmp_path, stop_after=1.0, **{drive: topic}, twist=DRIVE["twist"])
     assert (row.status, row.duration) == ("ok", 1.0)
     assert row.total == pytest.approx(0.45)  # nine jumps of 0.05 m
 

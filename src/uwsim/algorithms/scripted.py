@@ -7,9 +7,24 @@ from collections.abc import Mapping
 from contextlib import suppress
 from typing import ClassVar
 
+import numpy as np
+
 from ..bus import Node
 from ..errors import BadSetting, UnknownName
-from ..messages import Bool, Empty, Twist, TwistStamped, Vector3, header
+from ..messages import (
+    Bool,
+    Empty,
+    Odometry,
+    Point,
+    Pose,
+    PoseWithCovariance,
+    Quaternion,
+    Twist,
+    TwistStamped,
+    TwistWithCovariance,
+    Vector3,
+    header,
+)
 from .tracker_node import chosen
 
 PERIOD = 0.1
@@ -33,6 +48,7 @@ class Scripted:
         "stop_topics": "",
         "stop_after": 10.0,
         "twist_topic": "",
+        "odom_topic": "",
         "twist": "0 0 0 0 0 0",
     }
 
@@ -55,12 +71,13 @@ class Scripted:
         node.every(PERIOD, begin)
         if stop_after > 0.0:
             node.every(stop_after, end)
+        twist = twist_of(str(self.parameters["twist"]))
         if topic := str(self.parameters["twist_topic"]):
-            twist, say = (
-                twist_of(str(self.parameters["twist"])),
-                node.publisher(topic, TwistStamped),
-            )
+            say = node.publisher(topic, TwistStamped)
             node.every(PERIOD, lambda: say(TwistStamped(header=header(node.now), twist=twist)))
+        if topic := str(self.parameters["odom_topic"]):
+            tell = node.publisher(topic, Odometry)
+            node.every(PERIOD, lambda: tell(odometry(node.now, twist)))
 
     def _doer(self, what: str) -> Doer:
         services = str(self.parameters[what]).split()
@@ -101,3 +118,15 @@ def twist_of(text: str) -> Twist:
         )
     vx, vy, vz, wx, wy, wz = numbers
     return Twist(linear=Vector3(x=vx, y=vy, z=vz), angular=Vector3(x=wx, y=wy, z=wz))
+
+
+def odometry(time: float, twist: Twist) -> Odometry:
+    """A message that says a twist to ``ROSOdomToPAT``: its pose is all zero."""
+    upright = Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
+    nowhere = Pose(position=Point(x=0.0, y=0.0, z=0.0), orientation=upright)
+    return Odometry(
+        header=header(time),
+        child_frame_id="",
+        pose=PoseWithCovariance(pose=nowhere, covariance=np.zeros(36)),
+        twist=TwistWithCovariance(twist=twist, covariance=np.zeros(36)),
+    )
