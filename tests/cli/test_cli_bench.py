@@ -1,6 +1,8 @@
 """``uwsim bench`` with several algorithms, other workers, and algorithms that break."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -107,6 +109,40 @@ def test_options_that_cannot_be_read_are_said_all_at_once(
     assert main(["envelope", "visibility"]) == 2
     said = capsys.readouterr().err
     assert said == "uwsim: Missing option '--over'.\nuwsim: Missing option '--until'.\n"
+
+
+DIES = """
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+class Dies:
+    def start(self, node):
+        from uwsim.messages import Empty
+        node.call("startBench", Empty())
+        is_deadly = Path("deadly").exists()
+        node.every(0.02, lambda: os._exit(3) if is_deadly and node.now > 0.3 else None)
+
+ALGORITHMS = {"dies": Dies}
+"""
+
+
+@pytest.mark.slow
+def test_a_run_that_a_plugin_ended_keeps_its_rows_and_goes_on(
+    benchmark: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("dies.py").write_text(DIES)
+    call = ["bench", benchmark, "--algorithm", "dies", "--plugin", "dies.py", "--out"]
+    assert main([*call, "whole"]) == 0
+    Path("deadly").touch()
+    died = subprocess.run([sys.executable, "-m", "uwsim.cli", *call, "out"], check=False)
+    assert died.returncode == 3
+    assert len(Path("out/units/00000.jsonl").read_text().splitlines()) == 2  # its head, one row
+    Path("deadly").unlink()
+    assert main([*call, "out", "--resume"]) == 0
+    assert fingerprint(Path("out")) == fingerprint(Path("whole"))
 
 
 def test_workers_are_a_number_or_ray() -> None:
