@@ -6,7 +6,9 @@ from collections.abc import Sequence
 
 import moderngl
 import numpy as np
+import numpy.typing as npt
 
+from ..errors import UnknownName
 from ..geometry import Array, Pose
 from .gpu_model import Batch
 from .program import Block
@@ -18,46 +20,135 @@ STRIDE = 256
 """Bytes from slot to slot in the buffer of instances; every driver's alignment divides it."""
 
 
-class Instance:
-    """A model that stands somewhere in W."""
+class Instances:
+    """Models that stand somewhere in W; what follows from their places is reckoned for all at once.
 
-    def __init__(self, batches: tuple[Batch, ...], id: int) -> None:
-        self.batches = batches
-        """What is drawn."""
-        self.id = id
-        """Its number in the id picture, 1..65535."""
-        self.world_from_model: Array = np.eye(4)
-        """(4, 4); may carry scale, uneven or mirroring."""
-        self.normals: Array = np.eye(3)
-        """World normals from model normals, (3, 3)."""
-        self.is_mirrored = False
-        """Whether the matrix turns left into right."""
-        self.spheres: Array = np.zeros((0, 4))
-        """Bounding spheres of the batches in W: centre and radius, (n, 4) [m]."""
-        self.corners: Array = np.zeros((0, 8, 3))
-        """Corners of the batches' bounding boxes in W, (n, 8, 3) [m]."""
-        self.place(self.world_from_model)
+    They are told by handles; arrays of them go by rows, in the order in which they were added.
+    """
 
-    def place(self, world_from_model: Array) -> None:
-        """Stand it somewhere else."""
-        self.world_from_model = np.array(world_from_model, dtype=np.float64)
-        linear, origin = self.world_from_model[:3, :3], self.world_from_model[:3, 3]
-        self.normals = np.linalg.inv(linear).T.astype(np.float64)
-        self.is_mirrored = bool(np.linalg.det(linear) < 0.0)
-        # The largest row sum of A'A bounds the square of the largest stretch; exact without shear.
-        stretch = float(np.sqrt(np.abs(linear.T @ linear).sum(axis=1).max()))
-        centres = np.array([batch.centre for batch in self.batches]).reshape(-1, 3)
-        centres = centres @ linear.T + origin
-        radii = np.array([batch.radius for batch in self.batches]) * stretch
-        self.spheres = np.column_stack([centres, radii])
-        boxes = np.array([batch.corners for batch in self.batches]).reshape(-1, 8, 3)
-        self.corners = boxes @ linear.T + origin
+    def __init__(self) -> None:
+        self.version = 0
+        """Grows with every change of anything that may cast a shadow."""
+        self._next_handle = 1
+        self.clear()
+
+    def clear(self) -> None:
+        """Take all of them away."""
+        self.version += 1
+        self._rows: dict[int, int] = {}
+        self.ids: list[int] = []
+        """Their numbers in the id picture, 1..65535."""
+        self.batches: list[tuple[Batch, ...]] = []
+        """What is drawn for each."""
+        self.world_from_model: Array = np.zeros((0, 4, 4))
+        """(n, 4, 4); may carry scale, uneven or mirroring."""
+        self._stand()
+
+    def add(self, batches: tuple[Batch, ...], id: int) -> int:
+        """Put a model at the origin of W; returns its handle."""
+        handle = self._next_handle
+        self._next_handle += 1
+        self.version += 1
+        self._rows[handle] = len(self.ids)
+        self.ids.append(id)
+        self.batches.append(batches)
+        self.world_from_model = np.concatenate([self.world_from_model, np.eye(4)[None]])
+        self._stand()
+        return handle
+
+    def place(self, handle: int, world_from_model: Array) -> None:
+        """Stand one somewhere else; UnknownName if it is not there."""
+        row = self._row(handle)
+        if (self.world_from_model[row] != world_from_model).any():
+            self.world_from_model[row] = world_from_model
+            self.version += 1
+
+    def remove(self, handle: int) -> None:
+        """Take one away; UnknownName if it is not there."""
+        row = self._row(handle)
+        self.version += 1
+        del self._rows[handle], self.ids[row], self.batches[row]
+        self._rows = {h: r - (r > row) for h, r in self._rows.items()}
+        self.world_from_model = np.delete(self.world_from_model, row, axis=0)
+        self._stand()
+
+    def without(self, hidden: frozenset[int]) -> list[int]:
+        """Rows of those whose ids are not hidden."""
+        return [row for row, id in enumerate(self.ids) if id not in hidden]
 
     @property
-    def radius(self) -> float:
-        """Half the longest side of the box around its spheres [m]."""
-        centres, radii = self.spheres[:, :3], self.spheres[:, 3:]
-        return float(((centres + radii).max(axis=0) - (centres - radii).min(axis=0)).max()) / 2.0
+    def normals(self) -> Array:
+        """World normals from model normals, (n, 3, 3)."""
+        self._follow()
+        return self._normals
+
+    @property
+    def is_mirrored(self) -> list[bool]:
+        """Whether the matrix turns left into right, for each."""
+        self._follow()
+        return self._is_mirrored
+
+    @property
+    def radii(self) -> Array:
+        """Half the longest side of the box around each one's spheres, (n,) [m]."""
+        self._follow()
+        return self._radii
+
+    def owned(self, rows: Sequence[int]) -> tuple[npt.NDArray[np.intp], Array, Array]:
+        """Which batches the rows have, and their bounds.
+
+        Returns:
+            Numbers of the batches, in the order of `batches` (m,); bounding spheres in W, centre
+            and radius (m, 4) [m]; corners of the bounding boxes in W (m, 8, 3) [m].
+        """
+        self._follow()
+        if len(rows) == len(self.ids):
+            return np.arange(len(self._owners)), self._spheres, self._corners
+        chosen = np.flatnonzero(np.isin(self._owners, rows))
+        return chosen, self._spheres[chosen], self._corners[chosen]
+
+    def batch(self, number: int) -> tuple[int, Batch]:
+        """Row and batch of a number that `owned` gave."""
+        return self._drawn[number]
+
+    def _row(self, handle: int) -> int:
+        if handle not in self._rows:
+            raise UnknownName("instance", str(handle), map(str, self._rows))
+        return self._rows[handle]
+
+    def _stand(self) -> None:
+        """Take note of which batches there are."""
+        self._drawn = [
+            (row, batch) for row, several in enumerate(self.batches) for batch in several
+        ]
+        self._owners = np.array([row for row, _ in self._drawn], dtype=np.intp)
+        batches = [batch for _, batch in self._drawn]
+        self._own_centres = np.array([batch.centre for batch in batches]).reshape(-1, 3)
+        self._own_radii = np.array([batch.radius for batch in batches])
+        self._own_corners = np.array([batch.corners for batch in batches]).reshape(-1, 8, 3)
+        self._followed = -1  # the version that normals and bounds are of
+
+    def _follow(self) -> None:
+        """Bring normals and bounds up to date."""
+        if self._followed == self.version:
+            return
+        self._followed = self.version
+        linear, origin = self.world_from_model[:, :3, :3], self.world_from_model[:, :3, 3]
+        self._normals: Array = np.linalg.inv(linear).transpose(0, 2, 1)
+        self._is_mirrored: list[bool] = (np.linalg.det(linear) < 0.0).tolist()
+        # The largest row sum of A'A bounds the square of the largest stretch; exact without shear.
+        squares = np.abs(linear.transpose(0, 2, 1) @ linear).sum(axis=2).max(axis=1)
+        stretch = np.sqrt(squares)[self._owners]
+        turn, shift = linear[self._owners].transpose(0, 2, 1), origin[self._owners]
+        centres = (self._own_centres[:, None] @ turn)[:, 0] + shift
+        radii = self._own_radii * stretch
+        self._spheres: Array = np.column_stack([centres, radii])
+        self._corners: Array = self._own_corners @ turn + shift[:, None]
+        high = np.full((len(self.ids), 3), -np.inf)
+        low = np.full((len(self.ids), 3), np.inf)
+        np.maximum.at(high, self._owners, centres + radii[:, None])
+        np.minimum.at(low, self._owners, centres - radii[:, None])
+        self._radii: Array = (high - low).max(axis=1, initial=-np.inf) / 2.0
 
 
 class Slots:
@@ -76,19 +167,19 @@ class Slots:
         self._values = np.zeros(64, dtype=self._DTYPE)
         self._buffer = context.buffer(reserve=self._values.nbytes, dynamic=True)
 
-    def fill(self, instances: Sequence[Instance], camera_from_world: Array) -> None:
-        """Give every instance its slot, in order."""
-        if not instances:
+    def fill(self, instances: Instances, rows: Sequence[int], camera_from_world: Array) -> None:
+        """Give every one of the rows its slot, in order."""
+        if not rows:
             return
-        if len(self._values) < len(instances):
-            self._values = np.zeros(2 * len(instances), dtype=self._DTYPE)
+        if len(self._values) < len(rows):
+            self._values = np.zeros(2 * len(rows), dtype=self._DTYPE)
             self._buffer.orphan(self._values.nbytes)
-        models = camera_from_world @ np.array([i.world_from_model for i in instances])
-        normals = camera_from_world[:3, :3] @ np.array([i.normals for i in instances])
-        values = self._values[: len(instances)]
+        models = camera_from_world @ instances.world_from_model[rows]
+        normals = camera_from_world[:3, :3] @ instances.normals[rows]
+        values = self._values[: len(rows)]
         values["camera_from_model"] = models.transpose(0, 2, 1)  # OpenGL counts columns first
         values["camera_normals"][:, :3, :3] = normals.transpose(0, 2, 1)
-        values["identity"][:, 0] = [i.id for i in instances]
+        values["identity"][:, 0] = [instances.ids[row] for row in rows]
         self._buffer.write(values.tobytes())
 
     def bind(self, slot: int) -> None:
@@ -99,7 +190,7 @@ class Slots:
 
 
 def in_view(
-    instances: Sequence[Instance], world_from_camera: Pose, planes: Array
+    instances: Instances, rows: Sequence[int], world_from_camera: Pose, planes: Array
 ) -> list[tuple[int, Batch]]:
     """Slots and batches whose bounds reach into the frustum, near ones first.
 
@@ -109,20 +200,24 @@ def in_view(
     the tank's pixels behind them are never shaded.
 
     Args:
-        instances: In the order of their slots.
+        instances: All there are.
+        rows: Of those that are looked at, in the order of their slots.
         world_from_camera: Where the camera is.
         planes: Of the frustum, camera frame, (6, 4).
     """
-    if not instances:
+    numbers, spheres, corners = instances.owned(rows)
+    if not len(numbers):
         return []
-    spheres = np.concatenate([instance.spheres for instance in instances])  # (n, 4) [m]
     centres = (spheres[:, :3] - world_from_camera.position) @ world_from_camera.rotation
     beyond = centres @ planes[:, :3].T + planes[:, 3] + spheres[:, 3:]  # (n, 6) [m]
     nearness = np.linalg.norm(centres, axis=1) + spheres[:, 3]
-    owners = [(slot, batch) for slot, i in enumerate(instances) for batch in i.batches]
-    visible = (beyond > 0.0).all(axis=1)
-    corners = np.concatenate([instance.corners for instance in instances])  # (n, 8, 3) [m]
     points = (corners - world_from_camera.position) @ world_from_camera.rotation
     inside = points @ planes[:, :3].T + planes[:, 3] > 0.0  # (n, 8, 6)
-    visible &= np.all(inside.any(axis=1), axis=1)
-    return [owners[n] for n in np.argsort(nearness, kind="stable") if visible[n]]
+    visible = np.all(beyond > 0.0, axis=1) & np.all(np.any(inside, axis=1), axis=1)
+    slots = {row: slot for slot, row in enumerate(rows)}
+    seen = []
+    for n in np.argsort(nearness, kind="stable").tolist():
+        if visible[n]:
+            row, batch = instances.batch(int(numbers[n]))
+            seen.append((slots[row], batch))
+    return seen

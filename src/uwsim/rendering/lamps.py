@@ -12,7 +12,7 @@ import moderngl
 import numpy as np
 
 from ..geometry import Array, Intrinsics, Pose
-from .instance import INSTANCE, Instance, Slots, in_view
+from .instance import INSTANCE, Instances, Slots, in_view
 from .lamp import Lamp
 from .program import Block, build
 from .projection import clip_from_camera, frustum
@@ -60,12 +60,19 @@ class Lamps:
         self.n_drawn = 0
         """How many maps were drawn since the beginning."""
 
-    def update(self, lamps: Sequence[Lamp], casters: Sequence[Instance], version: object) -> None:
+    def update(
+        self,
+        lamps: Sequence[Lamp],
+        instances: Instances,
+        casters: Sequence[int],
+        version: object,
+    ) -> None:
         """Draw the maps that are no longer right.
 
         Args:
             lamps: What shines, in the order of the tiles.
-            casters: What may stand in the light; terrain, too.
+            instances: All there are.
+            casters: Rows of what may stand in the light; terrain, too.
             version: Changes whenever a caster moved, came or went.
         """
         for tile, lamp in enumerate(lamps):
@@ -78,7 +85,7 @@ class Lamps:
             )
             if key != self._drawn[tile]:
                 self._drawn[tile] = key
-                self._draw(tile, lamp, casters if lamp.casts_shadow else ())
+                self._draw(tile, lamp, instances, casters if lamp.casts_shadow else ())
 
     def fill(self, lamps: Sequence[Lamp], world_from_camera: Pose) -> None:
         """Write what the shaders read and bind it."""
@@ -98,7 +105,7 @@ class Lamps:
         self._buffer.write(values.tobytes())
         self._buffer.bind_to_uniform_block(LAMPS.binding)
 
-    def _draw(self, tile: int, lamp: Lamp, casters: Sequence[Instance]) -> None:
+    def _draw(self, tile: int, lamp: Lamp, instances: Instances, casters: Sequence[int]) -> None:
         context, view = self._context, _map_camera(lamp)
         clip_from_lamp = clip_from_camera(view)
         place = TILE * (tile % 2), TILE * (tile // 2), TILE, TILE
@@ -109,15 +116,15 @@ class Lamps:
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
-        slots = self._slots[tile]
-        slots.fill(casters, clip_from_lamp @ lamp.world_from_lamp.inverse().matrix)
-        for slot, batch in in_view(casters, lamp.world_from_lamp, frustum(clip_from_lamp)):
+        slots, planes = self._slots[tile], frustum(clip_from_lamp)
+        slots.fill(instances, casters, clip_from_lamp @ lamp.world_from_lamp.inverse().matrix)
+        for slot, batch in in_view(instances, casters, lamp.world_from_lamp, planes):
             if batch.two_sided:
                 context.disable(moderngl.CULL_FACE)
             else:
                 context.enable(moderngl.CULL_FACE)
             # As in the renderer's pictures: upside down for OpenGL, so outside is clockwise.
-            context.front_face = "ccw" if casters[slot].is_mirrored else "cw"
+            context.front_face = "ccw" if instances.is_mirrored[casters[slot]] else "cw"
             slots.bind(slot)
             batch.draw(self._program)
         context.polygon_offset = 0.0, 0.0

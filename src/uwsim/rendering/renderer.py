@@ -12,12 +12,11 @@ from dataclasses import dataclass
 import moderngl
 
 from ..assets.mesh import Model
-from ..errors import UnknownName
 from ..geometry import Array, Intrinsics, Pose
 from .context import create_context
 from .frame import FRAME, Frame
 from .gpu_model import GpuModels
-from .instance import INSTANCE, Instance, Slots, in_view
+from .instance import INSTANCE, Instances, Slots, in_view
 from .lamp import Lamp
 from .lamps import LAMPS, MOST_LAMPS, Lamps
 from .picture import Picture
@@ -75,9 +74,7 @@ class Renderer:
         self.description = f"{facts['GL_RENDERER']}, {facts['GL_VERSION']}"
         """What draws: ``llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6``."""
         self._models = GpuModels(self._context)
-        self._instances: dict[int, Instance] = {}
-        self._next_handle = 1
-        self._version = 0  # counts changes of anything that may cast a shadow
+        self._instances = Instances()
         self._programs: dict[tuple[object, ...], moderngl.Program] = {}
         self._empty: dict[int, moderngl.VertexArray] = {}
         self._targets: dict[tuple[object, ...], Targets] = {}
@@ -99,29 +96,19 @@ class Renderer:
             raise ValueError(f"the id {id} is not in 1..65535")
         with self._context:
             batches = self._models.upload(model)
-        handle = self._next_handle
-        self._instances[handle] = Instance(batches, id)
-        self._next_handle += 1
-        self._version += 1
-        return handle
+        return self._instances.add(batches, id)
 
     def place(self, handle: int, world_from_model: Array) -> None:
         """Move an instance; the matrix (4, 4) may carry scale."""
-        instance = self._find(handle)
-        if (instance.world_from_model != world_from_model).any():
-            instance.place(world_from_model)
-            self._version += 1
+        self._instances.place(handle, world_from_model)
 
     def remove(self, handle: int) -> None:
         """Take an instance out of the scene."""
-        self._find(handle)
-        del self._instances[handle]
-        self._version += 1
+        self._instances.remove(handle)
 
     def clear(self) -> None:
         """Take every instance out of the scene; what was uploaded stays, for whoever adds next."""
         self._instances.clear()
-        self._version += 1
 
     def draw(
         self,
@@ -160,7 +147,7 @@ class Renderer:
             wanted=wanted,
             hidden=hidden,
             store=colour,
-            version=self._version,
+            version=self._instances.version,
             lamps=tuple(lamps),
         )
         with self._context:
@@ -184,7 +171,7 @@ class Renderer:
     def _begin(self, view: View, world_from_camera: Pose) -> None:
         """Draw, without waiting until it is done."""
         water, light, hidden, lamps = view.water, view.light, view.hidden, view.lamps
-        seen = [i for i in self._instances.values() if i.id not in hidden]
+        seen = self._instances.without(hidden)
         clip = clip_from_camera(view.intrinsics)
         switches: Switches = ()
         if "colour" in view.wanted and light.shadows and self._cast(seen, light, hidden):
@@ -197,39 +184,36 @@ class Renderer:
             switches += (("LAMPS", len(lamps)),)
             self._shine(lamps, seen, world_from_camera, hidden)
         self._frame.fill(world_from_camera, view.intrinsics, clip, water, light, self._shadow)
-        self._slots.fill(seen, world_from_camera.inverse().matrix)
+        self._slots.fill(self._instances, seen, world_from_camera.inverse().matrix)
         self._draw_into(self._target(view), seen, world_from_camera, frustum(clip), switches)
 
-    def _find(self, handle: int) -> Instance:
-        if handle not in self._instances:
-            raise UnknownName("instance", str(handle), map(str, self._instances))
-        return self._instances[handle]
-
-    def _cast(self, seen: Sequence[Instance], light: Light, hidden: frozenset[int]) -> bool:
+    def _cast(self, seen: Sequence[int], light: Light, hidden: frozenset[int]) -> bool:
         """Bring the shadow map up to date; False when nothing casts a shadow."""
-        casters = [instance for instance in seen if instance.radius <= LARGEST_CASTER]
+        radii = self._instances.radii
+        casters = [row for row in seen if radii[row] <= LARGEST_CASTER]
         if casters:
-            self._shadow.update(casters, sun_direction(light.sun), (self._version, hidden))
+            version = self._instances.version, hidden
+            self._shadow.update(self._instances, casters, sun_direction(light.sun), version)
         return bool(casters)
 
     def _shine(
         self,
         lamps: Sequence[Lamp],
-        seen: Sequence[Instance],
+        seen: Sequence[int],
         world_from_camera: Pose,
         hidden: frozenset[int],
     ) -> None:
         """Bring the lamps and their maps up to date."""
         if self._lamps is None:
             self._lamps = Lamps(self._context)
-        self._lamps.update(lamps, seen, (self._version, hidden))
+        self._lamps.update(lamps, self._instances, seen, (self._instances.version, hidden))
         self._lamps.fill(lamps, world_from_camera)
         self._lamps.texture.use(SAMPLERS["lamp_maps"])
 
     def _draw_into(
         self,
         target: Targets,
-        seen: Sequence[Instance],
+        seen: Sequence[int],
         world_from_camera: Pose,
         planes: Array,
         switches: Switches,
@@ -241,13 +225,14 @@ class Renderer:
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<="
         self._shadow.texture.use(SAMPLERS["shadow_map"])
-        for slot, batch in in_view(seen, world_from_camera, planes):
+        is_mirrored = self._instances.is_mirrored
+        for slot, batch in in_view(self._instances, seen, world_from_camera, planes):
             if batch.two_sided:
                 context.disable(moderngl.CULL_FACE)
             else:
                 context.enable(moderngl.CULL_FACE)
             # The picture is upside down for OpenGL, so outside is clockwise unless mirrored.
-            context.front_face = "ccw" if seen[slot].is_mirrored else "cw"
+            context.front_face = "ccw" if is_mirrored[seen[slot]] else "cw"
             textured: Switches = ()
             if batch.texture is not None:
                 self._models.texture(batch.texture).use(SAMPLERS["base_map"])

@@ -8,7 +8,7 @@ import moderngl
 import numpy as np
 
 from ..geometry import Array
-from .instance import INSTANCE, Instance, Slots
+from .instance import INSTANCE, Instances, Slots
 from .program import build
 
 SMALL, LARGE = 512, 1024
@@ -50,11 +50,14 @@ class SunShadow:
         self.lift = 0.0
         """How far a receiver is pushed off along its normal [m]."""
 
-    def update(self, casters: Sequence[Instance], sun: Array, version: object) -> None:
+    def update(
+        self, instances: Instances, casters: Sequence[int], sun: Array, version: object
+    ) -> None:
         """Draw the map, unless ``version`` and ``sun`` are those of the last drawing.
 
         Args:
-            casters: What casts shadows.
+            instances: All there are.
+            casters: Rows of what casts shadows.
             sun: Unit vector towards the sun in W, (3,).
             version: Changes whenever a caster moved, came or went.
         """
@@ -62,7 +65,8 @@ class SunShadow:
         if key == self._drawn:
             return
         self._drawn = key
-        clip_from_world, edge = _fit(casters, sun)
+        _, spheres, _ = instances.owned(casters)
+        clip_from_world, edge = _fit(spheres, sun)
         size = SMALL if edge / SMALL <= FINE_TEXEL else LARGE
         self.texture = self._maps[size]
         self.texture_from_world = _TO_TEXTURE @ clip_from_world
@@ -73,11 +77,11 @@ class SunShadow:
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
-        self._slots.fill(casters, clip_from_world)
-        for slot, caster in enumerate(casters):
+        self._slots.fill(instances, casters, clip_from_world)
+        for slot, row in enumerate(casters):
             self._slots.bind(slot)
-            context.front_face = "cw" if caster.is_mirrored else "ccw"
-            for batch in caster.batches:
+            context.front_face = "cw" if instances.is_mirrored[row] else "ccw"
+            for batch in instances.batches[row]:
                 if batch.two_sided:
                     context.disable(moderngl.CULL_FACE)
                 else:
@@ -90,13 +94,17 @@ class SunShadow:
         self._framebuffers[SMALL].use()
 
 
-def _fit(casters: Sequence[Instance], sun: Array) -> tuple[Array, float]:
-    """The sun's orthographic camera round all casters, (4, 4), and the edge of its view [m]."""
+def _fit(spheres: Array, sun: Array) -> tuple[Array, float]:
+    """The sun's orthographic camera round all casters, (4, 4), and the edge of its view [m].
+
+    Args:
+        spheres: round the casters in W: centre and radius, (n, 4) [m].
+        sun: Unit vector towards the sun in W, (3,).
+    """
     forward = -sun
     aside = np.cross(forward, [0.0, 0.0, 1.0] if abs(sun[2]) < 0.9 else [1.0, 0.0, 0.0])
     aside /= np.linalg.norm(aside)
     axes = np.stack([aside, np.cross(aside, forward), forward])  # (3, 3)
-    spheres = np.concatenate([caster.spheres for caster in casters])
     centres, radii = spheres[:, :3] @ axes.T, spheres[:, 3:]  # (n, 3), (n, 1) [m]
     low, high = (centres - radii).min(axis=0), (centres + radii).max(axis=0)
     half = max(high[0] - low[0], high[1] - low[1]) / 2.0
