@@ -134,11 +134,11 @@ class Instances:
             return
         self._followed = self.version
         linear, origin = self.world_from_model[:, :3, :3], self.world_from_model[:, :3, 3]
-        self._normals: Array = np.linalg.inv(linear).transpose(0, 2, 1)
+        self._normals: Array = np.linalg.inv(linear).transpose(0, 2, 1).astype(np.float64)
         self._is_mirrored: list[bool] = (np.linalg.det(linear) < 0.0).tolist()
         # The largest row sum of A'A bounds the square of the largest stretch; exact without shear.
         squares = np.abs(linear.transpose(0, 2, 1) @ linear).sum(axis=2).max(axis=1)
-        stretch = np.sqrt(squares)[self._owners]
+        stretch = np.sqrt(squares)[self._owners].astype(np.float64)
         turn, shift = linear[self._owners].transpose(0, 2, 1), origin[self._owners]
         centres = (self._own_centres[:, None] @ turn)[:, 0] + shift
         radii = self._own_radii * stretch
