@@ -39,6 +39,9 @@ class Odd:
 def odd(point, time, vehicle):
     return Odd()
 
+def leaves(point, time, vehicle):
+    raise SystemExit(0)
+
 def broken(point, time, vehicle):
     return 1 / 0
 """
@@ -80,6 +83,7 @@ def test_its_acceleration_is_a_difference_also_at_time_0() -> None:
         ("short", r"returned \(1\.0, 2\.0\) at \[0\.0, 0\.0, 0\.0\], 0 s; expected three numb"),
         ("wild", "expected three numbers from -100 to 100"),
         ("tsunami", "expected three numbers from -100 to 100"),
+        ("leaves", "0 s: SystemExit: 0"),
         ("odd", "returned a Odd at"),
         ("broken", r"raised at \[0\.0, 0\.0, 0\.0\], 0 s: ZeroDivisionError: division by zero"),
     ],
@@ -105,3 +109,24 @@ def test_a_function_that_is_not_there_is_an_error() -> None:
 def test_a_module_that_is_not_there_is_an_error(name: str, said: str) -> None:
     with pytest.raises(BadSetting, match=said):
         PythonFunctionSpec(function=name).bind(Place(stream=lambda _: stream(0, "")))
+
+
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [
+        ("def f(:", "its module raised SyntaxError: invalid syntax"),
+        ("1 / 0", "its module raised ZeroDivisionError: division by zero"),
+        ("raise SystemExit(0)", "its module raised SystemExit: 0"),
+    ],
+)
+def test_a_module_that_breaks_is_an_error(code: str, said: str, tmp_path: Path) -> None:
+    (tmp_path / "my_broken_water_of_the_tests.py").write_text(code)
+    spec = PythonFunctionSpec(function="my_broken_water_of_the_tests:f")
+    with pytest.raises(BadSetting, match=said):
+        spec.bind(Place(stream=lambda name: stream(0, name)))
+
+
+@pytest.mark.parametrize("function", [".x:f", "a..b:f", "a:", "a b:c", "a:b.c", "../x:f"])
+def test_what_names_no_function_is_said_without_running_anything(function: str) -> None:
+    with pytest.raises(BadSetting, match="expected 'module:function'"):
+        PythonFunctionSpec(function=function).files(Place(stream=lambda name: stream(0, name)))

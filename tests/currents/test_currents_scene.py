@@ -138,6 +138,11 @@ def test_the_example_of_every_current_is_one(name: str, tmp_path: Path) -> None:
         ),
         ("<u:uwsimSinusoid><u:speed>101</u:speed></u:uwsimSinusoid>", "<u:speed> is '101'"),
         (
+            "<u:uwsimSinusoid><u:speed>1</u:speed><u:speedPeriod>1e-9</u:speedPeriod>"
+            "</u:uwsimSinusoid>",
+            "<u:speedPeriod> is '1e-9'; expected a number >= 0.01 [s]",
+        ),
+        (
             "<u:layers><u:layer><u:depth>0</u:depth><u:velocity><x>0</x><y>0</y><z>-200</z>"
             "</u:velocity></u:layer></u:layers>",
             "<z> of <u:velocity> is '-200'",

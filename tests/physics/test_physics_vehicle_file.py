@@ -112,7 +112,7 @@ def test_an_included_file_brings_its_bodies_and_its_faults(tmp_path: Path) -> No
     )
     text = MINIMAL.replace("<body", "<include>arm.xml</include> <body", 1)
     said = faults_of(tmp_path, text, ("base_link", "hand"))
-    assert said == ["1: in arm.xml, line 1: <volume> is '-1'; expected a number >= 0 [m3]"]
+    assert said == ["2: in arm.xml, line 1: <volume> is '-1'; expected a number >= 0 [m3]"]
 
 
 def test_a_file_that_includes_itself_is_refused(tmp_path: Path) -> None:
@@ -202,7 +202,7 @@ THRUST = "<forward>0 40</forward>"
         (f"{THRUST} <timeConstant>61</timeConstant>", "<timeConstant> is '61'; expected a number"),
         ("<forward>,</forward>", "<forward> holds ','; expected numbers"),
         ("<forward>nan</forward>", "<forward> holds 'nan'; expected numbers"),
-        (f"{THRUST} <radius>-inf</radius>", "<radius> is '-inf'; expected a number > 0 [m]"),
+        (f"{THRUST} <radius>-inf</radius>", "<radius> is '-inf'; expected a number >= 0.001 [m]"),
         (f"<forward>{'1 ' * 37}</forward>", "<forward> holds 37 numbers; expected 36 at most"),
     ],
 )
@@ -257,3 +257,48 @@ def test_a_body_made_in_python_with_a_number_that_is_none_is_refused(
     value = number if how_many is None else (number,) * how_many
     (said,) = body_faults(BodyHydrodynamics(link="a", **{name: value}))  # type: ignore[arg-type]
     assert "expected finite numbers" in said
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("nope.xml", "2: <include> 'nope.xml': there is no such file"),
+        (".", "2: <include> '.': is a folder, not a file"),
+        ("torn.xml", "2: <include> 'torn.xml': not well-formed XML: "),
+        ("a" * 5000, "2: <include> 'aaaaaaaa"),
+        ("inner/../mine.xml", "2: <include> 'inner/../mine.xml' includes itself"),
+        ("arm.xml</include><include>arm.xml", "2: <include> 'arm.xml': it is included already"),
+    ],
+)
+def test_what_cannot_be_included_is_said_where_it_should_be(
+    name: str, said: str, tmp_path: Path
+) -> None:
+    (tmp_path / "inner").mkdir()
+    (tmp_path / "torn.xml").write_text("<hydrodynamics")
+    (tmp_path / "arm.xml").write_text('<hydrodynamics name="arm"/>')
+    text = MINIMAL.replace("\n  <body", f"\n<include>{name}</include> <body", 1)
+    (fault,) = faults_of(tmp_path, text)
+    assert fault.startswith(said)
+
+
+def test_what_has_no_name_is_refused(tmp_path: Path) -> None:
+    text = MINIMAL.replace('name="mine"', 'name=" "').replace('name="t"', 'name=" "')
+    assert faults_of(tmp_path, text) == ["1: the set has no name", "7: a thruster has no name"]
+
+
+@pytest.mark.parametrize("name", ["x" * 5000, "../mine", "a\0b"])
+def test_a_set_whose_name_no_file_can_have_is_an_unknown_one(name: str, tmp_path: Path) -> None:
+    (tmp_path / "mine.xml").write_text(MINIMAL)
+    (tmp_path / "inner").mkdir()
+    with pytest.raises(UnknownName, match="No hydrodynamics set is called"):
+        find_vehicle(name, tmp_path / "inner" / "scene.xml")
+
+
+def test_an_inertia_that_the_engine_refuses_and_a_propeller_of_no_size_are_faults(
+    tmp_path: Path,
+) -> None:
+    tiny = "<inertia>1e-300 1e-300 1e-300 0 0 0</inertia> <volume>"
+    text = MINIMAL.replace("<volume>", tiny).replace(THRUST, f"{THRUST} <radius>1e-300</radius>")
+    said = faults_of(tmp_path, text)
+    assert "expected > 1e-12 [kg m2]" in said[0]
+    assert "<radius> is '1e-300'; expected a number >= 0.001 [m]" in said[1]

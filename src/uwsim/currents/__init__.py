@@ -19,7 +19,7 @@ from .profile import (
 from .python_function import PythonFunction, PythonFunctionSpec
 from .tidal import ConstituentSpec, Tidal, TidalSpec
 from .total import TotalCurrent, bind_currents
-from .uwsim_sinusoid import UwsimSinusoid, UwsimSinusoidSpec
+from .uwsim_sinusoid import LEAST_PERIOD, UwsimSinusoid, UwsimSinusoidSpec
 
 CURRENTS: dict[str, type[CurrentSpec]] = {
     "constant": ConstantSpec,
@@ -37,6 +37,7 @@ CURRENTS: dict[str, type[CurrentSpec]] = {
 __all__ = [
     "CURRENTS",
     "FASTEST",
+    "LEAST_PERIOD",
     "Constant",
     "ConstantSpec",
     "ConstituentSpec",

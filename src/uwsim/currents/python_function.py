@@ -42,15 +42,17 @@ class PythonFunctionSpec(CurrentSpec):
         Raises:
             BadSetting: there is no such module, or no such function in it.
         """
-        module_name, _, name = self.function.partition(":")
-        if not module_name or not name:
-            raise BadSetting(f"<u:function> is {self.function!r}; expected 'module:function'.")
+        module_name, name = self._names()
         try:
             module = importlib.import_module(module_name)
         except ModuleNotFoundError as error:
             raise BadSetting(
                 f"<u:function> is {self.function!r}; there is no module {error.name!r} on "
                 "Python's path (PYTHONPATH adds folders to it)."
+            ) from error
+        except (Exception, SystemExit) as error:  # whatever a stranger's module does
+            raise BadSetting(
+                f"<u:function> is {self.function!r}; its module raised {_said(error)}"
             ) from error
         function = getattr(module, name, None)
         if not callable(function):
@@ -63,9 +65,16 @@ class PythonFunctionSpec(CurrentSpec):
 
     def files(self, place: Place) -> dict[str, Path]:
         """The file of the module, once it is imported."""
-        module = sys.modules.get(self.function.partition(":")[0])
+        module = sys.modules.get(self._names()[0])
         path = getattr(module, "__file__", None)
         return {Path(path).name: Path(path)} if path else {}
+
+    def _names(self) -> tuple[str, str]:
+        """Module and function."""
+        module, _, name = self.function.partition(":")
+        if not name.isidentifier() or not all(part.isidentifier() for part in module.split(".")):
+            raise BadSetting(f"<u:function> is {self.function!r}; expected 'module:function'.")
+        return module, name
 
 
 class PythonFunction(Current):
@@ -97,10 +106,9 @@ class PythonFunction(Current):
         place = f"at {point.tolist()}, {time:g} s"
         try:
             said = self._function(point, time, vehicle)
-        except Exception as error:  # whatever a stranger's function raises is its own failure
+        except (Exception, SystemExit) as error:  # a stranger's function fails on its own
             raise BadSetting(
-                f"The current {self._name!r} raised {place}: {type(error).__name__}: "
-                f"{' '.join(str(error).split()):.200}"
+                f"The current {self._name!r} raised {place}: {_said(error)}"
             ) from error
         try:
             x, y, z = (float(value) for value in said)
@@ -108,13 +116,17 @@ class PythonFunction(Current):
             x = y = z = math.nan
         if not (abs(x) <= FASTEST and abs(y) <= FASTEST and abs(z) <= FASTEST):
             raise BadSetting(
-                f"The current {self._name!r} returned {shown(said)} {place}; "
+                f"The current {self._name!r} returned {_shown(said)} {place}; "
                 f"expected three numbers from -{FASTEST:g} to {FASTEST:g} [m/s]."
             )
         return x, y, z
 
 
-def shown(said: object) -> str:
+def _said(error: BaseException) -> str:
+    return f"{type(error).__name__}: {' '.join(str(error).split()):.200}"
+
+
+def _shown(said: object) -> str:
     """What a stranger's function returned, in one short line."""
     try:
         text = " ".join(repr(said).split())

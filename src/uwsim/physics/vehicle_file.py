@@ -30,6 +30,7 @@ every element.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
@@ -37,9 +38,10 @@ from typing import Literal
 
 from lxml import etree
 
-from ..dialect import LARGEST, Faults, element, number, parse, read
+from ..dialect import LARGEST, Faults, cut, element, number, parse, read
 from ..errors import FileError, UnknownName, did_you_mean
 from .hydrodynamics.faults import (
+    LEAST_RADIUS,
     LIQUIDS,
     SLOWEST_ROTOR,
     body_faults,
@@ -125,7 +127,7 @@ class ThrusterElement:
     """First-order lag of the rotor [s]."""
     torque: float = 0.0
     """Torque about the direction per thrust, positive right-handed [m]."""
-    radius: float = element(default=0.05, above=0.0)
+    radius: float = element(default=0.05, minimum=LEAST_RADIUS)
     """Of the propeller: at the surface its thrust is lost over this height, and the power it
     draws is that of its disc [m]."""
     efficiency: float | None = element(default=None, above=0.0, maximum=BEST_EFFICIENCY)
@@ -192,8 +194,11 @@ def find_vehicle(name: str, beside: Path | None = None) -> Path:
     Raises:
         UnknownName: there is none.
     """
-    if beside is not None and (own := beside.parent / f"{name}.xml").is_file():
-        return own
+    if beside is not None and name == Path(name).name:
+        own = beside.parent / f"{name}.xml"
+        with suppress(OSError, ValueError):  # no name of a file
+            if own.is_file():
+                return own
     known = vehicle_sets()
     if name not in known:
         raise UnknownName("hydrodynamics set", name, known)
@@ -253,6 +258,8 @@ def _read_file(
     head = read(HydrodynamicsElement, root, faults)
     if head is None:
         return None
+    if not head.name.strip():
+        faults.add(root, "the set has no name")
     for one in head.body:
         node = faults.node_of(one)
         assert node is not None
@@ -263,6 +270,8 @@ def _read_file(
     for propeller in head.thruster:
         node = faults.node_of(propeller)
         assert node is not None
+        if not propeller.name.strip():
+            faults.add(node, "a thruster has no name")
         if any(propeller.name == known.name for known in parts.thrusters):
             faults.add(node, f"two thrusters are called {propeller.name!r}")
         _check_name(node, "link", propeller.link, parts.links, faults)
@@ -276,16 +285,40 @@ def _read_file(
         parts.joints.append(
             JointDrive(name=joint.name, efficiency=joint.efficiency, copper_loss=joint.copper_loss)
         )
-    for name in head.include:
-        other = path.parent / name
-        if other in (*above, path):
-            faults.add(root, f"<include> {name!r} includes itself")
-        else:
-            inner = Faults(other)
-            _read_file(other, inner, parts, (*above, path))
-            for fault in inner.all():
-                faults.add(root, f"in {name}, line {fault.line}: {fault.message}")
+    for name, node in zip(head.include, root.findall("include"), strict=False):
+        _include(name, path, node, faults, parts, above)
     return head
+
+
+def _include(
+    name: str,
+    path: Path,
+    node: etree._Element,
+    faults: Faults,
+    parts: _Parts,
+    above: tuple[Path, ...],
+) -> None:
+    """Read another side file into ``parts``, its faults into ``faults``."""
+    other = path.parent / name
+    inner = Faults(other)
+    try:
+        whole = other.resolve()
+        if whole in (one.resolve() for one in (*above, path)):
+            faults.add(node, f"<include> {cut(name)} includes itself")
+            return
+        if whole in (one.resolve() for one in parts.files):
+            faults.add(node, f"<include> {cut(name)}: it is included already")
+            return
+        _read_file(other, inner, parts, (*above, path))
+    except (OSError, ValueError) as error:
+        faults.add(node, f"<include> {cut(name)}: {getattr(error, 'strerror', None) or error}")
+        return
+    except VehicleError as error:
+        for fault in error.faults:
+            faults.add(node, f"<include> {cut(name)}: {fault.message}")
+        return
+    for fault in inner.all():
+        faults.add(node, f"in {name}, line {fault.line}: {fault.message}")
 
 
 def _check_name(

@@ -20,7 +20,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...currents import FASTEST, LateCurrent, Place, UwsimSinusoidSpec
+from ...currents import FASTEST, LEAST_PERIOD, LateCurrent, Place, UwsimSinusoidSpec
 from ...dialect import element
 from ...errors import BadSetting, UnknownName
 from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
@@ -65,7 +65,7 @@ class CurrentForceUpdaterSpec(SweepSpec):
     """Its direction [rad]."""
     force_variation: float = element(minimum=-FASTEST, maximum=FASTEST)
     """Amplitude of its swelling [m/s]."""
-    force_period: float = element(above=0.0)
+    force_period: float = element(minimum=LEAST_PERIOD)
     """Period of its swelling [s]."""
     direction_variation: SphericalSpec
     """Amplitudes of its turning [rad]."""
@@ -89,12 +89,12 @@ class CurrentForceUpdaterSpec(SweepSpec):
         periods = {}
         for angle in ("theta", "phi"):
             period = getattr(self.direction_period, angle)
-            if period <= 0.0 and getattr(self.direction_variation, angle) != 0.0:
+            if period < LEAST_PERIOD and getattr(self.direction_variation, angle) != 0.0:
                 raise BadSetting(
-                    f"<directionPeriod> has {angle} {period:g}; expected a number > 0 [s], "
-                    f"as <directionVariation> lets {angle} turn."
+                    f"<directionPeriod> has {angle} {period:g}; expected a number >= "
+                    f"{LEAST_PERIOD:g} [s], as <directionVariation> lets {angle} turn."
                 )
-            periods[angle] = period if period > 0.0 else 1.0
+            periods[angle] = period if period >= LEAST_PERIOD else 1.0
         return UwsimSinusoidSpec(
             speed=value,
             speed_variation=self.force_variation,
