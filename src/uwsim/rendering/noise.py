@@ -64,26 +64,30 @@ def _store(
 ) -> npt.NDArray[np.uint8]:
     height, width, _ = colour16.shape
     picture = np.empty((height, width, 3), np.uint8)
-    scale = np.float32(1.0 / 257.0)
+    scale, half = np.float32(1.0 / 257.0), np.float32(0.5)
     mask = np.uint64(0xFFFF)
+    # Row by row and loop by loop: the first and the last do several pixels at once.
+    numbers, deviations = np.empty(width, np.uint64), np.empty(3 * width, np.float32)
     counter = key
     for row in range(height):
         for column in range(width):
-            counter += _GOLDEN
-            z = counter
+            z = counter + np.uint64(column + 1) * _GOLDEN
             z = (z ^ (z >> np.uint64(30))) * _MIX_1
             z = (z ^ (z >> np.uint64(27))) * _MIX_2
-            z = z ^ (z >> np.uint64(31))
+            numbers[column] = z ^ (z >> np.uint64(31))
+        counter += np.uint64(width) * _GOLDEN
+        for column in range(width):
+            z = numbers[column]
+            deviations[3 * column] = quantiles[z & mask]
+            deviations[3 * column + 1] = quantiles[(z >> np.uint64(16)) & mask]
+            deviations[3 * column + 2] = quantiles[(z >> np.uint64(32)) & mask]
+        drawn, stored = colour16[row].reshape(-1), picture[row].reshape(-1)
+        for column in range(width):
             for channel in range(3):
-                value = (
-                    np.float32(colour16[row, column, channel]) * scale
-                    + levels * quantiles[z & mask]
-                    + np.float32(0.5)
-                )
-                z = z >> np.uint64(16)
-                picture[row, column, channel] = np.uint8(
-                    max(min(value, np.float32(255.0)), np.float32(0.0))
-                )
+                place = 3 * column + channel
+                value = np.float32(drawn[4 * column + channel]) * scale
+                value = value + levels * deviations[place] + half
+                stored[place] = np.uint8(max(min(value, np.float32(255.0)), np.float32(0.0)))
     return picture
 
 

@@ -17,22 +17,22 @@ def grey(pixels: npt.NDArray[np.uint8]) -> Grey:
     """Luma ``0.299 R + 0.587 G + 0.114 B`` of (h, w, 3), or (h, w) as it is; (h, w)."""
     if pixels.ndim == 2:
         return pixels.astype(np.float32)
-    return luma(pixels)
+    return luma(np.ascontiguousarray(pixels))
 
 
 @njit
 def luma(rgb: npt.NDArray[np.uint8]) -> Grey:
     """Luma (h, w) of an RGB picture (h, w, 3)."""
     height, width = rgb.shape[0], rgb.shape[1]
-    result = np.empty((height, width), np.float32)
-    for y in range(height):
-        for x in range(width):
-            result[y, x] = (
-                np.float32(0.299) * rgb[y, x, 0]
-                + np.float32(0.587) * rgb[y, x, 1]
-                + np.float32(0.114) * rgb[y, x, 2]
-            )
-    return result
+    result = np.empty(height * width, np.float32)
+    flat = rgb.reshape(-1)
+    for i in range(height * width):
+        result[i] = (
+            np.float32(0.299) * flat[3 * i]
+            + np.float32(0.587) * flat[3 * i + 1]
+            + np.float32(0.114) * flat[3 * i + 2]
+        )
+    return result.reshape(height, width)
 
 
 @njit
