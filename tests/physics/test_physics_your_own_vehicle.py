@@ -12,7 +12,7 @@ import pytest
 from uwsim.cli.check import faults_of
 from uwsim.dialect import slots
 from uwsim.errors import SceneError
-from uwsim.physics.vehicle_file import BodyElement, HydrodynamicsElement, ThrusterElement
+from uwsim.physics.vehicle_elements import BodyElement, HydrodynamicsElement, ThrusterElement
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 
