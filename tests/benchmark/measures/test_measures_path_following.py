@@ -250,7 +250,6 @@ def test_a_path_that_came_before_the_level_began_is_taken_when_it_starts() -> No
     [
         ([], "the path on 'path' has no points"),
         ([(0.0, math.nan, 0.0)], "the path on 'path' has points that are no finite numbers"),
-        ([(0.0, None, 0.0)], "the path on 'path' has points that are no finite numbers"),
     ],
 )
 def test_a_path_that_cannot_be_followed_is_passed_over(
