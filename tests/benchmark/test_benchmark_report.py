@@ -211,6 +211,15 @@ def test_the_largest_numbers_of_all_are_drawn_without_a_warning(tmp_path: Path) 
     assert "e+59" in page.text
 
 
+def test_a_prediction_beyond_everything_and_letters_of_no_font_are_drawn_without_a_warning(
+    tmp_path: Path,
+) -> None:
+    odd = replace(visibility(), facts={"f_star": (1e308, "1/m"), "S": (1e308, "1")})
+    columns = [replace(c, unit="\u7c73\x1b") if c.unit == "px" else c for c in odd.columns]
+    save(replace(odd, columns=tuple(columns)), tmp_path)
+    assert write_report(tmp_path, pdf=True).exists()
+
+
 def test_a_result_with_no_rows_has_a_report(tmp_path: Path) -> None:
     empty = replace(visibility(), rows=(), missing=())
     assert "No level was played" in page_of(empty, tmp_path).text

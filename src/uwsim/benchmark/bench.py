@@ -55,7 +55,7 @@ class Bench:
         """Make the directory, and return the units that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
         self.n_resumed = self.n_finished()
-        return [unit for unit in self.plan.units() if self._stored(unit).end is None]
+        return [unit for unit in self.plan.units() if self.stored(unit).end is None]
 
     def n_finished(self) -> int:
         """Count the levels that are on disk."""
@@ -63,7 +63,7 @@ class Bench:
 
     def n_rows(self, unit: Unit) -> int:
         """Count the levels of one unit that are on disk."""
-        return len(self._stored(unit).rows)
+        return len(self.stored(unit).rows)
 
     def head(self, unit: Unit) -> unit_file.Record:
         """Say what a unit is: equal heads mean that its rows must be equal."""
@@ -92,7 +92,10 @@ class Bench:
             save_data(log, measures[log.measure], self.out)
         return result
 
-    def _stored(self, unit: Unit) -> unit_file.Stored:
+    def stored(self, unit: Unit) -> unit_file.Stored:
+        """Return what is on disk of a unit; raises ResultError if it is another run's."""
+        if not unit_file.path_of(self.out, unit.index).exists():
+            return unit_file.NOTHING
         return unit_file.read(self.out, unit.index, self.head(unit))
 
 
@@ -105,7 +108,7 @@ def collect(bench: Bench) -> tuple[Result, list[Log], float]:
     plan = bench.plan
     several = plan.repeats > 1
     units = plan.units()
-    stored = [(unit, unit_file.read(bench.out, unit.index, bench.head(unit))) for unit in units]
+    stored = [(unit, bench.stored(unit)) for unit in units]
     records = [(unit, record) for unit, found in stored for record in found.rows]
     columns = _columns(plan, [record for _, record in records])
     rows: list[tuple[Cell, ...]] = []

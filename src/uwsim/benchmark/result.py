@@ -203,9 +203,13 @@ def _check_notes(result: Result) -> None:
         cell = result.rows[note.row][names[note.column]]
         _expect(cell is None, f"{at}: row {note.row} has a value for {note.column!r}: {cell!r}")
         _expect(isinstance(note.why, str) and note.why != "", f"{at} gives no reason")
+    n_levels = len(result.of_kind("level"))
     for i, stream in enumerate(result.image_streams):
         whole = isinstance(stream.sha256, str) and isinstance(stream.frames, int)
         _expect(whole, f"image_streams[{i}] has no hash or no number of frames")
+        fits = isinstance(stream.level, tuple) and len(stream.level) == n_levels
+        said = f"image_streams[{i}] is of the level {stream.level!r}; expected {n_levels} values"
+        _expect(stream.level is None or fits, said)
     for i, picture in enumerate(result.pictures):
         at = f"pictures[{i}]"
         _expect(_is_row(picture.row, n), f"{at} is of row {picture.row!r}, which is not there")

@@ -29,6 +29,10 @@ class Stored:
     """What the unit knows when it is done; None while it is not."""
 
 
+NOTHING = Stored((), None)
+"""What is stored of a unit that was not begun."""
+
+
 def path_of(directory: Path, index: int) -> Path:
     """Return where the unit number ``index`` is kept."""
     return directory / FOLDER / f"{index:05d}.jsonl"
@@ -53,7 +57,7 @@ def read(directory: Path, index: int, head: Record) -> Stored:
 def read_any(path: Path) -> tuple[Record | None, Stored]:
     """Read a unit's file, whatever run it is of: its head, and what it holds."""
     if not path.exists():
-        return None, Stored((), None)
+        return None, NOTHING
     lines = path.read_bytes().split(b"\n")[:-1]  # what follows the last newline was cut off
     records: list[Record] = []
     for line in lines:
@@ -63,7 +67,7 @@ def read_any(path: Path) -> tuple[Record | None, Stored]:
             break
         records.append(record if isinstance(record, dict) else {})
     if not records:
-        return None, Stored((), None)
+        return None, NOTHING
     rows = tuple(r["row"] for r in records[1:] if isinstance(r.get("row"), dict))
     ends = [r["end"] for r in records[1:] if isinstance(r.get("end"), dict)]
     head = records[0].get("unit")

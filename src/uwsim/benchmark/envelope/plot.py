@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from ..plots import DPI, FAINT, INK, LEVEL_WORDS, PALETTE, styled_figure, written_unit
+from ..plots import FAINT, INK, LEVEL_WORDS, PALETTE, save_plot, styled_figure, written_unit
 from .criterion import parse_criterion
 from .envelope import Envelope
 from .evaluate import Evaluation
@@ -35,8 +35,7 @@ def draw(envelope: Envelope, directory: Path) -> Path:
         span = abs(asked.where.stop - asked.where.start)
         ends = sorted((asked.where.start, asked.where.stop))
         below.set_xlim(ends[0] - 0.02 * span, ends[1] + 0.02 * span)
-        figure.savefig(path, dpi=DPI, metadata={"Software": None})
-    return path
+        return save_plot(figure, path)
 
 
 def _draw_measure(axes: Axes, envelope: Envelope) -> None:

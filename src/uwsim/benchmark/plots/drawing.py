@@ -166,17 +166,22 @@ def draw_prediction(axes: Axes, result: Result, label: bool = True) -> None:
     if fact is None or not is_fog_swept(result):
         return
     low, high = axes.get_xlim()
-    text = f"$f^*$ = {fact[0]:.2f} {plain(written_unit(fact[1]))}"
+    text = f"$f^*$ = {_short(fact[0])} {plain(written_unit(fact[1]))}"
     x = fact[0]
     if (length := LENGTHS.get(levels[-1].name)) is not None:
         x = length(x) if x > 0.0 else math.inf
-        text = f"{x:.2f} m, {text}"
+        text = f"{_short(x)} m, {text}"
     if low <= x <= high:
         axes.axvline(x, color=FAINT, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
         if label:
             _write_above(axes, x, f"loss predicted at {text}", FAINT, line=0)
     elif label:
         _write_above(axes, high, f"loss predicted beyond these levels, {text}", FAINT, line=0)
+
+
+def _short(number: float) -> str:
+    """Two digits behind the point, unless there would be many before it."""
+    return f"{number:.2f}" if abs(number) < 1e4 else f"{number:.3g}"
 
 
 def is_fog_swept(result: Result) -> bool:

@@ -37,7 +37,7 @@ from .drawing import (
     scale_axes,
     with_loss,
 )
-from .style import DPI, SIZE, cut, styled_figure, write_note
+from .style import DPI, SIZE, any_letter, cut, styled_figure, write_note
 
 OVERVIEW = "all-measures"
 
@@ -142,13 +142,14 @@ def save_plot(figure: Figure, path: Path) -> Path:
     """Write a plot as PNG, 200 dots an inch, without a date or a program's name in it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     FigureCanvasAgg(figure)
-    figure.savefig(path, dpi=DPI, format="png", metadata={"Software": None})
+    with any_letter():
+        figure.savefig(path, dpi=DPI, format="png", metadata={"Software": None})
     return path
 
 
 def save_pdf(figure: Figure, path: Path) -> Path:
     """Write a plot as PDF for a paper: letters as letters, without a date or a program's name."""
-    with mpl.rc_context({"pdf.fonttype": 42}):
+    with mpl.rc_context({"pdf.fonttype": 42}), any_letter():
         figure.savefig(
             path, format="pdf", metadata={"CreationDate": None, "Producer": None, "Creator": None}
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -75,6 +76,14 @@ def write_note(figure: Figure, *lines: str) -> None:
     figure.set_layout_engine(ConstrainedLayoutEngine(rect=(0, height, 1, 1 - height)))
     text = "\n".join(map(plain, written))
     figure.text(0.995, 0.004, text, ha="right", va="bottom", fontsize=5.5, color=FAINT)
+
+
+@contextmanager
+def any_letter() -> Iterator[None]:
+    """Let names have letters that the font has not: they are drawn as boxes, without a warning."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", r"Glyph \d+ .* missing from", UserWarning)
+        yield
 
 
 def plain(text: str) -> str:
