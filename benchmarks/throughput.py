@@ -1,7 +1,7 @@
 """What workers bring: 40 independent levels of `currents`, played by one worker and by two.
 
 Each run is a fresh process started from the command line, start to report; caches are warm. One
-worker is measured twice: with one thread for its pictures, as each of several workers has, and as
+worker is measured twice: with its own thread alone for its pictures, as each of several workers has, and as
 it comes, when the software rasteriser takes what is left of the machine. The promise is about the
 first: so much does a second core bring. That all runs leave the same bytes is checked on the way.
 
@@ -75,7 +75,7 @@ def measure() -> dict[str, object]:
         folder = Path(name)
         benchmark = write_benchmark(folder, LENGTH)
         wall_s(write_benchmark(folder, 1.0), "warm", 2, None)
-        alone = wall_s(benchmark, "one-thread", 1, "1")
+        alone = wall_s(benchmark, "one-thread", 1, "0")
         as_it_comes = wall_s(benchmark, "one", 1, None)
         two = wall_s(benchmark, "two", 2, None)
         outs = ("one-thread", "one", "two")

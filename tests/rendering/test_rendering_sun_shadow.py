@@ -86,3 +86,45 @@ def test_the_shadow_follows_what_moves(renderer: Renderer) -> None:
         shadows.append(brightness(renderer, eye, Light()))
     assert not np.array_equal(shadows[0], shadows[1])
     assert np.array_equal(shadows[0], shadows[2])
+
+
+@pytest.mark.parametrize("sun", ["clear", "dusk"])
+@pytest.mark.parametrize("yaw", [0.0, 0.7, 2.5])
+def test_a_caster_that_is_left_out_throws_no_shadow_into_the_picture(
+    renderer: Renderer, monkeypatch: pytest.MonkeyPatch, sun: str, yaw: float
+) -> None:
+    """Pictures with all casters drawn, and with those that can be seen to matter."""
+    renderer.place(renderer.add(plate(30.0, 30.0, (0.8, 0.8, 0.8)), 1), placed())
+    random = np.random.default_rng(5)
+    for x, y, z in random.uniform([-4.0, -4.0, 0.3], [4.0, 4.0, 2.5], (14, 3)):
+        renderer.place(renderer.add(ball(0.25), 2), placed(x, y, z))
+    eye = Pose.from_rpy((0.5, 0.3, 3.0), (0.5, 0.2, yaw))
+    spared = brightness(renderer, eye, Light(sun=sun))
+    n_drawn: list[int] = []
+
+    def everything(instances, casters, seen, *_: object) -> np.ndarray:  # type: ignore[no-untyped-def]
+        n_drawn.append(len(casters))
+        return np.ones((len(seen), len(casters)), bool)
+
+    monkeypatch.setattr("uwsim.rendering.renderer.reached", everything)
+    renderer.place(renderer.add(ball(0.01), 3), placed(z=-5.0))  # below the floor: a new drawing
+    whole = brightness(renderer, eye, Light(sun=sun))
+    assert n_drawn == [15]
+    # the maps differ in size, so edges may differ by a texel
+    assert (np.abs(whole - spared) > 12.0).mean() < 0.006
+    bare = brightness(renderer, eye, Light(sun=sun, shadows=False))
+    assert (np.abs(bare - whole) > 12.0).mean() > 0.01
+
+
+def test_a_vehicle_whose_shadow_is_elsewhere_is_left_out(renderer: Renderer) -> None:
+    renderer.place(renderer.add(plate(30.0, 30.0), 1), placed())
+    above = renderer.add(ball(0.3), 2)
+    down = Pose.from_rpy((0.0, 0.0, 3.0), (0.0, 0.0, 0.0))
+    towards = sun_direction("clear")
+    shadow = renderer._shadow
+    for offset, is_needed in ((np.zeros(3), True), (np.array([6.0, 0.0, 0.0]), False)):
+        place = 2.9 / towards[2] * towards + offset  # its shadow falls to offset, about
+        renderer.place(above, placed(*place))
+        before = shadow.texture_from_world
+        brightness(renderer, down, Light())
+        assert (shadow.texture_from_world is not before) == is_needed

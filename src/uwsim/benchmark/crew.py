@@ -21,8 +21,9 @@ from .unit_work import Event, Keeper, perform
 OnLevel = Callable[[], None]
 MOST_RETRIES = 3
 """How often a unit is played again after it has lost its worker."""
-ENVIRONMENT = {"LP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
-"""Of a worker, where the user has not said otherwise: one thread each, for there is one a core."""
+ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
+"""Of a worker, where the user has not said otherwise: no threads beside its own, for there is one
+worker a core."""
 
 
 @dataclass(frozen=True, eq=False)

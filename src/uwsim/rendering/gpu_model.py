@@ -1,4 +1,4 @@
-"""Models on the graphics side: merged by texture, uploaded once."""
+"""Models on the graphics side: merged by texture, in pieces, uploaded once."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..assets.mesh import Mesh, Model, Texture
+from .pieces import density, flat_normal, pieces
 
 VERTEX = np.dtype(
     [
@@ -23,7 +24,7 @@ VERTEX = np.dtype(
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """Triangles of a model that are drawn with one call: same texture, same sides."""
+    """Triangles of a model that are drawn with one call: same texture, same sides, near by."""
 
     vertices: moderngl.Buffer
     indices: moderngl.Buffer
@@ -36,6 +37,10 @@ class Batch:
     """Of the bounding sphere [m]."""
     corners: npt.NDArray[np.float64]
     """Of the bounding box, model frame, (8, 3) [m]."""
+    normal: npt.NDArray[np.float64]
+    """Of its plane, model frame, (3,); 0 if it is bent."""
+    density: float
+    """Texels along a metre, where most are [1/m]; 0 without a texture."""
     arrays: dict[int, moderngl.VertexArray]
     """Vertex array for each program, by the program's number; made when first drawn."""
 
@@ -70,6 +75,10 @@ class GpuModels:
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._models: dict[int, tuple[Model, tuple[Batch, ...]]] = {}
+        self._close = {
+            repeats: context.sampler(repeats, repeats, filter=(moderngl.LINEAR, moderngl.LINEAR))
+            for repeats in (False, True)
+        }
         self._textures: dict[tuple[str, int], tuple[Texture, moderngl.Texture]] = {}
 
     def upload(self, model: Model) -> tuple[Batch, ...]:
@@ -80,34 +89,66 @@ class GpuModels:
             for mesh in model.meshes:
                 if len(mesh.triangles):
                     groups.setdefault((id(mesh.texture), mesh.two_sided), []).append(mesh)
-            known = model, tuple(self._batch(meshes) for meshes in groups.values())
+            several = [self._batches(meshes) for meshes in groups.values()]
+            known = model, tuple(itertools.chain.from_iterable(several))
             self._models[id(model)] = known  # holds the model, so that its id stays its own
         return known[1]
 
-    def _batch(self, meshes: list[Mesh]) -> Batch:
+    def _batches(self, meshes: list[Mesh]) -> list[Batch]:
+        """Merge meshes of one texture, and cut what is large."""
         vertices = np.empty(sum(len(mesh.vertices) for mesh in meshes), dtype=VERTEX)
-        triangles, first = [], 0
+        several, first = [], 0
         for mesh in meshes:
             part = vertices[first : first + len(mesh.vertices)]
             part["vertex"], part["vertex_normal"] = mesh.vertices, mesh.normals
             part["uv"], part["tint"] = mesh.uvs, mesh.colour
-            triangles.append(mesh.triangles.astype(np.uint32) + np.uint32(first))
+            several.append(mesh.triangles.astype(np.uint32) + np.uint32(first))
             first += len(mesh.vertices)
+        triangles = np.concatenate(several)
+        batches = []
+        for piece in pieces(vertices["vertex"].astype(np.float64), triangles):
+            used, own = np.unique(triangles[piece], return_inverse=True)
+            batches.append(self._batch(vertices[used], own.reshape(-1, 3), meshes[0]))
+        return batches
+
+    def _batch(
+        self, vertices: npt.NDArray[np.void], triangles: npt.NDArray[np.intp], mesh: Mesh
+    ) -> Batch:
+        """Upload a piece; its texture and sides are those of the mesh."""
         points = vertices["vertex"].astype(np.float64)
+        indices = triangles.astype(np.uint32)
         box = np.stack([points.min(axis=0), points.max(axis=0)])  # (2, 3) [m]
         centre = box.mean(axis=0)
+        texels = 0.0
+        if mesh.texture is not None:
+            height, width = mesh.texture.pixels.shape[:2]
+            texels = density(points, indices, vertices["uv"].astype(np.float64) * [width, height])
         return Batch(
             vertices=self._context.buffer(vertices.tobytes()),
-            indices=self._context.buffer(np.concatenate(triangles).tobytes()),
-            texture=meshes[0].texture,
-            two_sided=meshes[0].two_sided,
+            indices=self._context.buffer(indices.tobytes()),
+            texture=mesh.texture,
+            two_sided=mesh.two_sided,
             centre=centre,
             radius=float(np.sqrt(((points - centre) ** 2).sum(axis=1).max())),
             corners=np.array(list(itertools.product(*box.T))),
+            normal=flat_normal(points, indices),
+            density=texels,
             arrays={},
         )
 
-    def texture(self, texture: Texture) -> moderngl.Texture:
+    def use(self, texture: Texture, unit: int, *, is_close: bool) -> None:
+        """Bind a texture; one that is close is looked up without its smaller copies."""
+        self._texture(texture).use(unit)
+        if is_close:
+            self._close[texture.repeats].use(unit)
+        else:
+            self.release(unit)
+
+    def release(self, unit: int) -> None:
+        """Look up what is bound next as the texture itself says."""
+        self._close[True].clear(unit)
+
+    def _texture(self, texture: Texture) -> moderngl.Texture:
         """The texture on the graphics side, with its smaller copies; made once."""
         key = texture.name, id(texture.pixels)
         if key not in self._textures:

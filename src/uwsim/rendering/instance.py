@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import UnknownName
-from ..geometry import Array, Pose
+from ..geometry import Array, Intrinsics, Pose
 from .gpu_model import Batch
+from .minification import needs_no_copies
 from .program import Block
 
 INSTANCE = Block(
@@ -94,21 +95,41 @@ class Instances:
         self._follow()
         return self._radii
 
-    def owned(self, rows: Sequence[int]) -> tuple[npt.NDArray[np.intp], Array, Array]:
-        """Which batches the rows have, and their bounds.
-
-        Returns:
-            Numbers of the batches, in the order of `batches` (m,); bounding spheres in W, centre
-            and radius (m, 4) [m]; corners of the bounding boxes in W (m, 8, 3) [m].
-        """
-        self._follow()
+    def owned(self, rows: Sequence[int]) -> npt.NDArray[np.intp]:
+        """Numbers of the batches that the rows have, in the order of `batches`, (m,)."""
         if len(rows) == len(self.ids):
-            return np.arange(len(self._owners)), self._spheres, self._corners
-        chosen = np.flatnonzero(np.isin(self._owners, rows))
-        return chosen, self._spheres[chosen], self._corners[chosen]
+            return np.arange(len(self._owners))
+        return np.flatnonzero(np.isin(self._owners, rows))
+
+    @property
+    def spheres(self) -> Array:
+        """Round each batch, in W: centre and radius, (m, 4) [m]."""
+        self._follow()
+        return self._spheres
+
+    @property
+    def corners(self) -> Array:
+        """Of the box around each batch, in W, (m, 8, 3) [m]."""
+        self._follow()
+        return self._corners
+
+    def needs_no_copies(
+        self, numbers: Sequence[int], world_from_camera: Pose, intrinsics: Intrinsics
+    ) -> list[bool]:
+        """Whether batches need no smaller copies of their textures (`minification`)."""
+        self._follow()
+        chosen = np.array(numbers, dtype=np.intp)
+        found = needs_no_copies(
+            self._densities[chosen],
+            self._flat_normals[chosen],
+            self._corners[chosen],
+            world_from_camera,
+            intrinsics,
+        )
+        return [bool(one) for one in found]
 
     def batch(self, number: int) -> tuple[int, Batch]:
-        """Row and batch of a number that `owned` gave."""
+        """Row of the instance that a batch belongs to, and the batch, by its number."""
         return self._drawn[number]
 
     def _row(self, handle: int) -> int:
@@ -126,6 +147,8 @@ class Instances:
         self._own_centres = np.array([batch.centre for batch in batches]).reshape(-1, 3)
         self._own_radii = np.array([batch.radius for batch in batches])
         self._own_corners = np.array([batch.corners for batch in batches]).reshape(-1, 8, 3)
+        self._own_normals = np.array([batch.normal for batch in batches]).reshape(-1, 3)
+        self._own_densities = np.array([batch.density for batch in batches])
         self._followed = -1  # the version that normals and bounds are of
 
     def _follow(self) -> None:
@@ -144,6 +167,12 @@ class Instances:
         radii = self._own_radii * stretch
         self._spheres: Array = np.column_stack([centres, radii])
         self._corners: Array = self._own_corners @ turn + shift[:, None]
+        turned = (self._own_normals[:, None] @ self._normals[self._owners].transpose(0, 2, 1))[:, 0]
+        sizes = np.linalg.norm(turned, axis=1, keepdims=True)
+        self._flat_normals: Array = np.divide(turned, sizes, out=turned, where=sizes > 0.0)
+        # As above, the normals' matrix bounds how much a model shrinks, and its texels crowd.
+        crowding = np.abs(self._normals.transpose(0, 2, 1) @ self._normals).sum(axis=2).max(axis=1)
+        self._densities: Array = self._own_densities * np.sqrt(crowding)[self._owners]
         high = np.full((len(self.ids), 3), -np.inf)
         low = np.full((len(self.ids), 3), np.inf)
         np.maximum.at(high, self._owners, centres + radii[:, None])
@@ -167,19 +196,20 @@ class Slots:
         self._values = np.zeros(64, dtype=self._DTYPE)
         self._buffer = context.buffer(reserve=self._values.nbytes, dynamic=True)
 
-    def fill(self, instances: Instances, rows: Sequence[int], camera_from_world: Array) -> None:
-        """Give every one of the rows its slot, in order."""
-        if not rows:
+    def fill(self, instances: Instances, camera_from_world: Array) -> None:
+        """Give every instance its slot: its row."""
+        n = len(instances.ids)
+        if not n:
             return
-        if len(self._values) < len(rows):
-            self._values = np.zeros(2 * len(rows), dtype=self._DTYPE)
+        if len(self._values) < n:
+            self._values = np.zeros(2 * n, dtype=self._DTYPE)
             self._buffer.orphan(self._values.nbytes)
-        models = camera_from_world @ instances.world_from_model[rows]
-        normals = camera_from_world[:3, :3] @ instances.normals[rows]
-        values = self._values[: len(rows)]
+        models = camera_from_world @ instances.world_from_model
+        normals = camera_from_world[:3, :3] @ instances.normals
+        values = self._values[:n]
         values["camera_from_model"] = models.transpose(0, 2, 1)  # OpenGL counts columns first
         values["camera_normals"][:, :3, :3] = normals.transpose(0, 2, 1)
-        values["identity"][:, 0] = [instances.ids[row] for row in rows]
+        values["identity"][:, 0] = instances.ids
         self._buffer.write(values.tobytes())
 
     def bind(self, slot: int) -> None:
@@ -191,8 +221,8 @@ class Slots:
 
 def in_view(
     instances: Instances, rows: Sequence[int], world_from_camera: Pose, planes: Array
-) -> list[tuple[int, Batch]]:
-    """Slots and batches whose bounds reach into the frustum, near ones first.
+) -> list[int]:
+    """Numbers of the batches whose bounds reach into the frustum, near ones first.
 
     Bounds are the sphere and the box: of a wall, the sphere reaches far round it.
 
@@ -201,23 +231,23 @@ def in_view(
 
     Args:
         instances: All there are.
-        rows: Of those that are looked at, in the order of their slots.
+        rows: Of those that are looked at.
         world_from_camera: Where the camera is.
         planes: Of the frustum, camera frame, (6, 4).
     """
-    numbers, spheres, corners = instances.owned(rows)
+    numbers = instances.owned(rows)
     if not len(numbers):
         return []
+    spheres = instances.spheres[numbers]
     centres = (spheres[:, :3] - world_from_camera.position) @ world_from_camera.rotation
     beyond = centres @ planes[:, :3].T + planes[:, 3] + spheres[:, 3:]  # (n, 6) [m]
-    nearness = np.linalg.norm(centres, axis=1) + spheres[:, 3]
+    near = np.flatnonzero(np.all(beyond > 0.0, axis=1))
+    numbers, spheres, centres = numbers[near], spheres[near], centres[near]
+    corners = instances.corners[numbers]
     points = (corners - world_from_camera.position) @ world_from_camera.rotation
     inside = points @ planes[:, :3].T + planes[:, 3] > 0.0  # (n, 8, 6)
-    visible = np.all(beyond > 0.0, axis=1) & np.all(np.any(inside, axis=1), axis=1)
-    slots = {row: slot for slot, row in enumerate(rows)}
-    seen = []
-    for n in np.argsort(nearness, kind="stable").tolist():
-        if visible[n]:
-            row, batch = instances.batch(int(numbers[n]))
-            seen.append((slots[row], batch))
+    visible = np.all(np.any(inside, axis=1), axis=1)
+    nearness = np.linalg.norm(centres, axis=1) + spheres[:, 3]
+    order = np.argsort(nearness, kind="stable")
+    seen: list[int] = numbers[order[visible[order]]].tolist()
     return seen

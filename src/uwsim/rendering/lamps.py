@@ -117,15 +117,16 @@ class Lamps:
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
         slots, planes = self._slots[tile], frustum(clip_from_lamp)
-        slots.fill(instances, casters, clip_from_lamp @ lamp.world_from_lamp.inverse().matrix)
-        for slot, batch in in_view(instances, casters, lamp.world_from_lamp, planes):
+        slots.fill(instances, clip_from_lamp @ lamp.world_from_lamp.inverse().matrix)
+        for number in in_view(instances, casters, lamp.world_from_lamp, planes):
+            row, batch = instances.batch(number)
             if batch.two_sided:
                 context.disable(moderngl.CULL_FACE)
             else:
                 context.enable(moderngl.CULL_FACE)
             # As in the renderer's pictures: upside down for OpenGL, so outside is clockwise.
-            context.front_face = "ccw" if instances.is_mirrored[casters[slot]] else "cw"
-            slots.bind(slot)
+            context.front_face = "ccw" if instances.is_mirrored[row] else "cw"
+            slots.bind(row)
             batch.draw(self._program)
         context.polygon_offset = 0.0, 0.0
 

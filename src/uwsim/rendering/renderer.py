@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import moderngl
+import numpy as np
 
 from ..assets.mesh import Model
 from ..geometry import Array, Intrinsics, Pose
@@ -22,7 +23,7 @@ from .lamps import LAMPS, MOST_LAMPS, Lamps
 from .picture import Picture
 from .program import build
 from .projection import clip_from_camera, frustum
-from .sun_shadow import LARGEST_CASTER, SunShadow
+from .sun_shadow import LARGEST_CASTER, SunShadow, reached
 from .targets import STORES, TARGETS, Targets
 from .water import Light, Water, sun_direction
 
@@ -171,30 +172,43 @@ class Renderer:
     def _begin(self, view: View, world_from_camera: Pose) -> None:
         """Draw, without waiting until it is done."""
         water, light, hidden, lamps = view.water, view.light, view.hidden, view.lamps
-        seen = self._instances.without(hidden)
+        rows = self._instances.without(hidden)
         clip = clip_from_camera(view.intrinsics)
+        seen = in_view(self._instances, rows, world_from_camera, frustum(clip))
         switches: Switches = ()
-        if "colour" in view.wanted and light.shadows and self._cast(seen, light, hidden):
-            switches += (("SHADOWS", 1),)
+        in_shadow = [False] * len(seen)
+        if "colour" in view.wanted and light.shadows:
+            in_shadow = self._cast(rows, seen, view, world_from_camera, clip)
         if water.fog == 0.0:
             switches += (("NO_FOG", 1),)
         elif water.fog_distance == "clip":
             switches += (("FOG_CLIP", 1),)
         if lamps and "colour" in view.wanted:
             switches += (("LAMPS", len(lamps)),)
-            self._shine(lamps, seen, world_from_camera, hidden)
+            self._shine(lamps, rows, world_from_camera, hidden)
         self._frame.fill(world_from_camera, view.intrinsics, clip, water, light, self._shadow)
-        self._slots.fill(self._instances, seen, world_from_camera.inverse().matrix)
-        self._draw_into(self._target(view), seen, world_from_camera, frustum(clip), switches)
+        self._slots.fill(self._instances, world_from_camera.inverse().matrix)
+        is_close = self._instances.needs_no_copies(seen, world_from_camera, view.intrinsics)
+        drawn = list(zip(seen, in_shadow, is_close, strict=True))
+        self._draw_into(self._target(view), drawn, switches)
 
-    def _cast(self, seen: Sequence[int], light: Light, hidden: frozenset[int]) -> bool:
-        """Bring the shadow map up to date; False when nothing casts a shadow."""
-        radii = self._instances.radii
-        casters = [row for row in seen if radii[row] <= LARGEST_CASTER]
-        if casters:
-            version = self._instances.version, hidden
-            self._shadow.update(self._instances, casters, sun_direction(light.sun), version)
-        return bool(casters)
+    def _cast(
+        self,
+        rows: Sequence[int],
+        seen: Sequence[int],
+        view: View,
+        world_from_camera: Pose,
+        clip: Array,
+    ) -> list[bool]:
+        """Bring the shadow map up to date; returns which of what is seen may lie in shadow."""
+        instances, sun = self._instances, sun_direction(view.light.sun)
+        radii = instances.radii
+        casters = instances.owned([row for row in rows if radii[row] <= LARGEST_CASTER])
+        may = reached(instances, casters.tolist(), seen, sun, world_from_camera, clip)
+        if may.any():
+            needed = casters[np.any(may, axis=0)].tolist()
+            self._shadow.update(instances, needed, sun, (instances.version, view.hidden))
+        return [bool(one) for one in np.any(may, axis=1)]
 
     def _shine(
         self,
@@ -211,14 +225,16 @@ class Renderer:
         self._lamps.texture.use(SAMPLERS["lamp_maps"])
 
     def _draw_into(
-        self,
-        target: Targets,
-        seen: Sequence[int],
-        world_from_camera: Pose,
-        planes: Array,
-        switches: Switches,
+        self, target: Targets, drawn: Sequence[tuple[int, bool, bool]], switches: Switches
     ) -> None:
-        """Draw what is in view, near and small first, terrain last, then the emptiness."""
+        """Draw near and small things first, terrain last, then the emptiness.
+
+        Args:
+            target: Where to draw.
+            drawn: Number of each batch, whether it may lie in shadow, and whether its texture
+                needs no smaller copies.
+            switches: Of all of them.
+        """
         context = self._context
         target.framebuffer.use()
         target.framebuffer.clear(depth=1.0)  # of no account: every pixel is drawn
@@ -226,19 +242,21 @@ class Renderer:
         context.depth_func = "<="
         self._shadow.texture.use(SAMPLERS["shadow_map"])
         is_mirrored = self._instances.is_mirrored
-        for slot, batch in in_view(self._instances, seen, world_from_camera, planes):
+        for number, in_shadow, is_close in drawn:
+            row, batch = self._instances.batch(number)
             if batch.two_sided:
                 context.disable(moderngl.CULL_FACE)
             else:
                 context.enable(moderngl.CULL_FACE)
             # The picture is upside down for OpenGL, so outside is clockwise unless mirrored.
-            context.front_face = "ccw" if is_mirrored[seen[slot]] else "cw"
-            textured: Switches = ()
+            context.front_face = "ccw" if is_mirrored[row] else "cw"
+            own: Switches = (("SHADOWS", 1),) if in_shadow else ()
             if batch.texture is not None:
-                self._models.texture(batch.texture).use(SAMPLERS["base_map"])
-                textured = (("TEXTURED", 1),)
-            self._slots.bind(slot)
-            batch.draw(self._program("surface", target, switches + textured))
+                self._models.use(batch.texture, SAMPLERS["base_map"], is_close=is_close)
+                own += (("TEXTURED", 1),)
+            self._slots.bind(row)
+            batch.draw(self._program("surface", target, switches + own))
+        self._models.release(SAMPLERS["base_map"])
         context.disable(moderngl.CULL_FACE)
         program = self._program("background", target, ())
         if program.glo not in self._empty:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import moderngl
 import numpy as np
+import numpy.typing as npt
 
-from ..geometry import Array
+from ..geometry import Array, Pose
 from .instance import INSTANCE, Instances, Slots
 from .program import build
 
@@ -19,6 +20,11 @@ FINE_TEXEL = 0.008
 
 LARGEST_CASTER = 5.0
 """Bounding radius [m] above which a model casts no shadow: tanks and sea floors."""
+
+LOW_SUN = 0.3
+"""Sine of the height below which the sun is low [1]."""
+MARGIN = 0.05
+"""By how much shadows may reach beyond boxes: the map's texels are that large at most [m]."""
 
 _TO_TEXTURE = np.array(
     [[0.5, 0.0, 0.0, 0.5], [0.0, 0.5, 0.0, 0.5], [0.0, 0.0, 0.5, 0.5], [0.0, 0.0, 0.0, 1.0]]
@@ -53,19 +59,19 @@ class SunShadow:
     def update(
         self, instances: Instances, casters: Sequence[int], sun: Array, version: object
     ) -> None:
-        """Draw the map, unless ``version`` and ``sun`` are those of the last drawing.
+        """Draw the map, unless all is as at the last drawing.
 
         Args:
             instances: All there are.
-            casters: Rows of what casts shadows.
+            casters: Numbers of the batches that cast shadows.
             sun: Unit vector towards the sun in W, (3,).
             version: Changes whenever a caster moved, came or went.
         """
-        key = (version, tuple(sun))
+        key = (version, tuple(casters), tuple(sun))
         if key == self._drawn:
             return
         self._drawn = key
-        _, spheres, _ = instances.owned(casters)
+        spheres = instances.spheres[list(casters)]
         clip_from_world, edge = _fit(spheres, sun)
         size = SMALL if edge / SMALL <= FINE_TEXEL else LARGE
         self.texture = self._maps[size]
@@ -77,21 +83,91 @@ class SunShadow:
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
-        self._slots.fill(instances, casters, clip_from_world)
-        for slot, row in enumerate(casters):
-            self._slots.bind(slot)
-            context.front_face = "cw" if instances.is_mirrored[row] else "ccw"
-            for batch in instances.batches[row]:
-                if batch.two_sided:
-                    context.disable(moderngl.CULL_FACE)
-                else:
-                    context.enable(moderngl.CULL_FACE)
-                batch.draw(self._program)
+        self._slots.fill(instances, clip_from_world)
+        is_mirrored = instances.is_mirrored
+        for number in casters:
+            row, batch = instances.batch(number)
+            self._slots.bind(row)
+            context.front_face = "cw" if is_mirrored[row] else "ccw"
+            if batch.two_sided:
+                context.disable(moderngl.CULL_FACE)
+            else:
+                context.enable(moderngl.CULL_FACE)
+            batch.draw(self._program)
         context.polygon_offset = 0.0, 0.0
 
     def take_over(self) -> None:
         """Become the target of drawing: what was drawn so far goes to the rasteriser's threads."""
         self._framebuffers[SMALL].use()
+
+
+def reached(
+    instances: Instances,
+    casters: Sequence[int],
+    seen: Sequence[int],
+    sun: Array,
+    world_from_camera: Pose,
+    clip_from_camera: Array,
+) -> npt.NDArray[np.bool_]:
+    """Tell which of what is seen each caster may throw a shadow on, (seen, casters).
+
+    By boxes as the sun sees them: one must overlap the other, and not lie behind all of it. Of
+    what is seen only the part between its least and greatest depth in the picture counts.
+
+    Args:
+        instances: All there are.
+        casters: Numbers of the batches that cast shadows, k.
+        seen: Numbers of the batches in view, n.
+        sun: Unit vector towards the sun in W, (3,).
+        world_from_camera: Where the camera is.
+        clip_from_camera: Its projection, (4, 4).
+    """
+    frame = _along(sun)
+    boxes = instances.corners[list(seen)]  # (n, 8, 3) [m]
+    depths = (world_from_camera.position - boxes) @ world_from_camera.rotation[:, 2]  # (n, 8)
+    ends = np.stack([depths.min(axis=1), depths.max(axis=1)], axis=1).clip(min=0.0)  # (n, 2)
+    rays = _corner_rays(clip_from_camera) @ world_from_camera.rotation.T  # (4, 3), 1 m deep
+    slices = world_from_camera.position + ends[:, :, None, None] * rays  # (n, 2, 4, 3)
+    low, high = _bounds(boxes, frame)
+    near, far = _bounds(slices.reshape(-1, 8, 3), frame)
+    low, high = np.maximum(low, near)[:, None], np.minimum(high, far)[:, None]  # (n, 1, 3)
+    least, most = _bounds(instances.corners[list(casters)], frame)  # (k, 3)
+    over = (least[:, :2] <= high[..., :2] + MARGIN) & (most[:, :2] >= low[..., :2] - MARGIN)
+    may: npt.NDArray[np.bool_] = np.all(over, axis=2) & (most[:, 2] >= low[..., 2] - MARGIN)
+    return may
+
+
+def _along(sun: Array) -> Array:
+    """Coordinates of W in which a sunbeam keeps the first two and falls along the third, (3, 3).
+
+    Where a beam meets the level of W's origin, or of a plane that it meets squarely when the sun
+    is low; and how far towards the sun.
+    """
+    if sun[2] < LOW_SUN:
+        return np.stack([*_axes(sun), sun])
+    return np.array([[1.0, 0.0, -sun[0] / sun[2]], [0.0, 1.0, -sun[1] / sun[2]], sun])
+
+
+def _bounds(points: Array, frame: Array) -> tuple[Array, Array]:
+    """Least and greatest coordinates of (n, k, 3) in another frame, (n, 3) each."""
+    turned = points @ frame.T
+    return turned.min(axis=1), turned.max(axis=1)
+
+
+def _corner_rays(clip_from_camera: Array) -> Array:
+    """Towards the corners of the picture, 1 m deep, camera frame, (4, 3)."""
+    corners = np.array([[x, y, 1.0] for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
+    # With z = -1: x_clip = P00 x + P01 y - P02, y_clip = P11 y - P12, w = 1.
+    matrix = clip_from_camera[:2, :3]
+    xy = np.linalg.solve(matrix[:, :2], (corners[:, :2] + matrix[:, 2]).T).T
+    return np.column_stack([xy, -corners[:, 2]])
+
+
+def _axes(sun: Array) -> tuple[Array, Array]:
+    """What is right and up for a camera that looks from the sun, (3,) each."""
+    aside = np.cross(-sun, [0.0, 0.0, 1.0] if abs(sun[2]) < 0.9 else [1.0, 0.0, 0.0])
+    aside /= np.linalg.norm(aside)
+    return aside, np.cross(aside, -sun)
 
 
 def _fit(spheres: Array, sun: Array) -> tuple[Array, float]:
@@ -101,10 +177,7 @@ def _fit(spheres: Array, sun: Array) -> tuple[Array, float]:
         spheres: round the casters in W: centre and radius, (n, 4) [m].
         sun: Unit vector towards the sun in W, (3,).
     """
-    forward = -sun
-    aside = np.cross(forward, [0.0, 0.0, 1.0] if abs(sun[2]) < 0.9 else [1.0, 0.0, 0.0])
-    aside /= np.linalg.norm(aside)
-    axes = np.stack([aside, np.cross(aside, forward), forward])  # (3, 3)
+    axes = np.stack([*_axes(sun), -sun])  # (3, 3)
     centres, radii = spheres[:, :3] @ axes.T, spheres[:, 3:]  # (n, 3), (n, 1) [m]
     low, high = (centres - radii).min(axis=0), (centres + radii).max(axis=0)
     half = max(high[0] - low[0], high[1] - low[1]) / 2.0
