@@ -87,7 +87,5 @@ class Current(abc.ABC):
 def everywhere(points: Array, x: float, y: float, z: float) -> Array:
     """Return one vector for every point, (n, 3)."""
     vectors = np.empty((len(points), 3))
-    vectors[:, 0] = x
-    vectors[:, 1] = y
-    vectors[:, 2] = z
+    vectors[:] = x, y, z
     return vectors

@@ -53,7 +53,6 @@ class Actuators:
         from . import power_law
 
         self._law, self._refresh = power_law, refresh
-        self._timestep = float(model.opt.timestep)
         moving = [joint for joint in robot.joints if joint.moves]
         self.thrusters = tuple(spec.name for spec in vehicle.thrusters)
         """Names of its thrusters."""
@@ -64,9 +63,8 @@ class Actuators:
         controls = model.actuator_ctrladr[rotors]
         losses = WATER_COLUMNS * model.nbody + np.array(rotors, dtype=np.int64)
         addresses = [model.actuator_actadr[rotors], controls, sites, model.site_bodyid[sites]]
-        self._rotors = _columns([*addresses, losses, rotors], np.int64)  # (n, 6)
         radii = [spec.radius for spec in vehicle.thrusters]
-        self._rotor_traits = _columns([*model.actuator_ctrlrange[controls].T, radii], np.float64)
+        ends = model.actuator_ctrlrange[controls].T
         terms = max((power_table(one, 1.0).shape[1] - 1 for one in vehicle.thrusters), default=0)
         self._tables = np.array(
             [power_table(one, water.density, terms) for one in vehicle.thrusters]
@@ -75,43 +73,47 @@ class Actuators:
         joints = [model.joint(name).id for name in names]
         servos = [model.actuator(f"{name}/servo").id for name in names]
         places = [model.jnt_qposadr[joints], model.jnt_dofadr[joints]]
-        self._motors = _columns([*places, model.actuator_ctrladr[servos], servos], np.int64)
         is_limited = model.actuator_forcelimited[servos].astype(bool)
         strongest = np.where(is_limited, model.actuator_forcerange[servos, 1], math.inf)
         drives = [vehicle.drive(joint.name) for joint in moving]
-        self._motor_traits = _columns(
-            [strongest, [one.efficiency for one in drives], [one.copper_loss for one in drives]],
-            np.float64,
+        efficiencies = [one.efficiency for one in drives]
+        losses_of_copper = [one.copper_loss for one in drives]
+        # What the laws take. Views into the engine's memory: servos are switched off and on there.
+        self._rotors = (
+            _columns([*addresses, losses, rotors], np.int64),
+            _columns([*ends, radii], np.float64),
+            model.actuator_user,
+            water.surface,
+            data.ctrl,
+            data.act,
+            data.userdata,
+            data.site_xpos,
         )
-        # Views into the engine's memory: servos are switched off and on there.
-        self._curves, self._still = model.actuator_user, water.surface
-        self._waters = data.ctrl, data.act, data.userdata, data.site_xpos
-        self._servos = model.actuator_gainprm, model.actuator_biasprm, data.ctrl
-        self._joints = data.qpos, data.qvel, data.qfrc_applied
+        self._motors = (
+            float(model.opt.timestep),
+            _columns([*places, model.actuator_ctrladr[servos], servos], np.int64),
+            _columns([strongest, efficiencies, losses_of_copper], np.float64),
+            model.actuator_gainprm,
+            model.actuator_biasprm,
+            data.ctrl,
+            data.qpos,
+            data.qvel,
+            data.qfrc_applied,
+        )
 
     def thrusts(self) -> Array:
         """Along their directions, as the water has it, (n,) [N]."""
         self._refresh()
-        return self._law.thrusts(
-            self._rotors, self._rotor_traits, self._curves, self._still, *self._waters
-        )
+        return self._law.thrusts(*self._rotors)
 
     def efforts(self) -> Array:
         """Of the joints' servos, or what was commanded where those are off, (m,) [N m or N]."""
-        return self._law.efforts(
-            self._timestep, self._motors, self._motor_traits, *self._servos, *self._joints
-        )
+        return self._law.efforts(*self._motors)
 
     def powers(self) -> Array:
         """What the thrusters draw now, then the joints, (n + m,) [W]."""
-        return self._law.powers(
-            self.thrusts(),
-            self._tables,
-            self.efforts(),
-            self._motors,
-            self._motor_traits,
-            self._joints[1],
-        )
+        self._refresh()
+        return self._law.powers(self._tables, self._rotors, self._motors)
 
 
 def _columns(columns: list[Any], dtype: type) -> npt.NDArray[Any]:

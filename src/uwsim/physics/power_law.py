@@ -22,6 +22,10 @@ STRONGEST, EFFICIENCY, COPPER = range(3)
 """Columns of the motors' traits: greatest effort [N m or N], efficiency [1], copper loss."""
 
 Ints = npt.NDArray[np.int64]
+Rotors = tuple[Ints, Array, Array, float, Array, Array, Array, Array]
+"""What `thrusts` takes."""
+Motors = tuple[float, Ints, Array, Array, Array, Array, Array, Array, Array]
+"""What `efforts` takes."""
 
 
 @njit
@@ -123,19 +127,16 @@ def efforts(
 
 
 @njit
-def powers(
-    given: Array, tables: Array, acted: Array, motors: Ints, traits: Array, qvel: Array
-) -> Array:
+def powers(tables: Array, thrusters: Rotors, joints: Motors) -> Array:
     """Return what the thrusters draw, then the joints, (n + m,) [W].
 
     Args:
-        given: thrusts, (n,) [N].
         tables: of `thruster_power`, (n, 2, 1 + k).
-        acted: efforts, (m,) [N m or N].
-        motors: addresses, (m, 4).
-        traits: (m, 3).
-        qvel: the engine's velocities.
+        thrusters: what `thrusts` takes.
+        joints: what `efforts` takes.
     """
+    given, acted = thrusts(*thrusters), efforts(*joints)
+    _, motors, traits, _, _, _, _, qvel, _ = joints
     n = len(given)
     drawn = np.empty(n + len(acted))
     for i in range(n):

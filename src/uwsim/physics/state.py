@@ -56,10 +56,17 @@ class State:
         self._contacts_hold = False  # whether the contacts are those of the state
         self._data = mujoco.MjData(self._model)
         # Views into MuJoCo's memory: to look them up by name costs more than the step.
-        self._ids = {self._model.body(i).name: i for i in range(self._model.nbody)}
-        self._bases = {i: self._ids[vehicle_body(i, robots[i].root)] for i in robots}
+        ids = {self._model.body(i).name: i for i in range(self._model.nbody)}
+        self._bases = {i: ids[vehicle_body(i, robots[i].root)] for i in robots}
+        self._links = {
+            (i, link.name): ids[vehicle_body(i, link.name)]
+            for i in robots
+            for link in robots[i].links
+        }
+        self._objects = [ids[object_body(i)] for i in range(len(scene.objects))]
         self._warnings = self._data.warning.number
-        self._origins, self._axes = self._data.xpos, self._data.xmat  # (nbody, 3), (nbody, 9)
+        self._origins = self._data.xpos  # (nbody, 3) [m]
+        self._axes = self._data.xmat.reshape(-1, 3, 3)  # (nbody, 3, 3)
         free = {i: self._model.joint(vehicle_joint(i, "")) for i in range(len(scene.vehicles))}
         self._frees = {
             i: self._data.qpos[joint.qposadr[0] : joint.qposadr[0] + 7] for i, joint in free.items()
@@ -82,6 +89,9 @@ class State:
         self._water: Hydrodynamics | None = _water_of(self._model) if dynamics else None
         bases = {self._bases[i] for i in dynamics}  # autopilots feel the water there
         self._wet = np.array(sorted({*(self._water.bodies if self._water else ()), *bases}), int)
+        self._set_current = (
+            self._water.current_setter(self._data, self._wet) if self._water else None
+        )
         self._base_rows = {i: self._wet.tolist().index(self._bases[i]) for i in dynamics}
         self._over_ground = {i: scene.vehicles[i].velocity_loop == "ground" for i in dynamics}
         self._kinematic = [i for i in robots if i not in dynamics]
@@ -116,7 +126,7 @@ class State:
     def wet_positions(self) -> Array:
         """Return where the bodies are that the water acts on, in W, (n, 3) [m]."""
         self._refresh()
-        positions: Array = self._origins[self._wet]
+        positions: Array = self._origins.take(self._wet, axis=0)
         return positions
 
     def wet_vehicles(self) -> tuple[int | None, ...]:
@@ -137,9 +147,9 @@ class State:
         Raises:
             RunFailed: the engine warned: what follows would not be true.
         """
-        if self._water is None:
+        if self._water is None or self._set_current is None:
             return
-        self._water.set_current(self._data, velocity, acceleration, body=self._wet)
+        self._set_current(velocity, acceleration)
         if self._n_steps % self._pilot_steps == 0:
             for index, pilot in self._pilots.items():
                 self._fly(index, pilot, velocity)
@@ -224,9 +234,7 @@ class State:
 
     def vehicle_velocity(self, index: int) -> Array:
         """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
-        twist: Array = self._free_velocities[index].copy()
-        twist[:3] = self.vehicle_pose(index).rotation.T.dot(twist[:3])
-        return twist
+        return self._twist(index, self.vehicle_pose(index))
 
     def place_vehicle(self, index: int, world_from_base: Pose) -> None:
         """Put a vehicle somewhere, at rest."""
@@ -265,11 +273,11 @@ class State:
 
     def link_pose(self, index: int, link: str) -> Pose:
         """Return ``world_from_link`` (the kinematic frame) of a vehicle's link."""
-        return self._body_pose(self._ids[vehicle_body(index, link)])
+        return self._body_pose(self._links[index, link])
 
     def object_pose(self, index: int) -> Pose:
         """Return ``world_from_object`` (before its offsets and its scale)."""
-        return self._body_pose(self._ids[object_body(index)])
+        return self._body_pose(self._objects[index])
 
     def _make_pilot(self, index: int) -> Autopilot:
         mass = float(self._model.body_subtreemass[self._bases[index]])
@@ -277,11 +285,16 @@ class State:
         pilot.hold(self.vehicle_pose(index))
         return pilot
 
+    def _twist(self, index: int, world_from_base: Pose) -> Array:
+        twist: Array = self._free_velocities[index].copy()
+        twist[:3] = world_from_base.rotation.T.dot(twist[:3])
+        return twist
+
     def _fly(self, index: int, pilot: Autopilot, velocity: Array) -> None:
         """Let an autopilot think and set its thrusters."""
         assert self._water is not None
-        twist = self.vehicle_velocity(index)
         pose = self.vehicle_pose(index)
+        twist = self._twist(index, pose)
         if not self._over_ground[index] and not pilot.is_over_ground:
             twist[:3] -= pose.rotation.T.dot(velocity[self._base_rows[index]])
         commands = pilot.thrust(pose, twist, self._pilot_steps * self._timestep)
@@ -306,7 +319,7 @@ class State:
 
     def _body_pose(self, body: int) -> Pose:
         self._refresh()
-        return Pose(self._origins[body].copy(), self._axes[body].reshape(3, 3).copy())
+        return Pose(self._origins[body].copy(), self._axes[body].copy())
 
 
 def _water_of(model: mujoco.MjModel) -> Hydrodynamics:

@@ -39,13 +39,16 @@ class Signal:
     def add(self, total: float, components: Sequence[float]) -> None:
         """Take one sample: the total and its components, k plain floats."""
         sample = [total, *components]
-        self.n += 1
+        self.n = n = self.n + 1
+        means, squares, power, most = self._mean, self._squares, self._power, self._max
         for i, value in enumerate(sample):
-            off = value - self._mean[i]
-            self._mean[i] += off / self.n
-            self._squares[i] += off * (value - self._mean[i])
-            self._power[i] += value * value
-            self._max[i] = max(self._max[i], abs(value))
+            off = value - means[i]
+            mean = means[i] = means[i] + off / n
+            squares[i] += off * (value - mean)
+            power[i] += value * value
+            size = abs(value)
+            if size > most[i]:
+                most[i] = size
         self._last = sample
 
     def value(self, which: str) -> float | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import mujoco
 import numpy as np
@@ -75,6 +75,23 @@ class Hydrodynamics:
         chosen = slice(None) if body is None else body
         rows[chosen, 0:3] = velocity
         rows[chosen, 3:6] = acceleration
+
+    def current_setter(
+        self, data: mujoco.MjData, bodies: npt.NDArray[np.int64]
+    ) -> Callable[[Floats, Floats], None]:
+        """Return `set_current` of some bodies (n,), for every step: nothing is looked up any more.
+
+        It takes velocities [m/s] and accelerations [m/s2] of the water in W, (n, 3) each.
+        """
+        userdata = data.userdata
+        velocities = c.WATER_COLUMNS * bodies[:, None] + np.arange(3)  # (n, 3) places
+        accelerations = velocities + 3
+
+        def set_current(velocity: Floats, acceleration: Floats) -> None:
+            userdata[velocities] = velocity
+            userdata[accelerations] = acceleration
+
+        return set_current
 
     def set_elevation(
         self, data: mujoco.MjData, elevation: float, *, body: int | None = None
