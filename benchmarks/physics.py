@@ -32,7 +32,7 @@ from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import PhysicsSpec
 from uwsim.simulation.bodies import read_robots
-from uwsim.simulation.collision_shapes import collision_shapes
+from uwsim.simulation.collision_shapes import simulated_shapes
 from uwsim.simulation.dynamics import read_dynamics
 
 STEPS_PER_SECOND, RATIO = 60_000, 1.35
@@ -161,7 +161,7 @@ def in_the_tank() -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
     robots = read_robots(scene, ())
     dynamics = read_dynamics(scene, robots)
     model = compile_scene(
-        scene, robots, dynamics, 0.002, collision_shapes(scene, robots, dynamics, ())
+        scene, robots, dynamics, 0.002, simulated_shapes(scene, robots, dynamics, ())
     )
     water, data = install(model), mujoco.MjData(model)
     water.set_current(data, (0.1, 0.2, 0.0))

@@ -1,9 +1,10 @@
 """What workers bring: 40 independent levels of `currents`, played by one worker and by two.
 
 Each run is a fresh process started from the command line, start to report; caches are warm. One
-worker is measured twice: with its own thread alone for its pictures, as each of several workers has, and as
-it comes, when the software rasteriser takes what is left of the machine. The promise is about the
-first: so much does a second core bring. That all runs leave the same bytes is checked on the way.
+worker is measured twice: with its own thread alone for its pictures, as each of several workers
+has, and as it comes, when the software rasteriser takes what is left of the machine. The promise
+is about the first: so much does a second core bring. That all runs leave the same bytes is checked
+on the way.
 
 Beside it: the CPU time that a unit costs beyond its steps, with the renderer that a worker keeps
 and with one made anew.
