@@ -7,7 +7,7 @@ import pytest
 
 from uwsim.geometry import Array, Intrinsics, Pose, rotation_from_rpy
 from uwsim.rendering.minification import MOST_TEXELS, needs_no_copies
-from uwsim.rendering.pieces import density, flat_normal, pieces
+from uwsim.rendering.pieces import crosses, densities, flat_normal, pieces
 
 CAMERA = Intrinsics.from_fovy(64, 48, np.radians(50.0))
 
@@ -24,7 +24,7 @@ def grid(n: int, size: float) -> tuple[Array, np.ndarray]:
 
 def test_every_triangle_is_in_one_piece_and_pieces_are_small() -> None:
     points, triangles = grid(16, 7.9)
-    parts = pieces(points, triangles)
+    parts = pieces(points, triangles, crosses(points, triangles))
     assert sorted(np.concatenate(parts).tolist()) == list(range(len(triangles)))
     assert len(parts) == 16
     for part in parts:
@@ -33,18 +33,19 @@ def test_every_triangle_is_in_one_piece_and_pieces_are_small() -> None:
 
 def test_what_is_small_stays_whole() -> None:
     points, triangles = grid(16, 1.9)
-    assert len(pieces(points, triangles)) == 1
+    assert len(pieces(points, triangles, crosses(points, triangles))) == 1
     points, triangles = grid(2, 50.0)
-    assert len(pieces(points, triangles)) == 1
+    assert len(pieces(points, triangles, crosses(points, triangles))) == 1
 
 
 def test_floor_and_wall_come_apart() -> None:
     points, triangles = grid(8, 3.0)
     wall = points @ rotation_from_rpy(np.pi / 2.0, 0.0, 0.0).T
     both = np.concatenate([points, wall])
-    parts = pieces(both, np.concatenate([triangles, triangles + len(points)]))
-    normals = [flat_normal(both, np.concatenate([triangles, triangles + len(points)])[part])
-               for part in parts]  # fmt: skip
+    triangles = np.concatenate([triangles, triangles + len(points)])
+    directions = crosses(both, triangles)
+    parts = pieces(both, triangles, directions)
+    normals = [flat_normal(directions[part]) for part in parts]
     assert {tuple(np.abs(normal).round(9).tolist()) for normal in normals} == {
         (0.0, 0.0, 1.0),
         (0.0, 1.0, 0.0),
@@ -54,9 +55,9 @@ def test_floor_and_wall_come_apart() -> None:
 def test_a_bent_piece_has_no_normal() -> None:
     points, triangles = grid(4, 1.0)
     points[:, 2] = 0.1 * points[:, 0] ** 2
-    assert (flat_normal(points, triangles) == 0.0).all()
+    assert (flat_normal(crosses(points, triangles)) == 0.0).all()
     points[:, 2] = 0.1 * points[:, 0]
-    assert flat_normal(points, triangles) == pytest.approx(
+    assert flat_normal(crosses(points, triangles)) == pytest.approx(
         np.array([-0.1, 0.0, 1.0]) / np.hypot(1.0, 0.1)
     )
 
@@ -66,8 +67,9 @@ def test_the_density_is_the_largest_stretch_of_the_texture() -> None:
     map_ = np.array([[30.0, 40.0], [5.0, -8.0]])  # texels per metre, sheared
     turned = points @ rotation_from_rpy(0.3, -0.4, 0.7).T
     largest = np.linalg.svd(map_, compute_uv=False)[0]
-    assert density(turned, triangles, points[:, :2] @ map_.T) == pytest.approx(largest)
-    assert density(turned, triangles[:0], points[:, :2]) == 0.0
+    found = densities(turned, triangles, points[:, :2] @ map_.T)
+    assert found == pytest.approx(np.full(len(triangles), largest))
+    assert densities(0.0 * turned, triangles, points[:, :2]) == pytest.approx(0.0)
 
 
 def footprint(normal: Array, point: Array) -> float:

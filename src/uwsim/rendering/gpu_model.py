@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..assets.mesh import Mesh, Model, Texture
-from .pieces import density, flat_normal, pieces
+from .pieces import crosses, densities, flat_normal, pieces
 
 VERTEX = np.dtype(
     [
@@ -28,6 +28,10 @@ class Batch:
 
     vertices: moderngl.Buffer
     indices: moderngl.Buffer
+    first: int
+    """Where its own indices begin ..."""
+    size: int
+    """... and how many they are."""
     texture: Texture | None
     """Uploaded when first drawn: `GpuModels.texture`."""
     two_sided: bool
@@ -42,7 +46,8 @@ class Batch:
     density: float
     """Texels along a metre, where most are [1/m]; 0 without a texture."""
     arrays: dict[int, moderngl.VertexArray]
-    """Vertex array for each program, by the program's number; made when first drawn."""
+    """Vertex array for each program, by the program's number; made when first drawn, and shared
+    by the pieces of a model."""
 
     def draw(self, program: moderngl.Program) -> None:
         """Draw all triangles with the state as it is."""
@@ -56,7 +61,7 @@ class Batch:
                 program, [(self.vertices, _layout(present), *present)], self.indices
             )
             self.arrays[program.glo] = array
-        array.render(moderngl.TRIANGLES)
+        array.render(moderngl.TRIANGLES, vertices=self.size, first=self.first)
 
 
 def _layout(present: list[str]) -> str:
@@ -105,36 +110,40 @@ class GpuModels:
             several.append(mesh.triangles.astype(np.uint32) + np.uint32(first))
             first += len(mesh.vertices)
         triangles = np.concatenate(several)
-        batches = []
-        for piece in pieces(vertices["vertex"].astype(np.float64), triangles):
-            used, own = np.unique(triangles[piece], return_inverse=True)
-            batches.append(self._batch(vertices[used], own.reshape(-1, 3), meshes[0]))
-        return batches
-
-    def _batch(
-        self, vertices: npt.NDArray[np.void], triangles: npt.NDArray[np.intp], mesh: Mesh
-    ) -> Batch:
-        """Upload a piece; its texture and sides are those of the mesh."""
         points = vertices["vertex"].astype(np.float64)
-        indices = triangles.astype(np.uint32)
-        box = np.stack([points.min(axis=0), points.max(axis=0)])  # (2, 3) [m]
-        centre = box.mean(axis=0)
-        texels = 0.0
-        if mesh.texture is not None:
-            height, width = mesh.texture.pixels.shape[:2]
-            texels = density(points, indices, vertices["uv"].astype(np.float64) * [width, height])
-        return Batch(
-            vertices=self._context.buffer(vertices.tobytes()),
-            indices=self._context.buffer(indices.tobytes()),
-            texture=mesh.texture,
-            two_sided=mesh.two_sided,
-            centre=centre,
-            radius=float(np.sqrt(((points - centre) ** 2).sum(axis=1).max())),
-            corners=np.array(list(itertools.product(*box.T))),
-            normal=flat_normal(points, indices),
-            density=texels,
-            arrays={},
-        )
+        normals = crosses(points, triangles)
+        texture = meshes[0].texture
+        texels = np.zeros(len(triangles))
+        if texture is not None:
+            height, width = texture.pixels.shape[:2]
+            places = vertices["uv"].astype(np.float64) * [width, height]
+            texels = densities(points, triangles, places)
+        parts = pieces(points, triangles, normals)
+        ordered = triangles[np.concatenate(parts)]  # a piece is a run of triangles
+        buffers = self._context.buffer(vertices.tobytes()), self._context.buffer(ordered.tobytes())
+        arrays: dict[int, moderngl.VertexArray] = {}
+        batches, first = [], 0
+        for piece in parts:
+            corners = points[triangles[piece]].reshape(-1, 3)
+            box = np.stack([corners.min(axis=0), corners.max(axis=0)])  # (2, 3) [m]
+            centre = box.mean(axis=0)
+            batch = Batch(
+                vertices=buffers[0],
+                indices=buffers[1],
+                first=first,
+                size=3 * len(piece),
+                texture=texture,
+                two_sided=meshes[0].two_sided,
+                centre=centre,
+                radius=float(np.sqrt(((corners - centre) ** 2).sum(axis=1).max())),
+                corners=np.array(list(itertools.product(*box.T))),
+                normal=flat_normal(normals[piece]),
+                density=float(texels[piece].max()),
+                arrays=arrays,
+            )
+            batches.append(batch)
+            first += batch.size
+        return batches
 
     def use(self, texture: Texture, unit: int, *, is_close: bool) -> None:
         """Bind a texture; one that is close is looked up without its smaller copies."""

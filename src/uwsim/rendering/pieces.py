@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
@@ -19,7 +21,21 @@ FLAT = 0.02
 Triangles = npt.NDArray[np.uint32]
 
 
-def pieces(points: Array, triangles: Triangles) -> list[npt.NDArray[np.intp]]:
+def crosses(points: Array, triangles: Triangles) -> Array:
+    """Normals of triangles as long as twice their areas, (m, 3) [m2].
+
+    Args:
+        points: the vertices, (n, 3) [m].
+        triangles: three vertices each, (m, 3).
+    """
+    corners = points[triangles]
+    a, b = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    return np.stack(
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], axis=1
+    )
+
+
+def pieces(points: Array, triangles: Triangles, normals: Array) -> list[npt.NDArray[np.intp]]:
     """Sort triangles by where they are and which way they face; no triangle is cut.
 
     Floor and walls come apart, so that their pieces are flat.
@@ -27,6 +43,7 @@ def pieces(points: Array, triangles: Triangles) -> list[npt.NDArray[np.intp]]:
     Args:
         points: the vertices, (n, 3) [m].
         triangles: three vertices each, (m, 3).
+        normals: of the triangles, of any length, (m, 3).
 
     Returns:
         The numbers of the triangles in each piece.
@@ -41,32 +58,36 @@ def pieces(points: Array, triangles: Triangles) -> list[npt.NDArray[np.intp]]:
     sizes = np.maximum((high - low) / counts, 1e-9)
     middles = points[triangles].mean(axis=1)
     cells = np.minimum(((middles - low) / sizes).astype(int), counts - 1)  # (m, 3)
-    crosses = _crosses(points, triangles)
-    axes = np.argmax(np.abs(crosses), axis=1)
-    is_backward = crosses[everything, axes] < 0.0
+    axes = np.argmax(np.abs(normals), axis=1)
+    is_backward = normals[everything, axes] < 0.0
     numbers = np.ravel_multi_index(
         (*cells.T, axes, is_backward.astype(int)), (*counts.tolist(), 3, 2)
     )
-    return [np.flatnonzero(numbers == number) for number in np.unique(numbers)]
+    order = np.argsort(numbers, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1)
 
 
-def flat_normal(points: Array, triangles: Triangles) -> Array:
-    """Return the unit normal of triangles that lie in one direction, else 0, (3,)."""
-    crosses = _crosses(points, triangles)
-    total = crosses.sum(axis=0)
-    size = float(np.linalg.norm(total))
+def flat_normal(normals: Array) -> Array:
+    """Return the unit normal of triangles that lie in one direction, else 0, (3,).
+
+    Args:
+        normals: of the triangles, as long as twice their areas, (m, 3) [m2].
+    """
+    total = normals.sum(axis=0)
+    size = math.sqrt(float(total @ total))
     if size == 0.0:
         return np.zeros(3)
     normal: Array = total / size
-    astray = crosses - np.outer(crosses @ normal, normal)
-    is_flat = (np.linalg.norm(astray, axis=1) <= FLAT * np.linalg.norm(crosses, axis=1)).all()
+    along = normals @ normal
+    squares = np.square(normals).sum(axis=1)
+    is_flat = (squares - along**2 <= FLAT**2 * squares).all()
     return normal if is_flat else np.zeros(3)
 
 
-def density(points: Array, triangles: Triangles, places: Array) -> float:
-    """Return how many texels lie along a metre, where most do [1/m].
+def densities(points: Array, triangles: Triangles, places: Array) -> Array:
+    """Return how many texels lie along a metre at most, on each triangle, (m,) [1/m].
 
-    The larger singular value of each triangle's map from its plane to the texture.
+    The larger singular value of its map from its plane to the texture; 0 where it has no area.
 
     Args:
         points: the vertices, (n, 3) [m].
@@ -75,19 +96,15 @@ def density(points: Array, triangles: Triangles, places: Array) -> float:
     """
     corners, spots = points[triangles], places[triangles]
     edges, ways = corners[:, 1:] - corners[:, :1], spots[:, 1:] - spots[:, :1]  # (m, 2, 3 or 2)
-    lengths = edges @ edges.transpose(0, 2, 1)  # (m, 2, 2)
-    texels = ways @ ways.transpose(0, 2, 1)
-    is_real = np.linalg.det(lengths) > 1e-18
-    if not is_real.any():
-        return 0.0
-    squares = np.linalg.solve(lengths[is_real], texels[is_real])
-    half = np.trace(squares, axis1=1, axis2=2) / 2.0
-    largest = half + np.sqrt(np.maximum(half**2 - np.linalg.det(squares), 0.0))
-    return float(np.sqrt(max(float(largest.max()), 0.0)))
-
-
-def _crosses(points: Array, triangles: Triangles) -> Array:
-    """Normals as long as twice the areas, (m, 3) [m2]."""
-    corners = points[triangles]
-    crosses: Array = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return crosses
+    e, f = (edges[:, i] for i in range(2))
+    u, v = (ways[:, i] for i in range(2))
+    ee, ef, ff = (e * e).sum(axis=1), (e * f).sum(axis=1), (f * f).sum(axis=1)
+    uu, uv, vv = (u * u).sum(axis=1), (u * v).sum(axis=1), (v * v).sum(axis=1)
+    area = ee * ff - ef**2  # squared, times 4
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # the eigenvalues of (edges edges')^-1 (ways ways') are the singular values squared
+        half = (ff * uu - 2.0 * ef * uv + ee * vv) / area / 2.0
+        rest = (uu * vv - uv**2) / area
+        largest = np.sqrt(np.maximum(half + np.sqrt(np.maximum(half**2 - rest, 0.0)), 0.0))
+    found: Array = np.where(area > 1e-18, largest, 0.0)
+    return found
