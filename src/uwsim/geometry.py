@@ -83,7 +83,7 @@ def rotation_from_quaternion(wxyz: Array) -> Array:
     )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class Pose:
     """Where frame b stands in frame a: ``a_from_b``."""
 
@@ -127,6 +127,10 @@ class Pose:
     def __matmul__(self, other: Pose) -> Pose:
         turn = self.rotation.dot  # half as dear as ``@`` for matrices this small
         return Pose(turn(other.position) + self.position, turn(other.rotation))
+
+    def copy(self) -> Pose:
+        """The same, in arrays of its own."""
+        return Pose(self.position.copy(), self.rotation.copy())
 
     def inverse(self) -> Pose:
         """``b_from_a``."""
@@ -193,12 +197,13 @@ class Intrinsics:
         Points at or behind the camera plane give NaN; with ``behind`` only those in the plane do,
         and those behind it are projected through the camera's centre, upside down.
         """
-        pixels = []  # one by one: they are few, and asked for at every step
-        for x, y, z in points.tolist():
-            depth = -z if z < 0.0 or (behind and z != 0.0) else math.nan
-            u = self.cx + (self.fx * x + self.skew * y) / depth
-            pixels.append((u, self.cy - self.fy * y / depth))
+        pixels = [self.pixel(x, y, z, behind=behind) for x, y, z in points.tolist()]
         return np.array(pixels).reshape(-1, 2)
+
+    def pixel(self, x: float, y: float, z: float, *, behind: bool = False) -> tuple[float, float]:
+        """Image coordinates u, v [px] of one point, as `project` has them: cheap for a few."""
+        depth = -z if z < 0.0 or (behind and z != 0.0) else math.nan
+        return self.cx + (self.fx * x + self.skew * y) / depth, self.cy - self.fy * y / depth
 
     def rays(self) -> Array:
         """Direction of the ray of each pixel centre, camera frame, with -z = 1, (h, w, 3)."""

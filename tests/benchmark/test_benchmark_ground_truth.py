@@ -97,6 +97,19 @@ def test_the_centroid_is_the_origin_and_not_the_centre_of_the_box() -> None:
     assert centroid(seen(body), "face") == pytest.approx([160 + 0.6 / 0.5 * F, 120 - 0.7 / 0.5 * F])
 
 
+def test_the_centroid_follows_body_and_camera_and_is_none_behind_it() -> None:
+    body, camera = FakeBody((0.1, 0.2, -1.0)), FakeCamera()
+    world = seen(body, camera)
+    truth = CentroidFromCameraSpec(camera="cam", target="box").bind(world)
+    assert truth.read() == pytest.approx([160 + 0.1 * F, 120 - 0.2 * F])
+    body.move(0.3, 0.2, -2.0)
+    assert truth.read() == pytest.approx([160 + 0.15 * F, 120 - 0.1 * F])
+    camera.move(0.3, 0.0, 0.0)
+    assert truth.read() == pytest.approx([160, 120 - 0.1 * F])
+    camera.move(0.0, 0.0, -3.0)
+    assert truth.read() is None
+
+
 @given(st.floats(-0.7, 0.7))
 def test_a_flat_plate_turned_under_the_camera_keeps_the_names_of_its_corners(angle: float) -> None:
     plate = Box((-0.2, -0.1, 0.0), (0.2, 0.1, 0.0))

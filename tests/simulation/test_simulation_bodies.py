@@ -64,3 +64,12 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
     as_it_is, scaled, original = sizes
     assert scaled == pytest.approx(as_it_is * [2.0, 3.0, 0.5])
     assert original == pytest.approx(as_it_is)
+
+
+def test_what_an_object_that_never_moves_hands_out_is_a_copy() -> None:
+    body = Simulation(read_scene(SCENE)).body("blackbox")
+    place, turn = body.world_from_body.position, body.world_from_body.rotation
+    body.world_from_body.position[:] = np.nan
+    body.world_from_body.rotation[:] = np.nan
+    assert (body.world_from_body.position == place).all()
+    assert (body.world_from_body.rotation == turn).all()

@@ -1,3 +1,5 @@
+import math
+
 import numpy as np
 import pytest
 
@@ -69,6 +71,12 @@ def test_a_timer_fires_once_a_period_from_the_step_it_was_set() -> None:
         bus.step = step
         node.tick()
     assert fired == [3, 8, 13, 18]
+
+
+@pytest.mark.parametrize("period", [0.0, -1.0, math.inf, math.nan])
+def test_a_period_that_is_no_time_is_refused(period: float) -> None:
+    with pytest.raises(BadSetting, match="timer's period"):
+        make_node(Bus()).every(period, lambda: None)
 
 
 def test_services_of_a_closed_node_are_gone() -> None:

@@ -40,13 +40,15 @@ class Gated:
         self._world = world
         self._start = spec.start_on.bind(world)
         self._stop = spec.stop_on.bind(world)
+        self._asks = not (self._start.is_constant and self._stop.is_constant)
+        self._is_on = not self._asks and self._ask()
         self._began = world.step
         self._was_on = False
         self._log_due = 0 if spec.log is not None else None
 
     def tick(self) -> None:
         """Start or update the measure, whichever the triggers ask for."""
-        on = self._start.is_on() and not self._stop.is_on()
+        on = self._ask() if self._asks else self._is_on
         if on and not self._was_on:
             self.measure.start()
         elif on:
@@ -60,6 +62,9 @@ class Gated:
         self.measure.close()
         self._start.close()
         self._stop.close()
+
+    def _ask(self) -> bool:
+        return self._start.is_on() and not self._stop.is_on()
 
     def _take_log(self) -> None:
         """Take a sample; the next is due at the next multiple of the period."""

@@ -30,6 +30,7 @@ from ..geometry import Array
 from ..world import Body, Box, Camera, World
 from .rectangle import like_rectangle, rectangle
 
+BEHIND = "the target is behind the camera"
 CORNERS = ("nw_x", "nw_y", "ne_x", "ne_y", "se_x", "se_y", "sw_x", "sw_y")
 
 
@@ -168,7 +169,7 @@ class _Seen(GroundTruth):
     Compatibility ``unseen``: what is behind the camera is seen through its centre, upside down.
     """
 
-    missing = "the target is behind the camera"
+    missing = BEHIND
 
     def __init__(self, camera: Camera, body: Body, points: Array, *, unseen: bool) -> None:
         self._camera, self._body, self._unseen = camera, body, unseen
@@ -217,17 +218,30 @@ class CornersFromCamera(_Seen):
         return rectangle(pixels).reshape(8)
 
 
-class CentroidFromCamera(_Seen):
-    """The original's centroid: the projected *origin* of the body, not the centre of its box."""
+class CentroidFromCamera(GroundTruth):
+    """The original's centroid: the projected *origin* of the body, not the centre of its box.
+
+    Compatibility ``unseen``: as in `_Seen`.
+    """
 
     components = ("x", "y")
+    missing = BEHIND
 
     def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
-        super().__init__(camera, body, np.zeros((1, 3)), unseen=unseen)
+        self._camera, self._body, self._unseen = camera, body, unseen
 
-    def _from_pixels(self, pixels: Array) -> Array:
-        pixel: Array = pixels[0]
-        return pixel
+    def read(self) -> Array | None:
+        """Return the centroid now, (2,) [px]; None when it is not in front of the camera."""
+        pixel = self.pixel()
+        return None if pixel is None else np.array(pixel)
+
+    def pixel(self) -> tuple[float, float] | None:
+        """As `read`, in plain numbers: it is asked for at every step."""
+        camera = self._camera.world_from_camera
+        way = self._body.world_from_body.position - camera.position  # (3,) [m]
+        x, y, z = way.dot(camera.rotation).tolist()
+        u, v = self._camera.intrinsics.pixel(x, y, z, behind=self._unseen)
+        return (u, v) if math.isfinite(u) and math.isfinite(v) else None
 
 
 class FaceCorners(_Seen):

@@ -279,6 +279,10 @@ class State:
         """Return ``world_from_object`` (before its offsets and its scale)."""
         return self._body_pose(self._objects[index])
 
+    def is_fixed(self, index: int) -> bool:
+        """Whether an object stays where it is."""
+        return int(self._model.body_weldid[self._objects[index]]) == 0
+
     def _make_pilot(self, index: int) -> Autopilot:
         mass = float(self._model.body_subtreemass[self._bases[index]])
         pilot = Autopilot(self._dynamics[index], self._robots[index].root, mass)

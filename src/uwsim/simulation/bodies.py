@@ -110,11 +110,9 @@ def name_bodies(
         if box is not None and "box-scale" not in compatibility:
             box = scaled_box(box, mesh.rotation, thing.scale_factor)
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
-        add(
-            [thing.name],
-            partial(_attached, partial(state.object_pose, index), Pose(origin, mesh.rotation)),
-            box,
-        )
+        object_from_mesh = Pose(origin, mesh.rotation)
+        pose = partial(_attached, partial(state.object_pose, index), object_from_mesh)
+        add([thing.name], pose().copy if state.is_fixed(index) else pose, box)
     return bodies
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import traceback
 from collections.abc import Callable, Mapping
@@ -37,6 +38,21 @@ def what_broke(error: BaseException, algorithm: type) -> str:
     return f"{place}{type(error).__name__}: {error}"
 
 
+class _Timer:
+    """Something that is due again and again."""
+
+    def __init__(self, start: int, period: float, callback: Callable[[], None]) -> None:
+        self._start, self._period, self.callback = start, period, callback  # [steps]
+        self._n_fired = 0
+        self.due = start
+        """Step from which on it is due."""
+
+    def move_on(self) -> None:
+        """Make it due a period later."""
+        self._n_fired += 1
+        self.due = self._start + math.ceil(self._n_fired * self._period - 1e-9)
+
+
 class InProcessNode:
     """A `uwsim.bus.Node` in lock-step: callbacks run inside the step, time waits for them.
 
@@ -57,8 +73,7 @@ class InProcessNode:
         self._timestep = timestep
         self._random = random
         self._parameters = dict(parameters)
-        self._timers: list[tuple[int, float, Callable[[], None]]] = []
-        self._fired: list[int] = []
+        self._timers: list[_Timer] = []
         self._delay_steps = round(latency_of(self._parameters) / timestep)
         self._parameters.pop("latency_s", None)
         self._close: list[Callable[[], None]] = []
@@ -124,17 +139,16 @@ class InProcessNode:
 
     def every(self, period_s: float, callback: Callable[[], None]) -> None:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
-        if not period_s > 0.0:
+        if not 0.0 < period_s < math.inf:
             raise BadSetting(f"A timer's period is {period_s!r}; expected a time > 0 [s].")
-        self._timers.append((self._bus.step, period_s / self._timestep, callback))
-        self._fired.append(0)
+        self._timers.append(_Timer(self._bus.step, period_s / self._timestep, callback))
 
     def tick(self) -> None:
         """Call the timers that are due at the current step, in the order they were set."""
-        for i, (start, period, callback) in enumerate(self._timers):
-            if self._bus.step >= start + int(np.ceil(self._fired[i] * period - 1e-9)):
-                self._fired[i] += 1
-                self._guard(callback)
+        for timer in self._timers:
+            if self._bus.step >= timer.due:
+                timer.move_on()
+                self._guard(timer.callback)
 
     def close(self) -> None:
         """Take the algorithm off the bus."""

@@ -24,8 +24,12 @@ LEGACY = frozenset({"thresholds"})
 
 def test_on_init_is_on_and_never_is_off() -> None:
     world = FakeWorld()
-    assert OnInitSpec().bind(world).is_on()
-    assert not NeverSpec().bind(world).is_on()
+    init, never = OnInitSpec().bind(world), NeverSpec().bind(world)
+    assert init.is_on()
+    assert not never.is_on()
+    assert init.is_constant
+    assert never.is_constant
+    assert not TopicSpec(target="t").bind(world).is_constant
 
 
 def test_a_service_trigger_goes_on_with_the_call_and_stays_on() -> None:

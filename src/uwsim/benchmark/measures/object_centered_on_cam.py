@@ -74,9 +74,9 @@ class ObjectCenteredOnCam(Measure):
     def update(self) -> None:
         """Take a sample, if the body is in the picture."""
         width, height = self._size
-        pixel = self._seen.read()
+        pixel = self._seen.pixel()
         self._looks += 1
-        u, v = (math.nan, math.nan) if pixel is None else pixel.tolist()
+        u, v = (math.nan, math.nan) if pixel is None else pixel
         self._is_visible = pixel is not None and (
             self._unseen or (0.0 <= u <= width and 0.0 <= v <= height)
         )

@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ...world import World
 from .trigger import Trigger, TriggerSpec
@@ -24,6 +25,8 @@ class OnInitSpec(TriggerSpec):
 
 class OnInit(Trigger):
     """Always on."""
+
+    is_constant: ClassVar[bool] = True
 
     def is_on(self) -> bool:
         """Return True."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import abc
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ...world import World
 
@@ -29,6 +30,9 @@ class Trigger(abc.ABC):
 
     It is bound afresh for every level, so it has seen nothing before; ask it once a step.
     """
+
+    is_constant: ClassVar[bool] = False
+    """Whether it stays what it is at first, so that nobody has to ask it again."""
 
     @abc.abstractmethod
     def is_on(self) -> bool:
