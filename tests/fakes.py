@@ -80,8 +80,8 @@ class FakeActuators:
         self.thrusters, self.joints = thrusters, joints
         self.draws = np.zeros(len(thrusters) + len(joints))  # (n,) [W]
 
-    def powers(self) -> list[float]:
-        return list(self.draws.tolist())
+    def powers(self) -> np.ndarray:
+        return self.draws.copy()
 
 
 class FakeWorld:

@@ -11,7 +11,8 @@ from uwsim.algorithms.tracker import Estimate, LossTest
 from uwsim.errors import BadSetting
 
 QUAD = rectangle(160.0, 120.0, 93.0, 28.0)
-TRACKERS = [name for name in ALGORITHMS if name != "frozen"]
+LOOKING = [name for name in ALGORITHMS if name != "scripted"]
+TRACKERS = [name for name in LOOKING if name != "frozen"]
 
 
 def started(name: str, **parameters: float | str) -> FakeNode:
@@ -20,7 +21,7 @@ def started(name: str, **parameters: float | str) -> FakeNode:
     return node
 
 
-@pytest.mark.parametrize("name", ALGORITHMS)
+@pytest.mark.parametrize("name", LOOKING)
 def test_the_benchmark_is_started_once_after_the_first_picture(name: str) -> None:
     node = started(name)
     assert node.calls == []
@@ -30,7 +31,7 @@ def test_the_benchmark_is_started_once_after_the_first_picture(name: str) -> Non
     assert node.calls == ["startBench"]
 
 
-@pytest.mark.parametrize("name", ALGORITHMS)
+@pytest.mark.parametrize("name", LOOKING)
 def test_a_benchmark_that_waits_for_nobody_is_fine(name: str) -> None:
     node = started(name)
     node.known_services.clear()
@@ -39,7 +40,7 @@ def test_a_benchmark_that_waits_for_nobody_is_fine(name: str) -> None:
     assert node.statuses == ["tracking"]
 
 
-@pytest.mark.parametrize("name", ALGORITHMS)
+@pytest.mark.parametrize("name", LOOKING)
 def test_nothing_is_published_before_auto_init(name: str) -> None:
     node = started(name)
     node.show(Texture().picture())
@@ -47,7 +48,7 @@ def test_nothing_is_published_before_auto_init(name: str) -> None:
     assert node.published == []
 
 
-@pytest.mark.parametrize("name", ALGORITHMS)
+@pytest.mark.parametrize("name", LOOKING)
 def test_a_plane_that_stands_still_is_found_where_it_is_in_the_order_handed_in(name: str) -> None:
     for first in range(4):
         node = started(name)

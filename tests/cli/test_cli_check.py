@@ -57,7 +57,8 @@ def test_a_root_that_nobody_knows_says_what_was_expected(
     file = tmp_path / "page.xml"
     file.write_text("<html/>")
     assert status(str(file)) == 2
-    assert "expected <UWSimScene>, <benchmark>, <robot> or <hydrodynamics>" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "expected <UWSimScene>, <benchmark>, <robot> or <hydrodynamics>" in said
 
 
 CHECK = """

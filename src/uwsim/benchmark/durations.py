@@ -1,7 +1,7 @@
 """Times in a benchmark file that are shorter than time itself: the world goes in whole steps.
 
-A level of less than half a step would be one of none at all; a period of less than half a step
-would be played as another one.
+A level of less than half a step would be one of none at all; a log's period of less than half a
+step would be played as another one.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from lxml import etree
 from ..dialect import Faults
 from .measures import MeasureSpec
 from .spec import FunctionSpec
-from .updaters import CurrentForceUpdaterSpec, SceneUpdaterSpec, chain, interval, longest_calm
+from .updaters import SceneUpdaterSpec, chain, interval, longest_calm
 
 Said = tuple[etree._Element | None, str]
 
@@ -35,13 +35,9 @@ def too_short(
         timestep: length of a step [s].
     """
     step = f"less than half a step of {timestep:g} s"
-    periods = [(faults.node_of(spec), "log", spec.log) for spec in measures]
-    for each in () if updater is None else chain(updater):
-        if isinstance(each, CurrentForceUpdaterSpec):
-            periods.append((faults.node_of(each), "forcePeriod", each.force_period))
-    for node, tag, period in periods:
-        if period is not None and _is_nothing(period, timestep):
-            yield _child(node, tag), f"<{tag}> is {period:g} s: {step}"
+    for spec in measures:
+        if spec.log is not None and _is_nothing(spec.log, timestep):
+            yield _child(faults.node_of(spec), "log"), f"<log> is {spec.log:g} s: {step}"
     rate = 0.0 if function is None else function.publish_rate
     if rate > 0.0 and _is_nothing(rate, timestep):
         said = f"publishRate is {rate:g} s: {step}; 0 publishes at every step"

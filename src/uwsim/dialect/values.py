@@ -46,7 +46,9 @@ def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: s
         is_lenient = (slot.xml.lenient or faults.lenient) and not _COMMA.fullmatch(text)
         if value is None and is_lenient and (leading := _NUMBER.match(text)):
             value = number(leading[0])
-            faults.notice(node, f"{shown} is {cut(text)}; read as {value:g}, as the original does")
+            if value is not None:
+                said = f"{shown} is {cut(text)}; read as {value:g}, as the original does"
+                faults.notice(node, said)
         value = BAD if value is None else value
     elif slot.kind == "int":
         leading = _LEADING_INT.match(text)
