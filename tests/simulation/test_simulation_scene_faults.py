@@ -85,6 +85,25 @@ def test_a_side_file_that_is_wrong_is_said_with_its_own_lines(tmp_path: Path) ->
     assert "Did you mean 'Elbow'?" in faults[1]
 
 
+def test_a_set_that_is_not_named_as_its_file_is_a_notice(tmp_path: Path) -> None:
+    (tmp_path / "mine.xml").write_text(
+        '<hydrodynamics name="other">\n<body link="base_link"> <mass>180</mass> '
+        "<volume>0.18</volume> </body></hydrodynamics>"
+    )
+    path = tmp_path / "scene.xml"
+    path.write_text(TEXT.replace("g500_physical", "mine"))
+    (said,) = [fault for fault in faults_of(path) if "the set is called" in fault.message]
+    assert (said.file, said.line, said.severity) == (str(tmp_path / "mine.xml"), 1, "notice")
+    assert said.message.endswith("'other'; scenes find it by the name of its file, 'mine'")
+
+
+def test_dynamics_that_name_no_set_are_a_fault(tmp_path: Path) -> None:
+    path = tmp_path / "scene.xml"
+    path.write_text(TEXT.replace("g500_physical", " "))
+    (fault,) = [str(fault) for fault in faults_of(path) if fault.severity == "fault"]
+    assert "<u:dynamics> is empty; expected text" in fault
+
+
 def test_all_are_said_at_once(tmp_path: Path) -> None:
     changed = TEXT
     for way in ("a thruster", "thruster commands for nobody", "a field that is not there"):

@@ -71,7 +71,7 @@ def element(
 
     Args:
         name: of the element or attribute; the field's in camelCase when absent.
-        default: when the element is absent or empty.
+        default: when the element is absent or, of the original's, empty.
         default_factory: as in `dataclasses.field`.
         unit: for messages, when the documentation string does not name it in brackets.
         attribute: it is an attribute of the element that the spec is read from.

@@ -202,7 +202,7 @@ def _read_one(slot: Slot, node: etree._Element, faults: Faults) -> Any:
 def _leaf(slot: Slot, node: etree._Element, faults: Faults) -> Any:
     text = text_of(node, faults)
     if not text:
-        if slot.default is MISSING:
+        if slot.default is MISSING or slot.xml.namespaced:  # of extensions the original knows none
             faults.add(node, f"{shown(node)} is empty; expected {slot.expected}")
         return BAD
     return scalar(slot, text, node, faults, shown(node))

@@ -124,6 +124,12 @@ def read_vehicle_into(
     head = _read_file(path, faults, parts, ())
     if head is None or faults.any:
         return None
+    if head.name != path.stem:
+        faults.notice(
+            faults.node_of(head),
+            f"the set is called {cut(head.name)}; scenes find it by the name of its file, "
+            f"{cut(path.stem)}",
+        )
     return VehicleHydrodynamics(
         name=head.name,
         source=" ".join(head.source.split()),
@@ -206,7 +212,8 @@ def _include(
             faults.add(node, f"<include> {cut(name)}: {fault.message}")
         return
     for fault in inner.all():
-        faults.add(node, f"in {name}, line {fault.line}: {fault.message}")
+        say = faults.add if fault.severity == "fault" else faults.notice
+        say(node, f"in {name}, line {fault.line}: {fault.message}")
 
 
 def _check_name(

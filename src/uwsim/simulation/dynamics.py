@@ -30,7 +30,7 @@ from ..messages import (
     WrenchStamped,
 )
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
-from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle
+from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle_into
 from ..scene.legacy import upgrade
 from ..scene.ros_interfaces import (
     INTERFACES,
@@ -123,18 +123,21 @@ class _Search:
 
     def _read(self, index: int, name: str, robot: RobotSpec) -> None:
         beside = Path(self._scene.path) if self._scene.path else None
+        links = [link.name for link in robot.links]
+        joints = [joint.name for joint in robot.joints if joint.moves]
         try:
-            self.dynamics[index] = read_vehicle(
-                find_vehicle(name, beside),
-                [link.name for link in robot.links],
-                [joint.name for joint in robot.joints if joint.moves],
-            )
+            path = find_vehicle(name, beside)
+            faults = Faults(path)
+            dynamics = read_vehicle_into(path, links, faults, joints)
         except VehicleError as error:
             self.found += error.faults
         except UnknownName as error:
             self._say(str(error), "vehicle", index, f"{U}dynamics", 0)
         else:
-            self._weigh(index, name, robot)
+            self.found += faults.all()
+            if dynamics is not None:
+                self.dynamics[index] = dynamics
+                self._weigh(index, name, robot)
 
     def _weigh(self, index: int, name: str, robot: RobotSpec) -> None:
         """Hold what a vehicle weighs against what it displaces."""
