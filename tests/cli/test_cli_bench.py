@@ -1,6 +1,7 @@
 """``uwsim bench`` with several algorithms, other workers, and algorithms that break."""
 
 import os
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -130,7 +131,10 @@ ALGORITHMS = {"dies": Dies}
 
 @pytest.mark.slow
 def test_a_run_that_a_plugin_ended_keeps_its_rows_and_goes_on(
-    benchmark: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    benchmark: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("dies.py").write_text(DIES)
@@ -140,6 +144,10 @@ def test_a_run_that_a_plugin_ended_keeps_its_rows_and_goes_on(
     died = subprocess.run([sys.executable, "-m", "uwsim.cli", *call, "out"], check=False)
     assert died.returncode == 3
     assert len(Path("out/units/00000.jsonl").read_text().splitlines()) == 2  # its head, one row
+    capsys.readouterr()
+    assert main(["report", "out"]) == 2
+    how = shlex.join(["uwsim", *call, "out", "--resume"])
+    assert f"its run was interrupted. Go on with: {how}." in capsys.readouterr().err
     Path("deadly").unlink()
     assert main([*call, "out", "--resume"]) == 0
     assert fingerprint(Path("out")) == fingerprint(Path("whole"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -160,6 +161,13 @@ def test_a_breaking_point_is_one_number_with_its_bound_and_its_runs_are_used_aga
     assert n_units < n_more < 1.7 * n_units  # the runs of the first search were used
     assert envelope(capsys, *search, "--resume")[0] == 0
     assert (folder / "b.envelope" / "envelope.json").read_bytes() == before
+
+    (folder / "b.envelope" / "envelope.json").unlink()  # as after a search that was killed
+    capsys.readouterr()
+    assert main(["report", "b.envelope"]) == 2
+    how = shlex.join(["uwsim envelope b.xml --plugin own.py --over load", *search]).replace("'", "")
+    said_now = capsys.readouterr().err.replace("'", "")
+    assert f"but the runs of an envelope: its search was interrupted. Go on with: {how}" in said_now
 
 
 @pytest.mark.slow

@@ -15,6 +15,7 @@ import pytest
 from uwsim.benchmark.bench import Bench, open_once
 from uwsim.benchmark.crew import play_all
 from uwsim.benchmark.differences import leaves, of_row, of_text
+from uwsim.benchmark.provenance import save_provenance
 from uwsim.benchmark.verify import choose
 from uwsim.cli import main
 from uwsim.cli.files import bundled
@@ -210,7 +211,12 @@ def test_where_no_result_is_it_is_said_what_is_there_and_how_to_go_on(
     assert said("report", "both") == said("verify", "both") == f"uwsim: {both}"
     for name in ("esm", "frozen"):
         (folder / "both" / name / "result.json").unlink()
+        (folder / "both" / name / "provenance.json").unlink()  # a program has played
     assert "--algorithm esm --algorithm esm --seed 3" in said("report", "both")
+    begun = ["--overwrite", "--scene", "tank.xml", "--data-path", "my models", "--out", "out"]
+    save_provenance({"command": ["bench", "b.xml", *begun]}, folder / "both" / "esm")
+    go_on = "--scene tank.xml --data-path 'my models' --out out --resume."
+    assert said("report", "both").endswith(f"Go on with: uwsim bench b.xml {go_on}")
     (folder / "empty").mkdir()
     assert said("report", "empty") == "uwsim: empty: no result here (no result.json)."
     assert said("report", "nix") == (

@@ -1,7 +1,8 @@
 """What lies in a directory that holds no result, and how to go on with it.
 
-A run that was killed leaves the rows it had finished, and no ``result.json``. The first line of a
-unit's file says what was played, so the command that goes on with it can be given.
+A run that was killed leaves the rows it had finished, how it was begun (`save_beginning`), and no
+``result.json``. Where a program has played, and no command is known, it is put together from what
+the first line of a unit's file says of the run.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import shlex
 from importlib import resources
 from pathlib import Path
 
+from .provenance import load_provenance
 from .unit_file import FOLDER, Record, read_any
 
 ENVELOPE = "envelope.json"
@@ -27,7 +29,10 @@ def instead_of_a_result(path: Path) -> str:
         said = f"holds {len(names)} results ({', '.join(names)}); name one, as {path / names[0]}"
         return said if len(names) > 1 else f"no result here, but in {path / names[0]}"
     if command := resuming(path):
-        return f"no result here yet: its run was interrupted. Go on with: {command}"
+        what = "yet: its run"
+        if command.startswith("uwsim envelope "):
+            what = "but the runs of an envelope: its search"
+        return f"no result here {what} was interrupted. Go on with: {command}"
     return "no result here (no result.json)"
 
 
@@ -37,6 +42,10 @@ def resuming(directory: Path) -> str | None:
     heads = {"": alone} if alone is not None else _heads_below(directory)
     if not heads:
         return None
+    typed = load_provenance(directory / next(iter(heads))).get("command")
+    if isinstance(typed, list) and typed:
+        words = [str(word) for word in typed if word not in ("--overwrite", "--resume")]
+        return shlex.join(["uwsim", *words, "--resume"])
     first = next(iter(heads.values()))
     run, inputs = _mapping(first.get("run")), _mapping(first.get("inputs"))
     words = ["uwsim", "bench", _benchmark(inputs)]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from .whole_file import write_whole
@@ -21,6 +21,17 @@ def save_provenance(provenance: Mapping[str, object], directory: Path) -> Path:
     path = directory / "provenance.json"
     write_whole(path, json.dumps(provenance, indent=2, ensure_ascii=False) + "\n")
     return path
+
+
+def save_beginning(command: Sequence[str], directory: Path) -> None:
+    """Write how a run was begun, unless it goes on with another: so an interrupted one can go on.
+
+    Args:
+        command: what was typed behind ``uwsim``.
+        directory: of the result, or of the envelope.
+    """
+    if not load_provenance(directory):
+        save_provenance({"command": list(command), **machine()}, directory)
 
 
 def machine() -> dict[str, object]:

@@ -118,7 +118,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     wanted = [argument for argument in given if argument != TRACEBACK] or ["--help"]
     try:
-        result = build(wanted)(wanted, prog_name="uwsim", standalone_mode=False)
+        result = build(wanted)(wanted, prog_name="uwsim", standalone_mode=False, obj=wanted)
         sys.stdout.flush()
     except BrokenPipeError:
         sys.stdout = None  # whoever read us has left; say no more

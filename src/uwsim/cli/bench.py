@@ -37,6 +37,7 @@ UNWRAPPED = 1000
 
 
 def bench(
+    context: typer.Context,
     benchmark: Annotated[
         str, typer.Argument(metavar="BENCHMARK", help="A benchmark file, or a bundled name.")
     ],
@@ -132,13 +133,26 @@ def bench(
         Bench(plan=plan, out=directory / folder, inputs=inputs, renderer=renderer)
         for plan, folder in zip(plans, folders or [""], strict=True)
     ]
-    play_and_finish(runs, directory, crew, workers, began)
+    play_and_finish(runs, directory, crew, workers, began, context.obj)
 
 
 def play_and_finish(
-    runs: Sequence[Bench], directory: Path, crew: Crew, workers: str, began: float
+    runs: Sequence[Bench],
+    directory: Path,
+    crew: Crew,
+    workers: str,
+    began: float,
+    command: Sequence[str],
 ) -> None:
     """Play one benchmark with an algorithm each, and write and show all there is to it.
+
+    Args:
+        runs: an algorithm each.
+        directory: of all results together.
+        crew: who plays.
+        workers: the same, as it was said.
+        began: when the command did [s since 1970].
+        command: what was typed behind ``uwsim``.
 
     Raises:
         UwsimError: what was the first to go wrong; the other algorithms are played and written.
@@ -146,10 +160,13 @@ def play_and_finish(
     """
     from ..benchmark.beside import Beside
     from ..benchmark.directory import alone_in
+    from ..benchmark.provenance import save_beginning
 
     with ExitStack() as stack:
         for place in dict.fromkeys([directory, *(run.out for run in runs)]):
             stack.enter_context(alone_in(place))
+        for run in runs:
+            save_beginning(command, run.out)
         beside = stack.enter_context(Beside())
         controls = [control_of(run) for run in runs if wants_control(run)]
         if controls:
@@ -160,7 +177,8 @@ def play_and_finish(
             beside.wait()
             for other in controls[1:]:  # the control looks at nothing: it is the same for all
                 shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
-        took = Took(began=began, wall=time.time() - began, workers=workers, runs=runs)
+        wall = time.time() - began
+        took = Took(began=began, wall=wall, workers=workers, command=command, runs=runs)
         for run, result in zip(runs, outcome.results, strict=True):
             if id(run) not in failed:
                 if len(runs) > 1:

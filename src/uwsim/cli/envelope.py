@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 import signal
-import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -31,6 +31,7 @@ MAX_REPEATS = 1000
 
 
 def envelope(
+    context: typer.Context,
     benchmark: Annotated[
         str, typer.Argument(metavar="BENCHMARK", help="A benchmark file, or a bundled name.")
     ],
@@ -149,7 +150,7 @@ def envelope(
     seeds = tuple(range(seed, seed + repeat))
     play(
         plan_for(plan), directory, question, seeds, confidence=confidence, crew=crew,
-        resume=resume, overwrite=overwrite,
+        resume=resume, overwrite=overwrite, command=context.obj,
     )  # fmt: skip
 
 
@@ -182,13 +183,14 @@ def play(
     crew: Crew,
     resume: bool,
     overwrite: bool,
+    command: Sequence[str],
 ) -> None:
     """Search, write and say what was found."""
     from ..benchmark.bench import Bench, open_once
     from ..benchmark.directory import alone_in, empty
     from ..benchmark.envelope import Asked, Envelope, Evaluations, strategy
     from ..benchmark.envelope.plot import draw
-    from ..benchmark.provenance import machine, save_provenance
+    from ..benchmark.provenance import machine, save_beginning, save_provenance
 
     inputs, renderer = open_once(plan)
     signal.signal(signal.SIGTERM, interrupt)
@@ -198,6 +200,7 @@ def play(
     over, where, at = question.over, question.where, question.at
     began = time.time()
     with alone_in(directory):
+        save_beginning(command, directory)
         bench = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
         most = 9 + len(seeds) * (where.most_cuts() + 1)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
@@ -222,7 +225,7 @@ def play(
         envelope.save(directory)
         draw(envelope, directory)
         save_provenance(
-            {**machine(), "wall_s": time.time() - began, "command": sys.argv[1:]}, directory
+            {**machine(), "wall_s": time.time() - began, "command": list(command)}, directory
         )
     tell(envelope, directory)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import datetime
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -22,6 +21,8 @@ class Took:
     """How long [s]."""
     workers: str
     """Who played, as it was said."""
+    command: Sequence[str]
+    """What was typed behind ``uwsim``."""
     runs: Sequence[Bench]
     """What was played, an algorithm each."""
 
@@ -42,7 +43,7 @@ class Took:
             "workers": int(self.workers) if self.workers.isdigit() else self.workers,
             "lost_workers": run.n_lost,
             "resumed": run.n_resumed,
-            "command": sys.argv[1:],
+            "command": list(self.command),
             **machine(),
             "packages": {name: version(name) for name in names},
         }
