@@ -15,35 +15,21 @@ from uwsim.benchmark.result_file import save
 from uwsim.errors import RunFailed
 
 
-def test_draws_a_report(tmp_path: Path) -> None:
-    save(one_level(), tmp_path)
-    with Beside() as beside:
-        beside.ask(tmp_path)
-        beside.wait()
-    assert "<html" in (tmp_path / "report.html").read_text(encoding="utf-8")
-
-
-def test_says_what_it_cannot_do_and_goes_on(tmp_path: Path) -> None:
-    save(one_level(), tmp_path / "good")
-    with Beside() as beside:
-        beside.ask(tmp_path / "nowhere")
-        beside.ask(tmp_path / "good")
-        with pytest.raises(RunFailed, match="no result here"):
-            beside.wait()
-        beside.wait()
-    assert (tmp_path / "good" / "report.html").exists()
-
-
-def test_a_report_that_cannot_be_written_is_one_line_and_no_death(
+def test_draws_reports_and_says_in_a_line_what_it_cannot_do_and_goes_on(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    save(one_level(), tmp_path)
-    (tmp_path / "report.html").mkdir()
+    for name in ("blocked", "good"):
+        save(one_level(), tmp_path / name)
+    (tmp_path / "blocked" / "report.html").mkdir()
     with Beside() as beside:
-        for _ in range(2):
-            beside.ask(tmp_path)
-            with pytest.raises(RunFailed, match=r"^The report failed: .*Finished rows are kept"):
-                beside.wait()
+        for name in ("nowhere", "blocked", "good"):
+            beside.ask(tmp_path / name)
+        with pytest.raises(RunFailed, match="no result here"):
+            beside.wait()
+        with pytest.raises(RunFailed, match=r"^The report failed: .*Finished rows are kept"):
+            beside.wait()
+        beside.wait()
+    assert "<html" in (tmp_path / "good" / "report.html").read_text(encoding="utf-8")
     assert "Traceback" not in capfd.readouterr().err
 
 
@@ -63,7 +49,7 @@ def test_says_that_it_died() -> None:
     with Beside() as beside:
         beside._process.kill()
         beside._process.join()
-        with pytest.raises(RunFailed, match="died"):
+        with pytest.raises(RunFailed, match=r"died \(killed by SIGKILL\)\. Finished rows are"):
             ask_and_wait(beside)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import multiprocessing
 import signal
+from contextlib import suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
 from types import TracebackType
@@ -18,6 +19,7 @@ from .bench import Bench
 from .crew import play_all
 from .leash import put_on
 from .plugin import raised
+from .processes import how
 
 Job = Bench | Path
 """A benchmark is played; of a result directory the report is drawn."""
@@ -57,7 +59,7 @@ class Beside:
         try:
             self._here.send(job)
         except OSError:
-            raise RunFailed(_GONE) from None
+            raise RunFailed(self._gone()) from None
 
     def wait(self) -> None:
         """Wait until the oldest job that was not waited for is done.
@@ -68,21 +70,26 @@ class Beside:
         try:
             why = self._here.recv()
         except (EOFError, OSError):
-            raise RunFailed(_GONE) from None
+            raise RunFailed(self._gone()) from None
         if why is not None:
             raise RunFailed(why)
 
+    def _gone(self) -> str:
+        """Say that it died, and how."""
+        self._process.join()
+        ended = how(self._process.exitcode)
+        return f"The process that plays the control and draws the report died ({ended}). {_KEPT}"
+
 
 _KEPT = "Finished rows are kept; go on with --resume."
-_GONE = f"The process that plays the control and draws the report died. {_KEPT}"
 
 
 def _serve(there: Connection, leash: Connection) -> None:
     """Do what comes, until the parent is gone or wants no more."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent decides
     put_on(leash)
-    from .report import write_report  # heavy, and loaded while the levels are played
-
+    with suppress(Exception):  # heavy, and loaded while the levels are played; below it is told
+        from . import report  # noqa: F401
     while True:
         try:
             job = there.recv()
@@ -92,6 +99,8 @@ def _serve(there: Connection, leash: Connection) -> None:
             if isinstance(job, Bench):
                 play_all([job])
             else:
+                from .report import write_report
+
                 write_report(job)
         except UwsimError as error:
             there.send(str(error))
