@@ -139,7 +139,6 @@ def test_a_torque_turns_the_vehicle(simulation: Simulation) -> None:
     assert heading_deg(simulation) > 95.0
 
 
-@pytest.mark.timeout(60)
 def test_a_pose_is_gone_to_and_held_in_a_current(simulation: Simulation) -> None:
     set_current(simulation, (0.1, 0.05, 0.0))
     go_to(simulation, 2.5, 2.0, 2.0, np.pi / 4)
