@@ -267,7 +267,7 @@ class _Playing:
             self._live.update(level, self._n_measured * plan.timestep, measures)
             verdict.listen(simulation.time)
             stopped = not self._gate.is_open()
-            ended = next((why for gated in measures if (why := gated.measure.ends_level)), None)
+            ended = _end_of_level(measures)
             if stopped or ended is not None:
                 break
         for gated in measures:
@@ -347,3 +347,11 @@ def _tick(measures: list[Gated]) -> None:
     """Let every measure see the world as it is now."""
     for gated in measures:
         gated.tick()
+
+
+def _end_of_level(measures: list[Gated]) -> str | None:
+    """Why a measure ends the level now; None if it goes on."""
+    for gated in measures:
+        if why := gated.measure.ends_level:
+            return why
+    return None

@@ -14,10 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-import numpy as np
-
 from ...dialect import element
-from ...geometry import Array
 from ...world import Actuators, World
 from .measure import Measure, MeasureSpec
 
@@ -81,9 +78,10 @@ class Energy(Measure):
         self._n_thrusters = len(thrusters)
         self._names = [f"thruster.{name}" for name in thrusters]
         self._names += [f"joint.{name}" for name in joints]
-        self._powers = np.zeros(len(self._names))  # at the last look [W]
+        # Plain floats: a few numbers at every step are dearer as arrays.
+        self._powers = [0.0] * len(self._names)  # at the last look [W]
         self._power = 0.0  # what all drew together at the last look [W]
-        self._energies = np.zeros(len(self._names))  # [J]
+        self._energies = [0.0] * len(self._names)  # [J]
         self._peak: float | None = None  # [W]
         self._last = 0  # step of the last look
         self._n_steps = 0
@@ -91,21 +89,25 @@ class Energy(Measure):
     def start(self) -> None:
         """See what is drawn now; what was drawn before does not count."""
         if self._actuators is not None:
-            self._look(self._actuators.powers())
+            self._look(self._actuators)
 
     def update(self) -> None:
         """Add what was drawn since the last look."""
         if self._actuators is None:
             return
         before, last = self._powers, self._last
-        self._look(self._actuators.powers())
+        self._look(self._actuators)
         steps = self._last - last
-        self._energies += (before + self._powers) * (0.5 * steps * self._world.timestep)
+        half = 0.5 * steps * self._world.timestep  # [s]
+        self._energies = [
+            energy + (was + now) * half
+            for energy, was, now in zip(self._energies, before, self._powers, strict=True)
+        ]
         self._n_steps += steps
 
-    def _look(self, powers: Array) -> None:
-        self._powers, self._last = powers, self._world.step
-        self._power = self._spec.hotel_load + sum(powers.tolist())
+    def _look(self, actuators: Actuators) -> None:
+        self._powers, self._last = actuators.powers().tolist(), self._world.step
+        self._power = self._spec.hotel_load + sum(self._powers)
         self._peak = max(self._power, self._peak or 0.0)
 
     @property
@@ -118,7 +120,7 @@ class Energy(Measure):
         """Energy drawn so far [J]; None for a vehicle without forces."""
         if self._peak is None:
             return None
-        return self._spec.hotel_load * self._time + sum(self._energies.tolist())
+        return self._spec.hotel_load * self._time + sum(self._energies)
 
     @property
     def why(self) -> str | None:
@@ -132,7 +134,7 @@ class Energy(Measure):
         """Energy by consumer [J], power [W] and charge [1]."""
         is_known = self._peak is not None
         n = self._n_thrusters
-        energies = self._energies.tolist()
+        energies = self._energies
         by_kind = (sum(energies[:n]), sum(energies[n:]), self._spec.hotel_load * self._time)
         return {
             **{
