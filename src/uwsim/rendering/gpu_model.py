@@ -85,6 +85,7 @@ class GpuModels:
             for repeats in (False, True)
         }
         self._textures: dict[tuple[str, int], tuple[Texture, moderngl.Texture]] = {}
+        self._with_copies: set[int] = set()  # numbers of the textures that have smaller ones
 
     def upload(self, model: Model) -> tuple[Batch, ...]:
         """The model's batches; the same object is uploaded only once."""
@@ -147,25 +148,28 @@ class GpuModels:
 
     def use(self, texture: Texture, unit: int, *, is_close: bool) -> None:
         """Bind a texture; one that is close is looked up without its smaller copies."""
-        self._texture(texture).use(unit)
+        made = self._upload_texture(texture)
+        made.use(unit)
         if is_close:
             self._close[texture.repeats].use(unit)
-        else:
-            self.release(unit)
+            return
+        self.release(unit)
+        if made.glo not in self._with_copies:  # to make them takes longer than a picture
+            made.build_mipmaps()
+            made.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+            self._with_copies.add(made.glo)
 
     def release(self, unit: int) -> None:
         """Look up what is bound next as the texture itself says."""
         self._close[True].clear(unit)
 
-    def _texture(self, texture: Texture) -> moderngl.Texture:
-        """The texture on the graphics side, with its smaller copies; made once."""
+    def _upload_texture(self, texture: Texture) -> moderngl.Texture:
+        """The texture on the graphics side; made once."""
         key = texture.name, id(texture.pixels)
         if key not in self._textures:
             height, width = texture.pixels.shape[:2]
             upright = np.ascontiguousarray(texture.pixels[::-1])  # OpenGL's first row is v = 0
             made = self._context.texture((width, height), 3, upright.tobytes(), alignment=1)
             made.repeat_x = made.repeat_y = texture.repeats
-            made.build_mipmaps()
-            made.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
             self._textures[key] = texture, made
         return self._textures[key][1]
