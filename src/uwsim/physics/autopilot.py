@@ -15,8 +15,9 @@ thruster damps. Where the thrusters are at their limits the integral does not gr
 *Depth and heading* are held where the last command left them: their loops wish for a heave or yaw
 rate in proportion to the error. *Position* hold wishes for a surge and sway in proportion to the
 error as well, at most 0.5 m/s, over ground: who knows where they are know how they move. *Wrench*:
-shared out, nothing is held. *Thrusters*: their commands as they are. *Pitch and roll* are damped
-and righted as far as the thrusters reach. Forces are shared out by least squares and turned into
+shared out, nothing is held. *Thrusters*: their commands as they are. *Pitch* and, where
+thrusters reach it beside the other axes, *roll* are righted: the angle is the integral of the rate,
+and pulls with :math:`k_i` as the others' integrals do. Forces are shared out by least squares and turned into
 commands by the thrusters' own curves.
 
 The autopilot knows the true state. Not modelled: noise and delay of its sensors.
@@ -34,8 +35,9 @@ import numpy as np
 from ..geometry import Array, Pose
 from .hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 
-AXES = (0, 1, 2, 4, 5)
-"""Surge, sway, heave, pitch and yaw: what thrusters usually reach, as in `autopilot_law.axis`."""
+USUAL = (0, 1, 2, 4, 5)
+"""Surge, sway, heave, pitch and yaw: what thrusters usually reach."""
+ALL = (0, 1, 2, 3, 4, 5)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,12 +50,12 @@ class Gains:
     """Surge and sway wished for per position error [1/s]."""
     heading: float = 0.5
     """Yaw rate wished for per heading error [1/s]."""
-    righting: float = 4.0
-    """Angular acceleration per pitch angle [1/s2]."""
 
 
 N_POINTS = 401
 """Of a thruster's curve as the autopilot knows it."""
+LEAST_LEVER = 0.02
+"""What moves a vehicle less than this per newton of its thrusters is not asked of them [1, m]."""
 LEAST_LAG = 0.08
 """Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
 LARGEST = 1e6
@@ -81,7 +83,7 @@ class Autopilot:
         body = vehicle.body(link)
         gains = gains or Gains()
         lag = max([LEAST_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
-        held = [gains.depth, gains.position, gains.heading, gains.righting]
+        held = [gains.depth, gains.position, gains.heading]
         self._gains = np.array([*held, 0.32 / lag, 0.032 / lag**2])  # the last in [1/s], [1/s2]
         added = matrix(body.added_mass) if body else np.zeros((6, 6))
         own = [mass, mass, mass, *(body.inertia[:3] if body and body.inertia else (1.0,) * 3)]
@@ -93,10 +95,12 @@ class Autopilot:
             self._reference,
         )
         columns = [_column(thruster, self._reference) for thruster in vehicle.thrusters]
-        reached = np.array(columns).reshape(-1, 6).T[list(AXES)]  # (5, n): N, N m per N
-        self._reached = np.ascontiguousarray(reached)
-        # (n, 5): [N per N or N m]
-        self._share = np.ascontiguousarray(np.linalg.pinv(reached, rcond=1e-6))
+        wrenches = np.array(columns).reshape(-1, 6).T  # (6, n): N, N m per N
+        axes = list(ALL if _reaches_roll(wrenches) else USUAL)
+        self._axes = np.array(axes, dtype=np.int64)
+        self._reached = np.ascontiguousarray(wrenches[axes])  # (k, n)
+        # (n, k): [N per N or N m]
+        self._share = np.ascontiguousarray(np.linalg.pinv(self._reached, rcond=1e-6))
         curves = [_curve(thruster) for thruster in vehicle.thrusters]
         self._curves = (
             np.array([thrusts for thrusts, _ in curves]).reshape(-1, N_POINTS),
@@ -165,7 +169,7 @@ class Autopilot:
         if self._mode == "thrusters":
             return self._commands
         if self._mode == "wrench":
-            forces = self._law.shared(self._wrench, self._share)
+            forces = self._law.shared(self._wrench, self._axes, self._share)
             return self._law.commands(forces, *self._curves)
         if self._takes_over:
             self._takes_over = False
@@ -182,6 +186,7 @@ class Autopilot:
             self._target,
             self._heading,
             *self._traits,
+            self._axes,
             self._share,
             self._reached,
             self._least,
@@ -189,6 +194,14 @@ class Autopilot:
             self._integral,
         )
         return self._law.commands(forces, *self._curves)
+
+
+def _reaches_roll(wrenches: Array) -> bool:
+    """Whether thrusters (6, n) can roll the vehicle and leave the other axes alone."""
+    usual, all_ = wrenches[list(USUAL)], wrenches[list(ALL)]
+    return bool(
+        np.linalg.matrix_rank(all_, tol=LEAST_LEVER) > np.linalg.matrix_rank(usual, tol=LEAST_LEVER)
+    )
 
 
 def _column(thruster: ThrusterSpec, reference: Array) -> Array:

@@ -5,24 +5,18 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import numpy.typing as npt
 
 from ..geometry import Array
 from ..jit import njit
 
-DEPTH, POSITION, HEADING, RIGHTING, VELOCITY, INTEGRAL = range(6)
+Axes = npt.NDArray[np.int64]
+DEPTH, POSITION, HEADING, VELOCITY, INTEGRAL = range(5)
 """Places of the gains, as `loops` takes them."""
 FASTEST = 0.5
 """What position hold wishes for at most [m/s]."""
 FASTEST_CLIMB = 0.3
 """What depth hold wishes for at most [m/s]."""
-N_AXES = 5
-"""Surge, sway, heave, pitch and yaw: what thrusters usually reach."""
-
-
-@njit
-def axis(i: int) -> int:
-    """Return the place of the i-th axis that thrusters reach among all six: roll is left out."""
-    return i if i < 3 else i + 1
 
 
 @njit
@@ -40,6 +34,7 @@ def loops(
     linear: Array,
     quadratic: Array,
     reference: Array,
+    axes: Axes,
     share: Array,
     reached: Array,
     least: Array,
@@ -51,7 +46,7 @@ def loops(
     Args:
         dt: time since the last call [s].
         goes: whether it goes to ``target`` in the plane, too.
-        gains: (6,), see `DEPTH` and those that follow.
+        gains: (5,), see `DEPTH` and those that follow.
         position: of the base in W, (3,) [m].
         rotation: ``world_from_base``, (3, 3).
         velocity: of the base, base axes, (6,) [m/s, rad/s].
@@ -62,8 +57,9 @@ def loops(
         linear: damping along the axes, (6,).
         quadratic: damping along the axes, (6,).
         reference: what forces and velocities are about, base axes, (3,) [m].
-        share: thrusts from forces and moments along the axes, (n, 5).
-        reached: the other way, (5, n).
+        axes: which of the six forces and moments the thrusters are to give, (k,).
+        share: thrusts from those, (n, k).
+        reached: the other way, (k, n).
         least: thrusts, (n,) [N].
         greatest: thrusts, (n,) [N].
         integral: of the error, (6,) [m, rad]; moves on unless thrusters are at their limits.
@@ -101,28 +97,30 @@ def loops(
     integral[3] = integral[4] = 0.0
     tau = mass * (gains[VELOCITY] * error + gains[INTEGRAL] * integral)
     tau += linear * wanted + quadratic * np.abs(wanted) * wanted
-    x, z = rotation[2, 0], rotation[2, 2]  # W's z in base axes
-    tilt = math.atan2(x, -z) if z < 0.0 else -math.atan2(x, z)
-    tau[4] += mass[4] * gains[RIGHTING] * tilt
-    forces = shared(tau, share)
-    for i in range(N_AXES):
+    # W's z in base axes; of a base whose z points down it is the other way round
+    side = 1.0 if rotation[2, 2] >= 0.0 else -1.0
+    x, y, z = side * rotation[2, 0], side * rotation[2, 1], side * rotation[2, 2]
+    tau[3] -= mass[3] * gains[INTEGRAL] * math.atan2(y, z)
+    tau[4] -= mass[4] * gains[INTEGRAL] * math.atan2(-x, z)
+    forces = shared(tau, axes, share)
+    for i in range(len(axes)):
         lacking = 0.0  # force or moment beyond the thrusters' limits
         for k in range(len(forces)):
             excess = forces[k] - min(max(forces[k], least[k]), greatest[k])
             lacking += reached[i, k] * excess
-        place = axis(i)
+        place = axes[i]
         if lacking * error[place] > 0.0:
             integral[place] = before[place]
     return forces
 
 
 @njit
-def shared(tau: Array, share: Array) -> Array:
+def shared(tau: Array, axes: Axes, share: Array) -> Array:
     """Return the thrusts that come nearest to a force and moment (6,), beyond limits too, (n,)."""
     forces = np.zeros(len(share))
     for k in range(len(share)):
-        for i in range(N_AXES):
-            forces[k] += share[k, i] * tau[axis(i)]
+        for i in range(len(axes)):
+            forces[k] += share[k, i] * tau[axes[i]]
     return forces
 
 
