@@ -1,7 +1,8 @@
 """The original's slips that can be had back by name: one table for files and ``--compat``.
 
 By default every one of these is repaired. ``u:compatibility="thresholds rows"`` on ``<benchmark>``
-or ``--compat thresholds,rows`` brings the named ones back; ``uwsim`` brings back all.
+or ``--compat thresholds,rows`` brings the named ones back; ``uwsim`` brings back all but those of
+`OLDER`, which the original itself no longer had.
 """
 
 from __future__ import annotations
@@ -31,14 +32,17 @@ COMPATIBILITY: dict[str, str] = {
     "thresholds": "trigger distances are compared squared: onMove 0.447 m, position 0.548 m",
     "time-log": "the log of a time shows 0 as long as it runs",
     "unseen": "what is outside a picture, or behind the camera, is projected all the same",
-    "visual-frames": "sensors hang on the visual frame of their link (scenes before July 2014)",
+    "visual-frames": "cameras hang on the visual frame of their link: for scenes written before July 2014; only by name",
     "y0": "the camera parameter y0 counts from the bottom edge, but is published as it is",
 }
 """Name -> what the original does. In alphabetical order."""
 
+OLDER = frozenset({"visual-frames"})
+"""What files of an older original mean and those of the last one do not: not part of ``uwsim``."""
+
 
 def compatibility(names: Iterable[str]) -> frozenset[str]:
-    """Return the set of names asked for, ``uwsim`` standing for all.
+    """Return the set of names asked for, ``uwsim`` standing for all but `OLDER`.
 
     Raises:
         UnknownName: a name is not in the table.
@@ -46,7 +50,7 @@ def compatibility(names: Iterable[str]) -> frozenset[str]:
     asked: set[str] = set()
     for name in names:
         if name == "uwsim":
-            asked.update(COMPATIBILITY)
+            asked.update(COMPATIBILITY.keys() - OLDER)
         elif name in COMPATIBILITY:
             asked.add(name)
         else:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from simulated import SCENE
 
+from uwsim.compatibility import COMPATIBILITY, compatibility
 from uwsim.geometry import rotation_x, rotation_z
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
@@ -73,3 +74,23 @@ def test_what_an_object_that_never_moves_hands_out_is_a_copy() -> None:
     body.world_from_body.rotation[:] = np.nan
     assert (body.world_from_body.position == place).all()
     assert (body.world_from_body.rotation == turn).all()
+
+
+def test_all_slips_of_the_original_leave_a_camera_where_scenes_since_2014_put_it() -> None:
+    assert compatibility(["uwsim"]) == COMPATIBILITY.keys() - {"visual-frames"}
+    scene = read_scene(SCENE)
+    looks = {}
+    for name in ("", "uwsim", "visual-frames"):
+        asked = compatibility([name] if name else [])
+        camera = Simulation(scene, compatibility=asked).camera("bowtech1")
+        looks[name] = -camera.world_from_camera.rotation[:, 2]  # along -z of OpenGL
+    assert looks[""] == pytest.approx((0.0, 0.0, -1.0), abs=0.01)
+    assert looks["uwsim"] == pytest.approx(looks[""])
+    assert looks["visual-frames"] == pytest.approx((0.0, 0.0, 1.0), abs=0.01)
+
+
+def test_a_link_of_which_nothing_is_seen_has_its_own_frame_for_a_visual_one() -> None:
+    simulation = Simulation(read_scene(SCENE))
+    link, visual = (simulation.body(f"girona500/end_effector{at}") for at in ("", "@visual"))
+    assert visual.world_from_body.position == pytest.approx(link.world_from_body.position)
+    assert visual.box is None

@@ -9,7 +9,10 @@ import typer
 
 CompatOption = Annotated[
     list[str] | None,
-    typer.Option(help="Slips of the original to bring back, by name; uwsim is all of them."),
+    typer.Option(
+        help="Slips of the original to bring back, by name; uwsim is all of them, "
+        "visual-frames (for scenes written before July 2014) left aside."
+    ),
 ]
 
 DataPathOption = Annotated[

@@ -77,10 +77,11 @@ def name_bodies(
     """Give every frame of the scene its routes; where two share a name, the first has it.
 
     ``vehicle`` is the base frame, ``vehicle/link`` and ``link`` the kinematic frame of a link,
-    ``link@visual`` its visual frame (the original's meaning of a link's name), an object its mesh
-    frame (scale moves the frame's origin and does not turn it), ``localizedWorld`` is L. The
-    boxes of objects are as large as the objects; with the compatibility ``box-scale`` their
-    ``scaleFactor`` is left out, as in the original.
+    ``link@visual`` its visual frame (the original's meaning of a link's name; the kinematic one
+    where nothing is seen of the link), an object its mesh frame (scale moves the frame's origin
+    and does not turn it), ``localizedWorld`` is L. The boxes of objects are as large as the
+    objects; with the compatibility ``box-scale`` their ``scaleFactor`` is left out, as in the
+    original.
     """
     bodies = {
         "localizedWorld": SceneBody("localizedWorld", lambda: scene.world_from_localized, None)
@@ -97,14 +98,17 @@ def name_bodies(
             pose = partial(state.link_pose, index, link.name)
             names = [f"{vehicle.name}/{link.name}", link.name]
             add(names, pose, None)
-            if link.visual is not None:
-                link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
-                box = boxes.get((index, link.name, None))
-                add(
-                    [f"{name}@visual" for name in names],
-                    partial(_attached, pose, link_from_visual),
-                    None if box is None else scaled_box(box, np.eye(3), link.visual.scale),
-                )
+            seen = [f"{name}@visual" for name in names]
+            if link.visual is None:
+                add(seen, pose, None)
+                continue
+            link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
+            box = boxes.get((index, link.name, None))
+            add(
+                seen,
+                partial(_attached, pose, link_from_visual),
+                None if box is None else scaled_box(box, np.eye(3), link.visual.scale),
+            )
     for index, thing in enumerate(scene.objects):
         mesh, box = thing.object_from_mesh, boxes.get((None, "", index))
         if box is not None and "box-scale" not in compatibility:
