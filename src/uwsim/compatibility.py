@@ -32,7 +32,7 @@ COMPATIBILITY: dict[str, str] = {
     "thresholds": "trigger distances are compared squared: onMove 0.447 m, position 0.548 m",
     "time-log": "the log of a time shows 0 as long as it runs",
     "unseen": "what is outside a picture, or behind the camera, is projected all the same",
-    "visual-frames": "cameras hang on the visual frame of their link: for scenes written before July 2014; only by name",
+    "visual-frames": "cameras hang on the visual frame of their link (scenes before July 2014)",
     "y0": "the camera parameter y0 counts from the bottom edge, but is published as it is",
 }
 """Name -> what the original does. In alphabetical order."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,11 @@ from uwsim.cli import main
 from uwsim.cli.files import bundled
 from uwsim.cli.list import KINDS, first_line, head_comment, without_title
 from uwsim.cli.plugins import bundled_tables
+from uwsim.physics.vehicle_file import find_vehicle, read_vehicle
+from uwsim.scene.urdf_reader import read_urdf
+from uwsim.simulation.bodies import find_file
+
+YOUR_OWN = Path(__file__).parents[2] / "docs" / "your-own-vehicle.md"
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -55,3 +61,17 @@ def test_the_sentence_of_a_file_is_the_first_of_its_comment(tmp_path: Path) -> N
     assert head_comment(file) == "A tank, 1.3 m deep."
     file.write_text("<a/>")
     assert head_comment(file) == ""
+
+
+def test_every_bundled_robot_is_listed_documented_found_by_that_name_and_has_its_sets(
+    tmp_path: Path,
+) -> None:
+    package = Path(str(find_vehicle("rexrov"))).parents[2]
+    listed = KINDS["vehicles"](bundled_tables())
+    assert set(listed) == {path.name for path in package.glob("data/*/*.urdf")}
+    rows = re.findall(r"^\| `(\w+\.urdf)` \|.*\| (.*?) \|$", YOUR_OWN.read_text(), re.M)
+    assert {name for name, _ in rows} == set(listed)
+    for name, sets in rows:
+        robot = read_urdf(find_file(name, str(tmp_path / "scene.xml"), ()))
+        for one in re.findall(r"`(\w+)`", sets):
+            assert read_vehicle(find_vehicle(one), [link.name for link in robot.links]).bodies

@@ -115,6 +115,29 @@ def test_an_included_file_brings_its_bodies_and_its_faults(tmp_path: Path) -> No
     assert said == ["2: in arm.xml, line 1: <volume> is '-1'; expected a number >= 0 [m3]"]
 
 
+def test_a_bundled_part_is_included_by_its_path_unless_one_lies_beside_the_file(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "mine.xml").write_text(
+        MINIMAL.replace("<body", "<include>parts/arm5e.xml</include> <body", 1)
+    )
+    links = [body.link for body in read_vehicle(tmp_path / "mine.xml").bodies]
+    assert links[:2] == ["base_link", "part0"]
+    assert len(links) == 8
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "arm5e.xml").write_text('<hydrodynamics name="arm5e"/>')
+    assert len(read_vehicle(tmp_path / "mine.xml").bodies) == 1
+
+
+def test_an_unknown_set_is_told_of_those_beside_the_scene(tmp_path: Path) -> None:
+    (tmp_path / "my_rov.xml").write_text(MINIMAL)
+    (tmp_path / "scene.xml").write_text("<UWSimScene/>")
+    with pytest.raises(UnknownName, match="Did you mean 'my_rov'") as wrong:
+        find_vehicle("myrov", tmp_path / "scene.xml")
+    assert "'scene'" not in str(wrong.value)
+    assert " scene," not in str(wrong.value)
+
+
 def test_a_file_that_includes_itself_is_refused(tmp_path: Path) -> None:
     text = MINIMAL.replace("<body", "<include>mine.xml</include> <body", 1)
     assert "includes itself" in faults_of(tmp_path, text)[0]

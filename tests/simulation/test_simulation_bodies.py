@@ -48,7 +48,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
     scene = read_scene(SCENE)
     black_box = next(thing for thing in scene.objects if thing.name == "blackbox")
     sizes = []
-    for scale, compatibility in (
+    for scale, slips in (
         ((1.0, 1.0, 1.0), frozenset[str]()),
         ((2.0, 3.0, 0.5), frozenset[str]()),
         ((2.0, 3.0, 0.5), frozenset({"box-scale"})),
@@ -56,7 +56,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
         thing = replace(black_box, scale_factor=scale, offsetr=(0.0, 0.0, 0.0))
         simulation = Simulation(
             replace(scene, vehicles=(), objects=(thing,), ros_interfaces=()),
-            compatibility=compatibility,
+            compatibility=slips,
         )
         box = simulation.body("blackbox").box
         simulation.close()

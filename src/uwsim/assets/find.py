@@ -2,7 +2,7 @@
 
 A name is looked for as given; beside the file that names it and in each of that file's parent
 folders; in every data path; in ``~/.uwsim/data``; in the package. Each of these also under
-``data``, ``data/scenes``, ``objects``, ``terrain``, ``robot`` and ``textures``.
+``data``, ``data/scenes``, ``data/vehicles``, ``objects``, ``terrain``, ``robot`` and ``textures``.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-UNDER = ("", "data", "data/scenes", "objects", "terrain", "robot", "textures")
+UNDER = ("", "data", "data/scenes", "data/vehicles", "objects", "terrain", "robot", "textures")
 """Sub-folders that every folder is searched under."""
 
 PACKAGE = Path(__file__).resolve().parent.parent

@@ -63,8 +63,9 @@ def benchmarks(tables: Tables) -> dict[str, str]:
 
 
 def vehicles(tables: Tables) -> dict[str, str]:
-    """Bundled robots, with the first sentence of the comment at their head."""
-    return {name: head_comment(path) for name, path in bundled("scenes", ".urdf").items()}
+    """Bundled robots, as ``<file>`` names them, with the first sentence of their head comment."""
+    robots = bundled("scenes", ".urdf") | bundled("vehicles", ".urdf")
+    return {path.name: head_comment(path) for path in robots.values()}
 
 
 def algorithms(tables: Tables) -> dict[str, str]:

@@ -52,6 +52,8 @@ from .vehicle_elements import BodyElement, HydrodynamicsElement, ThrusterElement
 
 MOST_NUMBERS = 36
 """In one element: a full matrix."""
+HEAD = 65536
+"""Bytes of a file in which its root element begins."""
 
 
 class VehicleError(FileError):
@@ -72,12 +74,11 @@ class _Parts:
 
 def vehicle_sets() -> dict[str, Path]:
     """The bundled sets: name -> file."""
-    folder = Path(str(files("uwsim"))) / "data" / "vehicles"
-    return {path.stem: path for path in sorted(folder.glob("*.xml"))}
+    return {path.stem: path for path in sorted(_bundled().glob("*.xml"))}
 
 
 def find_vehicle(name: str, beside: Path | None = None) -> Path:
-    """Find the side file of a set: a bundled one, or ``name.xml`` beside the scene.
+    """Find the side file of a set: ``name.xml`` beside the scene, or a bundled one.
 
     Raises:
         UnknownName: there is none.
@@ -89,8 +90,24 @@ def find_vehicle(name: str, beside: Path | None = None) -> Path:
                 return own
     known = vehicle_sets()
     if name not in known:
-        raise UnknownName("hydrodynamics set", name, known)
+        raise UnknownName("hydrodynamics set", name, [*_own_sets(beside), *known])
     return known[name]
+
+
+def _bundled() -> Path:
+    """The folder of the bundled side files; ``<include>`` looks here after the file's own."""
+    return Path(str(files("uwsim"))) / "data" / "vehicles"
+
+
+def _own_sets(beside: Path | None) -> list[str]:
+    """Names of the side files that lie beside a scene."""
+    found = []
+    with suppress(OSError):
+        for path in [] if beside is None else sorted(beside.parent.glob("*.xml")):
+            with path.open("rb") as file:
+                if b"<hydrodynamics" in file.read(HEAD):
+                    found.append(path.stem)
+    return found
 
 
 def read_vehicle(
@@ -192,10 +209,14 @@ def _include(
     parts: _Parts,
     above: tuple[Path, ...],
 ) -> None:
-    """Read another side file into ``parts``, its faults into ``faults``."""
-    other = path.parent / name
-    inner = Faults(other)
+    """Read another side file, beside the first or bundled, into ``parts``."""
+    inner = Faults(path)
     try:
+        other = next(
+            (place / name for place in (path.parent, _bundled()) if (place / name).is_file()),
+            path.parent / name,
+        )
+        inner = Faults(other)
         whole = other.resolve()
         if whole in (one.resolve() for one in (*above, path)):
             faults.add(node, f"<include> {cut(name)} includes itself")
