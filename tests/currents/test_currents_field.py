@@ -176,8 +176,8 @@ def test_what_is_wrong_with_a_netcdf_file_is_said(tmp_path: Path) -> None:
         read_grid(write_nc(path, x=x, u=x))
     with pytest.raises(AssetError, match=r"u is over \(lon\); expected coordinates of t, x, y, z"):
         read_grid(write_nc(path, x=x, u=(("lon",), [0.0, 1.0]), v=x))
-    with pytest.raises(AssetError, match="the values of x do not increase"):
-        read_grid(write_nc(path, x=(("x",), [1.0, 0.0]), u=x, v=x))
+    with pytest.raises(AssetError, match="the values of x neither increase nor"):
+        read_grid(write_nc(path, x=(("x",), [1.0, 1.0]), u=x, v=x))
     with pytest.raises(AssetError, match="1 of 2 values of v are missing"):
         read_grid(write_nc(path, x=x, u=x, v=(("x",), [0.0, np.nan])))
     with pytest.raises(AssetError, match=r"x is over \(y\); expected a coordinate over itself"):
@@ -189,6 +189,49 @@ def test_what_is_wrong_with_a_netcdf_file_is_said(tmp_path: Path) -> None:
         path.write_bytes(rubbish)
         with pytest.raises(AssetError, match="is not a NetCDF file that can be read"):
             read_grid(path)
+
+
+def test_netcdf_is_read_in_its_units_and_along_axes_that_fall(tmp_path: Path) -> None:
+    si, other = tmp_path / "si", tmp_path / "other"
+    si.mkdir()
+    other.mkdir()
+    nc_file(si)
+    units = {"time": ("hours since 2000-01-01 00:00", 3600.0), "x": ("km", 1000.0)}
+    units |= {"y": ("metres", 1.0), "u": ("cm s-1", 0.01), "v": ("km/h", 1 / 3.6), "w": ("m/s", 1)}
+    with netcdf_file(nc_file(other), "a", mmap=False) as data:
+        for name, (said, factor) in units.items():
+            variable = data.variables[name]
+            variable[:] = variable[:] / factor + (7.0 if name == "time" else 0.0)
+            variable.units = said
+        for name, axis in (("z", 1), ("x", 3)):
+            data.variables[name][:] = data.variables[name][::-1].copy()
+            for component in "uvw":
+                variable = data.variables[component]
+                variable[:] = np.flip(variable[:], axis).copy()
+    expected, found = read_grid(si / "field.nc"), read_grid(other / "field.nc")
+    for one, same in zip(found.axes, expected.axes, strict=True):
+        assert one == pytest.approx(same, abs=1e-9)
+    assert found.velocities == pytest.approx(expected.velocities, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "said", "expected"),
+    [
+        ("x", "degrees_east", "x is in 'degrees_east'; expected m, km or cm"),
+        ("time", "months since 2000-01-01", "t is in 'months since 2000-01-01'; expected s, min,"),
+        ("u", "knots", "u is in 'knots'; expected m/s, cm/s or km/h"),
+        ("v", "m", "v is in 'm'; expected m/s"),
+        ("z", 1, "z is in '1'; expected m, km or cm"),
+    ],
+)
+def test_a_unit_that_is_not_known_is_refused(
+    name: str, said: str | int, expected: str, tmp_path: Path
+) -> None:
+    path = nc_file(tmp_path)
+    with netcdf_file(path, "a", mmap=False) as data:
+        data.variables[name].units = said
+    with pytest.raises(AssetError, match=expected):
+        read_grid(path)
 
 
 def test_another_kind_of_file_and_one_that_is_not_there_are_errors(tmp_path: Path) -> None:

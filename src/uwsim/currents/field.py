@@ -7,8 +7,8 @@ r"""field: water that moves as a file says, over x, y, z and time.
 A ``.csv`` file has a line of names, ``x,y,z,t,u,v,w``, and a line of numbers for every node of a
 full grid, in any order. A ``.nc`` file is classic NetCDF (version 3) with coordinate variables
 ``x``, ``y``, ``z`` and ``t`` (or ``time``), and ``u``, ``v``, ``w`` over them. Metres, seconds and
-m/s, in L. ``w`` and any of the coordinates may be left out: the water then does not move along z,
-or does not change along that coordinate.
+m/s, in L, or in what a NetCDF file's ``units`` say (`units`). ``w`` and any of the coordinates may
+be left out: the water then does not move along z, or does not change along that coordinate.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ import numpy.typing as npt
 from ..dialect import LARGEST, element, number
 from ..errors import AssetError
 from .current import FASTEST, Array, Current, CurrentSpec, Place
+from .units import unit
 
 Ints = npt.NDArray[np.int64]
 AXES = ("t", "x", "y", "z")
@@ -40,7 +41,8 @@ class FieldSpec(CurrentSpec):
     file: str = element(namespaced=True)
     """The file, ``.csv`` or ``.nc``."""
     start: float = element(namespaced=True, default=0.0)
-    """Time in the file when the simulation begins [s]."""
+    """Time in the file when the simulation begins [s]; where it counts from a date, after its first
+    time."""
     outside: Literal["edge", "still"] = element(namespaced=True, default="edge")
     """Beyond the grid in space: as at its edge, or still. In time always as at its ends."""
 
@@ -131,17 +133,22 @@ def read_netcdf(path: Path) -> Grid:
             )
     try:
         with netcdf_file(path, mmap=False, maskandscale=True) as data:
-            arrays = {
-                "t" if name == "time" else name: (
+            arrays: dict[str, tuple[tuple[str, ...], Array]] = {}
+            units: dict[str, str] = {}
+            for called, variable in data.variables.items():
+                if called not in (*AXES, "time", *COMPONENTS):
+                    continue
+                name = "t" if called == "time" else called
+                arrays[name] = (
                     tuple("t" if each == "time" else each for each in variable.dimensions),
                     np.ma.filled(np.ma.asarray(variable[:], dtype=np.float64), np.nan),
                 )
-                for name, variable in data.variables.items()
-                if name in (*AXES, "time", *COMPONENTS)
-            }
+                said = getattr(variable, "units", b"")
+                units[name] = said.decode("latin-1") if isinstance(said, bytes) else str(said)
     except (TypeError, ValueError, IndexError, KeyError) as error:
         raise AssetError(f"{path}: is not a NetCDF file that can be read ({error}).") from error
     _check_names(path, list(arrays))
+    _convert(path, arrays, units)
     axes = [_axis(path, name, *arrays[name]) if name in arrays else np.zeros(1) for name in AXES]
     known = {name: axis for name, axis in zip(AXES, axes, strict=True) if name in arrays}
     shape = tuple(len(axis) for axis in axes)
@@ -150,6 +157,28 @@ def read_netcdf(path: Path) -> Grid:
         if name in arrays:
             velocities[..., i] = _component(path, name, *arrays[name], known)
     return Grid((axes[0], axes[1], axes[2], axes[3]), velocities)
+
+
+def _convert(
+    path: Path, arrays: dict[str, tuple[tuple[str, ...], Array]], units: Mapping[str, str]
+) -> None:
+    """Turn all into metres, seconds and m/s, and every axis that falls into one that rises."""
+    for name, (dimensions, values) in arrays.items():
+        try:
+            factor, counts_from_date = unit(name, units[name])
+        except ValueError as error:
+            raise AssetError(f"{path}: {error}.") from error
+        if counts_from_date and values.size:
+            values = values - values.min()
+        arrays[name] = dimensions, values * factor if factor != 1.0 else values
+    falling = [
+        name
+        for name in AXES
+        if name in arrays and arrays[name][0] == (name,) and (np.diff(arrays[name][1]) < 0.0).all()
+    ]
+    for name, (dimensions, values) in arrays.items():
+        flipped = tuple(i for i, each in enumerate(dimensions) if each in falling)
+        arrays[name] = dimensions, np.flip(values, flipped)
 
 
 def _axis(path: Path, name: str, dimensions: tuple[str, ...], values: Array) -> Array:
@@ -163,7 +192,8 @@ def _axis(path: Path, name: str, dimensions: tuple[str, ...], values: Array) -> 
         or len(values) == 0
     ):
         raise AssetError(
-            f"{path}: the values of {name} do not increase, or are beyond {LARGEST:g}."
+            f"{path}: the values of {name} neither increase nor decrease all along, or are beyond "
+            f"{LARGEST:g}."
         )
     return values
 

@@ -1,0 +1,68 @@
+"""What a NetCDF file's ``units`` are worth in metres, seconds and metres per second.
+
+Names and spellings are those of UDUNITS, which the CF conventions (1.11, chapter 3.1) ask for.
+``hours since 2000-01-01`` is a time of that unit, counted from a date.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from ..dialect import cut
+
+LENGTHS: Mapping[str, float] = {
+    name: factor
+    for names, factor in (
+        ("m metre metres meter meters", 1.0),
+        ("km kilometre kilometres kilometer kilometers", 1000.0),
+        ("cm centimetre centimetres centimeter centimeters", 0.01),
+    )
+    for name in names.split()
+}
+"""[m]"""
+TIMES: Mapping[str, float] = {
+    name: factor
+    for names, factor in (
+        ("ms msec millisecond milliseconds", 1e-3),
+        ("s sec secs second seconds", 1.0),
+        ("min mins minute minutes", 60.0),
+        ("h hr hrs hour hours", 3600.0),
+        ("d day days", 86400.0),
+    )
+    for name in names.split()
+}
+"""[s]"""
+EXPECTED = {
+    "length": "m, km or cm",
+    "time": "s, min, h or days, with or without 'since' a date",
+    "speed": "m/s, cm/s or km/h",
+}
+
+
+def unit(name: str, said: str) -> tuple[float, bool]:
+    """Return what one of a variable's units is in SI units, and whether it counts from a date.
+
+    Args:
+        name: of the variable: ``t``, ``x``, ``y``, ``z``, ``u``, ``v`` or ``w``.
+        said: its attribute ``units``; empty for SI units.
+
+    Raises:
+        ValueError: it is another unit; says which are expected.
+    """
+    words = said.strip().lower()
+    kind = "time" if name == "t" else "speed" if name in ("u", "v", "w") else "length"
+    plain, since, _ = words.partition(" since ")
+    if not words:
+        return 1.0, False
+    factor: float | None = None
+    if kind == "time":
+        factor = TIMES.get(plain.strip())
+    elif kind == "length":
+        factor = LENGTHS.get(words)
+    elif parts := re.fullmatch(r"([a-z]+)(?: ?/ ?([a-z]+)|[ .*]([a-z]+)(?:\^|\*\*)?-1)", words):
+        length, time = LENGTHS.get(parts[1]), TIMES.get(parts[2] or parts[3])
+        factor = None if length is None or time is None else length / time
+    if factor is None:
+        raise ValueError(f"{name} is in {cut(said.strip())}; expected {EXPECTED[kind]}")
+    return factor, bool(since)
