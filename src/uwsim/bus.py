@@ -15,7 +15,7 @@ from typing import Any, Generic, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
-from .errors import BadMessage, BadSetting, UnknownName, UwsimError
+from .errors import BadMessage, BadSetting, UnknownName, UwsimError, did_you_mean
 from .message_fields import freeze, unfit
 
 M = TypeVar("M")
@@ -106,6 +106,7 @@ class _Topic:
     type: type | None = None
     readers: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
     checks: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
+    has_writers: bool = False
     kept: deque[Any] | None = None
     """The newest message, once somebody asked for it to be kept."""
 
@@ -180,6 +181,7 @@ class Bus:
             raise BadSetting(f"Topic {topic!r} is published without a message type.")
         name = _plain(topic)
         entry = self._typed(topic, type)
+        entry.has_writers = True
 
         def publish(message: M) -> None:
             if not isinstance(message, type):
@@ -211,6 +213,16 @@ class Bus:
         """Whether anybody would see a message on ``topic``."""
         entry = self._topics.get(_plain(topic))
         return bool(entry and entry.readers)
+
+    def unheard(self, topic: str) -> str | None:
+        """Say that nobody reads a topic, with the nearest that is read; None where one does."""
+        read = [name for name, entry in self._topics.items() if entry.readers]
+        return None if _plain(topic) in read else f"nobody reads it.{did_you_mean(topic, read)}"
+
+    def unsaid(self, topic: str) -> str | None:
+        """Say that nobody publishes on a topic, with the nearest that is; None where one does."""
+        told = [name for name, entry in self._topics.items() if entry.has_writers]
+        return None if _plain(topic) in told else f"nobody publishes it.{did_you_mean(topic, told)}"
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service whose request class is ``type``; a later offer takes its place."""

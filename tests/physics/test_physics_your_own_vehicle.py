@@ -55,6 +55,22 @@ def test_it_swims_in_a_scene_as_the_page_shows(said_by: Callable[[str], str]) ->
     assert said_by(blocks("python")[2]) in blocks("text")
 
 
+def test_a_topic_that_leads_nowhere_is_said_as_the_page_shows(
+    said_by: Callable[[str], str],
+) -> None:
+    said = said_by(blocks("python")[2].replace('publisher("/twist"', 'publisher("/twst"'))
+    assert said.splitlines(keepends=True)[0] in blocks("text")
+
+
+@pytest.mark.parametrize("where", ["start(self, node)", "look(self, message)"])
+def test_what_the_program_of_the_page_raises_is_seen(
+    where: str, said_by: Callable[[str], str]
+) -> None:
+    program = blocks("python")[2].replace(f"def {where}:", f"def {where}:\n        1 / 0")
+    with pytest.raises(ZeroDivisionError):
+        said_by(program)
+
+
 def test_the_page_names_every_element() -> None:
     text = PAGE.read_text()
     for element in (BodyElement, ThrusterElement, HydrodynamicsElement):

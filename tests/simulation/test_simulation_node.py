@@ -93,3 +93,19 @@ def test_services_of_a_closed_node_are_gone() -> None:
 def test_a_latency_that_is_no_time_is_refused(latency: float | str) -> None:
     with pytest.raises(BadSetting, match="latency_s"):
         make_node(Bus(), latency_s=latency)
+
+
+def test_topics_that_have_no_other_end_are_said_with_the_nearest_that_has() -> None:
+    bus = Bus()
+    node = make_node(bus)
+    bus.inbox("twist", String)
+    bus.publisher("odom", String)
+    node.publisher("/twist", String)
+    node.subscribe("odom", String, lambda _: None)
+    assert node.unconnected() == []
+    node.publisher("/twst", String)
+    node.subscribe("odm", String, lambda _: None)
+    assert node.unconnected() == [
+        "me: it publishes on '/twst', but nobody reads it. Did you mean 'twist'?",
+        "me: it subscribes to 'odm', but nobody publishes it. Did you mean 'odom'?",
+    ]

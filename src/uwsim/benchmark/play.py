@@ -153,7 +153,7 @@ class _Playing:
         status = simulation.inbox(STATUS_TOPIC, String)
         self._algorithm = _make(plan)
         self._node = simulation.attach(
-            self._algorithm, name=plan.algorithm_name, parameters=plan.parameters
+            self._algorithm, name=plan.algorithm_name, parameters=plan.parameters, raises=False
         )
         self._verdict = Verdict(self._node, status)
         self._notes: dict[str, None] = {}

@@ -57,7 +57,8 @@ class InProcessNode:
     """A `uwsim.bus.Node` in lock-step: callbacks run inside the step, time waits for them.
 
     An exception in a callback is the algorithm's failure, not the simulator's: it is kept in
-    `error`, and the algorithm is not called any more.
+    `error`, and the algorithm is not called any more. With ``raises`` it goes on to who drives
+    the simulation.
     """
 
     def __init__(
@@ -68,8 +69,11 @@ class InProcessNode:
         timestep: float,
         random: np.random.Generator,
         parameters: Mapping[str, float | str],
+        raises: bool = False,
     ) -> None:
         self._bus = bus
+        self._raises = raises
+        self._topics: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
         self._random = random
         self._parameters = dict(parameters)
@@ -111,6 +115,8 @@ class InProcessNode:
             raise
         except (Exception, SystemExit) as error:  # a stranger's program fails on its own
             self.error = what_broke(error, self._algorithm)
+            if self._raises:
+                raise
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Have ``callback`` called with every message on ``topic``."""
@@ -119,10 +125,17 @@ class InProcessNode:
             self._guard(callback, message)
 
         self._close.append(self._bus.subscribe(topic, type, receive))
+        self._topics[f"it subscribes to {topic!r}, but "] = lambda: self._bus.unsaid(topic)
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``; delayed by the parameter ``latency_s``."""
+        self._topics[f"it publishes on {topic!r}, but "] = lambda: self._bus.unheard(topic)
         return self._bus.publisher(topic, type, delay_steps=self._delay_steps)
+
+    def unconnected(self) -> list[str]:
+        """A sentence for each of its topics that has no other end at present."""
+        found = {said: missing() for said, missing in self._topics.items()}
+        return [f"{self.name}: {said}{why}" for said, why in found.items() if why is not None]
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service; ``type`` is the class of its request."""
@@ -164,4 +177,6 @@ class InProcessNode:
             return callback(*arguments)
         except (Exception, SystemExit) as error:  # a stranger's program fails on its own
             self.error = what_broke(error, self._algorithm)
+            if self._raises:
+                raise
             return None

@@ -244,15 +244,25 @@ class Simulation:
             self._state.place_vehicle(index, self.world_from_localized @ localized_from_base)
 
     def attach(
-        self, algorithm: Algorithm, *, name: str, parameters: Mapping[str, float | str]
+        self,
+        algorithm: Algorithm,
+        *,
+        name: str,
+        parameters: Mapping[str, float | str],
+        raises: bool = True,
     ) -> InProcessNode:
-        """Let an algorithm in through its door and start it."""
+        """Let an algorithm in through its door and start it.
+
+        What it raises comes out here and out of `advance`; without ``raises`` it is kept in the
+        node's ``error``, and the algorithm is not called any more.
+        """
         node = InProcessNode(
             self.bus,
             name=name,
             timestep=self._timestep,
             random=self.stream("algorithm"),
             parameters=parameters,
+            raises=raises,
         )
         self._nodes.append(node)
         node.run(algorithm)
