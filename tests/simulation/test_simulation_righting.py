@@ -15,6 +15,8 @@ from uwsim.simulation import Simulation
 
 UPSIDE = {"bluerov2_heavy": 0.0, "rexrov": math.pi}
 """Roll in the scene's frame, whose z points down: RexROV's own z points up."""
+TOP_SURGE = 0.734
+"""BlueROV2 Heavy with von Benzon's numbers, on rails (`tests/physics`) [m/s]."""
 NAME = "girona500"
 INTERFACES = (
     ROSTwistToPATSpec(topic="/twist", vehicle_name=NAME),
@@ -94,3 +96,15 @@ def test_a_place_in_a_current_is_held_upright(kind: str) -> None:
     set_current(simulation, (0.3, 0.0, 0.0))
     run(simulation, 20.0)
     assert tilt_deg(simulation) < 0.5
+
+
+def test_who_asks_for_more_than_there_is_gets_the_top_speed_and_stays_level() -> None:
+    simulation = afloat("bluerov2_heavy")
+    fly(simulation, 3.0, 0.0)
+    run(simulation, 10.0)
+    before = position(simulation)
+    run(simulation, 5.0)
+    way = position(simulation) - before
+    assert way[0] / 5.0 == pytest.approx(TOP_SURGE, rel=0.05)
+    assert abs(way[2]) < 0.1
+    assert tilt_deg(simulation) < 5.0

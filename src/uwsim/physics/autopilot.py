@@ -5,9 +5,10 @@ A command is held until the next, of whatever kind; what it takes over begins at
 *Velocity.* Each of surge, sway, heave and yaw has a loop on the velocity relative to the water
 (what a vehicle without bottom lock can know), or to the ground:
 
-.. math:: \tau = M k_v (\nu_d - \nu) + k_i \int (\nu_d - \nu)\,dt + D(\nu_d)
+.. math:: \tau = M k_v (\nu_d - \nu) + k_i \int (\nu_d - \nu)\,dt + D(\nu_d) + v \times A v
 
-with M the mass and added mass and D the drag at the wanted velocity. The gains follow from the lag
+with M the mass and added mass, D the drag at the wanted velocity and the last term against the Munk
+moment of the added mass A. The gains follow from the lag
 :math:`T` of the slowest thruster: :math:`k_v = 0.32/T`, :math:`k_i = 0.032/T^2` give the loop
 :math:`T s^3 + s^2 + k_v s + k_i` the poles :math:`0.2/T, 0.4/T, 0.4/T`: it does not swing. A
 faster loop swings by itself and, through a camera that tilts with the hull, keeps a roll up that no
@@ -17,8 +18,9 @@ rate in proportion to the error. *Position* hold wishes for a surge and sway in 
 error as well, at most 0.5 m/s, over ground: who knows where they are know how they move. *Wrench*:
 shared out, nothing is held. *Thrusters*: their commands as they are. *Pitch* and, where
 thrusters reach it beside the other axes, *roll* are righted: the angle is the integral of the rate,
-and pulls with :math:`k_i` as the others' integrals do. Forces are shared out by least squares and turned into
-commands by the thrusters' own curves.
+and pulls with :math:`k_i` as the others' integrals do. Forces are shared out by
+least squares and turned into commands by the thrusters' own curves; where they are not enough,
+surge and sway go short.
 
 The autopilot knows the true state. Not modelled: noise and delay of its sensors.
 """
@@ -90,6 +92,7 @@ class Autopilot:
         self._reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
         self._traits = (
             np.array(own) + np.diag(added),  # (6,) [kg, kg m2]
+            np.diag(added).copy(),
             np.diag(matrix(body.linear_damping)).copy() if body else np.zeros(6),
             np.diag(matrix(body.quadratic_damping)).copy() if body else np.zeros(6),
             self._reference,

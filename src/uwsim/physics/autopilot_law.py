@@ -31,6 +31,7 @@ def loops(
     target: Array,
     heading: Array,
     mass: Array,
+    added: Array,
     linear: Array,
     quadratic: Array,
     reference: Array,
@@ -54,6 +55,7 @@ def loops(
         target: where to be, in W, (3,) [m]; the height moves on as commanded.
         heading: ``world_from_base`` whose yaw is wanted, (3, 3); turns on as commanded.
         mass: and added mass along the axes, (6,) [kg, kg m2].
+        added: the added mass of it, (6,) [kg, kg m2].
         linear: damping along the axes, (6,).
         quadratic: damping along the axes, (6,).
         reference: what forces and velocities are about, base axes, (3,) [m].
@@ -97,21 +99,47 @@ def loops(
     integral[3] = integral[4] = 0.0
     tau = mass * (gains[VELOCITY] * error + gains[INTEGRAL] * integral)
     tau += linear * wanted + quadratic * np.abs(wanted) * wanted
+    u, v, w = velocity[0], velocity[1], velocity[2]
+    tau[3] += (added[2] - added[1]) * v * w  # the Munk moment v x A v, which turns hulls broadside
+    tau[4] += (added[0] - added[2]) * w * u
+    tau[5] += (added[1] - added[0]) * u * v
     # W's z in base axes; of a base whose z points down it is the other way round
     side = 1.0 if rotation[2, 2] >= 0.0 else -1.0
     x, y, z = side * rotation[2, 0], side * rotation[2, 1], side * rotation[2, 2]
     tau[3] -= mass[3] * gains[INTEGRAL] * math.atan2(y, z)
     tau[4] -= mass[4] * gains[INTEGRAL] * math.atan2(-x, z)
-    forces = shared(tau, axes, share)
+    asked = shared(tau, axes, share)
+    forces = within_reach(tau, asked, axes, share, least, greatest)
     for i in range(len(axes)):
         lacking = 0.0  # force or moment beyond the thrusters' limits
         for k in range(len(forces)):
-            excess = forces[k] - min(max(forces[k], least[k]), greatest[k])
+            excess = asked[k] - min(max(forces[k], least[k]), greatest[k])
             lacking += reached[i, k] * excess
         place = axes[i]
         if lacking * error[place] > 0.0:
             integral[place] = before[place]
     return forces
+
+
+@njit
+def within_reach(
+    tau: Array, asked: Array, axes: Axes, share: Array, least: Array, greatest: Array
+) -> Array:
+    """Return the thrusts for as much of surge and sway as the rest leaves room for, (n,) [N].
+
+    Who cannot do all keeps upright first, and depth and heading: a pull that is cut off thruster
+    by thruster would turn the vehicle over.
+    """
+    still = tau.copy()
+    still[0] = still[1] = 0.0
+    rest = shared(still, axes, share)
+    part = 1.0
+    for k in range(len(rest)):
+        way = asked[k] - rest[k]
+        end = greatest[k] if way > 0.0 else least[k]
+        if way != 0.0:
+            part = min(part, max((end - rest[k]) / way, 0.0))
+    return rest + part * (asked - rest)
 
 
 @njit
