@@ -53,8 +53,25 @@ class Law(Protocol):
     def step(self, error: Array, dt: float) -> Array:
         """Return surge and sway (2,) [m/s] for the error forward and to starboard (2,) [m].
 
-        ``dt`` is the time since the last call [s], 0 at the first.
+        ``dt`` is the time since the last call [s], 0 at the first. The node holds both speeds to
+        its parameter ``limit``, whatever the law.
         """
+
+
+def speeds_of(said: object, law: str) -> Array:
+    """Return the speeds (2,) [m/s] that a law said, as an array or any two numbers.
+
+    Raises:
+        ValueError: they are no two finite numbers.
+    """
+    try:
+        speeds = np.asarray(said, dtype=np.float64)
+    except (TypeError, ValueError):
+        speeds = np.empty(0)
+    if speeds.shape != (2,) or not np.isfinite(speeds).all():
+        shown = " ".join(repr(said).split())[:60]
+        raise ValueError(f"the law {law} returned {shown}; expected two finite speeds [m/s]")
+    return speeds
 
 
 class StationKeeper:
@@ -131,8 +148,9 @@ class ControllerNode:
         right, up = (u - cx) * distance / fx, (cy - v) * distance / fy  # [m]
         dt = 0.0 if self._last is None else self._node.now - self._last
         self._last = self._node.now
-        surge_sway = self._law.step(np.array([up, right]), dt)
-        self._command(*surge_sway.tolist())
+        speeds = speeds_of(self._law.step(np.array([up, right]), dt), type(self._law).__name__)
+        limit = self._number("limit")
+        self._command(*np.clip(speeds, -limit, limit).tolist())
 
     def _on_status(self, status: String) -> None:
         if status.data.startswith(("lost", "failed")):
