@@ -126,7 +126,7 @@ def time_figures(folder: Path, *, quick: bool) -> None:
     if not quick:
         print(table({key: (loop, measured(kept)) for key, (loop, kept) in runs.items()}))
     window = {"after": 5.0, "period": 4.0} if quick else {}
-    note = "thin lines: theory, once settled"
+    small = "thin lines: theory, once settled"
 
     def draw(number: int, name: str, label: str, what: Callable[[Array], Array]) -> None:
         panels = {}
@@ -142,7 +142,8 @@ def time_figures(folder: Path, *, quick: bool) -> None:
                     Line(name=controller.upper(), time=kept.time, values=values, theory=theory)
                 )
             panels[title] = lines
-        save_plot(over_time(panels, label=label, note=note), folder / f"figure-{number}-{name}.png")
+        drawn = over_time(panels, label=label, theory=small)
+        save_plot(drawn, folder / f"figure-{number}-{name}.png")
 
     draw(12, "distance", "distance to the objective [m]", lambda e: np.hypot(e[:, 0], e[:, 1]))
     draw(13, "error-x", "X error, right in the picture [m]", lambda e: e[:, 0])

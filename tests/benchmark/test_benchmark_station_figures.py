@@ -18,7 +18,15 @@ def test_every_panel_has_its_lines_and_theory_where_there_is_one() -> None:
     assert [len(axes.lines) for axes in (left, right)] == [1, 3]
     assert right.lines[1].get_ydata() == pytest.approx(time)
     assert left.get_ylabel() == "error [m]"
+    assert [text.get_text() for text in drawn.texts] == ["thin lines: theory (closed forms)"]
     assert right.get_xlim() == pytest.approx((0.0, 60.0))
+
+
+def test_theory_that_is_not_drawn_is_not_spoken_of() -> None:
+    time = np.linspace(0.0, 12.0, 7)
+    line = Line(name="P", time=time, values=time, theory=np.full(7, np.nan))
+    drawn = over_time({"still": [line]}, label="error [m]", note="one seed")
+    assert [text.get_text() for text in drawn.texts] == ["one seed"]
 
 
 def station(mean: float) -> Station:

@@ -74,14 +74,16 @@ def test_all_that_is_wrong_with_a_call_is_said_at_once_a_line_each(
     out.mkdir()
     (out / "notes.txt").touch()
     options = "--workers 0 --algorithm esm --algorithm orbb --set oceanState.fog.densty=1 --set x "
-    options += "--set algorithm.kp=1 --set algorithm.latency_s=-1 --level fogg=1 --level fog=7 "
+    options += (
+        "--set algorithm.kp=1 --set algorithm.latency_s=-1 --level fogg=1 --level fog=7.0000001 "
+    )
     options += "--compat thresh --mode paralel --repeat 100000 --out"
     assert main(["bench", benchmark, *options.split(), str(out)]) == 2
     said = capsys.readouterr().err.splitlines()
     expected = [
         "--workers 0: expected", "--set 'x': expected", "there is no <densty>. Did you mean",
         "no parameter 'kp'", "latency_s is -1.0", "--mode is 'paralel'", "Did you mean 'thresholds",
-        "--level fogg: this benchmark sweeps fog. Did", "--level fog=7 is not a level",
+        "--level fogg: this benchmark sweeps fog. Did", "--level fog=7.0000001 is not a level",
         "--repeat 100000: at most", "No algorithm is called 'orbb'. Did", f"--out {out}: not empty",
     ]  # fmt: skip
     assert [sum(words in line for line in said) for words in expected] == [1] * len(expected), said

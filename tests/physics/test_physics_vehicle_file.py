@@ -92,6 +92,14 @@ def test_every_fault_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> 
         assert message in said, f"{message}\n--\n{said}"
 
 
+def test_a_shape_that_is_none_is_said_once_and_its_lengths_are_not_counted(tmp_path: Path) -> None:
+    shape = "<shape>cone</shape> <size>0.5 0.4 0.3</size> </body>"
+    (said,) = faults_of(tmp_path, MINIMAL.replace("</body>", shape))
+    assert "<shape> is 'cone'; expected one of" in said
+    (said,) = faults_of(tmp_path, MINIMAL.replace("</body>", shape.replace("cone", "sphere")))
+    assert said.endswith("a sphere has 1 length; found 3")
+
+
 def test_an_added_mass_that_is_not_symmetric_names_the_entries(tmp_path: Path) -> None:
     rows = np.eye(6)
     rows[0, 4] = 0.5

@@ -113,16 +113,26 @@ def test_all_are_said_at_once(tmp_path: Path) -> None:
     assert len([fault for fault in faults_of(path) if fault.severity == "fault"]) == 3
 
 
-def test_a_field_is_read_by_a_check_but_not_the_users_function(tmp_path: Path) -> None:
+def test_a_field_is_read_by_a_check_but_the_users_function_only_looked_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "my_wild_water_of_the_tests.py").write_text("1 / 0")
+    monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "field.csv").write_text("x,y,u\n1,2,3\n")
     field = "<u:field> <u:file>field.csv</u:file> </u:field>"
-    function = "<u:pythonFunction> <u:function>nowhere:eddy</u:function> </u:pythonFunction>"
+    name = "my_wild_water_of_the_tests"
+    function = f"<u:pythonFunction> <u:function>{name}:eddy</u:function> </u:pythonFunction>"
     path = tmp_path / "scene.xml"
     both = f"<oceanState> <u:current> {function}\n{field} </u:current>"
-    path.write_text(TEXT.replace("<oceanState>", both))
+    text = TEXT.replace("<oceanState>", both)
+    path.write_text(text)
     (fault,) = [fault for fault in faults_of(path) if fault.severity == "fault"]
     assert "expected u and v" in fault.message
-    assert "u:field" in path.read_text().splitlines()[(fault.line or 0) - 1]
+    assert "u:field" in text.splitlines()[(fault.line or 0) - 1]
+    path.write_text(text.replace(name, "nowhere"))
+    fault, _ = [fault for fault in faults_of(path) if fault.severity == "fault"]
+    assert "there is no module 'nowhere' on Python's path" in fault.message
+    assert "u:pythonFunction" in text.splitlines()[(fault.line or 0) - 1]
 
 
 def test_the_bundled_scenes_have_no_such_fault() -> None:

@@ -152,7 +152,7 @@ def chosen_levels(
             if not any(_same(value, other) for other in has):
                 nearest = min(has, key=lambda other: abs(other - value))
                 raise BadSetting(
-                    f"--level {name}={value:g} is not a level; the nearest is {nearest:g}."
+                    f"--level {name}={value:.12g} is not a level; the nearest is {nearest:.12g}."
                 )
         kept = tuple(
             level

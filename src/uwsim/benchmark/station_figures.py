@@ -30,14 +30,20 @@ class Line:
     """(n,) at the same times; NaN where theory says nothing."""
 
 
-def over_time(panels: Mapping[str, Sequence[Line]], *, label: str, note: str = NOTE) -> Figure:
+def over_time(
+    panels: Mapping[str, Sequence[Line]], *, label: str, note: str = "", theory: str = NOTE
+) -> Figure:
     """Draw panels side by side with one scale: title -> its lines.
 
     Args:
         panels: what stands in each.
         label: of the upright axis, with unit.
         note: small print.
+        theory: small print where any theory is drawn, instead of ``note``.
     """
+    every = [line.theory for lines in panels.values() for line in lines]
+    if any(each is not None and np.isfinite(each).any() for each in every):
+        note = theory
     with styled_figure((7.0, 2.7)) as figure:
         grid = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
         for axes, (title, lines) in zip(grid, panels.items(), strict=True):

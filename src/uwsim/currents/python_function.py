@@ -18,6 +18,7 @@ import math
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from importlib.machinery import PathFinder
 from pathlib import Path
 
 import numpy as np
@@ -46,10 +47,7 @@ class PythonFunctionSpec(CurrentSpec):
         try:
             module = importlib.import_module(module_name)
         except ModuleNotFoundError as error:
-            raise BadSetting(
-                f"<u:function> is {self.function!r}; there is no module {error.name!r} on "
-                "Python's path (PYTHONPATH adds folders to it)."
-            ) from error
+            raise self._lost(error.name) from error
         except (Exception, SystemExit) as error:  # whatever a stranger's module does
             raise BadSetting(
                 f"<u:function> is {self.function!r}; its module raised {_said(error)}"
@@ -63,11 +61,36 @@ class PythonFunctionSpec(CurrentSpec):
             )
         return PythonFunction(self.function, function)
 
+    def look(self) -> None:
+        """Look whether the module is there, running none of it.
+
+        Raises:
+            BadSetting: it is not on Python's path.
+        """
+        parts = self._names()[0].split(".")
+        path: Sequence[str] | None = None
+        for i, part in enumerate(parts):
+            name = ".".join(parts[: i + 1])
+            if name in sys.modules or (i == 0 and part in sys.builtin_module_names):
+                path = getattr(sys.modules.get(name), "__path__", None)
+                continue
+            is_in_none = i > 0 and path is None  # what it should be in is no package
+            found = None if is_in_none else PathFinder.find_spec(name, path)
+            if found is None:
+                raise self._lost(name)
+            path = found.submodule_search_locations
+
     def files(self, place: Place) -> dict[str, Path]:
         """The file of the module, once it is imported."""
         module = sys.modules.get(self._names()[0])
         path = getattr(module, "__file__", None)
         return {Path(path).name: Path(path)} if path else {}
+
+    def _lost(self, module: str | None) -> BadSetting:
+        return BadSetting(
+            f"<u:function> is {self.function!r}; there is no module {module!r} on Python's path "
+            "(PYTHONPATH adds folders to it)."
+        )
 
     def _names(self) -> tuple[str, str]:
         """Module and function."""

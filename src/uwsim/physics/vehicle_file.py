@@ -41,6 +41,7 @@ from ..dialect import LARGEST, Faults, cut, number, parse, read
 from ..errors import FileError, UnknownName, did_you_mean
 from .hydrodynamics.faults import body_faults, thruster_faults
 from .hydrodynamics.spec import (
+    SIZES,
     BodyHydrodynamics,
     JointDrive,
     Numbers,
@@ -250,6 +251,8 @@ def _check_name(
 
 def _body(one: BodyElement, node: etree._Element, faults: Faults) -> BodyHydrodynamics:
     zeros = (0.0,) * 6
+    shape = node.find("shape")
+    has_known_shape = shape is None or (shape.text or "").strip() in SIZES  # others are said
     found = BodyHydrodynamics(
         link=one.link,
         reference=one.reference,
@@ -260,7 +263,7 @@ def _body(one: BodyElement, node: etree._Element, faults: Faults) -> BodyHydrody
         volume=one.volume,
         centre_of_buoyancy=one.centre_of_buoyancy,
         shape=one.shape,
-        size=_numbers(one.size, "size", node, faults),
+        size=_numbers(one.size, "size", node, faults) if has_known_shape else (),
         mass=one.mass,
         centre_of_mass=one.centre_of_mass,
         inertia=_numbers(one.inertia, "inertia", node, faults) or None,

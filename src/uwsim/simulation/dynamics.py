@@ -226,7 +226,9 @@ class _Search:
         for number, current in enumerate(self._scene.ocean_state.currents):
             try:
                 current.files(place)
-                if is_thorough and not isinstance(current, PythonFunctionSpec):
+                if is_thorough and isinstance(current, PythonFunctionSpec):
+                    current.look()
+                elif is_thorough:
                     current.bind(place)
             except UwsimError as error:
                 self._say(str(error), f"oceanState/{U}current", 0, "*", number)

@@ -63,7 +63,8 @@ def body_faults(body: BodyHydrodynamics) -> list[str]:
         )
     elif body.size and len(body.size) != SIZES[body.shape]:
         faults.append(
-            f"{who}: a {body.shape} has {SIZES[body.shape]} lengths; found {len(body.size)}"
+            f"{who}: a {body.shape} has {SIZES[body.shape]} "
+            f"{'length' if SIZES[body.shape] == 1 else 'lengths'}; found {len(body.size)}"
         )
     elif not body.size and body.shape != "sphere":
         faults.append(f"{who}: a {body.shape} needs its {SIZES[body.shape]} lengths (size) [m]")
