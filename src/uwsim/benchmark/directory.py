@@ -7,7 +7,7 @@ import os
 import re
 import shutil
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from ..errors import BadSetting
@@ -30,8 +30,13 @@ OURS = re.compile(
 FOLDERS = ("units", "plots", "pictures", CONTROL)
 
 
-def prepare(directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()) -> None:
-    """See to it that a result, or several, may be written into ``directory``.
+@contextmanager
+def prepared(
+    directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()
+) -> Iterator[None]:
+    """Keep other runs out of ``directory``, and make room in it for a result, or several.
+
+    Nothing is removed before the directory is one's own.
 
     Args:
         directory: need not be there.
@@ -41,15 +46,22 @@ def prepare(directory: Path, *, resume: bool, overwrite: bool, results: Sequence
 
     Raises:
         BadSetting: it is not empty and nothing was said; or it is to be overwritten and holds
-            anything that uwsim did not write.
+            anything that uwsim did not write; or another run is writing into it.
     """
-    check(directory, resume=resume, overwrite=overwrite, results=results)
-    if not resume:
-        empty(directory)
+    with ExitStack() as stack:
+        stack.enter_context(alone_in(directory))
+        check(directory, resume=resume, overwrite=overwrite, results=results)
+        for name in results:
+            stack.enter_context(alone_in(directory / name))
+        if not resume:
+            for name in results:
+                empty(directory / name)
+            empty(directory, keep=results)
+        yield
 
 
 def check(directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()) -> None:
-    """Refuse what `prepare` refuses, and change nothing."""
+    """Refuse what `prepared` refuses but another run; nothing is changed."""
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
     if not resume:
@@ -106,11 +118,11 @@ def check_room(
         )
 
 
-def empty(directory: Path) -> None:
-    """Remove all that is in a directory, which need not be there."""
+def empty(directory: Path, keep: Sequence[str] = ()) -> None:
+    """Remove all that is in a directory, which need not be there, but what is to be kept."""
     if not directory.is_dir():
         return
-    for name in [path.name for path in directory.iterdir()]:
+    for name in [path.name for path in directory.iterdir() if path.name not in keep]:
         path = directory / name
         shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
 

@@ -7,7 +7,6 @@ import signal
 import sys
 import time
 from collections.abc import Sequence
-from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -92,7 +91,7 @@ def bench(
     data_path: DataPathOption = None,
 ) -> None:
     """Play a benchmark: every level, scored; a table, logs, plots and a report come out."""
-    from ..benchmark.directory import check, prepare
+    from ..benchmark.directory import check, prepared
 
     wrong, crew, folders = AllErrors(), None, []
     with wrong.kept():
@@ -128,17 +127,16 @@ def bench(
     began = time.time()
     inputs, renderer = open_once(plans[0])
     signal.signal(signal.SIGTERM, interrupt)
-    prepare(directory, resume=resume, overwrite=overwrite, results=folders)
     runs = [
         Bench(plan=plan, out=directory / folder, inputs=inputs, renderer=renderer)
         for plan, folder in zip(plans, folders or [""], strict=True)
     ]
-    play_and_finish(runs, directory, crew, workers, began, context.obj)
+    with prepared(directory, resume=resume, overwrite=overwrite, results=folders):
+        play_and_finish(runs, crew, workers, began, context.obj)
 
 
 def play_and_finish(
     runs: Sequence[Bench],
-    directory: Path,
     crew: Crew,
     workers: str,
     began: float,
@@ -148,7 +146,6 @@ def play_and_finish(
 
     Args:
         runs: an algorithm each.
-        directory: of all results together.
         crew: who plays.
         workers: the same, as it was said.
         began: when the command did [s since 1970].
@@ -159,15 +156,11 @@ def play_and_finish(
         RunFailed: an algorithm broke in every row.
     """
     from ..benchmark.beside import Beside
-    from ..benchmark.directory import alone_in
     from ..benchmark.provenance import save_beginning
 
-    with ExitStack() as stack:
-        for place in dict.fromkeys([directory, *(run.out for run in runs)]):
-            stack.enter_context(alone_in(place))
-        for run in runs:
-            save_beginning(command, run.out)
-        beside = stack.enter_context(Beside())
+    for run in runs:
+        save_beginning(command, run.out)
+    with Beside() as beside:
         controls = [control_of(run) for run in runs if wants_control(run)]
         if controls:
             beside.ask(controls[0])

@@ -194,12 +194,12 @@ def play(
 
     inputs, renderer = open_once(plan)
     signal.signal(signal.SIGTERM, interrupt)
-    check_out(directory, resume=resume, overwrite=overwrite)
-    if not resume:
-        empty(directory)
     over, where, at = question.over, question.where, question.at
     began = time.time()
     with alone_in(directory):
+        check_out(directory, resume=resume, overwrite=overwrite)
+        if not resume:
+            empty(directory)
         save_beginning(command, directory)
         bench = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
         most = 9 + len(seeds) * (where.most_cuts() + 1)
