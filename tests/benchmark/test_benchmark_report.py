@@ -158,6 +158,32 @@ def test_the_paragraph_about_the_static_scene_stands_only_where_nothing_moves(
     )
 
 
+@pytest.mark.parametrize(
+    ("mode", "facts", "name", "is_static"),
+    [
+        ("independent", {"shift": (31.5, "px")}, "visibility-moving", False),
+        ("independent", {"shift": (0.0, "px")}, "visibility", True),
+        ("sequential", {"shift": (0.0, "px")}, "my-own", True),
+        ("sequential", {"shift": (31.5, "px")}, "my-own", False),
+        ("independent", {}, "visibility-moving", False),
+        ("independent", {}, "visibility", True),
+        ("sequential", {}, "my-own", True),
+    ],
+)
+def test_a_vehicle_that_sways_is_no_static_scene_though_levels_end_at_one_phase(
+    mode: str, facts: dict[str, object], name: str, is_static: bool, tmp_path: Path
+) -> None:
+    result = with_picture(visibility(), tmp_path, 0, 5)
+    result = replace(
+        result,
+        run={**result.run, "mode": mode},
+        facts=facts,
+        inputs={**result.inputs, "benchmark": (f"{name}.xml", "sha256:0")},
+    )
+    text = page_of(result, tmp_path).text
+    assert ("This scene cannot tell trackers apart" in text) == is_static
+
+
 def test_the_control_beside_the_result_is_drawn_into_the_plots(tmp_path: Path) -> None:
     save(frozen(), tmp_path / "control")
     page = whole_page_of(visibility(), tmp_path)

@@ -14,6 +14,9 @@ The noise of a camera is that of each of its channels, ``255 std`` grey levels. 
 sum of three of them, so its noise is smaller by the norm of the weights, 0.669; ``f_star_grey`` is
 the limit with that, nearer to what a tracker of grey pictures meets. Not modelled: noise in the
 template, 8-bit quantisation, the tracker's own error.
+
+Whether the target moves in the picture is measured too: a tracker of what stands still has nothing
+to track.
 """
 
 from __future__ import annotations
@@ -26,7 +29,7 @@ import numpy.typing as npt
 
 from ..geometry import Array
 from ..simulation import Simulation
-from .ground_truth import CornersFromCameraSpec
+from .ground_truth import CornersFromCameraSpec, GroundTruth
 from .measures import EuclideanNormSpec
 from .plan import Plan
 
@@ -82,6 +85,48 @@ def visibility_facts(
                 facts[name] = (limit, "1/m")
         return facts
     return {}
+
+
+class Shift:
+    """How far the first target whose corners are tracked moves in its picture, while it is watched.
+
+    Sampled every 16th step.
+    """
+
+    EVERY = 16
+
+    def __init__(self, simulation: Simulation, plan: Plan) -> None:
+        self._truth = _first_truth(simulation, plan)
+        self._low = self._high = np.zeros(0)  # least and largest of each number so far [px]
+        self._steps = 0
+        if self._truth is not None:
+            simulation.watch(self.tick)
+
+    def tick(self) -> None:
+        """Look at the picture after one more step."""
+        self._steps += 1
+        if self._steps % self.EVERY or self._truth is None:
+            return
+        corners = self._truth.read()
+        if corners is not None:
+            self._low = np.minimum(self._low, corners) if self._low.size else corners
+            self._high = np.maximum(self._high, corners) if self._high.size else corners
+
+    @property
+    def facts(self) -> dict[str, Fact]:
+        """``shift`` [px]: the widest range of a corner's x or y; empty if there was no corner."""
+        if not self._low.size:
+            return {}
+        return {"shift": (float((self._high - self._low).max()), "px")}
+
+
+def _first_truth(simulation: Simulation, plan: Plan) -> GroundTruth | None:
+    for spec in plan.benchmark.measures:
+        if isinstance(spec, EuclideanNormSpec) and isinstance(
+            spec.ground_truth, CornersFromCameraSpec
+        ):
+            return spec.ground_truth.bind(simulation)
+    return None
 
 
 def fog_of_loss(contrast: float, noise: float, distance: float, threshold: float) -> float | None:

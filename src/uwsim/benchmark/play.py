@@ -16,7 +16,7 @@ from ..errors import NeverStarted
 from ..messages import String
 from ..simulation import Simulation, Studio, what_broke
 from .answers import check_answers, parameters_of
-from .facts import Fact, visibility_facts
+from .facts import Fact, Shift, visibility_facts
 from .gate import Gate
 from .gated import Gated, Sample, finite
 from .live_topics import LiveTopics
@@ -80,7 +80,7 @@ class UnitEnd:
     """What a unit knows when it is done, beside its rows."""
 
     facts: dict[str, Fact]
-    """Constants of the scene, measured before the first level."""
+    """Constants of the scene, and how far the target moved in the picture."""
     parameters: dict[str, float | str]
     """Parameters of the algorithm, defaults included."""
     streams: tuple[tuple[str, int, str], ...]
@@ -164,10 +164,13 @@ class _Playing:
         plan, simulation = self._plan, self._simulation
         simulation.open()
         facts: dict[str, Fact] = {}
+        shift: Shift | None = None
         parameters = parameters_of(self._algorithm, plan.parameters)
         if not plan.is_blind:
             facts = visibility_facts(simulation, plan, parameters)
         self._wait("The benchmark never started")
+        if not plan.is_blind:
+            shift = Shift(simulation, plan)
         before: Level | None = None
         for level in self._unit.levels:
             if self._unit.is_alone:
@@ -176,7 +179,7 @@ class _Playing:
             yield self._play(level, calm(self._updater, level, after=before))
             before = level
         yield UnitEnd(
-            facts=facts,
+            facts=facts | (shift.facts if shift is not None else {}),
             parameters=parameters,
             streams=() if plan.is_blind else self._streams(),
             notes=tuple(self._notes),

@@ -17,6 +17,7 @@ FACTS = {
     "z": "threshold z of the ZNCC",
     "f_star": "predicted loss f*, with the noise of a channel",
     "f_star_grey": "predicted loss f*, with the noise of the grey picture",
+    "shift": "how far the target moved in the picture",
 }
 """Constant of a scene -> what it is (`uwsim.benchmark.facts`)."""
 SAID_ELSEWHERE = ("notes", "levels", "settings", "compatibility", "units")
