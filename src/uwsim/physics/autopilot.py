@@ -7,8 +7,8 @@ A command is held until the next, of whatever kind; what it takes over begins at
 
 .. math:: \tau = M k_v (\nu_d - \nu) + k_i \int (\nu_d - \nu)\,dt + D(\nu_d) + v \times A v
 
-with M the mass and added mass, D the drag at the wanted velocity and the last term against the Munk
-moment of the added mass A. The gains follow from the lag
+with M the mass and added mass, D the drag at the wanted velocity and the last term, in roll and
+pitch, which have no integral, against the Munk moment of the added mass A. The gains follow from the lag
 :math:`T` of the slowest thruster: :math:`k_v = 0.32/T`, :math:`k_i = 0.032/T^2` give the loop
 :math:`T s^3 + s^2 + k_v s + k_i` the poles :math:`0.2/T, 0.4/T, 0.4/T`: it does not swing. A
 faster loop swings by itself and, through a camera that tilts with the hull, keeps a roll up that no

@@ -100,9 +100,9 @@ def loops(
     tau = mass * (gains[VELOCITY] * error + gains[INTEGRAL] * integral)
     tau += linear * wanted + quadratic * np.abs(wanted) * wanted
     u, v, w = velocity[0], velocity[1], velocity[2]
-    tau[3] += (added[2] - added[1]) * v * w  # the Munk moment v x A v, which turns hulls broadside
+    # the Munk moment v x A v, which turns hulls broadside; in yaw the integral sees to it
+    tau[3] += (added[2] - added[1]) * v * w
     tau[4] += (added[0] - added[2]) * w * u
-    tau[5] += (added[1] - added[0]) * u * v
     # W's z in base axes; of a base whose z points down it is the other way round
     side = 1.0 if rotation[2, 2] >= 0.0 else -1.0
     x, y, z = side * rotation[2, 0], side * rotation[2, 1], side * rotation[2, 2]
