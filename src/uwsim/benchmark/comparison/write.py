@@ -12,7 +12,7 @@ from .page import render
 from .plots import draw_comparison
 
 OURS = re.compile(
-    r"(comparison\.(json|csv|html)|plots/(curves|differences|success)\.(png|pdf)|\.[^/]+\.part)"
+    r"(comparison\.(json|csv|html)|plots/(curves|differences|success)\.(png|pdf)|(plots/)?\.[^/]+\.part)"
 )
 """Files that uwsim writes into the directory of a comparison."""
 FOLDERS = ("plots",)

@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 
 from ...errors import ResultError
 from ..result import Result
+from ..whole_file import drafted
 from .curves import algorithm_of, curves_of, repeats_of
 from .drawing import (
     CONTROL,
@@ -142,16 +143,16 @@ def save_plot(figure: Figure, path: Path) -> Path:
     """Write a plot as PNG, 200 dots an inch, without a date or a program's name in it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     FigureCanvasAgg(figure)
-    with any_letter():
-        figure.savefig(path, dpi=DPI, format="png", metadata={"Software": None})
+    with any_letter(), drafted(path) as draft:
+        figure.savefig(draft, dpi=DPI, format="png", metadata={"Software": None})
     return path
 
 
 def save_pdf(figure: Figure, path: Path) -> Path:
     """Write a plot as PDF for a paper: letters as letters, without a date or a program's name."""
-    with mpl.rc_context({"pdf.fonttype": 42}), any_letter():
+    with mpl.rc_context({"pdf.fonttype": 42}), any_letter(), drafted(path) as draft:
         figure.savefig(
-            path, format="pdf", metadata={"CreationDate": None, "Producer": None, "Creator": None}
+            draft, format="pdf", metadata={"CreationDate": None, "Producer": None, "Creator": None}
         )
     return path
 
