@@ -147,6 +147,27 @@ def test_every_level_is_told_once(tmp_path: Path) -> None:
     assert len(told) == 3
 
 
+def test_a_unit_that_is_gone_when_all_are_played_is_missed_and_played_with_resume(
+    benchmark: Path, tmp_path: Path
+) -> None:
+    whole, out = tmp_path / "whole", tmp_path / "out"
+    play_all([bench_of(benchmark, whole, mode="independent")])
+    first, told = out / "units" / "00000.jsonl", []
+
+    def harm() -> None:
+        told.append(None)
+        if len(told) == 2:
+            first.unlink()
+
+    bench = bench_of(benchmark, out, mode="independent")
+    said = r"units/00000\.jsonl: unit 0 .* is not whole there any more\. Go on with --resume\.$"
+    with pytest.raises(RunFailed, match=said):
+        play_all([bench], on_level=harm)
+    assert len(load(out).rows) == 2
+    play_all([bench])
+    assert fingerprint(out) == fingerprint(whole)
+
+
 def test_an_error_that_cannot_travel_is_told_all_the_same() -> None:
     class Odd(Exception):
         def __reduce__(self) -> str:

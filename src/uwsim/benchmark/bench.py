@@ -55,6 +55,10 @@ class Bench:
         """Make the directory, and return the units that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
         self.n_resumed = self.n_finished()
+        return self.unfinished()
+
+    def unfinished(self) -> list[Unit]:
+        """Return the units whose end is not on disk."""
         return [unit for unit in self.plan.units() if self.stored(unit).end is None]
 
     def n_finished(self) -> int:

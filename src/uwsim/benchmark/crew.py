@@ -16,6 +16,7 @@ from ..simulation import Studio
 from .bench import Bench
 from .plan import Unit
 from .result import Result
+from .unit_file import path_of
 from .unit_work import Event, Keeper, perform
 
 OnLevel = Callable[[], None]
@@ -175,9 +176,20 @@ def play_each(
     roster = Roster(jobs, on_level)
     try:
         (crew or Here()).play(roster)
+        _miss_what_is_gone(benches, roster)
     finally:
         results = tuple(bench.write() for bench in benches)
     return Outcome(results=results, failures=tuple(roster.failures))
+
+
+def _miss_what_is_gone(benches: Sequence[Bench], roster: Roster) -> None:
+    """Hold it against a benchmark if a unit that was played is not on disk any more."""
+    for bench in benches:
+        for unit in bench.unfinished()[:1]:
+            name = path_of(bench.out, unit.index)
+            said = "was played, but is not whole there any more. Go on with --resume."
+            job = Job(bench, unit)
+            roster.failed(job, RunFailed(f"{name}: {job} {said}"))
 
 
 def play_all(
