@@ -129,6 +129,10 @@ FAULTS = {
         changed("<name>centroid", "<name>2nd centroid", "corners+centroid", "corners"),
         "<euclideanNorm>\n      <name>2nd", "'2nd centroid' cannot stand in the function",
     ),
+    "a name that no file can be called by": (
+        changed("<name>centroid", f"<name>{'c' * 300}", "corners+centroid", "corners"),
+        "<euclideanNorm>\n      <name>ccc", "c'... has 300 letters; at most 100",
+    ),
     "two measures with one name": (
         changed("<name>centroid", "<name>corners", "corners+centroid", "corners"),
         "<euclideanNorm>\n      <name>corners</name>\n      <groundTruth type=\"centroid",

@@ -64,6 +64,8 @@ from .updaters import (
 
 RESERVED = ("repeat", "seed", "total", "status", "ended_at")
 """Columns of a result that no measure may be called by."""
+LONGEST_NAME = 100
+"""So many letters a measure may be called by."""
 ONE_KNOB = (CameraNoiseUpdaterSpec, SceneFogUpdaterSpec, SceneLightUpdaterSpec)
 """Updaters of which two in a nest turn the same knob."""
 OF_A_PLUGIN = ", nor of a plugin that was given (--plugin FILE.py)"
@@ -343,6 +345,12 @@ class _Reader:
                     node,
                     f"the name {name!r} cannot stand in the function; "
                     "expected letters, digits and _, no digit first",
+                )
+            elif len(spec.name) > LONGEST_NAME:
+                self.faults.add(
+                    node,
+                    f"the name {name!r}... has {len(spec.name)} letters; at most {LONGEST_NAME}, "
+                    "for files are called after it",
                 )
             elif spec.name in seen:
                 first = self.faults.node_of(seen[spec.name])
