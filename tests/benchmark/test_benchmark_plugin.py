@@ -442,6 +442,7 @@ def test_files_of_an_updater_that_are_not_there_are_said_with_its_line(
     [
         ("float('nan')", "it gave nan"),
         ("'much'", "it gave str 'much', which is no number"),
+        ("True", "it gave bool 'True', which is no number"),
         ("10**400", "it gave a whole number beyond float64"),
         ("-1e308", "it gave -1e+308, beyond what can be reckoned with (1e+60)"),
     ],

@@ -17,7 +17,7 @@ def finite(value: object) -> tuple[float | None, str | None]:
     """Return a measure's value as a result may hold it; else None, and why."""
     if value is None:
         return None, None
-    if isinstance(value, Real):
+    if isinstance(value, Real) and not isinstance(value, bool):
         try:
             number = value if isinstance(value, int | float) else float(value)
             if math.isfinite(number):
