@@ -2,7 +2,7 @@
 
 .. code-block:: text
 
-    fog [1/m],time [s],corners [px],nw_x [px],nw_y [px]
+    fog [1/m],time [s],total [px],nw_x [px],nw_y [px]
     0.0,0.1,1.83,0.2,-0.1
     0.0,0.2,,,
 

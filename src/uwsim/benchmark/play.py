@@ -20,6 +20,7 @@ from .facts import Fact, Shift, visibility_facts
 from .gate import Gate
 from .gated import Gated, Sample, finite
 from .live_topics import LiveTopics
+from .log_columns import log_columns
 from .pictures import Shot, shoot
 from .plan import Plan, Unit
 from .plugin import blamed
@@ -68,7 +69,7 @@ class Row:
     logs: dict[str, list[Sample]]
     """Measure -> samples: time in the level [s], then `log_headers`."""
     log_headers: dict[str, tuple[str, ...]]
-    """Measure -> names of what stands in its samples after the time."""
+    """Measure -> what stands in its samples after the time, with units."""
     fingerprint: str
     """Of every body's motion and of every picture, since the unit began (`trace`)."""
     shots: tuple[Shot, ...]
@@ -323,7 +324,7 @@ class _Playing:
             ended_at=simulation.time,
             duration=(simulation.step - began) * simulation.timestep,
             logs={gated.spec.name: gated.log for gated in logged},
-            log_headers={gated.spec.name: gated.measure.log_header for gated in logged},
+            log_headers={gated.spec.name: log_columns(gated.measure) for gated in logged},
             fingerprint=self._tracer.fingerprint,
             shots=()
             if self._plan.is_blind

@@ -290,7 +290,7 @@ def test_a_body_steps_to_its_set_point_in_the_frame_of_files() -> None:
     assert details["overshoot"] == pytest.approx(0.0, abs=1e-9)
     assert details["steady_state_error"] == pytest.approx(0.0, abs=1e-6)
     assert control.detail_units["ise"] == "m^2 s"
-    assert control.log_header == ("error", "iae")
+    assert control.log_header == ("error [m]", "iae")
     assert control.log_values == (pytest.approx(0.0, abs=1e-6), pytest.approx(1.0, abs=1e-4))
 
 
@@ -343,7 +343,7 @@ def test_commands_and_error_are_judged_together() -> None:
     control = bound(world, topic="u", target="v", position=(0.0, 0.0, 0.0))
     control.start()
     send(control, world, twist(0.5), 10)
-    assert control.log_header == ("variation", "effort", "n", "error", "iae")
+    assert control.log_header == ("variation", "effort", "n", "error [m]", "iae")
     assert control.log_values == pytest.approx((0.0, 0.25 * 9 * DT, 1.0, 1.0, 0.1))
     assert control.reasons == {
         "rise_time": "never rose to 90% of the step",

@@ -298,9 +298,11 @@ class Control(Measure):
     @property
     def log_header(self) -> tuple[str, ...]:
         """Of the commands and of the error, whichever there are."""
+        has_error = self._spec.has_error
+        error = "error" if self._body is None else f"error [{self._error_unit('step')}]"
         return (
             *(("variation", "effort", "n") if self._inbox is not None else ()),
-            *(("error", "iae") if self._spec.has_error else ()),
+            *((error, "iae") if has_error else ()),
         )
 
     @property

@@ -94,7 +94,7 @@ class Measure(abc.ABC):
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The columns of its log, after the time."""
+        """The columns of its log, after the time; one may say its unit: ``depth [m]``."""
         return ("value",)
 
     @property

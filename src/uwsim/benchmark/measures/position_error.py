@@ -12,6 +12,7 @@ r"""Position error: how far a body is from where it should be.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -60,6 +61,7 @@ class PositionError(Measure):
     """
 
     unit = "m"
+    detail_units: ClassVar[Mapping[str, str]] = dict.fromkeys(TURN, "1")
 
     def __init__(
         self, spec: PositionErrorSpec, world: World, body: Body, inbox: Inbox[PoseStamped] | None
