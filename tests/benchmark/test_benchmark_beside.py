@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import subprocess
 import sys
 import time
@@ -10,6 +12,8 @@ from pathlib import Path
 import pytest
 from synthetic_results import one_level
 
+from short_benchmark import bench_of, fingerprint, run, write_benchmark
+from uwsim.benchmark import unit_file
 from uwsim.benchmark.beside import Beside
 from uwsim.benchmark.result_file import save
 from uwsim.errors import RunFailed
@@ -40,17 +44,36 @@ def test_ends_with_the_block() -> None:
     assert not process.is_alive()
 
 
-def ask_and_wait(beside: Beside) -> None:
-    beside.ask(Path("anything"))
-    beside.wait()
-
-
-def test_says_that_it_died() -> None:
+def test_what_it_was_asked_is_done_here_if_it_dies(tmp_path: Path) -> None:
+    for name in ("before", "after"):
+        save(one_level(), tmp_path / name)
     with Beside() as beside:
+        os.kill(beside._process.pid or 0, signal.SIGSTOP)  # asked, and never answers
+        beside.ask(tmp_path / "before")
         beside._process.kill()
         beside._process.join()
-        with pytest.raises(RunFailed, match=r"died \(killed by SIGKILL\)\. Finished rows are"):
-            ask_and_wait(beside)
+        beside.ask(tmp_path / "after")
+        beside.ask(tmp_path / "nowhere")
+        beside.wait()
+        assert not (tmp_path / "after" / "report.html").exists()
+        beside.wait()
+        with pytest.raises(RunFailed, match="no result here"):
+            beside.wait()
+    assert all((tmp_path / name / "report.html").is_file() for name in ("before", "after"))
+
+
+def test_a_control_whose_process_died_on_the_way_has_the_same_bytes(tmp_path: Path) -> None:
+    benchmark = write_benchmark(tmp_path, "0.2")
+    run(benchmark, tmp_path / "whole", algorithm="frozen")
+    bench = bench_of(benchmark, tmp_path / "out", algorithm="frozen")
+    with Beside() as beside:
+        beside.ask(bench)
+        file = unit_file.path_of(bench.out, 0)
+        while not file.exists() or len(file.read_text().splitlines()) < 2:
+            time.sleep(0.01)
+        beside._process.kill()
+        beside.wait()
+    assert fingerprint(tmp_path / "out") == fingerprint(tmp_path / "whole")
 
 
 PARENT = """

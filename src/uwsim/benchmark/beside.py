@@ -1,13 +1,14 @@
 """A second process beside a run: it plays the control and draws the report.
 
 Both need no picture and no OpenGL, and a run in one process leaves a core half idle. Started early,
-this one has loaded what it needs by the time it is asked.
+this one has loaded what it needs by the time it is asked. Should it die, the run does its jobs.
 """
 
 from __future__ import annotations
 
 import multiprocessing
 import signal
+from collections import deque
 from contextlib import suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -19,7 +20,6 @@ from .bench import Bench
 from .crew import play_all
 from .leash import put_on
 from .plugin import raised
-from .processes import how
 
 Job = Bench | Path
 """A benchmark is played; of a result directory the report is drawn."""
@@ -37,6 +37,7 @@ class Beside:
         leash, self._leash = context.Pipe(duplex=False)
         self._process = context.Process(target=_serve, args=(there, leash), daemon=True)
         self._process.start()
+        self._asked: deque[Job] = deque()
         there.close()
         leash.close()
 
@@ -56,32 +57,23 @@ class Beside:
 
     def ask(self, job: Job) -> None:
         """Give it something to do."""
-        try:
+        self._asked.append(job)
+        with suppress(OSError):  # it is gone: `wait` sees to the job
             self._here.send(job)
-        except OSError:
-            raise RunFailed(self._gone()) from None
 
     def wait(self) -> None:
-        """Wait until the oldest job that was not waited for is done.
+        """Wait until the oldest job that was not waited for is done; do it here if it is lost.
 
         Raises:
-            RunFailed: it could not be done, or the process died.
+            RunFailed: it could not be done.
         """
+        job = self._asked.popleft()
         try:
             why = self._here.recv()
-        except (EOFError, OSError):
-            raise RunFailed(self._gone()) from None
+        except (EOFError, OSError):  # the process died
+            why = _done(job)
         if why is not None:
             raise RunFailed(why)
-
-    def _gone(self) -> str:
-        """Say that it died, and how."""
-        self._process.join()
-        ended = how(self._process.exitcode)
-        return f"The process that plays the control and draws the report died ({ended}). {_KEPT}"
-
-
-_KEPT = "Finished rows are kept; go on with --resume."
 
 
 def _serve(there: Connection, leash: Connection) -> None:
@@ -95,17 +87,21 @@ def _serve(there: Connection, leash: Connection) -> None:
             job = there.recv()
         except EOFError:
             return
-        try:
-            if isinstance(job, Bench):
-                play_all([job])
-            else:
-                from .report import write_report
+        there.send(_done(job))
 
-                write_report(job)
-        except UwsimError as error:
-            there.send(str(error))
-        except Exception as error:  # a full disk, a number that no plot can show
-            what = "The control" if isinstance(job, Bench) else "The report"
-            there.send(f"{what} failed: {raised(error)}. {_KEPT}")
+
+def _done(job: Job) -> str | None:
+    """Do it; returns why it could not be done."""
+    try:
+        if isinstance(job, Bench):
+            play_all([job])
         else:
-            there.send(None)
+            from .report import write_report
+
+            write_report(job)
+    except UwsimError as error:
+        return str(error)
+    except Exception as error:  # a full disk, a number that no plot can show
+        what = "The control" if isinstance(job, Bench) else "The report"
+        return f"{what} failed: {raised(error)}. Finished rows are kept; go on with --resume."
+    return None
