@@ -165,6 +165,7 @@ def unknown_names(
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
     from ..algorithms import load_algorithm
     from ..benchmark import names
+    from ..benchmark.arm_notices import arm_notices
     from ..benchmark.reader import read_benchmark
     from ..dialect import Faults
     from ..scene.reader import read_scene
@@ -193,7 +194,11 @@ def unknown_names(
         faults.add(root_line(file) if scene is None else None, str(error))
     else:
         try:
-            return [*faults.all(), *names.unknown_names(benchmark, simulation)]
+            return [
+                *faults.all(),
+                *names.unknown_names(benchmark, simulation),
+                *arm_notices(benchmark, simulation.vehicles, simulation.robots),
+            ]
         finally:
             simulation.close()
     return faults.all()
