@@ -67,6 +67,31 @@ def test_a_measure_may_be_called_like_a_function() -> None:
     assert value("sum + sum(sum, 1)", sum=2.0) == 5.0
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "max(1, 0/0)", "max(0/0, 1)", "min(1, 1/0)", "if(0/0, 1, 2)", "0/0 ? 1 : 2", "1 || 1/0",
+        "1/0 || 1", "0 && 1/0", "1/(1/0)", "exp(1000) > 5", "atan(1/0)", "1 ? 0/0 : 1",
+    ],
+)  # fmt: skip
+def test_what_is_used_and_not_finite_gives_no_value_in_any_order(text: str) -> None:
+    score = parse(text, []).score({})
+    assert score.value is None
+    assert score.why is not None
+    assert ", from column " in score.why
+
+
+@pytest.mark.parametrize("text", ["if(1, 2, 0/0)", "0 ? 1/0 : 2", "1 < 2 ? 2 : max(1, 1/0)"])
+def test_the_side_that_is_not_chosen_is_not_used(text: str) -> None:
+    assert parse(text, []).evaluate({}) == 2.0
+
+
+def test_a_number_beyond_float64_is_a_fault_where_it_stands() -> None:
+    with pytest.raises(ScoreFault, match="1e999 is beyond the largest number") as fault:
+        parse("1 + 1e999", [])
+    assert fault.value.column == 4
+
+
 def test_nothing_measured_gives_no_score_and_says_which_measure() -> None:
     score = parse("corners + centroid", ["corners", "centroid"]).score(
         {"corners": None, "centroid": 1.0}

@@ -19,7 +19,9 @@ From the loosest binding to the tightest:
 
 Functions: those of `FUNCTIONS`; constants ``_pi`` and ``_e``. ``log`` is to base **10**, as in the
 muParser of UWSim's time (newer ones: natural); ``log10`` and ``ln`` say which is meant. ``rint``
-rounds halves up. Angles are in radians. Numbers are float64; both sides of ``? :`` are computed.
+rounds halves up. Angles are in radians. Numbers are float64. Where anything that is used on the way
+is not a finite number, there is no value: ``max(1, 0/0)``, ``1 || 1/0`` and ``1/(1/0)`` have none.
+Of ``? :`` and ``if`` the side that is not chosen is not used.
 
 Nothing is ever given to Python's ``eval``: a parsed expression is a list of the steps below. Not
 in the language: assignments, strings, muParser's words ``and``, ``or``, ``xor``.
@@ -131,19 +133,32 @@ class Expression:
         absent = [name for name in self.names if values[name] is None]
         if absent:
             return Score(None, f"no value for {', '.join(absent)}")
-        stack: list[float] = []
-        blame: _Step | None = None
+        stack: list[tuple[float, _Step | None]] = []  # a number; which step made it not finite
         with np.errstate(all="ignore"):
             for step in self.steps:
-                taken = [stack.pop() for _ in range(step.takes)][::-1]
-                result = self._result(step, taken, values)
-                if blame is None and not math.isfinite(result) and all(map(math.isfinite, taken)):
-                    blame = step
-                stack.append(result)
-        if math.isfinite(stack[0]):
-            return Score(stack[0])
-        place = f", from column {blame.column + 1} of {self.text!r} on" if blame else ""
-        return Score(None, f"the function gives {stack[0]}{place}")
+                taken = stack[len(stack) - step.takes :]
+                del stack[len(stack) - step.takes :]
+                stack.append(self._next(step, taken, values))
+        [(result, blame)] = stack
+        if blame is None:
+            return Score(result)
+        place = f", from column {blame.column + 1} of {self.text!r} on"
+        return Score(None, f"the function gives {result}{place}")
+
+    def _next(
+        self,
+        step: _Step,
+        taken: list[tuple[float, _Step | None]],
+        values: Mapping[str, float | None],
+    ) -> tuple[float, _Step | None]:
+        """What a step makes of the numbers it takes; the first that is not finite is passed on."""
+        if step.function is _if and taken[0][1] is None:
+            return taken[1] if taken[0][0] != 0.0 else taken[2]
+        for number, blame in taken:
+            if blame is not None:
+                return number, blame
+        result = self._result(step, [number for number, _ in taken], values)
+        return result, None if math.isfinite(result) else step
 
     @staticmethod
     def _result(step: _Step, taken: list[float], values: Mapping[str, float | None]) -> float:
@@ -217,7 +232,7 @@ def _compile(
         column = getattr(node.meta, "start_pos", 0)
         parts = [part for part in node.children if part is not None]
         if node.data == "number":
-            steps.append(_Step(column, 0, constant=float(str(parts[0]))))
+            steps.append(_Step(column, 0, constant=_number(str(parts[0]), column, text)))
         elif node.data == "name":
             steps.append(_name(str(parts[0]), column, text, names, used))
         else:
@@ -227,6 +242,13 @@ def _compile(
                 todo.append(_operation(node.data, tokens, len(operands), column, text))
             todo.extend(reversed(operands))
     return steps, used
+
+
+def _number(word: str, column: int, text: str) -> float:
+    number = float(word)
+    if not math.isfinite(number):
+        raise ScoreFault(text, column, f"{word[:20]} is beyond the largest number, 1.8e308")
+    return number
 
 
 def _name(
