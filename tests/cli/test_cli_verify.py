@@ -314,3 +314,45 @@ def test_tables_are_compared_by_line_and_column() -> None:
     assert of_text("a,b\n1,2\n", "a,b\n1,3\n") == "line 2, column b: '2' there, '3' expected"
     assert of_text("a,b\n1,2\n", "a,b\n") == "line 2: '1,2' there, '' expected"
     assert of_text("a,b", "a,b\n") == "1 lines there, 2 expected"
+
+
+@pytest.mark.parametrize("harm", ["gone", "junk"])
+def test_a_unit_that_is_gone_or_junk_is_named_and_nothing_is_held_against_the_other(
+    folder: Path, capsys: pytest.CaptureFixture[str], harm: str
+) -> None:
+    file = folder / "out" / "units" / "00000.jsonl"
+    file.unlink() if harm == "gone" else file.write_bytes(b"\xff\x00 no unit\n")
+    what = "is not there" if harm == "gone" else "0 rows can be read"
+    status, said = verify(capsys)
+    assert status == 3
+    assert said.splitlines()[2:] == [
+        f"units/00000.jsonl: unit 0 (seed 3): {what}; result.json has 1 of it",
+        "not compared: result.json and the files beside it: units/ is not whole",
+        "DIFFERS: all of 1 unit replayed, 1 level. Every replayed unit gave what it stored; "
+        "other parts of the result were changed.",
+    ]
+
+
+@pytest.mark.slow
+def test_what_was_typed_in_a_folder_above_is_found_there(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "own" / "scenes").mkdir(parents=True)
+    text = (folder / "b.xml").read_text().replace('"tank.xml"', '"scenes/tank.xml"')
+    (folder / "b.xml").unlink()
+    (folder / "own" / "b.xml").write_text(text)
+    (folder / "tank.xml").rename(folder / "own" / "scenes" / "tank.xml")
+    assert main(["bench", "own/b.xml", "--out", "o/m"]) == 0
+    capsys.readouterr()
+    said = (folder / "o" / "m" / "result.json").read_text()
+    assert "own/" not in said
+    assert "uwsim bench own/b.xml" in (folder / "o" / "m" / "report.html").read_text()
+    assert main(["verify", "o/m"]) == 0
+    monkeypatch.chdir(folder / "o" / "m")
+    assert main(["verify", "."]) == 0
+    (folder / "o" / "m" / "result.json").unlink()
+    monkeypatch.chdir(folder)
+    assert main(["report", "o/m"]) == 2
+    assert "uwsim bench own/b.xml --out o/m --resume" in capsys.readouterr().err
+    assert main(["bench", "own/b.xml", "--out", "o/m", "--resume"]) == 0
+    assert (folder / "o" / "m" / "result.json").read_text() == said

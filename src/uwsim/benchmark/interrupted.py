@@ -11,6 +11,7 @@ import shlex
 from importlib import resources
 from pathlib import Path
 
+from .directory import CONTROL
 from .provenance import load_provenance
 from .unit_file import FOLDER, Record, read_any
 
@@ -25,10 +26,12 @@ def instead_of_a_result(path: Path) -> str:
         return "no result here (there is no such file or directory)"
     if (path / ENVELOPE).exists():
         return "no result here but an envelope: its runs stand in envelope.json"
-    if names := sorted(file.parent.name for file in path.glob(f"*/{RESULT}")):
+    names = sorted(file.parent.name for file in path.glob(f"*/{RESULT}"))
+    command = resuming(path)
+    if names and not (command and names == [CONTROL]):  # the control may be over long before
         said = f"holds {len(names)} results ({', '.join(names)}); name one, as {path / names[0]}"
         return said if len(names) > 1 else f"no result here, but in {path / names[0]}"
-    if command := resuming(path):
+    if command:
         what = "yet: its run"
         if command.startswith("uwsim envelope "):
             what = "but the runs of an envelope: its search"
@@ -68,7 +71,7 @@ def resuming(directory: Path) -> str | None:
 def _heads_below(directory: Path) -> dict[str, Record]:
     """The heads of the algorithms that were played together."""
     below = sorted(folder.parent.name for folder in directory.glob(f"*/{FOLDER}"))
-    heads = {name: _head(directory / name) for name in below}
+    heads = {name: _head(directory / name) for name in below if name != CONTROL}
     return {name: head for name, head in heads.items() if head is not None}
 
 

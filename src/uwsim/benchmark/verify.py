@@ -119,11 +119,17 @@ def _has_units(directory: Path) -> bool:
 
 
 def _check_files(found: Verification, directory: Path, result: Result, bench: Bench) -> None:
-    """Make every file anew from the stored units, and compare."""
+    """Make every file anew from the stored units, and compare, if they are all there."""
+    gone = _gone(directory, result, bench.plan)
+    for unit, what in gone.items():
+        name = unit_file.path_of(directory, unit.index).name
+        found.add(f"{unit_file.FOLDER}/{name}", what)
+    if gone:
+        found.not_compared.append("result.json and the files beside it: units/ is not whole")
     for unit in bench.plan.units():
         path = unit_file.path_of(directory, unit.index)
         head, stored = unit_file.read_any(path)
-        if head is None:
+        if head is None or unit in gone:
             continue
         expected = _head(result, bench.head(unit))
         _check_head(found, f"{unit_file.FOLDER}/{path.name}", head, expected)
@@ -133,6 +139,8 @@ def _check_files(found: Verification, directory: Path, result: Result, bench: Be
         if stored.end is not None:
             file.finish(stored.end)
         file.close()
+    if gone:
+        return
     try:
         made = bench.write()
     except Exception as error:
@@ -149,6 +157,21 @@ def _check_files(found: Verification, directory: Path, result: Result, bench: Be
             text = there.read_text(encoding="utf-8", errors="replace")
             if said := differences.of_text(text, path.read_text(encoding="utf-8")):
                 found.add(path.name, f"{said} by units/")
+
+
+def _gone(directory: Path, result: Result, plan: Plan) -> dict[Unit, str]:
+    """Units whose rows are in the result but not in their files: what is the matter with each."""
+    rows = _rows_by_level(result, plan)
+    gone = {}
+    for unit in plan.units():
+        file = unit_file.path_of(directory, unit.index)
+        n_stored = len(unit_file.read_any(file)[1].rows) if file.is_file() else 0
+        n_told = sum(key in rows for key in _keys(unit, plan))
+        if n_stored < n_told:
+            name = f"unit {unit.index} (seed {unit.seed})"
+            what = f"{n_stored} rows can be read" if file.exists() else "is not there"
+            gone[unit] = f"{name}: {what}; result.json has {n_told} of it"
+    return gone
 
 
 def _head(result: Result, replayed: unit_file.Record) -> unit_file.Record:

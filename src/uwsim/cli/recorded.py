@@ -42,10 +42,12 @@ def plan_of(result: Result, directory: Path, given: Given) -> Plan:
         AssetNotFound: a file is nowhere.
     """
     run = _Run(result.run)
+    typed = typed_words(directory)
     benchmark = find_input(
-        "benchmark", named_input(result, "benchmark"), given.benchmark, directory, given
+        "benchmark", named_input(result, "benchmark"), given.benchmark, directory, given, typed
     )
-    scene = find_input("scene", named_input(result, "scene"), given.scene, directory, given)
+    typed += [str(benchmark.parent / name) for name in scene_named_by(benchmark)]
+    scene = find_input("scene", named_input(result, "scene"), given.scene, directory, given, typed)
     is_blind = run.text("renderer") == NOT_DRAWN
     settings = [f"{name}={value}" for name, value in run.pairs("settings")]
     plan = make_plan(
@@ -88,7 +90,12 @@ def check_inputs(recorded: Mapping[str, Any], found: Mapping[str, Any]) -> None:
 
 
 def find_input(
-    kind: str, recorded: tuple[str, str], chosen: Path | None, directory: Path, given: Given
+    kind: str,
+    recorded: tuple[str, str],
+    chosen: Path | None,
+    directory: Path,
+    given: Given,
+    typed: Sequence[str] = (),
 ) -> Path:
     """Find a file by its name and its hash.
 
@@ -98,6 +105,7 @@ def find_input(
         chosen: the file that the user gave, if any; no other is looked at.
         directory: the result's; its folder and those above it are searched.
         given: folders to search.
+        typed: words among which may be the file, as it was named then.
 
     Raises:
         ResultError: there are files of that name, but with other hashes.
@@ -109,7 +117,8 @@ def find_input(
     if chosen is not None:
         files = [bundled(f"{kind}s").get(str(chosen), chosen)] if not chosen.is_file() else [chosen]
     else:
-        files = list(candidates([name], beside=directory.absolute(), data_path=given.data_path))
+        names = [*(word for word in typed if Path(word).name == name), name]
+        files = list(candidates(names, beside=directory.absolute(), data_path=given.data_path))
         files += [path for path in bundled(f"{kind}s").values() if path.name == name]
     others = []
     for file in dict.fromkeys(path.resolve() if path.exists() else path for path in files):
@@ -128,6 +137,25 @@ def find_input(
         f"The {kind} {name!r} ({_short(wanted)}) was not found; give it with --{kind}. "
         f"Folders searched: {folders}."
     )
+
+
+def typed_words(directory: Path) -> list[str]:
+    """Return the words of the command that a result was made with; of a control, of its result."""
+    from ..benchmark.directory import CONTROL
+    from ..benchmark.provenance import load_provenance
+
+    place = directory.absolute()
+    typed = load_provenance(place.parent if place.name == CONTROL else place).get("command")
+    words = [str(word) for word in typed] if isinstance(typed, list) else []
+    return [word.partition("=")[2] if word.startswith("--") else word for word in words]
+
+
+def scene_named_by(benchmark: Path) -> list[str]:
+    """Return the scene that a benchmark file names (u:scene), if it does."""
+    from ..dialect import NAMESPACE, parse
+
+    named = parse(benchmark).root.get(f"{{{NAMESPACE}}}scene")
+    return [] if named is None else [str(named).strip()]
 
 
 def _plugins(result: Result, given: Sequence[Path]) -> list[Path]:
