@@ -53,6 +53,8 @@ class Gated:
             self.measure.start()
         elif on:
             self.measure.update()
+        elif self._was_on:
+            self.measure.went_off()
         if on and self._log_due is not None and self._world.step - self._began >= self._log_due:
             self._take_log()
         self._was_on = on

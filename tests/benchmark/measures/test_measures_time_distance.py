@@ -5,8 +5,11 @@ from __future__ import annotations
 import pytest
 
 from fakes import FakeBody, FakeWorld
+from uwsim.benchmark.gated import Gated
 from uwsim.benchmark.measures import Distance, DistanceSpec, TimeSpec
+from uwsim.benchmark.triggers import ServiceSpec, TopicSpec
 from uwsim.errors import UnknownName
+from uwsim.messages import Bool, Empty
 
 
 def walk(distance: Distance, body: FakeBody, *places: tuple[float, float, float]) -> None:
@@ -84,3 +87,25 @@ def test_the_log_of_a_time_runs_except_in_the_original() -> None:
             time.update()
         assert time.log_values == (logged,)
         assert time.value == 1.5
+
+
+def test_time_counts_from_the_start_to_the_stop_and_what_follows_adds_up() -> None:
+    world = FakeWorld(timestep=0.002)
+    start, stop = ServiceSpec(target="begin"), TopicSpec(target="end")
+    end = world.publisher("end", Bool)
+    gated = Gated(TimeSpec(name="t", start_on=start, stop_on=stop), world)
+
+    def let_pass(n: int) -> None:
+        for _ in range(n):
+            world.advance()
+            gated.tick()
+
+    let_pass(10)
+    world.call("begin", Empty())
+    let_pass(200)
+    for is_off in (True, False):
+        end(Bool(data=is_off))
+        let_pass(50)
+    gated.close()
+    # on from step 11 to 211, and from 261 to the end at 310
+    assert gated.measure.value == pytest.approx((200 + 49) * 0.002)

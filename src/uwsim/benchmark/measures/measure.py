@@ -54,7 +54,7 @@ class Measure(abc.ABC):
     """Something that is measured while its triggers say so.
 
     It is bound afresh for every level. At the first step at which it is on it is started, at
-    every later one updated.
+    every later one updated; at the first at which it is off again it hears of that.
     """
 
     unit: ClassVar[str]
@@ -71,6 +71,9 @@ class Measure(abc.ABC):
     @abc.abstractmethod
     def update(self) -> None:
         """Look at the world after one more step."""
+
+    def went_off(self) -> None:  # noqa: B027 - to most measures it is nothing
+        """Look at the first step at which it is off again; a level may end without one."""
 
     @property
     @abc.abstractmethod

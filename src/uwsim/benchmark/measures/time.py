@@ -27,9 +27,9 @@ class TimeSpec(MeasureSpec):
 
 
 class Time(Measure):
-    """Simulation time from the first to the last step at which the measure was on.
+    """Simulation time from the step at which the measure goes on to that at which it goes off.
 
-    It runs while the measure is on, and adds up when the measure goes on again. Never wall time.
+    Without that, to the last step of the level. It runs while the measure is on, and adds up when the measure goes on again. Never wall time.
 
     Compatibility ``time-log``: its log shows 0, as the original's does until the time is stopped.
     """
@@ -51,6 +51,10 @@ class Time(Measure):
         if self._last is not None:
             self._steps += self._world.step - self._last
         self._last = self._world.step
+
+    def went_off(self) -> None:
+        """Add the step in which it went off."""
+        self.update()
 
     @property
     def value(self) -> float | None:
