@@ -198,6 +198,7 @@ def test_two_workers_find_the_same_bytes_as_one(
         (["--tolerance", "nan"], "--tolerance is nan; expected"),
         (["--tolerance", "1e-12"], "--tolerance 1e-12 is too fine"),
         (["--to", "inf"], "--to is inf; expected a number."),
+        (["--to", "1e300"], "--to is 1e+300; no quantity is beyond 1e+09."),
         (["--confidence", "95"], "--confidence is 95; expected"),
         (["--level", "fog=1"], "--level fog: this benchmark sweeps load."),
         (["--level", "load=1"], "--level load: that is what is searched over."),

@@ -103,6 +103,7 @@ def range_of(
         BadSetting: it is empty, too fine, or reaches where the updater cannot go.
     """
     from ..benchmark.envelope import Range
+    from ..dialect import LARGEST
 
     values = spec.values()
     ends = {"--from": values[0] if start is None else start}
@@ -110,6 +111,8 @@ def range_of(
     for option, value in ends.items():
         if not math.isfinite(value):
             raise BadSetting(f"{option} is {value}; expected a number.")
+        if abs(value) > LARGEST:
+            raise BadSetting(f"{option} is {value:g}; no quantity is beyond {LARGEST:g}.")
         if limit := beyond(spec, value):
             raise BadSetting(f"{option} {value:g}: {over} must be {limit}.")
     near, far = ends.values()
