@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -235,6 +236,25 @@ def test_a_result_without_rows_can_be_drawn(tmp_path: Path) -> None:
     empty = replace(visibility(), rows=(), missing=())
     assert "no level was played" in words(small_multiples(empty))
     save_plot(small_multiples(empty), tmp_path / "empty.png")
+
+
+@pytest.mark.parametrize(("n", "across"), [(8, 1), (9, 2), (16, 2), (17, 2)])
+def test_many_measures_stand_in_two_columns_with_levels_below_each(n: int, across: int) -> None:
+    base = visibility()
+    k = base.index("corners")
+    more = tuple(replace(base.columns[k], name=f"m{i}") for i in range(n - 3))
+    result = replace(
+        base,
+        columns=(*base.columns, *more),
+        rows=tuple((*row, *(row[k] for _ in more)) for row in base.rows),
+    )
+    figure = small_multiples(result)
+    panels = figure.get_axes()
+    assert len(panels) == n
+    lefts = {round(axes.get_position().x0, 1) for axes in panels}
+    assert len(lefts) == across
+    assert sum(axes.get_xlabel() != "" for axes in panels) == across
+    assert figure.get_size_inches()[1] <= 0.6 + 1.9 * max(8, math.ceil(n / 2))
 
 
 def test_a_plot_has_the_same_bytes_every_time(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ for the reader to say.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -41,6 +42,8 @@ from .drawing import (
 from .style import DPI, SIZE, any_letter, cut, styled_figure, write_note
 
 OVERVIEW = "all-measures"
+MOST_IN_A_COLUMN = 8
+"""Panels that stand below each other; more stand in two columns."""
 
 
 def value_plot(result: Result, column: str, *, control: Result | None = None) -> Figure:
@@ -55,19 +58,25 @@ def value_plot(result: Result, column: str, *, control: Result | None = None) ->
 
 
 def small_multiples(result: Result, *, control: Result | None = None) -> Figure:
-    """Draw every measure and the total, one below the other, over the same levels."""
+    """Draw every measure and the total over the same levels, in two columns if there are many."""
     columns = result.of_kind("measure", "score")
     drawn = [curves_of(result, column.name) for column in columns]
     n_curves = max(map(len, drawn), default=0)
-    rows = max(1, len(columns))
-    with styled_figure(_with_room((SIZE[0], 0.6 + 1.9 * rows), n_curves)) as figure:
-        grid = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
+    across = 2 if len(columns) > MOST_IN_A_COLUMN else 1
+    rows = max(1, math.ceil(len(columns) / across))
+    with styled_figure(_with_room((SIZE[0] * across, 0.6 + 1.9 * rows), n_curves)) as figure:
+        grid = figure.subplots(rows, across, sharex=True, squeeze=False).T.ravel()
+        for axes in grid[len(columns) or 1 :]:
+            axes.remove()
         for axes, column, curves in zip(grid, columns, drawn, strict=False):
             is_first = axes is grid[0]
             draw_column(axes, result, column, curves, control, labels=is_first, fold=18)
             if is_first:
                 add_legend(axes, n_curves)
-            axes.label_outer()
+            is_lowest = axes in (grid[rows - 1], grid[len(columns) - 1])
+            axes.tick_params(labelbottom=is_lowest)
+            if not is_lowest:
+                axes.set_xlabel("")
         write_note(figure, *_origin(result))
     return figure
 
