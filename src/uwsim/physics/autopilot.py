@@ -5,22 +5,24 @@ A command is held until the next, of whatever kind; what it takes over begins at
 *Velocity.* Each of surge, sway, heave and yaw has a loop on the velocity relative to the water
 (what a vehicle without bottom lock can know), or to the ground:
 
-.. math:: \tau = M k_v (\nu_d - \nu) + k_i \int (\nu_d - \nu)\,dt + D(\nu_d) + v \times A v
+.. math:: \tau = M (\dot\nu_r + k_v (\nu_r - \nu) + k_i \int (\nu_r - \nu)\,dt)
+    + D(\nu_r) + v \times A v
 
-with M the mass and added mass, D the drag at the wanted velocity and the last term, in roll and
-pitch, which have no integral, against the Munk moment of the added mass A. The gains follow from the lag
-:math:`T` of the slowest thruster: :math:`k_v = 0.32/T`, :math:`k_i = 0.032/T^2` give the loop
-:math:`T s^3 + s^2 + k_v s + k_i` the poles :math:`0.2/T, 0.4/T, 0.4/T`: it does not swing. A
-faster loop swings by itself and, through a camera that tilts with the hull, keeps a roll up that no
-thruster damps. Where the thrusters are at their limits the integral does not grow (clamping).
-*Depth and heading* are held where the last command left them: their loops wish for a heave or yaw
-rate in proportion to the error. *Position* hold wishes for a surge and sway in proportion to the
-error as well, at most 0.5 m/s, over ground: who knows where they are know how they move. *Wrench*:
-shared out, nothing is held. *Thrusters*: their commands as they are. *Pitch* and, where
-thrusters reach it beside the other axes, *roll* are righted: the angle is the integral of the rate,
-and pulls with :math:`k_i` as the others' integrals do. Forces are shared out by
-least squares and turned into commands by the thrusters' own curves; where they are not enough,
-surge and sway go short.
+with M the mass and added mass, D the drag and the last term against the Munk moment of the added
+mass A. What is followed, :math:`\nu_r`, goes after what is wanted with a lag of :math:`2.5\,T` (a
+reference model: Fossen, *Handbook of Marine Craft*, section 12.1), so that a step is not overshot;
+T is the lag of the slowest thruster. The gains follow from it, too: :math:`k_v = 0.32/T`,
+:math:`k_i = 0.032/T^2` give the loop :math:`T s^3 + s^2 + k_v s + k_i` the poles
+:math:`0.2/T, 0.4/T, 0.4/T`: it does not swing. A faster loop swings by itself and, through a camera
+that tilts with the hull, keeps a roll up that no thruster damps. Where the thrusters are at their
+limits the integral does not grow (clamping). *Depth and heading* are held where the last command
+left them: their loops wish for a heave or yaw rate in proportion to the error. *Position* hold
+wishes for a surge and sway in proportion to the error as well, at most 0.5 m/s, over ground: who
+knows where they are know how they move. *Wrench*: shared out, nothing is held. *Thrusters*: their
+commands as they are. *Pitch* and, where thrusters reach it beside the other axes, *roll* are
+righted: the angle is the integral of the rate, and pulls with :math:`k_i` as the others' integrals
+do. Forces are shared out by least squares and turned into commands by the thrusters' own curves;
+where they are not enough, surge and sway go short.
 
 The autopilot knows the true state. Not modelled: noise and delay of its sensors.
 """
@@ -86,6 +88,7 @@ class Autopilot:
         gains = gains or Gains()
         lag = max([LEAST_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
         held = [gains.depth, gains.position, gains.heading]
+        self._lag = 2.5 * lag
         self._gains = np.array([*held, 0.32 / lag, 0.032 / lag**2])  # the last in [1/s], [1/s2]
         added = matrix(body.added_mass) if body else np.zeros((6, 6))
         own = [mass, mass, mass, *(body.inertia[:3] if body and body.inertia else (1.0,) * 3)]
@@ -112,6 +115,7 @@ class Autopilot:
         ends = [(thrusts[0], thrusts[-1]) for thrusts, _ in curves]
         self._least, self._greatest = np.array(ends).reshape(-1, 2).T.copy()  # (n,) [N]
         self._wanted = np.zeros(6)  # [m/s, rad/s]
+        self._model = np.zeros(6)  # the velocity that is followed [m/s, rad/s]
         self._integral = np.zeros(6)
         self._mode: Mode = "velocity"
         self._takes_over = False  # whether depth and heading are still to be taken from the pose
@@ -129,6 +133,7 @@ class Autopilot:
         """Hold depth and heading here, at rest, and forget the past."""
         self._mode, self._takes_over = "velocity", False
         self._wanted[:] = 0.0
+        self._model[:] = 0.0
         self._integral[:] = 0.0
         self._target[2] = world_from_base.position[2]
         self._heading = world_from_base.rotation.copy()
@@ -176,10 +181,12 @@ class Autopilot:
             return self._law.commands(forces, *self._curves)
         if self._takes_over:
             self._takes_over = False
+            self._model[:] = velocity
             self._target[2] = world_from_base.position[2]
             self._heading = world_from_base.rotation.copy()
         forces = self._law.loops(
             dt,
+            self._lag,
             self._mode == "position",
             self._gains,
             world_from_base.position,
@@ -194,6 +201,7 @@ class Autopilot:
             self._reached,
             self._least,
             self._greatest,
+            self._model,
             self._integral,
         )
         return self._law.commands(forces, *self._curves)

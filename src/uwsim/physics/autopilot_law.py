@@ -22,6 +22,7 @@ FASTEST_CLIMB = 0.3
 @njit
 def loops(
     dt: float,
+    lag: float,
     goes: bool,
     gains: Array,
     position: Array,
@@ -40,12 +41,14 @@ def loops(
     reached: Array,
     least: Array,
     greatest: Array,
+    model: Array,
     integral: Array,
 ) -> Array:
     """Return the thrusts that the loops on velocity, depth, heading and place ask for, (n,) [N].
 
     Args:
         dt: time since the last call [s].
+        lag: with which ``model`` goes after what is wanted [s].
         goes: whether it goes to ``target`` in the plane, too.
         gains: (5,), see `DEPTH` and those that follow.
         position: of the base in W, (3,) [m].
@@ -64,6 +67,7 @@ def loops(
         reached: the other way, (k, n).
         least: thrusts, (n,) [N].
         greatest: thrusts, (n,) [N].
+        model: the velocity that is followed, (6,) [m/s, rad/s]; goes after the wanted one.
         integral: of the error, (6,) [m, rad]; moves on unless thrusters are at their limits.
     """
     wanted = commanded.copy()
@@ -88,7 +92,9 @@ def loops(
         along += rotation[k, 0] * heading[k, 0]
         across += rotation[k, 1] * heading[k, 0]
     wanted[5] += gains[HEADING] * math.atan2(across, along)
-    error = wanted - velocity
+    speeding = (wanted - model) / max(lag, dt)
+    model += speeding * dt
+    error = model - velocity
     a, b, c = velocity[3], velocity[4], velocity[5]
     error[0] -= b * reference[2] - c * reference[1]
     error[1] -= c * reference[0] - a * reference[2]
@@ -97,12 +103,12 @@ def loops(
     before = integral.copy()
     integral += error * dt
     integral[3] = integral[4] = 0.0
-    tau = mass * (gains[VELOCITY] * error + gains[INTEGRAL] * integral)
-    tau += linear * wanted + quadratic * np.abs(wanted) * wanted
+    tau = mass * (speeding + gains[VELOCITY] * error + gains[INTEGRAL] * integral)
+    tau += linear * model + quadratic * np.abs(model) * model
     u, v, w = velocity[0], velocity[1], velocity[2]
-    # the Munk moment v x A v, which turns hulls broadside; in yaw the integral sees to it
-    tau[3] += (added[2] - added[1]) * v * w
+    tau[3] += (added[2] - added[1]) * v * w  # the Munk moment v x A v, which turns hulls broadside
     tau[4] += (added[0] - added[2]) * w * u
+    tau[5] += (added[1] - added[0]) * u * v
     # W's z in base axes; of a base whose z points down it is the other way round
     side = 1.0 if rotation[2, 2] >= 0.0 else -1.0
     x, y, z = side * rotation[2, 0], side * rotation[2, 1], side * rotation[2, 2]
