@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from uwsim.benchmark.directory import alone_in
 from uwsim.cli import main
 from uwsim.cli.question import round_down
 
@@ -184,6 +185,18 @@ def test_two_workers_find_the_same_bytes_as_one(
         else:
             files = [sorted((p.name, p.read_bytes()) for p in d.iterdir()) for d in (one, two)]
             assert files[0] == files[1]
+
+
+def test_runs_that_another_search_writes_are_not_overwritten(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "out" / "units").mkdir(parents=True)
+    (folder / "out" / "units" / "00000.jsonl").touch()
+    given = ["--plugin", "own.py", "--over", "load", "--until", "strain > 5", "--overwrite"]
+    with alone_in(folder / "out"):
+        assert main(["envelope", "b.xml", *given, "--out", "out"]) == 2
+    assert "another run is writing into it" in capsys.readouterr().err
+    assert (folder / "out" / "units" / "00000.jsonl").exists()
 
 
 @pytest.mark.parametrize(
