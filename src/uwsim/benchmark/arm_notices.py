@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..dialect import Faults, parse
@@ -13,14 +13,14 @@ from .updaters import ArmMoveUpdaterSpec, chain
 
 
 def arm_notices(
-    benchmark: BenchmarkSpec, vehicles: Sequence[str], robots: Sequence[RobotSpec]
+    benchmark: BenchmarkSpec, vehicles: Sequence[str], robots: Mapping[int, RobotSpec]
 ) -> list[Fault]:
     """Say which joints are not there, and which are held at their limits.
 
     Args:
         benchmark: what was read from the file without a fault.
         vehicles: names of the scene's vehicles.
-        robots: their robots, in the same order.
+        robots: their robots, by number of the vehicle.
     """
     faults = Faults(benchmark.path)
     nodes = parse(Path(benchmark.path)).root.iter("armMoveUpdater")

@@ -29,7 +29,8 @@ class TimeSpec(MeasureSpec):
 class Time(Measure):
     """Simulation time from the step at which the measure goes on to that at which it goes off.
 
-    Without that, to the last step of the level. It runs while the measure is on, and adds up when the measure goes on again. Never wall time.
+    Without that, to the last step of the level. What passes while it is off does not count; it
+    adds up when the measure goes on again. Never wall time.
 
     Compatibility ``time-log``: its log shows 0, as the original's does until the time is stopped.
     """
