@@ -44,11 +44,12 @@ from ..world import TIMESTEP
 from . import score
 from .durations import too_short
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
-from .measures import MEASURES, EuclideanNormSpec, MeasureSpec, PathFollowingSpec
+from .measures import MEASURES, MeasureSpec, PathFollowingSpec
 from .original_grammar import check_order
 from .plugin import PREFIX
 from .spec import LONGEST_TASK, BenchmarkSpec, FunctionSpec
-from .triggers import TRIGGERS, NeverSpec, ServiceSpec, TriggerSpec
+from .start_notices import never_started
+from .triggers import TRIGGERS, NeverSpec, TriggerSpec
 from .updaters import (
     MAX_LEVELS,
     UPDATERS,
@@ -166,7 +167,8 @@ class _Reader:
         if spec is not None and updater is not None:
             self.notice_endless(root, spec)
         if spec is not None:
-            self.notice_never_started(root, spec)
+            for place, message in never_started(root, spec):
+                self.faults.notice(place, message)
         return spec
 
     def all_measures(self, box: etree._Element) -> list[MeasureSpec]:
@@ -394,26 +396,6 @@ class _Reader:
                 root.find("stopOn"),
                 f"no interval and no <stopOn>: it ends after {LONGEST_TASK:g} s, in timeout",
             )
-
-    def notice_never_started(self, root: etree._Element, spec: BenchmarkSpec) -> None:
-        """Say that no level can begin, or that nothing is measured in it."""
-        start, place = spec.start_on, root.find("startOn")
-        if isinstance(start, NeverSpec):
-            self.faults.notice(place, "<startOn> is 'never': no level will ever begin")
-        told = [
-            each.ground_truth.publish_on
-            for each in spec.measures
-            if isinstance(each, EuclideanNormSpec)
-        ]
-        if isinstance(start, ServiceSpec) and start.target in told:
-            self.faults.notice(
-                place,
-                f"<startOn> waits for the service {start.target!r}, which the algorithm serves "
-                "(<publishOn>): nobody can call it here, so no level will begin",
-            )
-        box = root.find("measures")
-        if box is not None and box.find("*") is None:
-            self.faults.notice(box, "<measures> is empty: nothing is measured")
 
     def children(self, box: etree._Element) -> list[etree._Element]:
         """The elements in a box that has nothing else in it."""
