@@ -68,7 +68,7 @@ def test_a_name_that_nothing_has_is_refused_with_the_folders_searched(tmp_path: 
     with pytest.raises(AssetNotFound, match="objects/torsu") as caught:
         load_model("objects/torsu.osg", data_path=(tmp_path,))
     assert f"{tmp_path}, " in str(caught.value)
-    assert "each also under data, data/scenes, objects" in str(caught.value)
+    assert "each also under data, data/scenes, data/vehicles, objects" in str(caught.value)
     assert "Did you mean 'objects/torus'" in str(caught.value)
 
 

@@ -110,7 +110,7 @@ def test_what_an_algorithm_said_when_it_started_holds_for_every_level(tmp_path: 
     assert dat[0] == f"Iteration\tgoal\t{four}\tpath\tTOTAL\tSimTime\t"
     assert dat[1].split("\t")[:3] == ["0", "3", "0.03"]
     log = (tmp_path / "out" / "measure-path.csv").read_text().split("\n")
-    assert log[0] == "iteration,time [s],iae,distance,waypoint,ise,share"
+    assert log[0] == "iteration,time [s],iae [m s],distance [m],waypoint,ise [m^2 s],share"
     original = (tmp_path / "out" / "benchmark-path.data").read_text().split("\n")
     assert original[0] == "Iteration\tISE\tdistanceToPath\twaypoint\t"
     assert original[2] == "0.1\t0.05\t0.5\t0\t"

@@ -47,8 +47,11 @@ def test_a_loss_of_thrust_costs_speed_as_the_square_root() -> None:
         run(simulation, 0.5)
         speeds.append(float(np.linalg.norm(position(simulation) - before)) / 0.5)
     # 280 and 70 N against 30 u + 230 u^2
-    expected = [(-30 + np.sqrt(30**2 + 4 * 230 * force)) / 460 for force in (280.0, 70.0)]
-    assert speeds == pytest.approx(expected, rel=0.07)  # the arm drags, too
+    whole, quarter = [(-30 + np.sqrt(30**2 + 4 * 230 * force)) / 460 for force in (280.0, 70.0)]
+    assert speeds[1] / speeds[0] == pytest.approx(quarter / whole, rel=0.02)
+    assert (
+        0.9 * whole < speeds[0] < whole
+    )  # the arm drags aside; to keep the course takes its share
 
 
 def test_of_two_faults_the_greater_loss_counts() -> None:

@@ -154,7 +154,7 @@ def test_looking_changes_nothing() -> None:
 
 
 def test_where_nothing_has_physics_all_is_touched_and_the_ground_by_its_faces() -> None:
-    open_water = scene(TANK, replace(wall(4.0), physics=None))
+    open_water = scene(replace(TANK, physics=None), replace(wall(4.0), physics=None))
     assert open_water.contacts("girona500") == []  # though it is within the box around the tank
     drive(open_water, 1.0, 3.0)
     assert {contact.other for contact in open_water.contacts("girona500")} == {"wall"}

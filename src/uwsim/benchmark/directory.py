@@ -11,6 +11,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from ..errors import BadSetting
+from .whole_file import discard_drafts
 
 CONTROL = "control"
 """Folder of the control's own result."""
@@ -57,6 +58,7 @@ def prepared(
             for name in results:
                 empty(directory / name)
             empty(directory, keep=results)
+        discard_drafts(directory)
         yield
 
 

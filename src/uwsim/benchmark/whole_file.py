@@ -28,3 +28,9 @@ def drafted(path: Path) -> Iterator[Path]:
         draft.replace(path)
     finally:
         draft.unlink(missing_ok=True)
+
+
+def discard_drafts(folder: Path) -> None:
+    """Remove what processes that were killed had not finished, in a folder and those in it."""
+    for draft in folder.rglob(".*.part"):
+        draft.unlink(missing_ok=True)
