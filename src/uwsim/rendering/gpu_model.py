@@ -50,7 +50,7 @@ class Batch:
     by the pieces of a model."""
 
     def draw(self, program: moderngl.Program) -> None:
-        """Draw all triangles with the state as it is."""
+        """Draw all triangles, from one side or both; else with the state as it is."""
         array = self.arrays.get(program.glo)
         if array is None:
             context = program.ctx
@@ -61,6 +61,10 @@ class Batch:
                 program, [(self.vertices, _layout(present), *present)], self.indices
             )
             self.arrays[program.glo] = array
+        if self.two_sided:
+            program.ctx.disable(moderngl.CULL_FACE)
+        else:
+            program.ctx.enable(moderngl.CULL_FACE)
         array.render(moderngl.TRIANGLES, vertices=self.size, first=self.first)
 
 

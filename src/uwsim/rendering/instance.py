@@ -31,11 +31,13 @@ class Instances:
         self.version = 0
         """Grows with every change of anything that may cast a shadow."""
         self._next_handle = 1
+        self._followed = -1  # the version that normals and bounds are of
         self.clear()
 
     def clear(self) -> None:
         """Take all of them away."""
         self.version += 1
+        self._is_known = False  # whether it is known which batches there are
         self._rows: dict[int, int] = {}
         self.ids: list[int] = []
         """Their numbers in the id picture, 1..65535."""
@@ -43,7 +45,6 @@ class Instances:
         """What is drawn for each."""
         self.world_from_model: Array = np.zeros((0, 4, 4))
         """(n, 4, 4); may carry scale, uneven or mirroring."""
-        self._stand()
 
     def add(self, batches: tuple[Batch, ...], id: int) -> int:
         """Put a model at the origin of W; returns its handle."""
@@ -54,7 +55,7 @@ class Instances:
         self.ids.append(id)
         self.batches.append(batches)
         self.world_from_model = np.concatenate([self.world_from_model, np.eye(4)[None]])
-        self._stand()
+        self._is_known = False
         return handle
 
     def place(self, handle: int, world_from_model: Array) -> None:
@@ -71,7 +72,7 @@ class Instances:
         del self._rows[handle], self.ids[row], self.batches[row]
         self._rows = {h: r - (r > row) for h, r in self._rows.items()}
         self.world_from_model = np.delete(self.world_from_model, row, axis=0)
-        self._stand()
+        self._is_known = False
 
     def without(self, hidden: frozenset[int]) -> list[int]:
         """Rows of those whose ids are not hidden."""
@@ -97,6 +98,7 @@ class Instances:
 
     def owned(self, rows: Sequence[int]) -> npt.NDArray[np.intp]:
         """Numbers of the batches that the rows have, in the order of `batches`, (m,)."""
+        self._follow()
         if len(rows) == len(self.ids):
             return np.arange(len(self._owners))
         return np.flatnonzero(np.isin(self._owners, rows))
@@ -149,13 +151,15 @@ class Instances:
         self._own_corners = np.array([batch.corners for batch in batches]).reshape(-1, 8, 3)
         self._own_normals = np.array([batch.normal for batch in batches]).reshape(-1, 3)
         self._own_densities = np.array([batch.density for batch in batches])
-        self._followed = -1  # the version that normals and bounds are of
+        self._is_known = True
 
     def _follow(self) -> None:
         """Bring normals and bounds up to date."""
         if self._followed == self.version:
             return
         self._followed = self.version
+        if not self._is_known:
+            self._stand()
         linear, origin = self.world_from_model[:, :3, :3], self.world_from_model[:, :3, 3]
         self._normals: Array = np.linalg.inv(linear).transpose(0, 2, 1).astype(np.float64)
         self._is_mirrored: list[bool] = (np.linalg.det(linear) < 0.0).tolist()

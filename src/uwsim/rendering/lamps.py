@@ -120,10 +120,6 @@ class Lamps:
         slots.fill(instances, clip_from_lamp @ lamp.world_from_lamp.inverse().matrix)
         for number in in_view(instances, casters, lamp.world_from_lamp, planes):
             row, batch = instances.batch(number)
-            if batch.two_sided:
-                context.disable(moderngl.CULL_FACE)
-            else:
-                context.enable(moderngl.CULL_FACE)
             # As in the renderer's pictures: upside down for OpenGL, so outside is clockwise.
             context.front_face = "ccw" if instances.is_mirrored[row] else "cw"
             slots.bind(row)

@@ -244,10 +244,6 @@ class Renderer:
         is_mirrored = self._instances.is_mirrored
         for number, in_shadow, is_close in drawn:
             row, batch = self._instances.batch(number)
-            if batch.two_sided:
-                context.disable(moderngl.CULL_FACE)
-            else:
-                context.enable(moderngl.CULL_FACE)
             # The picture is upside down for OpenGL, so outside is clockwise unless mirrored.
             context.front_face = "ccw" if is_mirrored[row] else "cw"
             own: Switches = (("SHADOWS", 1),) if in_shadow else ()

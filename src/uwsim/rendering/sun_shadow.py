@@ -89,10 +89,6 @@ class SunShadow:
             row, batch = instances.batch(number)
             self._slots.bind(row)
             context.front_face = "cw" if is_mirrored[row] else "ccw"
-            if batch.two_sided:
-                context.disable(moderngl.CULL_FACE)
-            else:
-                context.enable(moderngl.CULL_FACE)
             batch.draw(self._program)
         context.polygon_offset = 0.0, 0.0
 
