@@ -1,7 +1,7 @@
 # uwsim: three commands, each doing the set-up it needs first.
 #   make demo      play the visibility benchmark and show its table and where the report is
 #   make test      every check and every test, as CI runs them
-#   make install   set-up alone, into .venv, without extras; the tests also get Ray
+#   make install   set-up alone, into .venv, to use uwsim; the tests also get linters, pytest and Ray
 
 .PHONY: install demo test
 
@@ -13,5 +13,5 @@ demo: install
 	@echo "The report: $(CURDIR)/demo.result/report.html"
 
 test:
-	@scripts/setup ray
+	@scripts/setup dev ray
 	scripts/check --all

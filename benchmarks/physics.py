@@ -153,8 +153,10 @@ def settled(box: str) -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
 
 
 def in_the_tank() -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
-    scene = read_scene(Path(str(files("uwsim"))) / "data" / "scenes" / "currents-scene.xml")
+    path = Path(str(files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
+    scene = read_scene(path).nominal
     tank, box = scene.objects
+    box = replace(box, is_solid=None)
     tank = replace(tank, physics=PhysicsSpec(mass=0.0, collision_shape_type="trimesh"))
     box = replace(box, orientation=(0.0, 0.0, 0.0), physics=PhysicsSpec(mass=10.0))
     scene = replace(scene, objects=(tank, box))

@@ -81,7 +81,7 @@ def measure() -> dict[str, object]:
         two = wall_s(benchmark, "two", 2, None)
         outs = ("one-thread", "one", "two")
         results = {(folder / out / "result.json").read_bytes() for out in outs}
-    scene = read_scene(find("currents-scene.xml"))
+    scene = read_scene(find("currents-scene.xml")).nominal
     studio = Studio()
     return {
         "levels": LEVELS,

@@ -17,7 +17,7 @@ from pathlib import Path
 from measure import main
 
 TIMES_REAL_TIME = 5.0
-UWSIM = [sys.executable, "-m", "uwsim.cli"]
+UWSIM = [sys.executable, "-m", "uwsim"]
 TWO_CAMERAS = """
 import dataclasses
 from uwsim.assets.find import find

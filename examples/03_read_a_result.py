@@ -17,7 +17,7 @@ GOOD = 5.0  # total below which the paper calls tracking good [px]
 def main() -> None:
     for algorithm in ALGORITHMS:
         folder = Path(f"{algorithm}.result")
-        command = [sys.executable, "-m", "uwsim.cli", "bench", "visibility", "--seed", "1"]
+        command = [sys.executable, "-m", "uwsim", "bench", "visibility", "--seed", "1"]
         command += ["--algorithm", algorithm, "--out", str(folder), "--overwrite"]
         for level in LEVELS:
             command += ["--level", level]

@@ -49,7 +49,7 @@ BENCHMARK, SCENE, CAMERA, SEED = "currents-figures.xml", "currents-scene.xml", "
 FOVY = math.radians(50.0)
 LEVELS = {0.0: "no current", 0.2: "0.2 m/s"}
 EYE, TARGET = (-1.4, -0.2, -1.2), (1.5, 2.9, -2.7)  # of the viewer, in W [m]
-CALM = 2.0  # of a level, before anything is measured [s]
+SETTLING_TIME = 2.0  # of a level, before anything is measured [s]
 HALF = "vehicle[girona500].virtualCamera[bowtech1]"
 
 
@@ -134,7 +134,7 @@ def time_figures(folder: Path, *, quick: bool) -> None:
             lines = []
             for controller in results:
                 loop, kept = runs[controller, level]
-                along, across = steady(loop, Swing(speed=level), kept.time + CALM)
+                along, across = steady(loop, Swing(speed=level), kept.time + SETTLING_TIME)
                 theory = what(np.stack([across, along], axis=1))
                 theory = np.where(kept.time >= 30.0, theory, np.nan)
                 values = what(kept.error(kept.reference(**window)))
@@ -164,7 +164,7 @@ def play(controller: str, folder: Path, *, quick: bool) -> Result:
     benchmark, settings = BENCHMARK.removesuffix(".xml"), []
     if quick:
         text = (
-            benchmark_file(benchmark, ()).read_text().replace("<interval>120<", "<interval>12.2<")
+            benchmark_file(benchmark, ()).read_text().replace("<interval>120<", "<interval>10.2<")
         )
         benchmark = str(folder / BENCHMARK)
         Path(benchmark).write_text(text)

@@ -54,6 +54,7 @@ def bench_of(
     mode: str | None = None,
     levels: list[str] | None = None,
     settings: list[str] | None = None,
+    compat: list[str] | None = None,
 ) -> Bench:
     plan = make_plan(
         str(benchmark),
@@ -64,7 +65,7 @@ def bench_of(
         mode=mode,
         levels=levels or [],
         settings=settings or [],
-        compat=[],
+        compat=compat or [],
         data_path=(),
     )
     inputs, renderer = open_once(plan)

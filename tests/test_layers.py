@@ -16,9 +16,13 @@ GROUND = {
     "compatibility",
     "environment",
     "jit",
+    "linear",
+    "elementwise",
+    "opencv",
     "dialect",
     "clock",
     "message_fields",
+    "interrupts",
 }
 BASE = GROUND | {"world", "messages", "bus"}
 PARTS = BASE | {"currents", "sensors", "devices", "scene", "assets"}
@@ -39,9 +43,12 @@ MAY_IMPORT: dict[str, set[str]] = {
     "rendering": PARTS | {"rendering"},
     "simulation": ENGINES | {"simulation"},
     "interfaces": ENGINES | {"simulation", "interfaces"},
-    "algorithms": {"messages", "bus", "geometry", "errors", "jit", "algorithms"},
+    "algorithms": {
+        *("messages", "bus", "geometry", "errors", "jit", "linear", "opencv", "algorithms"),
+    },
     "benchmark": PARTS | {"simulation", "statistics", "benchmark"},
     "viewer": ENGINES | {"simulation", "viewer"},
+    "__main__": {"cli", "interrupts"},
     "cli": ENGINES | {"simulation", "interfaces", "algorithms", "benchmark", "viewer", "cli"},
 }
 """Room -> rooms it may import from. The package itself (``__version__``) is open to all."""

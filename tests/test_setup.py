@@ -60,6 +60,19 @@ class Machine:
         return self.told.read_text().count("-m pip install")
 
 
+@pytest.mark.parametrize(
+    "written", ["visibility.result/result.json", "currents.envelope/envelope.json", "comparison/a"]
+)
+def test_what_commands_write_by_default_is_nothing_to_commit(written: str) -> None:
+    if not (ROOT / ".git").exists():
+        pytest.skip("not a git checkout")
+    ignored = subprocess.run(["git", "-C", ROOT, "check-ignore", "-q", written], check=False)
+    assert ignored.returncode == 0
+    source = "src/uwsim/benchmark/comparison/new.py"
+    kept = subprocess.run(["git", "-C", ROOT, "check-ignore", "-q", source], check=False)
+    assert kept.returncode == 1
+
+
 @pytest.fixture
 def machine(tmp_path: Path) -> Machine:
     return Machine(tmp_path)
@@ -112,12 +125,18 @@ def test_a_second_set_up_does_nothing_until_pyproject_changes(machine: Machine) 
 def test_an_extra_is_installed_once_and_only_for_those_who_ask(machine: Machine) -> None:
     machine.command("dpkg-query", "echo installed")
     assert machine.set_up().returncode == 0
-    assert "--editable .[dev]\n" in machine.told.read_text()
-    assert machine.set_up("ray").returncode == 0
+    assert "--editable .\n" in machine.told.read_text()
+    assert machine.set_up("dev", "ray").returncode == 0
     assert "--editable .[dev,ray]\n" in machine.told.read_text()
-    for extras in ([], ["ray"]):
+    for extras in ([], ["ray"], ["dev"], ["dev", "ray"]):
         assert machine.set_up(*extras).returncode == 0
     assert machine.pip_runs() == 2
+
+
+def test_who_only_uses_uwsim_gets_no_linters_and_no_pytest() -> None:
+    rules = (ROOT / "Makefile").read_text()
+    assert "\ninstall:\n\t@scripts/setup\n" in rules
+    assert "\ntest:\n\t@scripts/setup dev ray\n\tscripts/check --all\n" in rules
 
 
 def test_a_set_up_that_failed_is_tried_again(machine: Machine) -> None:

@@ -185,10 +185,8 @@ class Bus:
 
         def publish(message: M) -> None:
             if not isinstance(message, type):
-                raise BadMessage(
-                    f"Topic {topic!r} carries {_type_name(type)}, "
-                    f"not {_type_name(message.__class__)}."
-                )
+                wrong_class = _but_not(type, message.__class__)
+                raise BadMessage(f"Topic {topic!r} carries {_type_name(type)}, {wrong_class}.")
             if not entry.readers:
                 return
             if wrong := unfit(message):
@@ -308,7 +306,7 @@ class Bus:
             entry.type = type
         elif entry.type is not type:
             raise BadSetting(
-                f"Topic {topic!r} carries {_type_name(entry.type)}, not {_type_name(type)}.",
+                f"Topic {topic!r} carries {_type_name(entry.type)}, {_but_not(entry.type, type)}.",
                 name=topic,
             )
         return entry
@@ -316,6 +314,13 @@ class Bus:
 
 def _plain(name: str) -> str:
     return name.strip().lstrip("/")
+
+
+def _but_not(expected: type, found: type) -> str:
+    """``not std_msgs/msg/Bool``, or that it is another class of the same name."""
+    if _type_name(expected) == _type_name(found):
+        return f"the class of {expected.__module__}, not that of {found.__module__}"
+    return f"not {_type_name(found)}"
 
 
 def _type_name(type: type | None) -> str:

@@ -143,6 +143,10 @@ class ReplayDiffers(ResultError):
     """A replay did not give the rows that are stored; found only by running."""
 
 
+RUN_ERRORS = (NeverStarted, ReplayDiffers, RunFailed)
+"""What can only be found by running; every other `UwsimError` is wrong input."""
+
+
 class AllErrors:
     """Collects what is wrong with one call, so that all of it is said at once."""
 

@@ -1,7 +1,7 @@
 """Poses, rotations and pinhole cameras: the numbers everything else is said in.
 
 Transforms are named ``a_from_b`` and map coordinates of frame b into frame a.
-Quaternions are wxyz. numpy only.
+Quaternions are wxyz.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+
+from .linear import composed, length, placed, product, turned_back
 
 Array = npt.NDArray[np.float64]
 
@@ -35,19 +37,34 @@ def rotation_z(angle: float) -> Array:
 
 def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Array:
     """``Rz(yaw) Ry(pitch) Rx(roll)``: about fixed axes, as in ROS and URDF [rad], (3, 3)."""
-    return rotation_z(yaw) @ rotation_y(pitch) @ rotation_x(roll)
+    return product(product(rotation_z(yaw), rotation_y(pitch)), rotation_x(roll))
 
 
 def rotation_from_xyz(x: float, y: float, z: float) -> Array:
     """``Rx(x) Ry(y) Rz(z)``: UWSim's other order (vehicles, offsetr, twists) [rad], (3, 3)."""
-    return rotation_x(x) @ rotation_y(y) @ rotation_z(z)
+    return product(product(rotation_x(x), rotation_y(y)), rotation_z(z))
+
+
+def rpy_from_rotation(rotation: Array) -> tuple[float, float, float]:
+    """Roll, pitch, yaw of ``Rz(yaw) Ry(pitch) Rx(roll)`` (3, 3) [rad]; pitch within +-pi/2."""
+    r = rotation
+    pitch = math.atan2(-r[2, 0], math.hypot(r[0, 0], r[1, 0]))
+    if math.hypot(r[0, 0], r[1, 0]) < 1e-9:  # roll and yaw turn about one axis: all is yaw
+        return 0.0, pitch, math.atan2(-r[0, 1], r[1, 1])
+    return math.atan2(r[2, 1], r[2, 2]), pitch, math.atan2(r[1, 0], r[0, 0])
+
+
+def xyz_from_rotation(rotation: Array) -> tuple[float, float, float]:
+    """The angles of ``Rx(x) Ry(y) Rz(z)`` (3, 3) [rad]; y within +-pi/2."""
+    x, y, z = rpy_from_rotation(rotation.T)  # the inverse has the other order and other signs
+    return -x, -y, -z
 
 
 def rotation_about(axis: Array, angle: float) -> Array:
     """Rotation by ``angle`` [rad] about the (not necessarily unit) ``axis`` (3,), Rodrigues."""
-    unit = np.asarray(axis, dtype=np.float64) / np.linalg.norm(axis)
+    unit = np.asarray(axis, dtype=np.float64) / length(axis)
     k = np.array([[0.0, -unit[2], unit[1]], [unit[2], 0.0, -unit[0]], [-unit[1], unit[0], 0.0]])
-    turned: Array = np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * (k @ k)
+    turned: Array = np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * product(k, k)
     return turned
 
 
@@ -65,7 +82,7 @@ def quaternion_from_rotation(rotation: Array) -> Array:
         q[1 + a] = 1.0 + r[a, a] - r[b, b] - r[c, c]
         q[1 + b] = r[b, a] + r[a, b]
         q[1 + c] = r[c, a] + r[a, c]
-    q /= np.linalg.norm(q)
+    q /= length(q)
     return -q if q[0] < 0.0 else q
 
 
@@ -125,8 +142,7 @@ class Pose:
         return matrix
 
     def __matmul__(self, other: Pose) -> Pose:
-        turn = self.rotation.dot  # half as dear as ``@`` for matrices this small
-        return Pose(turn(other.position) + self.position, turn(other.rotation))
+        return Pose(*composed(self.rotation, self.position, other.rotation, other.position))
 
     def copy(self) -> Pose:
         """The same, in arrays of its own."""
@@ -134,13 +150,11 @@ class Pose:
 
     def inverse(self) -> Pose:
         """``b_from_a``."""
-        return Pose(-self.rotation.T.dot(self.position), self.rotation.T)
+        return Pose(-turned_back(self.rotation, self.position), self.rotation.T)
 
     def transform(self, points: Array) -> Array:
         """Points in b (n, 3) as points in a (n, 3) [m]."""
-        moved: Array = points.dot(self.rotation.T)
-        moved += self.position
-        return moved
+        return placed(points, self.rotation, self.position)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -106,7 +106,7 @@ def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
             found.append((field.name, "list", inner[1]))
         elif said in _FITTING:
             found.append((field.name, said, ""))
-        elif "__msg__" in said:
+        elif said.isidentifier():  # the name of another message
             found.append((field.name, "message", ""))
     return tuple(found)
 

@@ -70,6 +70,10 @@ class Camera(Protocol):
     def world_from_camera(self) -> Pose:
         """Where it is now; OpenGL axes."""
 
+    @property
+    def n_pictures(self) -> int | None:
+        """Pictures due on its topics so far, read or not; None: it has no topic."""
+
 
 @dataclass(frozen=True)
 class Contact:
@@ -195,7 +199,7 @@ class Stage(World, Protocol):
         """Find a file that the file ``beside`` names; AssetNotFound says where it was sought."""
 
     def set_fog(self, density: float) -> None:
-        """Set the fog density [1/m] of the water, and its colour to (0, 0.05, 0.3)."""
+        """Set the fog density [1/m] of the water; its colour stays the scene's."""
 
     def set_light_rate(self, rate: float) -> None:
         """Scale the light of the scene; 1 is as usual."""

@@ -5,7 +5,7 @@ import pytest
 from fake_node import FakeNode
 from textures import Texture, rectangle, through_fog
 
-from uwsim.algorithms import ALGORITHMS
+from uwsim.algorithms import ALGORITHMS, check_parameters
 from uwsim.algorithms.esm.homography import between, warp
 from uwsim.algorithms.tracker import Estimate, LossTest
 from uwsim.errors import BadSetting
@@ -85,16 +85,72 @@ def test_frozen_echoes_exactly_what_auto_init_gave() -> None:
     assert node.statuses == ["tracking"]
 
 
-def test_auto_init_while_tracking_changes_nothing() -> None:
-    node = started("esm")
-    picture = Texture().picture()
-    node.show(picture)
+def moved(shift: float) -> np.ndarray:
+    """The texture's picture with everything in it ``shift`` [px] to the right."""
+    return Texture(shortest=6.0, waves=40).picture(between(QUAD, QUAD + np.array([shift, 0.0])))
+
+
+@pytest.mark.parametrize("name", LOOKING)
+def test_a_second_auto_init_gives_the_pose_and_no_new_template(name: str) -> None:
+    node = started(name)
+    node.show(moved(0.0))
     node.auto_init(QUAD)
-    node.show(picture)
-    node.auto_init(QUAD + 40.0)
-    node.show(picture)
-    assert node.corners[1] == pytest.approx(QUAD, abs=0.05)
+    node.show(moved(0.0))
+    node.auto_init(QUAD + np.array([40.0, 0.0]))  # told in the picture as it was before the jump
+    node.show(moved(40.0))
+    assert node.corners[-1] == pytest.approx(
+        QUAD + np.array([40.0, 0.0]), abs=5.0 if name == "orb" else 0.1
+    )
+    assert node.statuses == ["tracking", "tracking"]
+
+
+@pytest.mark.parametrize("name", TRACKERS)
+def test_a_lost_tracker_tracks_again_from_where_auto_init_says(name: str) -> None:
+    node = started(name)
+    node.show(moved(0.0))
+    node.auto_init(QUAD)
+    rng = np.random.Generator(np.random.Philox(5))
+    while len(node.statuses) < 2:
+        node.show(through_fog(moved(0.0), 0.0, rng, sigma=20.0))
+    lost = len(node.corners)
+    node.show(moved(40.0))
+    assert len(node.corners) == lost  # silent until it is told
+    node.auto_init(QUAD + np.array([40.0, 0.0]))
+    node.show(moved(40.0))
+    assert node.corners[-1] == pytest.approx(
+        QUAD + np.array([40.0, 0.0]), abs=5.0 if name == "orb" else 0.1
+    )
+    assert [status.split(":")[0] for status in node.statuses] == ["tracking", "lost", "tracking"]
+
+
+def test_a_second_auto_init_outside_the_picture_is_a_loss_and_no_failure() -> None:
+    node = started("esm")
+    node.show(moved(0.0))
+    node.auto_init(QUAD)
+    node.auto_init(QUAD + 1000.0)
+    node.show(moved(0.0))
+    assert node.corners == []
+    assert node.statuses[1].startswith("lost: autoInit: corner NW (")
+    node.auto_init(QUAD)
+    node.show(moved(0.0))
+    assert node.corners[0] == pytest.approx(QUAD, abs=0.1)
+
+
+@pytest.mark.parametrize("name", LOOKING)
+def test_without_auto_init_the_corners_can_be_a_parameter(name: str) -> None:
+    node = started(name, corners=" ".join(f"{number:g}" for number in QUAD.reshape(-1)))
+    node.show(moved(0.0))
+    node.show(moved(2.0))
     assert node.statuses == ["tracking"]
+    moved_to = QUAD + np.array([0.0 if name == "frozen" else 2.0, 0.0])
+    assert node.corners[0] == pytest.approx(moved_to, abs=5.0 if name == "orb" else 0.1)
+
+
+@pytest.mark.parametrize("corners", ["1 2 3", "a b c d e f g h", "1 2 3 4 5 6 7 nan"])
+def test_corners_that_are_no_eight_numbers_are_refused_before_anything_runs(corners: str) -> None:
+    for name in ("esm", "frozen", "p"):
+        with pytest.raises(BadSetting, match=r"'corners' .*; expected eight numbers"):
+            check_parameters(ALGORITHMS[name], {"corners": corners})
 
 
 def test_auto_init_before_the_first_picture_waits_for_it() -> None:
@@ -118,7 +174,7 @@ def test_auto_init_inside_start_bench_takes_the_first_picture() -> None:
 
 
 @pytest.mark.parametrize("name", TRACKERS)
-def test_a_patch_that_vanishes_is_lost_once_and_for_good(name: str) -> None:
+def test_a_patch_that_vanishes_is_lost_once_and_then_silent(name: str) -> None:
     node = started(name)
     picture = Texture(shortest=6.0).picture()
     node.show(picture)
@@ -132,7 +188,6 @@ def test_a_patch_that_vanishes_is_lost_once_and_for_good(name: str) -> None:
     assert len(node.statuses) == 2
     assert node.statuses[1].startswith("lost: ")
     before = len(node.published)
-    node.auto_init(QUAD)
     node.show(picture)
     node.show(picture)
     assert len(node.published) == before

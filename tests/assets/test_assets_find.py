@@ -45,6 +45,14 @@ def test_the_bundled_robot_is_found_by_the_name_that_scenes_use() -> None:
     assert found.name == "g500ARM5.urdf"
 
 
+def test_a_robot_in_the_folder_of_uwsims_own_data_is_found_by_the_name_that_its_scenes_use(
+    home: Path,
+) -> None:
+    robot = touch(home / ".uwsim" / "data" / "models" / "mine.urdf")
+    assert find("data/models/mine.urdf") == robot
+    assert find("models/mine.urdf") == robot
+
+
 def test_an_absolute_name_is_looked_for_nowhere_else(tmp_path: Path) -> None:
     mesh = touch(tmp_path / "x.stl")
     assert find(str(mesh)) == mesh

@@ -81,6 +81,7 @@ def visibility(
             "sigma": (SIGMA, "grey level"),
             "d": (D, "m"),
             "f_star": (F_STAR, "1/m"),
+            "shift": (0.0, "px"),
         },
         image_streams=tuple(
             ImageStream(seed=s, level=None, topic="/uwsim/camera1", frames=1621, sha256="c4" * 32)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -26,10 +27,11 @@ from uwsim.benchmark.comparison import (
     write_comparison,
 )
 from uwsim.benchmark.comparison.document import csv_text, json_text
+from uwsim.benchmark.comparison.matrix import matrix
 from uwsim.benchmark.comparison.page import render
 from uwsim.benchmark.comparison.plots import curves, differences_plot, success
 from uwsim.benchmark.comparison.terminal import drawn
-from uwsim.benchmark.comparison.words import sentences
+from uwsim.benchmark.comparison.words import sentences, told_apart
 from uwsim.benchmark.result import Result
 from uwsim.errors import ResultError, UnknownName
 from uwsim.statistics import mean_interval, rate, repeats_needed, sign_flip
@@ -197,9 +199,106 @@ def test_levels_are_no_repeats() -> None:
     overall = comparison.versus[0].overall
     assert overall.value.difference.n == 4
     assert overall.value.p == 2 / 2**4
-    assert overall.value.verdict == "not shown"
+    assert overall.value.verdict == "too few"
+    assert "Too few repeats to test (4 of 6 needed)" in said(comparison)
     assert "With 4 repeats p cannot fall below 0.125: at least 6 are needed" in said(comparison)
-    assert "at least 10 are needed when 20 are tested" in said(comparison)
+    assert "20 levels have too few repeats to test (4 of 10 needed)" in said(comparison)
+
+
+def test_six_seeds_and_three_results_are_too_few_to_test_and_not_no_difference() -> None:
+    # 48.8 px against 4.2 px in every seed, and 3 * 2/2^6 = 0.094 is the smallest p there is
+    near = noisy("esm", 4.2, n=6, salt=1), noisy("ecc", 4.3, n=6, salt=2)
+    comparison = compared(*near, noisy("frozen", 48.8, n=6, salt=3))
+    assert {versus.overall.value.verdict for versus in comparison.versus} == {"too few"}
+    text = said(comparison)
+    assert "Too few repeats to test (6 of 7 needed): in 'total' frozen lies 44.6 px above" in text
+    assert "p cannot fall below 0.0312, 0.0938 after Holm: at least 7 are needed" in text
+    assert "No difference is shown" not in text
+    assert "too few repeats to test (6 of 7 needed)" in Page(render(comparison, ())).text
+    assert "9 levels" not in text
+    assert "3 levels have too few repeats to test (6 of 9 needed)" in text
+
+
+def test_with_the_repeats_that_are_called_needed_the_clearest_difference_is_shown() -> None:
+    for n_results in (2, 3, 5):
+        means = [10.0**i for i in range(n_results)]
+        for n in range(2, 11):
+            results = [noisy(f"a{i}", m, n=n, salt=i) for i, m in enumerate(means)]
+            comparison = compared(*results)
+            found = {versus.overall.value.verdict for versus in comparison.versus}
+            at = {a.value.verdict for versus in comparison.versus for a in versus.levels}
+            enough = n >= comparison.fewest_for_sweep, n >= comparison.fewest
+            assert (found == {"first"}, at == {"first"}) == enough
+            assert (found == {"too few"}, at == {"too few"}) == tuple(not e for e in enough)
+
+
+def test_few_pairs_that_a_step_of_holm_can_reach_are_tested() -> None:
+    # 7 pairs pass the first step, 2 * 2/2^7 = 0.031; then 6 pass the second, 2/2^6 = 0.031
+    values = {0.0: [1.0 + 0.1 * i for i in range(7)], 1.0: [1.0] * 6 + [None]}
+    other = {0.0: [9.0 - 0.1 * i for i in range(7)], 1.0: [3.0 + 0.1 * i for i in range(7)]}
+    clear, few = compared(made("a", values), made("b", other)).versus[0].levels
+    assert (clear.value.difference.n, few.value.difference.n) == (7, 6)
+    assert (clear.value.p_holm, few.value.p_holm) == (2 / 2**6, 2 / 2**6)
+    assert (clear.value.verdict, few.value.verdict) == ("first", "first")
+
+
+def test_a_narrow_interval_is_told_with_the_digits_that_show_it() -> None:
+    assert told_apart(44.58, 44.62) == ("44.58", "44.62")
+    assert told_apart(0.2, 0.4) == ("0.2", "0.4")
+    assert told_apart(44.6, 44.6) == ("44.6", "44.6")
+
+
+# ---------------------------------------------------------------------------- who beats whom
+
+
+def test_the_matrix_says_who_beats_whom_and_the_best_stands_first() -> None:
+    comparison = compared(
+        noisy("bad", 3.0, n=10, salt=1),
+        noisy("good", 1.0, n=10, salt=2),
+        noisy("twin", 1.0, n=10, salt=3),
+    )
+    found = matrix(comparison)
+    assert found.columns == ("good", "twin", "bad")
+    standings = [[cell.standing for cell in row.cells] for row in found.rows]
+    assert standings == [
+        ["itself", "not shown", "better"], ["not shown", "itself", "better"],
+        ["worse", "worse", "itself"],
+    ]  # fmt: skip
+    assert found.rows[0].cells[2].text == "better -2"
+    higher = matrix(
+        compared(noisy("a", 1.0, n=8, salt=1), noisy("b", 3.0, n=8, salt=2), higher_is_better=True)
+    )
+    assert higher.columns == ("b", "a")
+
+
+def test_the_matrix_against_a_baseline_has_one_column() -> None:
+    found = entries(*(noisy(name, i + 1.0, n=8, salt=i) for i, name in enumerate("abc")))
+    comparison = compare(found, shared_column(found, None), baseline=found[1])
+    against = matrix(comparison)
+    assert against.columns == ("b",)
+    assert [(row.name, row.cells[0].standing) for row in against.rows] == [
+        ("b", "itself"), ("a", "better"), ("c", "worse"),
+    ]  # fmt: skip
+
+
+def test_the_matrix_says_how_many_rows_ended_ok(three: Comparison) -> None:
+    assert {row.name: row.ok for row in matrix(three).rows} == {
+        "esm": "100 %", "ic": "100 %", "orb": "79.2 %",
+    }  # fmt: skip
+
+
+def test_the_matrix_stands_before_the_tables_and_on_a_narrow_terminal_in_symbols(
+    three: Comparison,
+) -> None:
+    wide, narrow = shown(three, 120), shown(three, 30)
+    assert wide[0].startswith("Who beats whom: total [px] over the sweep as a whole, lower is")
+    assert re.split(r"  +", wide[2]) == ["esm", "100 %", "not shown -0.0329", "better -0.566"]
+    cells = [line.split() for line in narrow]
+    assert ["1", "esm", "100", "%", "?", "+"] in cells
+    assert ["3", "orb", "79.2", "%", "-", "-"] in cells
+    assert "+ the row is better; - the column is better; ? no difference is shown." in " ".join(
+        narrow
+    )
 
 
 def test_one_repeat_shows_nothing_and_says_so() -> None:
@@ -424,6 +523,50 @@ def test_on_the_terminal_no_line_is_cut(three: Comparison, width: int) -> None:
     assert max(map(len, text.splitlines())) <= width
     assert "total [px]: ic less esm; lower is better" in text
     assert " 8 : 3 of 8 " in text or width < 100
+
+
+def shown(comparison: Comparison, width: int) -> list[str]:
+    """The lines that are printed."""
+    console = Console(width=width, file=io.StringIO())
+    for part in drawn(comparison, width=width):
+        console.print(part)
+    assert isinstance(console.file, io.StringIO)
+    return [line.rstrip() for line in console.file.getvalue().splitlines()]
+
+
+def table_of(comparison: Comparison) -> list[list[str]]:
+    """The cells of the first table of a pair of results, as they are printed."""
+    printed = shown(comparison, 300)
+    start = next(i for i, line in enumerate(printed) if line.startswith("total [px]: ")) + 1
+    return [re.split(r"  +", line.strip()) for line in printed[start : start + 4]]
+
+
+@pytest.mark.parametrize(
+    "name", ["fog [1/m]", "n", "difference", "g", "A", "p", "ok", "verdict", "needs"]
+)
+def test_an_algorithm_named_like_a_heading_takes_no_columns_place(name: str) -> None:
+    values = {"first": 1.0, "second": 1.5}
+    neutral = [noisy(who, mean, n=7, salt=i) for i, (who, mean) in enumerate(values.items())]
+    expected = [
+        [cell.replace("first", name) for cell in row] for row in table_of(compared(*neutral))
+    ]
+    renamed = noisy(name, 1.0, n=7, salt=0), neutral[1]
+    assert table_of(compared(*renamed)) == expected
+    assert len({len(row) for row in expected}) == 1
+    swapped = table_of(compared(neutral[1], renamed[0]))
+    assert swapped[0][2:4] == ["second", name]
+    assert [row[2:4] for row in swapped[1:]] == [row[3:1:-1] for row in expected[1:]]
+
+
+def test_a_level_named_like_a_number_of_the_comparison_does_not_replace_it_in_the_csv() -> None:
+    results = []
+    for result in (noisy("a", 1.0, n=3, salt=1), noisy("b", 1.1, n=3, salt=2)):
+        columns = [
+            replace(c, name="n", unit=None) if c.kind == "level" else c for c in result.columns
+        ]
+        results.append(replace(result, columns=tuple(columns)))
+    line = next(csv.DictReader(io.StringIO(csv_text(compared(*results)))))
+    assert (line["n (level)"], line["n"]) == ("0.0", "3")
 
 
 @pytest.mark.parametrize("make", [visibility, nothing_measured, one_level, nested, frozen])

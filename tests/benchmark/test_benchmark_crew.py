@@ -187,7 +187,7 @@ def test_a_killed_run_that_is_resumed_ends_with_the_same_bytes(
     tmp_path: Path, workers: str
 ) -> None:
     benchmark = write_benchmark(tmp_path, "2")
-    command = [sys.executable, "-m", "uwsim.cli", "bench", str(benchmark), "--mode", "independent"]
+    command = [sys.executable, "-m", "uwsim", "bench", str(benchmark), "--mode", "independent"]
     whole, broken = tmp_path / "whole", tmp_path / "broken"
     subprocess.run([*command, "--out", str(whole)], check=True, capture_output=True)
     command += ["--workers", workers, "--out", str(broken), "--resume"]

@@ -150,7 +150,7 @@ def test_the_bundled_benchmark_that_uses_them_is_right_and_its_function_does_not
     assert said(CURRENTS) == []
     spec = read_benchmark(CURRENTS)
     assert [type(m) for m in spec.measures[-2:]] == [EnergySpec, ControlSpec]
-    assert spec.function.text == "corners+centroid"
+    assert spec.function.text == "offset"
 
 
 def test_dropping_the_extensions_leaves_the_originals_measures(tmp_path: Path) -> None:

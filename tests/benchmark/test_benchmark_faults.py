@@ -35,6 +35,13 @@ def with_updater(updater: str) -> str:
     return re.sub("(<sceneUpdater>).*(</sceneUpdater>)", rf"\1{updater}\2", BASE, flags=re.DOTALL)
 
 
+def extended(text: str) -> str:
+    """The same with the namespace of extensions, and so without a DOCTYPE."""
+    return re.sub("<!DOCTYPE[^>]*>", "", text).replace(
+        "<benchmark>", '<benchmark xmlns:u="urn:uwsim:1">'
+    )
+
+
 def line_of(text: str, word: str, n: int = 1) -> int:
     """Line of the n-th place at which a word stands."""
     places = [match.start() for match in re.finditer(re.escape(word), text)]
@@ -149,9 +156,22 @@ FAULTS = {
         changed("<interval>5", "<interval>0.0009"),
         "<interval>", "<interval> is 0.0009 s: less than half a step of 0.002 s, so nothing would",
     ),
-    "a level that is over with its calm": (
-        with_updater(CURRENT.replace("LENGTH", "\n<interval>2.0004</interval>")),
-        "<interval>", "<interval> is 2.0004 s: the first 2 s are calm and the rest is less than",
+    "a settling time of less than half a step": (
+        extended(
+            with_updater(CURRENT.replace("LENGTH", "<interval>9</interval>")).replace(
+                "<currentForceUpdater", '<currentForceUpdater u:settlingTime="0.0004"'
+            )
+        ),
+        "<currentForceUpdater", "u:settlingTime is 0.0004 s: less than half a step of 0.002 s",
+    ),
+    "a tracker that nobody initialises once": (
+        extended(
+            changed(
+                "<euclideanNorm>", '<euclideanNorm u:autoInit="once">',
+                "<publishOn> autoInit</publishOn>", "",
+            )
+        ),
+        "<euclideanNorm", "u:autoInit='once' needs <publishOn> in <groundTruth>",
     ),
     "a period that no water swells in": (
         with_updater(CURRENT.replace("LENGTH", "<interval>9</interval>").replace(">4<", ">4e-4<")),
@@ -282,7 +302,7 @@ def test_levels_that_are_over_before_their_current_begins_are_a_notice(
     file.write_text(text.replace("<interval>5<", "<interval>2<"))
     assert main(["check", str(file)]) == 0
     line = line_of(text, "<interval>", 2)
-    assert f"{file}:{line}: <interval> 2 s: the first 2 s of a new current are calm" in (
+    assert f"{file}:{line}: <interval> 2 s: for 2 s after each change of the current the" in (
         capsys.readouterr().out
     )
 

@@ -115,7 +115,7 @@ def test_a_level_that_waits_is_played_from_its_beginning(tmp_path: Path) -> None
             function="<function>way</function>",
         )
     )
-    assert first.measures["way"][0] == pytest.approx(0.15, abs=0.01)  # 1.5 s beyond 2 s of calm
+    assert first.measures["way"][0] == pytest.approx(0.35, abs=0.01)  # from 0.5 s to 4 s
 
 
 def test_nobody_waits_forever_for_a_start_that_does_not_come_back(tmp_path: Path) -> None:

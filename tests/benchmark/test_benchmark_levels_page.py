@@ -7,16 +7,12 @@ from pathlib import Path
 
 import pytest
 
-import uwsim
 from uwsim.benchmark.reader import check_benchmark
 from uwsim.benchmark.triggers import TRIGGERS
 from uwsim.benchmark.updaters import UPDATERS
 from uwsim.benchmark.updaters.fog_sweep import DENSITY, LENGTHS
-from uwsim.compatibility import COMPATIBILITY
 
 PAGE = (Path(__file__).parents[2] / "docs" / "levels.md").read_text()
-BENCHMARK = Path(uwsim.__file__).parent / "benchmark"
-SLIPS = PAGE.split("## What the original does otherwise")[1]
 EXAMPLES = re.findall(r"```xml\n(.*?)```", PAGE, re.S)
 
 
@@ -40,11 +36,3 @@ def test_the_examples_are_sound(example: str, tmp_path: Path) -> None:
         <function>t</function> <sceneUpdater> {example} </sceneUpdater> </benchmark>"""
     )
     assert check_benchmark(file) == []
-
-
-def test_every_slip_of_levels_stands_there_and_no_other() -> None:
-    told = set(re.findall(r"\| `([a-z-]+)` \|$", SLIPS, re.M))
-    files = [*(BENCHMARK / "triggers").glob("*.py"), *(BENCHMARK / "updaters").glob("*.py")]
-    sources = "".join(file.read_text() for file in [*files, BENCHMARK / "gate.py"])
-    asked = {name for name in COMPATIBILITY if f'"{name}" in' in sources}
-    assert told == asked - {"current-force"}  # docs/currents.md

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-import uwsim
 from fakes import FakeBody, FakeWorld
 from uwsim.benchmark.measures import (
     MEASURES,
@@ -16,12 +15,9 @@ from uwsim.benchmark.measures import (
     PathFollowingSpec,
     Reconstruction3DSpec,
 )
-from uwsim.compatibility import COMPATIBILITY
 from uwsim.world import Box
 
 PAGE = (Path(__file__).parents[2] / "docs" / "measures.md").read_text()
-BENCHMARK = Path(uwsim.__file__).parent / "benchmark"
-SLIPS = PAGE.split("## What the original does otherwise")[1]
 WORLD = FakeWorld({"v": FakeBody(box=Box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))})
 
 
@@ -57,14 +53,3 @@ def test_every_detail_stands_there_with_its_unit(name: str, measure: Measure) ->
     units.pop("n", None)  # a number of samples, in the line of the statistics
     told.pop("n", None)
     assert told == units
-
-
-def test_every_slip_of_a_measure_stands_there_and_no_other() -> None:
-    told = set(re.findall(r"\| `([a-z-]+)` \|$", SLIPS, re.M))
-    assert told <= set(COMPATIBILITY)
-    files = [*(BENCHMARK / "measures").glob("*.py"), BENCHMARK / "ground_truth.py"]
-    files += [BENCHMARK / "original_format.py", BENCHMARK.parent / "simulation" / "bodies.py"]
-    sources = "".join(file.read_text() for file in files)
-    assert told == {name for name in COMPATIBILITY if f'"{name}" in' in sources} | {
-        name for name in COMPATIBILITY if f'"{name}" not in' in sources
-    }

@@ -29,6 +29,9 @@ from uwsim.benchmark.original_format import (
 )
 from uwsim.benchmark.result import Column, Result
 
+CORNERS = EuclideanNormSpec(
+    name="corners", ground_truth=ConstantSpec(values=(1.0, 2.0)), target="t"
+)
 RESULT = Result(
     inputs={},
     run={},
@@ -107,13 +110,14 @@ def test_details_take_the_place_of_their_measure_where_the_file_asks_for_it() ->
     ]
 
 
-def test_details_of_a_row_in_error_are_left_out_with_it() -> None:
+def test_a_reconstruction_without_points_is_no_error_in_the_original() -> None:
     rows = dat_text(RECONSTRUCTION, compatibility=frozenset({"rows"}), measures=(REBUILT,)).split(
         "\n"
     )
     assert rows[1:] == [
         "0\t20\t0.02\t0.0004\t0.5\t0.25\t0.02\t20\t",
         "1\t20\t0.02\tnan\t0.25\t0\t0.02\t40\t",
+        "2\t20\t0\t0\t0\t1\t60\t",
         "",
     ]
 
@@ -147,14 +151,59 @@ def test_a_missing_path_cancels_a_missing_estimate_in_the_original() -> None:
     assert dat_text(result, measures=(CORNERS, path)).split("\n")[1] == "1\tnan\tnan\tnan\t2\t"
 
 
+def measured(spec: MeasureSpec, value: float | None, *others: float | None) -> Result:
+    """A row with a measure and a distance called d, and their sum as the score."""
+    return Result(
+        inputs={},
+        run={},
+        columns=(
+            Column(name="none", kind="level"),
+            Column(name=spec.name, kind="measure"),
+            Column(name="d", kind="measure", unit="m"),
+            Column(name="total", kind="score", expression=f"{spec.name}+d"),
+            Column(name="ended_at", kind="time", unit="s"),
+        ),
+        rows=((1.0, value, 3.0, None if value is None else value + 3.0, 2.0),),
+    )
+
+
+DISTANCE = DistanceSpec(name="d", target="g")
+
+
+@pytest.mark.parametrize(
+    ("spec", "start"),
+    [
+        (TimeSpec(name="m"), "0"),
+        (DistanceSpec(name="m", target="g"), "0"),
+        (CollisionSpec(name="m", target="g"), "1"),
+        (ObjectCenteredOnCamSpec(name="m", target="b", camera="c"), "0"),
+        (PositionErrorSpec(name="m", target="g", position=(0.0, 0.0, 0.0)), "100"),
+        (PositionErrorSpec(name="m", target="g", position=(0.0, 0.0, 0.0), topic="t"), "-1"),
+        (Reconstruction3DSpec(name="m", target="b", topic="t", from_="f"), "0"),
+    ],
+)
+def test_only_norms_and_paths_are_errors_in_the_original(spec: MeasureSpec, start: str) -> None:
+    """What never measured anything has its start value there, and its row is written."""
+    quirk = frozenset({"rows"})
+    lines = dat_text(measured(spec, None), compatibility=quirk, measures=(spec, DISTANCE))
+    assert lines.split("\n")[1:] == [f"1\t{start}\t3\t{float(start) + 3:g}\t2\t", ""]
+
+
+@pytest.mark.parametrize("spec", [CORNERS, PathFollowingSpec(name="path", target="g")])
+def test_a_missing_estimate_and_a_missing_path_are_errors_in_the_original(
+    spec: MeasureSpec,
+) -> None:
+    lines = dat_text(
+        measured(spec, None), compatibility=frozenset({"rows"}), measures=(spec, DISTANCE)
+    )
+    assert lines.split("\n")[1:] == [""]
+
+
 def test_it_lies_beside_the_result(tmp_path: Path) -> None:
     assert save_dat(RESULT, tmp_path) == tmp_path / "result.dat"
     assert (tmp_path / "result.dat").read_text() == dat_text(RESULT)
 
 
-CORNERS = EuclideanNormSpec(
-    name="corners", ground_truth=ConstantSpec(values=(1.0, 2.0)), target="t"
-)
 LOG = Log(
     measure="corners",
     header=("iteration", "fog [1/m]", "time [s]", "total", "1", "2"),

@@ -17,7 +17,13 @@ from uwsim.benchmark.play import Row, play
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.spec import BenchmarkSpec
 from uwsim.benchmark.triggers import NeverSpec
-from uwsim.benchmark.updaters import SceneUpdaterSpec, chain, references
+from uwsim.benchmark.updaters import (
+    STILL_WATER,
+    CurrentForceUpdaterSpec,
+    SceneUpdaterSpec,
+    chain,
+    references,
+)
 from uwsim.cli import main
 from uwsim.compatibility import compatibility
 from uwsim.errors import BenchmarkError, NeverStarted, UwsimError
@@ -29,7 +35,7 @@ from uwsim.simulation import Simulation
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 pytestmark = pytest.mark.skipif(ORIGINALS is None, reason="UWSIM_ORIGINALS is not set")
 SHORT = 0.5
-"""What a level lasts here, beside the calm that a current begins with [s]."""
+"""What a level lasts here, beside the still water behind a step of a current [s]."""
 LONGEST = 3.0
 """What a level lasts here that nothing ends [s]."""
 COMMON = {"benchmark", "scene", "auto", "recursive", "simple", "test"}
@@ -99,8 +105,10 @@ def shortened(spec: SceneUpdaterSpec, length: float) -> SceneUpdaterSpec:
 def plan_of(file: Path, scene: SceneSpec, compatibility: frozenset[str]) -> Plan:
     """The first two levels of every updater, short and blind, with the scripted algorithm."""
     spec = read_benchmark(file)
-    calm = max(updater.calm for updater in chain(spec.scene_updater))
-    updater = shortened(spec.scene_updater, calm + SHORT)
+    has_current = any(
+        isinstance(updater, CurrentForceUpdaterSpec) for updater in chain(spec.scene_updater)
+    )
+    updater = shortened(spec.scene_updater, SHORT + STILL_WATER * has_current)
     chosen = [
         (name, value)
         for name, each in zip(references(updater), chain(updater), strict=True)

@@ -57,6 +57,15 @@ class Counts:
         self.publish(floats(self.truth))
 
 
+class SpeaksOnce(Counts):
+    """Says once what it was told, and then nothing more."""
+
+    def look(self, image: Image) -> None:
+        if self.n == 0.0:
+            super().look(image)
+            self.n = float(self.truth is not None)
+
+
 HERE = "test_benchmark_play"
 
 
@@ -184,6 +193,21 @@ def test_silence_for_more_than_a_second_is_a_timeout(tmp_path: Path) -> None:
     assert "no estimate" in str(result.why(0, "corners"))
 
 
+def test_the_last_estimate_received_is_valid_in_the_original(tmp_path: Path) -> None:
+    """However old it is: section 3 of the paper."""
+    spoke = ["fog=0"]
+    file = write_benchmark(tmp_path, "1.6")
+    for compat, status in (([], "timeout"), (["last-norm"], "ok")):
+        out = tmp_path / status
+        result = run(file, out, algorithm=f"{HERE}:SpeaksOnce", levels=spoke, compat=compat)
+        assert result.values("status") == (status,)
+    assert result.numbers("corners") == pytest.approx([0.0], abs=1e-4)
+    never = run(
+        file, tmp_path / "never", algorithm="failing:Silent", levels=spoke, compat=["last-norm"]
+    )
+    assert never.values("status") == ("timeout",)
+
+
 def test_latency_shows_in_what_is_scored(benchmark: Path, tmp_path: Path) -> None:
     result = run(
         benchmark,
@@ -193,6 +217,16 @@ def test_latency_shows_in_what_is_scored(benchmark: Path, tmp_path: Path) -> Non
         levels=["fog=0"],
     )
     assert result.values("corners.n") == (3.0,)  # of the pictures at 1/30 ... 0.2 s, three by 0.2 s
+
+
+def test_only_a_tracker_that_compares_by_zncc_has_a_predicted_loss(
+    esm: Path, benchmark: Path, tmp_path: Path
+) -> None:
+    predicted = {"z", "f_star", "f_star_grey"}
+    assert predicted <= set(load(esm).facts)
+    frozen = run(benchmark, tmp_path / "a", algorithm="frozen", levels=["fog=0"])
+    assert not predicted & set(frozen.facts)
+    assert {"S", "sigma", "d"} <= set(frozen.facts)
 
 
 def test_a_setting_of_the_scene_reaches_the_camera(benchmark: Path, tmp_path: Path) -> None:

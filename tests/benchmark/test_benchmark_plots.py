@@ -190,6 +190,16 @@ def test_several_results_are_one_curve_each_and_the_legend_says_where_they_end()
     assert "frozen" in words(figure)
 
 
+def test_a_comparison_shows_the_predicted_loss_of_those_that_have_one() -> None:
+    no_rule = replace(frozen(), facts={})
+    figure = compare_plot([no_rule, visibility()], "corners")
+    assert vertical_lines(figure)[:1] == pytest.approx([F_STAR])
+    assert vertical_lines(compare_plot([no_rule, no_rule], "corners")) == []
+    stricter = replace(visibility(), facts={"f_star": (0.9 * F_STAR, "1/m")})
+    figure = compare_plot([visibility(), stricter], "corners")
+    assert "predicted" not in words(figure)  # one line would be wrong for one of them
+
+
 def test_the_same_algorithm_twice_is_told_apart_by_its_seed() -> None:
     second = replace(visibility(), run={**visibility().run, "seed": 2})
     assert "esm, seed 2 (lost at 1.2)" in words(compare_plot([visibility(), second], "corners"))

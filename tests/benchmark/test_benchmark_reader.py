@@ -331,6 +331,36 @@ def test_extensions_are_read(file: Path) -> None:
     assert (norm.value, norm.truth, norm.start_on, norm.stop_on) == ("mean", "face", ON, OFF)
 
 
+def test_a_ground_truth_of_2013_without_a_type_is_its_constants(file: Path) -> None:
+    measure = (
+        "<euclideanNorm><name>t</name><groundTruth><value>0.2 </value><value> 1.5</value>"
+        f"</groundTruth><target>x</target>{GATE}</euclideanNorm>"
+    )
+    norm = reading(file, text(measure)).measures[0]
+    assert isinstance(norm, EuclideanNormSpec)
+    assert norm.ground_truth == ConstantSpec(values=(0.2, 1.5))
+    assert any("constant" in fault.message for fault in check_benchmark(file))
+
+
+def test_a_ground_truth_of_a_camera_wants_its_type(file: Path) -> None:
+    measure = (
+        "<euclideanNorm><name>t</name><groundTruth><camera>c</camera><target>b</target>"
+        f"</groundTruth><target>x</target>{GATE}</euclideanNorm>"
+    )
+    fault = only_fault(file, text(measure))
+    assert "<groundTruth> lacks the attribute type" in fault.message
+
+
+def test_a_reconstruction_without_from_is_given_in_the_world(file: Path) -> None:
+    measure = (
+        f"<reconstruction3D><name>t</name><target>b</target><topic>p</topic>{GATE}"
+        "</reconstruction3D>"
+    )
+    cloud = reading(file, text(measure)).measures[0]
+    assert isinstance(cloud, Reconstruction3DSpec)
+    assert cloud.from_ is None
+
+
 TIME = f"<time><name>t</name>{GATE}</time>"
 FACE = (
     '<euclideanNorm xmlns:u="urn:uwsim:1" u:truth="face"><name>t</name><groundTruth '
@@ -504,11 +534,19 @@ def test_the_bundled_benchmarks_are_those_of_the_design(name: str) -> None:
     assert spec.scene == f"{name}-scene.xml"
     assert spec.algorithm == "esm"
     assert spec.mode == ("sequential" if name == "visibility" else "independent")
-    assert spec.function.text == "corners+centroid"
-    assert [m.name for m in spec.measures] == ["corners", "centroid", "cornersFace", "centroidFace"]
+    box, face = ["corners", "centroid"], ["cornersFace", "centroidFace"]
+    if name == "visibility":
+        scored, others = box, face
+    else:
+        scored, others = face, box
+    assert spec.function.text == "+".join(scored)
+    assert [m.name for m in spec.measures] == scored + others
     assert {m.value for m in spec.measures} == {"mean"}
     assert {m.log for m in spec.measures} == {0.1}
-    assert [getattr(m, "truth", "") for m in spec.measures] == ["original"] * 2 + ["face"] * 2
+    truths = {m.name: getattr(m, "truth", "") for m in spec.measures}
+    assert truths == dict.fromkeys(box, "original") | dict.fromkeys(face, "face")
+    told = {m.name: m.ground_truth.publish_on for m in spec.measures}  # type: ignore[attr-defined]
+    assert told == dict.fromkeys(box + face, None) | {scored[0]: "autoInit"}
 
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in BUNDLED.glob("*.xml")))

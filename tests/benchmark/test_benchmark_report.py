@@ -92,7 +92,6 @@ def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
         "reef",
         "packages.x",
         "0.25 0.5 1",
-        "about 1 px",
         "This scene cannot tell trackers apart",
         "gives 0.893, not 0.86, which needs fog 1.031",
     ):
@@ -166,7 +165,7 @@ def test_the_paragraph_about_the_static_scene_stands_only_where_nothing_moves(
         ("sequential", {"shift": (0.0, "px")}, "my-own", True),
         ("sequential", {"shift": (31.5, "px")}, "my-own", False),
         ("independent", {}, "visibility-moving", False),
-        ("independent", {}, "visibility", True),
+        ("independent", {}, "visibility", False),  # its name is no measurement
         ("sequential", {}, "my-own", True),
     ],
 )
@@ -291,12 +290,17 @@ def test_parameters_are_written_as_people_write_them_and_empty_ones_not_at_all(
     assert "<td>levels</td>" not in text
 
 
-def test_the_floor_of_another_benchmark_is_not_said(tmp_path: Path) -> None:
-    assert "5 px" not in page_of(visibility(), tmp_path).text
-    inputs = {"benchmark": ("currents.xml", "sha256:0")}
-    text = page_of(replace(visibility(), inputs=inputs), tmp_path).text
-    assert "about 5 px" in text
+def test_the_floor_is_what_the_run_has_measured_and_not_what_its_name_suggests(
+    tmp_path: Path,
+) -> None:
+    named = replace(visibility(), inputs={"benchmark": ("visibility-of-mine.xml", "sha256:0")})
+    text = page_of(named, tmp_path).text
+    assert "how much, this result does not say" in text
     assert "about 1 px" not in text
+    facts = {"floor_corners": (2.8794, "px"), "floor_centroid": (1.6345, "px")}
+    text = page_of(replace(named, facts={**named.facts, **facts}), tmp_path).text
+    assert "in the level where it is most: corners 2.88 px, centroid 1.63 px." in text
+    assert "floor of corners: what a perfect tracker scores" in text
 
 
 def endings_of(page: Page) -> dict[str, str]:
@@ -357,7 +361,7 @@ def test_captions_say_unit_statistic_and_what_bands_are(tmp_path: Path) -> None:
         "Figure 2. corners [px], mean over each level.",
         "Points: means over 3 repeats (seeds 1 to 3).",
         "Bands: 95 % intervals of that mean",
-        "corners: mean over each level; total = corners+centroid; time: when the level ended",
+        "corners: mean over each level; total = corners+centroid; ended_at: running time when",
     ):
         assert said in text, said
 

@@ -128,7 +128,7 @@ def play(algorithm: str, out: Path, *settings: str) -> Station:
     """Play a minute of the level 0.1 of `currents`, with a camera of half the size."""
     short = out.parent / "currents.xml"
     text = (DATA / "currents.xml").read_text()
-    short.write_text(text.replace("<interval>120<", "<interval>62.2<"))
+    short.write_text(text.replace("<interval>120<", "<interval>60.2<"))
     camera = "vehicle[girona500].virtualCamera[bowtech1]"
     plan = make_plan(
         str(short),

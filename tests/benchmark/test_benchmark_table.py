@@ -30,7 +30,7 @@ def text(result: Result, width: int = 160) -> list[str]:
 def test_every_level_is_a_line_and_a_gap_has_its_reason() -> None:
     drawn = text(visibility())
     assert len(drawn) == 29
-    assert drawn[0].split() == ["fog", "corners", "centroid", "total", "time"]
+    assert drawn[0].split() == ["fog", "corners", "centroid", "total", "ended_at"]
     assert drawn[1].split() == ["[1/m]", "[px]", "[px]", "[px]", "[s]", "status"]
     assert drawn[3].split()[0] == "0.05"
     assert drawn[3].split()[-1] == "ok"
@@ -121,7 +121,7 @@ def test_algorithm_error_is_said_whole_at_any_width(width: int) -> None:
 
 def test_with_repeats_time_and_status_stay_whole_at_80_columns() -> None:
     drawn = text(wide_and_failing(seeds=(1, 2, 3, 4)), width=80)
-    assert drawn[0].split()[-2:] == ["total", "time"]
+    assert drawn[0].split()[-2:] == ["total", "ended_at"]
     assert drawn[1].split()[-3:] == ["[px]", "[s]", "status"]
     assert drawn[2].endswith("0 of 4 ok, 0 to 60 %")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 
@@ -13,7 +14,7 @@ from uwsim.cli import COMMANDS, app, faults, main
 
 def uwsim(*arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-m", "uwsim.cli", *arguments],
+        [sys.executable, "-m", "uwsim", *arguments],
         capture_output=True,
         text=True,
         check=False,
@@ -78,6 +79,40 @@ def test_the_help_of_a_command_says_what_it_does_and_shows_an_example(
 
 
 @pytest.mark.parametrize("name", COMMANDS)
+def test_h_is_help(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["-h"]) == 0
+    assert capsys.readouterr().out.startswith("Usage: uwsim [OPTIONS] COMMAND")
+    assert main([name, "-h"]) == 0
+    assert capsys.readouterr().out.startswith(f"Usage: uwsim {name} ")
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_help_of_a_command_shows_options_in_groups_and_no_types_of_python(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([name, "--help"]) == 0
+    text = capsys.readouterr().out
+    assert re.findall(r"<[\w\[\] ]+>", text) == []
+    titles = re.findall(r"^([A-Z][a-z ]+):$", text, re.M)
+    assert titles[-1] == "Options"
+    listed = text.partition("\nOptions:\n")[2].partition("\n\n")[0]
+    assert listed.strip() == "-h, --help  Show this message and exit."
+
+
+def test_the_first_line_of_a_commands_help_is_its_summary_of_one_line() -> None:
+    for command in COMMANDS.values():
+        first, _, rest = (command.load().__doc__ or "").partition("\n")
+        assert first.endswith(".")
+        assert rest.strip() == "" or rest.startswith("\n"), command
+
+
+def test_the_package_itself_is_the_command() -> None:
+    done = uwsim("--version")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("uwsim 0.")
+
+
+@pytest.mark.parametrize("name", COMMANDS)
 def test_an_example_of_a_command_is_a_call_of_that_command(name: str) -> None:
     assert COMMANDS[name].examples
     assert all(example.split()[:2] == ["uwsim", name] for example in COMMANDS[name].examples)
@@ -99,6 +134,12 @@ def test_a_wrong_call_gets_one_line_and_exit_status_2(
     arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(arguments) == 2
+    assert capsys.readouterr().err == said
+
+
+def test_who_leaves_something_out_is_told_where_to_look(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check"]) == 2
+    said = "uwsim: Missing argument 'FILE.xml'; uwsim check -h shows what it takes.\n"
     assert capsys.readouterr().err == said
 
 
@@ -165,6 +206,37 @@ def test_every_error_of_the_tree_has_an_exit_status_of_wrong_input_or_failed_run
 
     for kind in below(errors.UwsimError):
         assert faults.exit_status(kind.__new__(kind)) in (2, 3), kind
+
+
+@pytest.mark.parametrize(
+    ("said", "expected"),
+    [
+        (f"<fog> is {'x' * 10_000!r}; expected a number.", "expected a number."),
+        (f"<name> {'y' * 10_000} is not known", "is not known"),
+        ("a.xml:3: '" + "thick fog " * 1000 + "' is no number", "is no number"),
+    ],
+)
+def test_an_error_shows_no_more_of_a_file_than_can_be_read(said: str, expected: str) -> None:
+    shown = faults.one_line(errors.BadSetting(said))
+    assert 300 < len(shown) < 420
+    assert shown.endswith(expected)
+    assert "more letters)" in shown
+
+
+def test_an_error_of_normal_length_is_shown_whole() -> None:
+    folders = ", ".join(f"/home/someone/simulation/data/folder-{i}" for i in range(20))
+    said = f"'box.obj' is neither a file nor bundled. The file's folders: {folders}. Is 'x' meant?"
+    assert faults.one_line(errors.BadSetting(said)) == f"uwsim: {said}"
+    long = faults.printable(" ".join(["word"] * 10_000))
+    assert len(long) == faults.LONGEST_LINE + 1
+
+
+def test_what_the_system_refuses_while_a_run_is_on_is_a_failed_run() -> None:
+    said = r"No such file or directory: out/result\.json"
+    with pytest.raises(errors.RunFailed, match=said), faults.running():
+        raise FileNotFoundError(2, "No such file or directory", "out/result.json")
+    with pytest.raises(BrokenPipeError), faults.running():
+        raise BrokenPipeError
 
 
 def test_a_reader_that_leaves_early_is_told_nothing() -> None:

@@ -4,6 +4,7 @@ import os
 import shlex
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -143,7 +144,7 @@ def test_a_run_that_a_plugin_ended_keeps_its_rows_and_goes_on(
     call = ["bench", benchmark, "--algorithm", "dies", "--plugin", "dies.py", "--out"]
     assert main([*call, "whole"]) == 0
     Path("deadly").touch()
-    died = subprocess.run([sys.executable, "-m", "uwsim.cli", *call, "out"], check=False)
+    died = subprocess.run([sys.executable, "-m", "uwsim", *call, "out"], check=False)
     assert died.returncode == 3
     assert len(Path("out/units/00000.jsonl").read_text().splitlines()) == 2  # its head, one row
     capsys.readouterr()
@@ -163,3 +164,39 @@ def test_workers_are_a_number_or_ray() -> None:
             crew_of(wrong)
     with pytest.raises(BadSetting, match="Did you mean 'ray'"):
         crew_of("Ray")
+
+
+def test_a_clock_that_is_set_back_does_not_change_how_long_a_run_took(
+    benchmark: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    days = iter(range(10**6, 0, -1))
+    monkeypatch.setattr("time.time", lambda: next(days) * 86_400.0)
+    out = tmp_path / "out"
+    call = ["bench", benchmark, "--algorithm", "failing:Raises", "--level", "fog=0"]
+    assert main([*call, "--out", str(out)]) == 3
+    assert 0.0 < float(str(load_provenance(out)["wall_s"])) < 600.0
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (BadSetting("<u:function> gave 'nan' at 3 s."), "uwsim: <u:function> gave 'nan' at 3 s.\n"),
+        (PermissionError(13, "Permission denied", "a.csv"), "uwsim: Permission denied: a.csv\n"),
+    ],
+)
+def test_what_goes_wrong_while_it_is_played_is_a_failed_run_whatever_it_is(
+    error: Exception,
+    said: str,
+    benchmark: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def broken(*_: object) -> Iterator[None]:
+        raise error
+        yield
+
+    monkeypatch.setattr("uwsim.benchmark.crew.perform", broken)
+    call = ["bench", benchmark, "--algorithm", "p", "--level", "fog=0"]
+    assert main([*call, "--out", str(tmp_path / "out")]) == 3
+    assert capsys.readouterr().err == said

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import resource
 import subprocess
@@ -63,6 +64,7 @@ def test_a_root_that_nobody_knows_says_what_was_expected(
 
 CHECK = """
 import sys
+import json
 from pathlib import Path
 import uwsim.scene.reader
 from uwsim.cli.check import faults_of
@@ -151,3 +153,59 @@ def test_a_side_file_is_checked_by_itself(
     assert capsys.readouterr().out.startswith(f"{path}:3: thruster 't': forward gives -40 N")
     path.write_text(path.read_text().replace("-40", "40"))
     assert status(str(path)) == 0
+
+
+GHOSTLY = """<UWSimScene xmlns:u="urn:uwsim:1">
+<vehicle> <name>rov</name> <file>bluerov2_heavy.urdf</file>
+<position> <x>0</x> <y>0</y> <z>-2</z> </position>
+<orientation> <r>M_PI</r> <p>0</p> <y>0</y> </orientation>
+<u:dynamics>bluerov2_heavy</u:dynamics> </vehicle>
+<vehicle> <name>other</name> <file>bluerov2_heavy.urdf</file> </vehicle>
+<object> <name>wreck</name> <file>objects/ship.osg</file> </object>
+<object> <name>terrain</name> <file>terrain/islands/islands.osg</file>
+<position> <x>0</x> <y>0</y> <z>-15</z> </position> </object>
+</UWSimScene>"""
+
+
+def test_what_a_vehicle_can_pass_through_is_named_until_the_file_says_that_it_is_meant(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "scene.xml"
+    file.write_text(GHOSTLY)
+    assert status(str(file)) == 0
+    said = capsys.readouterr().out
+    assert f"{file}:7: simulated vehicles pass through what has no <physics>: 'wreck'" in said
+    assert f"{file}:6: vehicle 'other': simulated vehicles pass through it" in said
+    assert "'terrain'" not in said
+    file.write_text(
+        GHOSTLY.replace("osg</file> </object>\n<object>", "osg</file> <u:solid>0</u:solid> "
+                        "</object>\n<object>")
+        .replace("urdf</file> </vehicle>", "urdf</file> <u:accept>passable</u:accept> </vehicle>")
+    )  # fmt: skip
+    assert status(str(file)) == 0
+    assert "pass through" not in capsys.readouterr().out
+
+
+def test_a_vehicle_without_any_shape_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "bare.urdf").write_text('<robot name="bare"> <link name="base_link"/> </robot>')
+    file = tmp_path / "scene.xml"
+    file.write_text(GHOSTLY.replace("bluerov2_heavy.urdf", "bare.urdf", 1))
+    status(str(file))
+    assert "passes through everything: no link has a <collision>" in capsys.readouterr().out
+
+
+def test_json_says_the_same_to_programs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "a.xml"
+    file.write_text(
+        "<UWSimScene>\n<oceanState>\n<fog>\x7f</fog></oceanState><nedOrigin/></UWSimScene>"
+    )
+    assert main(["check", str(file), "visibility"]) == 2
+    lines = capsys.readouterr().out.splitlines()
+    assert main(["check", "--json", str(file), "visibility"]) == 2
+    said = json.loads(capsys.readouterr().out)
+    first, second = said["files"]
+    assert second["faults"] == []
+    assert said["n_faults"] == sum(f["severity"] == "fault" for f in first["faults"]) > 0
+    assert f"{file}:{first['faults'][0]['line']}: {first['faults'][0]['message']}" in lines[0]

@@ -89,6 +89,23 @@ def test_the_baseline_may_be_among_the_results_or_not(
 
 
 @pytest.mark.usefixtures("without_plots")
+def test_a_directory_of_several_algorithms_stands_for_all_of_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for i, name in enumerate(("esm", "ecc", "ic")):
+        save(noisy(name, 1.0 + i, n=3, salt=i), Path("both.result", name))
+    assert main(["compare", "both.result"]) == 0
+    pairs = json.loads(Path("comparison/comparison.json").read_text())["pairs"]
+    assert [(p["first"], p["second"]) for p in pairs] == [
+        ("ecc", "esm"), ("ecc", "ic"), ("esm", "ic"),
+    ]  # fmt: skip
+    capsys.readouterr()
+    assert main(["compare", "both.result/esm"]) == 2
+    assert "at least two results" in one_line(capsys)
+
+
+@pytest.mark.usefixtures("without_plots")
 def test_results_of_one_algorithm_are_told_apart_by_their_directories(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -101,6 +118,7 @@ def test_results_of_one_algorithm_are_told_apart_by_their_directories(
     ("arguments", "said"),
     [
         (["esm.result"], "at least two results"),
+        (["nowhere.result"], "no result here"),
         (["esm.result", "esm.result/result.json"], "given twice"),
         (["esm.result", "nowhere.result"], "no result here"),
         (["esm.result", "ic.result", "--measure", "corner"], "Did you mean 'corners'"),
@@ -115,3 +133,11 @@ def test_a_wrong_call_is_one_clean_line_and_writes_nothing(
     assert main(["compare", *arguments]) == 2
     assert said in one_line(capsys)
     assert not Path("comparison").exists()
+
+
+@pytest.mark.usefixtures("without_plots")
+def test_json_is_what_is_written_and_nothing_else(
+    two: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["compare", *two, "--json"]) == 0
+    assert capsys.readouterr().out == Path("comparison/comparison.json").read_text()

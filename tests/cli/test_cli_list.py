@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
 import pytest
+from lxml import etree
 
 from uwsim.algorithms import ALGORITHMS
 from uwsim.benchmark.measures import MEASURES
 from uwsim.cli import main
 from uwsim.cli.files import bundled
-from uwsim.cli.list import KINDS, first_line, head_comment, without_title
+from uwsim.cli.list import KINDS, first_line, head_comment, limit_in, without_title
 from uwsim.cli.plugins import bundled_tables
+from uwsim.dialect import Faults
 from uwsim.physics.vehicle_file import find_vehicle, read_vehicle
+from uwsim.scene.not_yet import not_simulated
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.simulation.bodies import find_file
 
@@ -43,6 +47,40 @@ def test_without_a_kind_everything_is_listed(capsys: pytest.CaptureFixture[str])
 def test_a_misspelt_kind_is_told_the_right_one(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list", "sensor"]) == 2
     assert "Did you mean 'sensors'?" in capsys.readouterr().err
+
+
+def test_what_is_read_and_not_simulated_is_marked(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list", "sensors"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert "[read, not simulated yet]" in lines["dvlSensor"]
+    assert "[" not in lines["virtualCamera"]
+    assert main(["list", "interfaces"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert "[read, not simulated yet]" in lines["DVLSensorToROS"]
+    assert "[" not in lines["u:ROSThrustersToPAT"] + lines["PATToROSOdom"]
+
+
+@pytest.mark.parametrize("kind", ["sensors", "devices", "interfaces"])
+def test_the_marks_are_those_that_check_gives_a_file(kind: str) -> None:
+    for name in KINDS[kind](bundled_tables()):
+        parent = "rosInterfaces" if kind == "interfaces" else "vehicle"
+        scene = etree.fromstring(
+            f"<UWSimScene xmlns:u='urn:uwsim:1'><{parent}><{name}/></{parent}></UWSimScene>"
+        )
+        faults = Faults("a.xml")
+        not_simulated(scene, faults)
+        if name != "contactSensorToROS":  # check looks whether anything can be touched
+            assert bool(faults.all()) == bool(limit_in(kind, name)), name
+
+
+def test_json_lists_the_same_for_programs(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list", "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert list(said) == list(KINDS)
+    assert [each["name"] for each in said["algorithms"]] == sorted(ALGORITHMS)
+    limits = {each["name"]: each["limit"] for each in said["sensors"]}
+    assert limits["virtualCamera"] == ""
+    assert limits["imu"] == "read, not simulated yet"
 
 
 def test_a_sentence_is_the_first_line_without_marks_of_code() -> None:

@@ -87,7 +87,7 @@ def test_the_originals_are_valid_in_any_order(benchmarks: etree.RelaxNG) -> None
         ("<type>onMove</type> ", ""),
         ('type="constant"', 'type="fixed"'),
         ('type="constant"', 'type="relativeLocation"'),
-        ('<groundTruth type="constant">', "<groundTruth>"),
+        ('<groundTruth type="cornersFromCamera">', "<groundTruth>"),
         ("<value>1</value>", "<value>one</value>"),
         ("<z>1.515</z>", "<z>nan</z>"),
         ("<z>1.515</z>", ""),

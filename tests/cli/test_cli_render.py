@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,11 @@ import pytest
 from PIL import Image
 
 from uwsim.cli import main
+from uwsim.cli.files import bundled
 
+ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
+SCENES = sorted(bundled("scenes").values())
+SCENES += sorted(Path(ORIGINALS).glob("scenes/*.xml")) if ORIGINALS else []
 SCENE = ["render", "visibility-scene", "--camera", "bowtech1"]
 
 
@@ -64,9 +69,132 @@ def test_a_setting_changes_what_is_drawn(tmp_path: Path) -> None:
     assert murky.mean(axis=(0, 1)) == pytest.approx(fog, abs=3.0)  # noise is cut at 0
 
 
+def draw(scene: Path | str, out: Path, *options: str) -> np.ndarray:
+    assert main(["render", str(scene), "-o", str(out), *options]) == 0
+    return np.asarray(Image.open(out))
+
+
+BARE = """<UWSimScene>{}<vehicle><name>g500</name><file>data/scenes/g500ARM5.urdf</file>
+<position><x>0</x><y>0</y><z>-3</z></position><orientation><r>M_PI</r><p>0</p><y>0</y>
+</orientation></vehicle></UWSimScene>"""
+VIEWER = """<camera><freeMotion>0</freeMotion><objectToTrack>g500/base_link</objectToTrack>
+<fov>{}</fov><position><x>0</x><y>-4</y><z>0</z></position></camera>"""
+
+
+def scene_file(folder: Path, inside: str = "") -> Path:
+    file = folder / "scene.xml"
+    file.write_text(BARE.format(inside))
+    return file
+
+
+def test_without_a_name_the_first_camera_of_the_scene_sees(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    named = render(tmp_path)
+    assert np.array_equal(draw("visibility-scene", tmp_path / "any.png"), named)
+    assert "camera 'bowtech1'" in capsys.readouterr().out
+
+
+def test_a_scene_without_cameras_is_seen_by_its_viewer(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    near = draw(scene_file(tmp_path, VIEWER.format(30)), tmp_path / "a.png", "--segmentation")
+    assert near.shape == (600, 800, 3)
+    assert "view of its <camera>" in capsys.readouterr().out
+    narrow = np.asarray(Image.open(tmp_path / "a-ids.png")) > 0
+    assert narrow[300, 350:450].any()  # what it tracks is in the middle
+    draw(scene_file(tmp_path, VIEWER.format(60)), tmp_path / "b.png", "--segmentation")
+    wide = np.asarray(Image.open(tmp_path / "b-ids.png")) > 0
+    assert 0 < wide.sum() < 0.4 * narrow.sum()
+
+
+def test_a_scene_without_any_camera_is_seen_from_where_all_of_its_vehicle_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    draw(scene_file(tmp_path), tmp_path / "a.png", "--segmentation", "--size", "200x150")
+    assert "orbit view" in capsys.readouterr().out
+    ids = np.asarray(Image.open(tmp_path / "a-ids.png"))
+    assert ids.shape == (150, 200)
+    frame = np.concatenate([ids[0], ids[-1], ids[:, 0], ids[:, -1]])
+    assert not frame.any()  # nothing is cut off
+    assert np.count_nonzero(ids) > 0.1 * ids.size
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: f"{path.parents[1].name}-{path.stem}")
+@pytest.mark.parametrize("view", ["orbit", "top"])
+def test_every_bundled_and_original_scene_shows_all_of_its_vehicle(
+    path: Path, view: str, tmp_path: Path
+) -> None:
+    draw(path, tmp_path / "a.png", "--view", view, "--size", "160x120", "--segmentation")
+    ids = np.asarray(Image.open(tmp_path / "a-ids.png"))
+    with (tmp_path / "a-ids.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["name"].startswith("girona500/")]
+    own = np.isin(ids, [int(row["id"]) for row in rows])
+    frame = np.concatenate([own[0], own[-1], own[:, 0], own[:, -1]])
+    assert own.mean() > 0.01
+    assert not frame.any()  # nothing is cut off
+
+
+def test_from_above_the_bow_points_up_where_x_of_the_file_does(tmp_path: Path) -> None:
+    draw("visibility-scene", tmp_path / "a.png", "--view", "top", "--segmentation")
+    ids = np.asarray(Image.open(tmp_path / "a-ids.png"))
+    with (tmp_path / "a-ids.csv").open() as file:
+        names = {row["name"]: int(row["id"]) for row in csv.DictReader(file)}
+    rows, columns = np.nonzero(ids == names["girona500/base_link"])
+    assert np.ptp(rows) > 1.3 * np.ptp(columns)  # 1.5 m by 1 m
+
+
+def test_a_view_from_a_point_to_a_point_of_the_file_has_it_in_its_middle(tmp_path: Path) -> None:
+    options = ["--from", "4,2,3.5", "--at", "2,0.35,4.735", "--size", "120x90", "--segmentation"]
+    draw("visibility-scene", tmp_path / "a.png", *options)
+    ids = np.asarray(Image.open(tmp_path / "a-ids.png"))
+    with (tmp_path / "a-ids.csv").open() as file:
+        names = {int(row["id"]): row["name"] for row in csv.DictReader(file)}
+    assert names[int(ids[45, 60])] == "blackbox"
+
+
+def test_views_round_the_scene_are_clear_unless_fog_is_asked_for(tmp_path: Path) -> None:
+    fog = "oceanState.fog.density"
+    ocean = (
+        "<oceanState><fog><density>5</density><color><r>0</r><g>0</g><b>1</b></color></fog>"
+        "</oceanState>"
+    )
+    file = scene_file(tmp_path, ocean)
+    clear = draw(file, tmp_path / "a.png", "--view", "orbit")
+    thick = draw(file, tmp_path / "b.png", "--view", "orbit", "--set", f"{fog}=5")
+    assert clear.std() > 20.0
+    assert (thick == [0, 0, 255]).all()
+
+
+def test_another_size_keeps_how_high_a_camera_sees(tmp_path: Path) -> None:
+    quiet = ["--set", "vehicle.virtualCamera.std=0", "--segmentation"]
+    draw("visibility-scene", tmp_path / "a.png", *quiet)
+    draw("visibility-scene", tmp_path / "b.png", *quiet, "--size", "640x480")
+    draw("visibility-scene", tmp_path / "c.png", *quiet, "--size", "640x240")
+    whole, large, wide = (
+        np.asarray(Image.open(tmp_path / f"{name}-ids.png")) for name in ("a", "b", "c")
+    )
+    assert (large[::2, ::2] == whole).mean() > 0.98
+    assert (wide[:, 160:480] == whole).mean() > 0.99
+
+
+def test_ghosts_are_seen_in_views_and_not_by_cameras(tmp_path: Path) -> None:
+    file = scene_file(tmp_path)
+    file.write_text(file.read_text().replace("</vehicle>", "<vr>1</vr></vehicle>"))
+    draw(file, tmp_path / "a.png", "--segmentation")
+    assert np.asarray(Image.open(tmp_path / "a-ids.png")).any()
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
+        (["render", "cirs", "--view", "orbt", "-o", "a.png"], "Did you mean 'orbit'"),
+        (["render", "cirs", "--view", "top", "--camera", "bowtech1", "-o", "a.png"], "at a time"),
+        (["render", "cirs", "--from", "1,2,3", "-o", "a.png"], "--at"),
+        (["render", "cirs", "--from", "1,2", "--at", "1,2,3", "-o", "a.png"], "three numbers"),
+        (["render", "cirs", "--from", "1,2,3", "--at", "1 2 3", "-o", "a.png"], "where it looks"),
+        (["render", "cirs", "--size", "800", "-o", "a.png"], "WxH"),
+        (["render", "cirs", "--size", "0x5", "-o", "a.png"], "WxH"),
         (["render", "visibility-scene", "--camera", "bowtech", "-o", "a.png"], "'bowtech1'"),
         ([*SCENE, "-o", "a.jpg"], "only .png"),
         ([*SCENE, "-o", "nowhere/a.png"], "nowhere/a.png"),

@@ -114,7 +114,7 @@ def test_every_point_has_the_same_water_and_may_be_written_to() -> None:
 
 def test_a_level_gives_the_same_numbers_alone_and_late_in_a_sweep() -> None:
     alone, late = (
-        LateCurrent(released(random=0.01).bind(place()), began=began, calm=2.0)
+        LateCurrent(released(random=0.01).bind(place()), began=began, delay=2.0)
         for began in (0.0, 1204.002)
     )
     for k in range(0, 60_000, 37):
@@ -122,7 +122,7 @@ def test_a_level_gives_the_same_numbers_alone_and_late_in_a_sweep() -> None:
 
 
 def test_a_late_current_is_still_until_it_begins() -> None:
-    late = LateCurrent(released().bind(place()), began=10.0, calm=2.0)
+    late = LateCurrent(released().bind(place()), began=10.0, delay=2.0)
     assert at(late, 11.998).tolist() == [0.0, 0.0, 0.0]
     assert late.acceleration(ORIGIN, 11.998).tolist() == [[0.0, 0.0, 0.0]]
     assert at(late, 12.0).tolist() == at(released().bind(place()), 2.0).tolist()

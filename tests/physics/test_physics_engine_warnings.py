@@ -20,7 +20,7 @@ SCENE = Path(str(resources.files("uwsim") / "data" / "scenes" / "currents-scene.
 
 
 def diverge() -> None:
-    simulation = Simulation(read_scene(SCENE), is_blind=True)
+    simulation = Simulation(read_scene(SCENE).nominal, is_blind=True)
     simulation._state._data.qvel[0] = 1e12
     try:
         simulation.advance()

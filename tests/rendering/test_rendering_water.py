@@ -19,6 +19,7 @@ from uwsim.rendering.water import (
     apply_water,
     clip_distance,
     sun_direction,
+    wet_share,
 )
 
 CLEAR = Water(fog=0.0, attenuation=(0.0, 0.0, 0.0))
@@ -99,6 +100,30 @@ def test_a_grey_plate_matches_the_formula_in_every_channel(
     planar = np.full(reach.shape, distance)
     fog_range = clip_distance(planar, CAMERA) if fog_distance == "clip" else None
     wet = apply_water(dry, reach, points[..., 2], water, fog_range=fog_range)
+    assert picture.colour is not None
+    assert np.abs(picture.colour - 255.0 * wet).max() <= 1.0
+
+
+@pytest.mark.parametrize("height", [5.0, 1.0, -2.0, -7.0])  # of the surface, the eye is at 0
+def test_where_there_is_air_only_the_way_under_the_surface_counts(
+    renderer: Renderer, height: float
+) -> None:
+    water = Water(
+        fog=0.15, fog_colour=(0.1, 0.2, 0.4), attenuation=(0.05, 0.03, 0.01),
+        colour=(0.02, 0.2, 0.3), surface_height=height, has_air=True,
+    )  # fmt: skip
+    light = Light()
+    renderer.place(renderer.add(plate(50.0, 50.0, (0.5, 0.5, 0.5)), 1), placed(z=-4.0))
+    picture = renderer.draw(DOWN, CAMERA, water, light)
+    rays = CAMERA.rays()
+    points = rays * 4.0
+    normal = np.broadcast_to([0.0, 0.0, 1.0], points.shape)
+    dry = sunlit(np.array(0.5), normal, -rays / np.linalg.norm(rays, axis=2, keepdims=True), light)
+    share = wet_share(points[..., 2], 0.0, water)
+    expected = {5.0: 1.0, 1.0: 1.0, -2.0: 0.5, -7.0: 0.0}[height]
+    assert share == pytest.approx(np.full(share.shape, expected))
+    way = np.linalg.norm(points, axis=2) * share
+    wet = apply_water(dry, way, points[..., 2], water)
     assert picture.colour is not None
     assert np.abs(picture.colour - 255.0 * wet).max() <= 1.0
 

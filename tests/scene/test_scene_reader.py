@@ -16,16 +16,24 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from uwsim.cli.check import faults_of
+from uwsim.currents import UwsimSinusoidSpec
 from uwsim.dialect import Faults, Slot, slots
 from uwsim.errors import SceneError
+from uwsim.geometry import Pose
 from uwsim.scene import SceneSpec, read_scene
 from uwsim.scene.kinematics import link_poses
 from uwsim.scene.reader import check_scene
-from uwsim.scene.ros_interfaces import INTERFACES, ROSOdomToPATSpec
+from uwsim.scene.ros_interfaces import (
+    INTERFACES,
+    CustomCommsDeviceROSSpec,
+    EchoROSSpec,
+    ProfilingSonarROSSpec,
+    ROSOdomToPATSpec,
+    SimulatedDeviceROSSpec,
+)
 from uwsim.scene.spec import ObjectSpec, ShowTrajectorySpec
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
-from uwsim.sensors.sensor import link_from_sensor
 
 EVERY = Path(__file__).parent / "every-element.xml"
 DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "scenes"
@@ -157,7 +165,11 @@ def camera_in_l(scene: SceneSpec) -> tuple[np.ndarray, np.ndarray]:
     camera = vehicle.virtual_cameras[0]
     robot = read_urdf(DATA / "g500ARM5.urdf")
     base_from_link = link_poses(robot, vehicle.joint_values)[camera.relative_to]
-    l_from_camera = vehicle.localized_from_base @ base_from_link @ link_from_sensor(camera)
+    l_from_camera = (
+        vehicle.localized_from_base
+        @ base_from_link
+        @ Pose.from_rpy(camera.position, camera.orientation)
+    )
     box = scene.objects[1].localized_from_object.position
     pixel = camera.intrinsics().project(l_from_camera.inverse().transform(box[None]))[0]
     return l_from_camera.position, pixel
@@ -253,6 +265,124 @@ def test_a_multibeam_of_2013_gets_angles(tmp_path: Path) -> None:
     beams = scene.vehicles[0].multibeam_sensors[0]
     assert (beams.init_angle, beams.final_angle, beams.angle_incr) == (-60, 60, 1)
     assert beams.n_beams == 121
+
+
+def test_a_multibeam_of_2013_without_a_range_measures_as_far_as_those_of_the_original(
+    tmp_path: Path,
+) -> None:
+    scene, said = scene_of(
+        VEHICLE.format(
+            "<multibeamSensor><name>m</name><relativeTo>part0</relativeTo><numpixels> 121 "
+            "</numpixels><fieldOfView> 120 </fieldOfView></multibeamSensor>"
+        ),
+        tmp_path,
+    )
+    beams = scene.vehicles[0].multibeam_sensors[0]
+    assert (beams.n_beams, beams.range) == (121, 10)
+    assert "10 m" in said[0]
+
+
+PROFILER = (
+    "<ProfilingSonar><name>p</name><relativeTo>part0</relativeTo><initAngle>45</initAngle>"
+    "<finalAngle>135</finalAngle><angleIncr>0.45</angleIncr><range>10</range><fov>1</fov>"
+    "</ProfilingSonar>"
+)
+MODEM = "<CommsDevice><name>c</name><relativeTo>part0</relativeTo><mac>3</mac></CommsDevice>"
+ECHO = "<echo><name>e</name><info>hello</info></echo>"
+TELL_PROFILER = "<ProfilingSonarROS><name>p</name><topic>/p</topic></ProfilingSonarROS>"
+TELL_MODEM = "<CommsDeviceROS><name>c</name><topic>/c</topic></CommsDeviceROS>"
+TELL_ECHO = "<echoROS><name>e</name><topic>/e</topic></echoROS>"
+
+
+@pytest.mark.parametrize("devices", ["simulatedDevices", "simulatedDevice"])
+@pytest.mark.parametrize("topics", ["SimulatedDeviceROS", "SimulatedDevicesROS"])
+def test_devices_and_their_topics_may_stand_in_wrappers_of_either_name(
+    devices: str, topics: str, tmp_path: Path
+) -> None:
+    scene, said = scene_of(
+        VEHICLE.format(f"<{devices}>{PROFILER}{ECHO}{MODEM}</{devices}>")
+        + f"<rosInterfaces><{topics}>{TELL_ECHO}{TELL_PROFILER}{TELL_MODEM}</{topics}>"
+        "</rosInterfaces>",
+        tmp_path,
+    )
+    vehicle = scene.vehicles[0]
+    wrapped = vehicle.simulated_devices.echo if vehicle.simulated_devices else ()
+    assert [sonar.name for sonar in vehicle.profiling_sonars] == ["p"]
+    assert [modem.dccomms_id for modem in vehicle.custom_comms_devices] == ["c"]
+    assert [echo.name for echo in (*vehicle.echos, *wrapped)] == ["e"]
+    interfaces = {type(interface) for interface in scene.ros_interfaces}
+    assert {ProfilingSonarROSSpec, CustomCommsDeviceROSSpec} < interfaces
+    assert interfaces & {EchoROSSpec, SimulatedDeviceROSSpec}
+    assert not [message for message in said if "no " in message and "is called" in message]
+
+
+def test_several_wrappers_on_one_vehicle_are_read_as_one(tmp_path: Path) -> None:
+    wrapper = "<simulatedDevices>{}</simulatedDevices>"
+    other = ECHO.replace("<name>e<", "<name>f<")
+    scene, _ = scene_of(
+        VEHICLE.format(wrapper.format(ECHO) + wrapper.format(other) + wrapper.format(""))
+        + f"<rosInterfaces><SimulatedDeviceROS>{TELL_ECHO}{TELL_ECHO.replace('>e<', '>f<')}"
+        "</SimulatedDeviceROS></rosInterfaces>",
+        tmp_path,
+    )
+    vehicle = scene.vehicles[0]
+    assert vehicle.simulated_devices is not None
+    assert {echo.name for echo in (*vehicle.echos, *vehicle.simulated_devices.echo)} == {"e", "f"}
+    assert len(scene.ros_interfaces) == 2
+
+
+def test_a_wrapper_with_echoes_alone_stays_as_the_original_has_it(tmp_path: Path) -> None:
+    scene, said = scene_of(
+        VEHICLE.format(f"<simulatedDevices>{ECHO}</simulatedDevices>")
+        + f"<rosInterfaces><SimulatedDeviceROS>{TELL_ECHO}</SimulatedDeviceROS></rosInterfaces>",
+        tmp_path,
+    )
+    assert said == []
+    assert scene.vehicles[0].echos == ()
+
+
+CURRENT_OF_2013 = (
+    "<oceanState><current><forceModule> 0.1 </forceModule>"
+    "<sphericalDirection><theta>1.57</theta><phi>0.5</phi></sphericalDirection>"
+    "<forceVariation>0.01</forceVariation><forcePeriod>4</forcePeriod>"
+    "<directionVariation><theta>0</theta><phi>0.7</phi></directionVariation>"
+    "<directionPeriod><theta>0</theta><phi>30</phi></directionPeriod>"
+    "<random>0.02</random></current></oceanState>"
+)
+
+
+def test_a_current_of_2013_in_the_ocean_is_a_sinusoid(tmp_path: Path) -> None:
+    scene, said = scene_of(CURRENT_OF_2013, tmp_path)
+    assert scene.ocean_state.currents == (
+        UwsimSinusoidSpec(
+            speed=0.1, speed_variation=0.01, speed_period=4.0, theta=1.57,
+            phi=0.5, phi_variation=0.7, phi_period=30.0, random=0.02,
+        ),
+    )  # fmt: skip
+    assert len(said) == 1
+    assert "uwsimSinusoid" in said[0]
+
+
+def test_a_word_in_a_current_of_2013_is_told_at_its_line(tmp_path: Path) -> None:
+    said = faults(CURRENT_OF_2013.replace(" 0.1 ", "strong"), tmp_path)
+    assert len(said) == 1
+    assert "strong" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("parent", "dropped"),
+    [
+        ("simParams", "<disableTextures>0</disableTextures>"),
+        ("rosInterfaces", "<ArmToROSJointState><topic>/t</topic><vehicleName>g</vehicleName>"
+         "<includesFixedAndMimic>1</includesFixedAndMimic></ArmToROSJointState>"),
+    ],
+)  # fmt: skip
+def test_what_has_no_effect_any_more_is_dropped_with_a_notice(
+    parent: str, dropped: str, tmp_path: Path
+) -> None:
+    _, said = scene_of(f"<{parent}>{dropped}</{parent}>" + VEHICLE.format(""), tmp_path)
+    assert len(said) == 1
+    assert "ignored" in said[0]
 
 
 def test_factors_of_2013_lock_axes(tmp_path: Path) -> None:

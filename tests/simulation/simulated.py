@@ -25,7 +25,7 @@ def make(
     objects: tuple[ObjectSpec, ...] = (),
     change: Callable[[VehicleSpec], VehicleSpec] = lambda vehicle: vehicle,
 ) -> Simulation:
-    scene = read_scene(SCENE)
+    scene = read_scene(SCENE).nominal
     vehicle = change(replace(scene.vehicles[0], virtual_cameras=()))
     simulation = Simulation(
         replace(scene, vehicles=(vehicle,), objects=objects, ros_interfaces=interfaces)

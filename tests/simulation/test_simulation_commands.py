@@ -8,10 +8,13 @@ import pytest
 from uwsim.geometry import Pose, rotation_from_xyz
 from uwsim.messages import (
     JointState,
+    Odometry,
     Point,
+    PoseWithCovariance,
     Quaternion,
     Twist,
     TwistStamped,
+    TwistWithCovariance,
     Vector3,
     header,
 )
@@ -19,6 +22,7 @@ from uwsim.messages import Pose as PoseMessage
 from uwsim.scene.reader import read_scene
 from uwsim.scene.ros_interfaces import (
     ROSJointStateToArmSpec,
+    ROSOdomToPATSpec,
     ROSPoseToPATSpec,
     ROSTwistToPATSpec,
 )
@@ -34,6 +38,7 @@ def simulation() -> Simulation:
         ROSPoseToPATSpec(topic="/pose", vehicle_name="girona500"),
         ROSTwistToPATSpec(topic="/twist", vehicle_name="girona500"),
         ROSJointStateToArmSpec(topic="/arm", vehicle_name="girona500"),
+        ROSOdomToPATSpec(topic="/odometry", vehicle_name="girona500"),
     )
     simulation = Simulation(replace(scene, objects=(), ros_interfaces=interfaces))
     simulation.open()
@@ -89,6 +94,55 @@ def test_after_more_than_a_second_of_silence_a_twist_moves_nothing(simulation: S
     simulation.advance()
     simulation.advance()
     assert pose_in_l(simulation).position == pytest.approx(start)
+
+
+def odometry(*, y: float = 0.0, speed: float = 0.0) -> Odometry:
+    """A pose 0, ``y``, 2 m if there is a ``y``, else a twist of ``speed`` along x."""
+    pose = PoseMessage(
+        position=Point(x=0.0, y=y, z=2.0 if y else 0.0),
+        orientation=Quaternion(x=0.0, y=0.0, z=0.0, w=1.0),
+    )
+    return Odometry(
+        header=header(0.0),
+        child_frame_id="",
+        pose=PoseWithCovariance(pose=pose, covariance=np.zeros(36)),
+        twist=TwistWithCovariance(twist=twist(speed, 0.0).twist, covariance=np.zeros(36)),
+    )
+
+
+def test_a_pose_between_two_velocities_of_odometry_does_not_take_the_time_of_the_second(
+    simulation: Simulation,
+) -> None:
+    publish = simulation.bus.publisher("/odometry", Odometry)
+    publish(odometry(speed=0.5))
+    for _ in range(50):
+        simulation.advance()
+    publish(odometry(y=1.0))
+    publish(odometry(speed=0.5))  # 0.1 s after the velocity before
+    simulation.advance()
+    simulation.advance()
+    assert pose_in_l(simulation).position == pytest.approx([0.05, 1.0, 2.0])
+
+
+def test_positions_of_joints_do_not_take_the_time_of_their_velocities(
+    simulation: Simulation,
+) -> None:
+    nothing = np.array([])
+    publish = simulation.bus.publisher("/arm", JointState)
+
+    def slew(position: np.ndarray, velocity: np.ndarray) -> JointState:
+        return JointState(
+            header=header(0.0), name=["Slew"], position=position, velocity=velocity, effort=nothing
+        )
+
+    publish(slew(nothing, np.array([-0.5])))
+    for _ in range(50):
+        simulation.advance()
+    publish(slew(np.array([0.2]), nothing))
+    publish(slew(nothing, np.array([-0.5])))
+    simulation.advance()
+    simulation.advance()
+    assert simulation.joints("girona500")[0] == pytest.approx(0.2 - 0.5 * 0.1)
 
 
 def test_joints_are_found_by_name_and_clamped(simulation: Simulation) -> None:

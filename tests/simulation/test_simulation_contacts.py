@@ -16,6 +16,7 @@ from uwsim.scene.spec import ObjectSpec, PhysicsSpec
 from uwsim.simulation import Simulation
 
 TANK, BLACKBOX = read_scene(SCENE).objects
+BLACKBOX = replace(BLACKBOX, is_solid=None)  # in that scene a ghost, to be looked at
 FLOOR = replace(TANK, physics=PhysicsSpec(mass=0.0, collision_shape_type="trimesh"))
 EDGES = np.array([0.13, 0.433, 0.15])  # of the black box, m
 FLOOR_DEPTH = 4.81  # of the picture on the floor, m

@@ -19,7 +19,7 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scen
 
 
 def make(velocity_loop: str = "water") -> Simulation:
-    scene = read_scene(SCENE)
+    scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], velocity_loop=velocity_loop, virtual_cameras=())
     simulation = Simulation(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=scene.ros_interfaces[1:])
@@ -146,14 +146,14 @@ def test_motion_beyond_all_bounds_is_an_error_that_says_where() -> None:
 
 @pytest.mark.parametrize("timestep", [0.021, 0.05, 0.0, -0.002, float("nan"), float("inf")])
 def test_a_step_that_the_physics_does_not_bear_is_refused(timestep: float) -> None:
-    scene = read_scene(SCENE)
+    scene = read_scene(SCENE).nominal
     said = "expected 0.02 s at most" if 0.0 < timestep < 1.0 else "expected a time > 0"
     with pytest.raises(BadSetting, match=said):
         Simulation(scene, timestep=timestep, is_blind=True)
 
 
 def test_without_a_simulated_vehicle_a_step_may_be_long() -> None:
-    scene = read_scene(SCENE)
+    scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], dynamics=None, virtual_cameras=())
     still = replace(scene, vehicles=(vehicle,), ros_interfaces=())
     Simulation(still, timestep=0.05, is_blind=True).close()
@@ -175,7 +175,7 @@ class Asked:
 
 
 def test_water_is_asked_only_where_it_acts() -> None:
-    scene = read_scene(SCENE)
+    scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], virtual_cameras=())
     simulation = Simulation(replace(scene, vehicles=(vehicle,)), is_blind=True)
     simulation.open()

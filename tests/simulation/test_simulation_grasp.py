@@ -27,7 +27,7 @@ class Grasp:
     """A vehicle that stays in its place, its open jaw around the handle of a box on a stand."""
 
     def __init__(self, mass: float = 12.0, timestep: float = 0.002) -> None:
-        scene = read_scene(SCENE)
+        scene = read_scene(SCENE).nominal
         vehicle = replace(scene.vehicles[0], virtual_cameras=(), joint_values=(*ARM, OPEN))
         self.place = vehicle.localized_from_base
         robot = read_urdf(SCENE.parent / "g500ARM5.urdf")

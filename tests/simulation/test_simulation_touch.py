@@ -17,6 +17,7 @@ from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 
 TANK, BLACKBOX = read_scene(SCENE).objects
+BLACKBOX = replace(BLACKBOX, is_solid=None)  # in that scene a ghost, to be looked at
 PERIOD = 0.1
 """Between two twists [s]."""
 
@@ -164,7 +165,9 @@ def test_where_nothing_has_physics_all_is_touched_and_the_ground_by_its_faces() 
 def test_who_cannot_be_touched_is_told_why() -> None:
     both = scene(BLACKBOX, wall(4.0))
     assert both.contacts("girona500") == []
-    with pytest.raises(UwsimError, match="it has no <physics>; of the objects have: wall"):
+    with pytest.raises(UwsimError, match="it has no <physics>, nor <u:solid> 1; solid are: wall"):
         both.contacts("blackbox")
+    with pytest.raises(UwsimError, match="<u:solid> is 0; solid are: wall"):
+        scene(replace(BLACKBOX, is_solid=False), wall(4.0)).contacts("blackbox")
     with pytest.raises(UnknownName, match="Did you mean 'wall'"):
         both.contacts("wal")

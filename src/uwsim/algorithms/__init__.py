@@ -71,8 +71,8 @@ def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS)
 def check_parameters(algorithm: type[Algorithm], parameters: Mapping[str, float | str]) -> None:
     """Refuse a parameter that a bundled algorithm would refuse at its start.
 
-    A stranger's class is held to its ``PARAMETERS`` if it has them. ``latency_s`` is the bus's
-    own and always allowed.
+    A third-party class is checked against its ``PARAMETERS``, and by its ``check_parameters``, if
+    it has them. ``latency_s`` is the bus's own and always allowed.
 
     Raises:
         BadSetting: an unknown name, or a value that cannot be used.
@@ -80,3 +80,6 @@ def check_parameters(algorithm: type[Algorithm], parameters: Mapping[str, float 
     defaults = getattr(algorithm, "PARAMETERS", None)
     if isinstance(defaults, Mapping):
         chosen(defaults, {name: parameters[name] for name in parameters if name != "latency_s"})
+    check = getattr(algorithm, "check_parameters", None)
+    if callable(check):
+        check(parameters)

@@ -12,7 +12,7 @@ from .direct_tracker import DirectTracker
 from .esm.alignment import Method
 from .esm.pyramid import Grey
 from .tracker import Tracker
-from .tracker_node import LOSS, TrackerNode
+from .tracker_node import INPUT, LOSS, TrackerNode
 
 Array = npt.NDArray[np.float64]
 
@@ -21,7 +21,7 @@ class Esm(TrackerNode):
     """ESM on SL(3), patches of zero mean and unit variance, 3 pyramid levels."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
-        "image_topic": "/uwsim/camera1",
+        **INPUT,
         "levels": 3.0,
         "max_iterations": 20.0,
         "precision": 1e-4,

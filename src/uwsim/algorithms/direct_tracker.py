@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from ..linear import product
 from .esm.alignment import Method, align, zncc
-from .esm.homography import unimodular, warp
+from .esm.homography import between, unimodular, warp
 from .esm.pyramid import Grey, pyramid
 from .esm.template import Template, take_template
 from .tracker import Estimate, Tracker
@@ -43,6 +44,10 @@ class DirectTracker(Tracker):
             return "the quad is smaller than 8 px or has no contrast"
         return DirectTracker(templates, quad, method)
 
+    def place(self, quad: Array) -> None:
+        """Begin the next alignment at ``quad``."""
+        self.homography = between(self._quad, quad)
+
     def step(self, image: Grey) -> Estimate:
         """Find the patch in the next picture."""
         images = pyramid(image, len(self._templates))
@@ -50,9 +55,9 @@ class DirectTracker(Tracker):
         for level in range(min(len(images), len(self._templates)) - 1, -1, -1):
             shrink = np.diag([0.5**level, 0.5**level, 1.0])
             grow = np.diag([2.0**level, 2.0**level, 1.0])
-            guess = shrink @ homography @ grow
+            guess = product(product(shrink, homography), grow)
             result = align(images[level], self._templates[level], guess, self._method)
-            homography = grow @ result.homography @ shrink
+            homography = product(product(grow, result.homography), shrink)
             iterations += result.iterations
         self.homography = unimodular(homography)
         return Estimate(

@@ -8,13 +8,15 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from ..linear import determinant, inverse, product
+from ..opencv import plain_opencv
 from .direct_tracker import crossing
 from .esm.alignment import zncc
-from .esm.homography import unimodular, warp
+from .esm.homography import between, unimodular, warp
 from .esm.pyramid import Grey
 from .esm.template import Template, take_template
 from .tracker import Estimate, Tracker
-from .tracker_node import LOSS, TrackerNode
+from .tracker_node import INPUT, LOSS, TrackerNode
 
 Array = npt.NDArray[np.float64]
 
@@ -23,7 +25,7 @@ class Ecc(TrackerNode):
     """Enhanced correlation coefficient with a homography (OpenCV's findTransformECC)."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
-        "image_topic": "/uwsim/camera1",
+        **INPUT,
         "max_iterations": 50.0,
         "precision": 1e-5,
         "smoothing": 5.0,
@@ -54,6 +56,7 @@ class EccTracker(Tracker):
     pyramid.
     """
 
+    @plain_opencv()
     def __init__(
         self,
         image: Grey,
@@ -66,7 +69,6 @@ class EccTracker(Tracker):
     ) -> None:
         import cv2
 
-        cv2.setNumThreads(1)  # the same sums in the same order on every machine; also quicker
         height, width = template.values.shape
         self._smoothing = (smoothing, smoothing)
         smooth = cv2.GaussianBlur(image, self._smoothing, 0.0)
@@ -85,11 +87,18 @@ class EccTracker(Tracker):
             precision,
         )
 
+    def place(self, quad: Array) -> None:
+        """Begin the next search at ``quad``."""
+        self._homography = between(self._quad, quad)
+
+    @plain_opencv()
     def step(self, image: Grey) -> Estimate:
         """Find the patch in the next picture."""
         import cv2
 
-        guess = self._centres_from_corners @ self._homography @ self._picture_from_patch
+        guess = product(
+            product(self._centres_from_corners, self._homography), self._picture_from_patch
+        )
         found = True
         try:
             _, warped = cv2.findTransformECC(
@@ -104,12 +113,11 @@ class EccTracker(Tracker):
         except cv2.error:
             found = False
         else:
-            matrix = (
-                np.linalg.inv(self._centres_from_corners)
-                @ warped.astype(np.float64)
-                @ np.linalg.inv(self._picture_from_patch)
+            matrix = product(
+                product(inverse(self._centres_from_corners), warped.astype(np.float64)),
+                inverse(self._picture_from_patch),
             )
-            found = bool(np.all(np.isfinite(matrix)) and np.linalg.det(matrix) > 1e-9)
+            found = bool(np.all(np.isfinite(matrix)) and determinant(matrix) > 1e-9)
             if found:
                 self._homography = unimodular(matrix)
         return Estimate(

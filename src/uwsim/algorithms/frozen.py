@@ -11,17 +11,15 @@ import numpy.typing as npt
 from .direct_tracker import crossing
 from .esm.pyramid import Grey
 from .tracker import Estimate, Tracker
-from .tracker_node import TrackerNode
+from .tracker_node import INPUT, TrackerNode
 
 Array = npt.NDArray[np.float64]
 
 
 class Frozen(TrackerNode):
-    """Echoes what autoInit gave it, at every picture: the control, never lost."""
+    """Echoes what autoInit gave it last, at every picture: the control, never lost."""
 
-    PARAMETERS: ClassVar[Mapping[str, float | str]] = {
-        "image_topic": "/uwsim/camera1",
-    }
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {**INPUT}
 
     def follow(self, image: Grey, quad: Array) -> Tracker:
         """Remember the quad alone."""
@@ -32,9 +30,13 @@ class Frozen(TrackerNode):
 
 
 class Echo(Tracker):
-    """Gives the quad it was made with."""
+    """Gives the quad it was told last."""
 
     def __init__(self, quad: Array) -> None:
+        self.place(quad)
+
+    def place(self, quad: Array) -> None:
+        """Give ``quad`` from now on."""
         self._estimate = Estimate(corners=quad, centroid=crossing(quad), zncc=1.0)
 
     def step(self, image: Grey) -> Estimate:

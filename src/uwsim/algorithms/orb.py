@@ -8,13 +8,15 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from ..linear import determinant
+from ..opencv import plain_opencv
 from .direct_tracker import crossing
 from .esm.alignment import zncc
-from .esm.homography import unimodular, warp
+from .esm.homography import between, unimodular, warp
 from .esm.pyramid import Grey
 from .esm.template import Template, take_template
 from .tracker import Estimate, Tracker
-from .tracker_node import LOSS, TrackerNode
+from .tracker_node import INPUT, LOSS, TrackerNode
 
 Array = npt.NDArray[np.float64]
 MARGIN = 15
@@ -25,7 +27,7 @@ class Orb(TrackerNode):
     """ORB features found anew in every picture, and a homography by MAGSAC++ (OpenCV)."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
-        "image_topic": "/uwsim/camera1",
+        **INPUT,
         "features": 1000.0,
         "fast_threshold": 7.0,
         "ratio": 0.85,
@@ -61,6 +63,7 @@ class OrbTracker(Tracker):
     draws of MAGSAC begin anew from the same seed in every picture.
     """
 
+    @plain_opencv()
     def __init__(
         self,
         image: Grey,
@@ -75,7 +78,6 @@ class OrbTracker(Tracker):
     ) -> None:
         import cv2
 
-        cv2.setNumThreads(1)  # the same sums in the same order on every machine; also quicker
         self._orb = cv2.ORB.create(
             nfeatures=features,
             edgeThreshold=MARGIN,
@@ -97,6 +99,11 @@ class OrbTracker(Tracker):
         """Number of features remembered."""
         return len(self._points)
 
+    def place(self, quad: Array) -> None:
+        """Take ``quad`` for the last place; the next picture is searched as a whole, as ever."""
+        self._homography = between(self._quad, quad)
+
+    @plain_opencv()
     def step(self, image: Grey) -> Estimate:
         """Find the patch in the next picture."""
         homography = self._match(image)
@@ -141,4 +148,4 @@ class OrbTracker(Tracker):
         )
         if matrix is None or int(inliers.sum()) < self._min_inliers:
             return None
-        return unimodular(matrix) if np.linalg.det(matrix) > 1e-9 else None
+        return unimodular(matrix) if determinant(matrix) > 1e-9 else None

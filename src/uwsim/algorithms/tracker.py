@@ -37,6 +37,10 @@ class Tracker(abc.ABC):
     def step(self, image: Grey) -> Estimate:
         """Find the patch in the next picture (h, w) [grey level]."""
 
+    @abc.abstractmethod
+    def place(self, quad: Array) -> None:
+        """Take the patch to be at ``quad`` (4, 2) [px], a convex one; the template stays."""
+
 
 class LossTest:
     """Says when a tracker is lost, instead of letting it wander.

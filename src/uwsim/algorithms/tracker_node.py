@@ -1,9 +1,12 @@
 """The wiring that all trackers share: pictures in, corners, centroid and status out.
 
 It subscribes to the pictures, offers ``autoInit`` and, after the first picture, calls
-``startBench``. The template is the last picture inside the first quad that ``autoInit`` hands in.
-A tracker that is lost, or could not begin, says so once and stays silent: it has to be created
-anew. Estimates carry no stamp; they are published while the picture's callback runs.
+``startBench``. The template is the last picture inside the first quad that ``autoInit`` hands in;
+every later quad is where the patch is now. A tracker that is lost says so once and stays silent
+until ``autoInit`` tells it where to track again; one that could not begin has to be created anew.
+Estimates carry no stamp; they are published while the picture's callback runs.
+
+Without ``autoInit`` the quad is a parameter, ``corners``, and the template the first picture.
 """
 
 from __future__ import annotations
@@ -33,6 +36,9 @@ from .tracker import LossTest, Tracker, quad_fault
 
 Array = npt.NDArray[np.float64]
 
+INPUT: Mapping[str, float | str] = {"image_topic": "/uwsim/camera1", "corners": ""}
+"""Parameters of what it looks at: the topic of the pictures; x, y of the quad NW NE SE SW [px] in
+the first picture, eight numbers, for a benchmark in which nobody calls ``autoInit``."""
 LOSS = {"zncc_threshold": 0.5, "lost_frames": 5.0}
 """Parameters of the loss test, the same in every tracker."""
 
@@ -47,14 +53,21 @@ class TrackerNode(abc.ABC):
         self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
         self._image: Image | None = None
         self._quad: Array | None = None
+        self._told_by = "corners"  # who gave that quad
         self._tracker: Tracker | None = None
         self._loss: LossTest | None = None
-        self._over = False
+        self._is_lost = False
+        self._has_failed = False
 
     @property
     def parameters(self) -> Mapping[str, float | str]:
         """The parameters in force, after `start`."""
         return dict(self._parameters)
+
+    @staticmethod
+    def check_parameters(parameters: Mapping[str, float | str]) -> None:
+        """Refuse ``corners`` that are no eight numbers, with BadSetting."""
+        corners_of(parameters)
 
     @abc.abstractmethod
     def follow(self, image: Grey, quad: Array) -> Tracker | str:
@@ -70,6 +83,7 @@ class TrackerNode(abc.ABC):
     def start(self, node: Node) -> None:
         """Take the parameters, go on the bus."""
         self._parameters = chosen(self.PARAMETERS, node.parameters)
+        self._quad = corners_of(self._parameters)
         self._node = node
         self._say_status = node.publisher("algorithmStatus", String)
         self._say_corners = node.publisher("cornersTopic", Float32MultiArray)
@@ -90,10 +104,10 @@ class TrackerNode(abc.ABC):
         self._image = message
         if first:
             self._call_start_bench()
-            if self._quad is not None and self._tracker is None and not self._over:
-                self._begin(message, self._quad)
+            if self._quad is not None and self._tracker is None and not self._has_failed:
+                self._begin(message, self._quad, self._told_by)
             return
-        if self._tracker is None:
+        if self._tracker is None or self._is_lost:
             return
         estimate = self._tracker.step(grey(picture(message)))
         if estimate.found:
@@ -101,7 +115,7 @@ class TrackerNode(abc.ABC):
             self._say_centroid(floats(estimate.centroid))
         why = self._loss and self._loss.check(estimate, message.width, message.height)
         if why:
-            self._end(f"lost: {why}")
+            self._lose(why)
 
     def _call_start_bench(self) -> None:
         try:
@@ -110,30 +124,71 @@ class TrackerNode(abc.ABC):
             return  # the benchmark does not wait for us
 
     def _on_auto_init(self, request: GTpublish) -> GTpublishResponse:
-        if self._tracker is None and not self._over:
-            truth = np.asarray(request.groundTruth, dtype=np.float64)
-            if truth.shape != (8,):
-                self._end(f"failed: autoInit gave {truth.size} numbers instead of 8")
-            elif self._image is None:
-                self._quad = truth.reshape(4, 2)
-            else:
-                self._begin(self._image, truth.reshape(4, 2))
+        truth = np.asarray(request.groundTruth, dtype=np.float64)
+        if self._has_failed:
+            pass
+        elif truth.shape != (8,):
+            self._fail(f"autoInit gave {truth.size} numbers instead of 8")
+        elif self._image is None:
+            self._quad, self._told_by = truth.reshape(4, 2), "autoInit"
+        elif self._tracker is None:
+            self._begin(self._image, truth.reshape(4, 2), "autoInit")
+        else:
+            self._place(self._tracker, self._image, truth.reshape(4, 2))
         return GTpublishResponse()
 
-    def _begin(self, message: Image, quad: Array) -> None:
+    def _begin(self, message: Image, quad: Array, told_by: str) -> None:
+        """Take the template."""
         why = quad_fault(quad, message.width, message.height)
         tracker = why or self.follow(grey(picture(message)), quad)
         if isinstance(tracker, str):
-            self._end(f"failed: autoInit: {tracker}")
+            self._fail(f"{told_by}: {tracker}")
             return
         self._tracker = tracker
+        self._track()
+
+    def _place(self, tracker: Tracker, message: Image, quad: Array) -> None:
+        """Go on from another place, with the template there is."""
+        if why := quad_fault(quad, message.width, message.height):
+            self._lose(f"autoInit: {why}")
+            return
+        tracker.place(quad)
+        self._track()
+
+    def _track(self) -> None:
+        self._is_lost = False
         self._loss = self.loss_test()
         self._say_status(String(data="tracking"))
 
-    def _end(self, status: str) -> None:
-        self._over = True
+    def _lose(self, why: str) -> None:
+        self._is_lost = True
+        self._say_status(String(data=f"lost: {why}"))
+
+    def _fail(self, why: str) -> None:
+        self._has_failed = True
         self._tracker = None
-        self._say_status(String(data=status))
+        self._say_status(String(data=f"failed: {why}"))
+
+
+def corners_of(parameters: Mapping[str, float | str]) -> Array | None:
+    """Return the parameter ``corners`` as a quad (4, 2) [px]; None where it is empty.
+
+    Raises:
+        BadSetting: it is not eight finite numbers.
+    """
+    text = str(parameters.get("corners", ""))
+    if not text.strip():
+        return None
+    try:
+        numbers = np.array([float(word) for word in text.replace(",", " ").split()])
+    except ValueError:
+        numbers = np.empty(0)
+    if numbers.shape != (8,) or not np.isfinite(numbers).all():
+        raise BadSetting(
+            f"Parameter 'corners' of the algorithm is {text!r}; expected eight numbers: x, y of "
+            "the corners NW NE SE SW [px]."
+        )
+    return numbers.reshape(4, 2)
 
 
 def chosen(

@@ -10,10 +10,11 @@ import hashlib
 from pathlib import Path, PurePosixPath
 
 from ..errors import AssetNotFound, did_you_mean
-from .find import UNDER, candidates, find, folders_searched, plain_name, roots
-from .loaders import BY_OSGCONV, READABLE, can_read, read_model
+from .find import UNDER, bundled_robot, candidates, find, folders_searched, plain_name, roots
+from .loaders import BY_OSGCONV, READABLE, can_read, read_model, why_not_read
 from .mesh import Mesh, Model, Texture
 from .model_cache import made
+from .paint import painted
 from .primitives import primitive
 from .procedural.placeholder import labelled_box
 from .stand_ins import STAND_INS, StandIn
@@ -25,11 +26,15 @@ __all__ = [
     "Model",
     "StandIn",
     "Texture",
+    "bundled_robot",
     "find",
     "folders_searched",
+    "has_model",
     "load_model",
+    "painted",
     "primitive",
     "unknown_model",
+    "why_unreadable",
 ]
 
 
@@ -52,11 +57,9 @@ def load_model(
         AssetNotFound: Neither a file nor a stand-in; names the folders searched.
         AssetError: The file was found and cannot be read.
     """
+    path = _path_of(name, beside, data_path)
     name = plain_name(name)
-    stem = name.rpartition(".")[0] or name
-    names = [name, *(stem + suffix for suffix in (*READABLE, *BY_OSGCONV))]
-    found = list(candidates(names, beside=beside, data_path=data_path))
-    path = next((path for path in found if can_read(path)), next(iter(found), None))
+    stem = _stem(name)
     if path is not None:
         return read_model(path, name=name, max_triangles=max_triangles)
     stand_in = _stand_in_name(stem)
@@ -68,6 +71,35 @@ def load_model(
         + ", ".join(str(root) for root in roots(beside=beside, data_path=data_path))
         + f"; each also under {', '.join(UNDER[1:])}."
     )
+
+
+def has_model(name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> bool:
+    """Whether `load_model` finds a file or a stand-in."""
+    is_there = _path_of(name, beside, data_path) is not None
+    return is_there or _stand_in_name(_stem(plain_name(name))) is not None
+
+
+def why_unreadable(
+    name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()
+) -> str:
+    """Why the file that `load_model` finds is of a type that cannot be read; empty if it can be.
+
+    What is in the file is not looked at.
+    """
+    path = _path_of(name, beside, data_path)
+    return "" if path is None else why_not_read(path)
+
+
+def _path_of(name: str, beside: Path | None, data_path: tuple[Path, ...]) -> Path | None:
+    """The file of a model: of its name or its stem, one that can be read if there is any."""
+    name = plain_name(name)
+    names = [name, *(_stem(name) + suffix for suffix in (*READABLE, *BY_OSGCONV))]
+    found = list(candidates(names, beside=beside, data_path=data_path))
+    return next((path for path in found if can_read(path)), next(iter(found), None))
+
+
+def _stem(name: str) -> str:
+    return name.rpartition(".")[0] or name
 
 
 def unknown_model(name: str) -> Model:

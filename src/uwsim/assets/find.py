@@ -1,8 +1,9 @@
 """Where files are: the folders that a name is looked for in, in order.
 
 A name is looked for as given; beside the file that names it and in each of that file's parent
-folders; in every data path; in ``~/.uwsim/data``; in the package. Each of these also under
-``data``, ``data/scenes``, ``data/vehicles``, ``objects``, ``terrain``, ``robot`` and ``textures``.
+folders; in every data path; in ``~/.uwsim/data`` and ``~/.uwsim``; in the package. Each of these
+also under ``data``, ``data/scenes``, ``data/vehicles``, ``objects``, ``terrain``, ``robot`` and
+``textures``.
 """
 
 from __future__ import annotations
@@ -12,6 +13,9 @@ from pathlib import Path
 
 UNDER = ("", "data", "data/scenes", "data/vehicles", "objects", "terrain", "robot", "textures")
 """Sub-folders that every folder is searched under."""
+
+ROBOTS = ("data/scenes", "data/vehicles")
+"""Where our own robots lie in the package."""
 
 PACKAGE = Path(__file__).resolve().parent.parent
 """The package itself; its own files lie in ``data`` below it."""
@@ -39,7 +43,8 @@ def roots(*, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> li
         start = beside.absolute()
         start = start if start.is_dir() else start.parent
         folders += [start, *start.parents]
-    folders += [*data_path, Path("~/.uwsim/data").expanduser(), PACKAGE]
+    home = Path("~/.uwsim").expanduser()
+    folders += [*data_path, home / "data", home, PACKAGE]
     return list(dict.fromkeys(folders))
 
 
@@ -52,6 +57,13 @@ def folders_searched(*, beside: Path | None = None, data_path: tuple[Path, ...] 
 def find(name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> Path | None:
     """The file called ``name``, or None when it is in none of the folders searched."""
     return next(candidates([name], beside=beside, data_path=data_path), None)
+
+
+def bundled_robot(name: str) -> Path | None:
+    """Our own robot file of that file name, whatever folder the name says; None without one."""
+    wanted = plain_name(name).replace("\\", "/").rpartition("/")[2]
+    own = (PACKAGE / folder / wanted for folder in ROBOTS)
+    return next((path for path in own if wanted and _is(path, Path.is_file)), None)
 
 
 def candidates(

@@ -38,6 +38,8 @@ class Mesh:
     """Multiplied with the texture, 0..1."""
     texture: Texture | None = None
     """None: the colour alone."""
+    opacity: float = 1.0
+    """1 hides what is behind it, 0 is not seen."""
     two_sided: bool = False
     """Whether back faces are drawn too."""
 

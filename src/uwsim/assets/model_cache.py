@@ -20,6 +20,7 @@ from typing import Any
 import cv2
 import numpy as np
 
+from ..opencv import plain_opencv
 from .mesh import Mesh, Model, Texture
 from .stand_ins import STAND_INS
 
@@ -41,7 +42,8 @@ def made(name: str) -> Model:
 
 def _make(name: str) -> Model:
     stand_in = STAND_INS[name]
-    meshes = stand_in.make()
+    with plain_opencv():
+        meshes = stand_in.make()
     digest = hashlib.sha256()
     for mesh in meshes:
         for array in _ARRAYS:

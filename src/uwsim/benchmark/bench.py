@@ -10,9 +10,9 @@ import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
 
-import mujoco
 import numpy as np
 
 from .. import __version__
@@ -20,13 +20,14 @@ from ..errors import BenchmarkError, UwsimError
 from ..simulation import Simulation, Studio
 from . import unit_file
 from .answers import files_of
+from .floor import largest
 from .logs import TIME, Log, save_log
 from .names import unknown_names
 from .original_format import save_dat, save_data
 from .plan import Plan, Unit
 from .play import bind_all
 from .plugin import blamed, check_bound, hashes
-from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture
+from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture, Variation
 from .result_file import save
 from .summary import save_summary
 from .updaters import chain, references
@@ -157,7 +158,8 @@ def collect(bench: Bench) -> tuple[Result, list[Log], float]:
         columns=tuple(columns),
         rows=tuple(rows),
         missing=tuple(missing),
-        facts=first["facts"],
+        facts={**first["facts"], **largest(end["facts"] for _, end in ends)},
+        variations=variations_of(plan),
         image_streams=tuple(
             ImageStream(
                 seed=unit.seed,
@@ -184,6 +186,21 @@ def collect(bench: Bench) -> tuple[Result, list[Log], float]:
         for name, taken in samples.items()
     ]
     return result, logs, simulated_s
+
+
+def variations_of(plan: Plan) -> tuple[Variation, ...]:
+    """Gather what varies, over the seeds of the plan."""
+    seeds = [plan.seed + repeat for repeat in range(plan.repeats)]
+    by_seed = [plan.draws(seed) for seed in seeds]
+    return tuple(
+        Variation(
+            path=same[0].path,
+            unit=same[0].unit or "1",
+            drawn_from=same[0].drawn_from,
+            values=tuple((seed, draw.value) for seed, draw in zip(seeds, same, strict=True)),
+        )
+        for same in zip(*by_seed, strict=True)
+    )
 
 
 def _columns(plan: Plan, records: list[unit_file.Record]) -> list[Column]:
@@ -257,7 +274,7 @@ def _run(plan: Plan, renderer: str) -> dict[str, object]:
         "compatibility": sorted(plan.compatibility),
         "timestep": [plan.timestep, "s"],
         "version": __version__,
-        "physics": f"mujoco {mujoco.__version__}",
+        "physics": f"mujoco {version('mujoco')}",
         "renderer": renderer,
         "numpy": np.__version__,
     }

@@ -7,7 +7,6 @@ this one has loaded what it needs by the time it is asked. Should it die, the ru
 from __future__ import annotations
 
 import multiprocessing
-import signal
 from collections import deque
 from contextlib import suppress
 from multiprocessing.connection import Connection
@@ -18,7 +17,7 @@ from typing import Self
 from ..errors import RunFailed, UwsimError
 from .bench import Bench
 from .crew import play_all
-from .leash import put_on
+from .leash import put_on, start_deaf
 from .plugin import raised
 
 Job = Bench | Path
@@ -36,7 +35,7 @@ class Beside:
         self._here, there = context.Pipe()
         leash, self._leash = context.Pipe(duplex=False)
         self._process = context.Process(target=_serve, args=(there, leash), daemon=True)
-        self._process.start()
+        start_deaf(self._process)
         self._asked: deque[Job] = deque()
         there.close()
         leash.close()
@@ -78,7 +77,6 @@ class Beside:
 
 def _serve(there: Connection, leash: Connection) -> None:
     """Do what comes, until the parent is gone or wants no more."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent decides
     put_on(leash)
     with suppress(Exception):  # heavy, and loaded while the levels are played; below it is told
         from . import report  # noqa: F401

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from ..errors import RunFailed
+from ..errors import RUN_ERRORS, RunFailed, UwsimError
 from ..simulation import Studio
 from .bench import Bench
 from .plan import Unit
@@ -118,8 +118,24 @@ class Roster:
     def failed(self, job: Job, error: Exception) -> None:
         """It cannot be played."""
         if all(bench is not job.bench for bench, _ in self.failures):
-            self.failures.append((job.bench, error))
+            self.failures.append((job.bench, found_by_running(error)))
         self._waiting = deque(other for other in self._waiting if other.bench is not job.bench)
+
+
+def found_by_running(error: Exception) -> Exception:
+    """Return what a job raised as the failure of a run, whatever it was: no file was wrong before.
+
+    All files were read, and all names looked up, before the first job; an error of the same kind
+    that comes now is one of the run (exit status 3, not 2).
+    """
+    if isinstance(error, UwsimError) and not isinstance(error, RUN_ERRORS):
+        failed = RunFailed(str(error))
+    elif isinstance(error, OSError) and error.filename is not None:
+        failed = RunFailed(f"{error.strerror}: {error.filename}")
+    else:
+        return error
+    failed.__cause__ = error
+    return failed
 
 
 class Here:

@@ -13,7 +13,7 @@ from lxml import etree
 from ..dialect import Faults
 from .measures import MeasureSpec
 from .spec import FunctionSpec
-from .updaters import SceneUpdaterSpec, chain, interval, longest_calm
+from .updaters import SceneUpdaterSpec, chain, interval
 
 Said = tuple[etree._Element | None, str]
 
@@ -49,20 +49,14 @@ def too_short(
 def _empty_level(
     faults: Faults, updater: SceneUpdaterSpec, timestep: float, step: str
 ) -> Iterator[Said]:
-    """Say that levels would be over before anything is measured."""
+    """Say that levels are over before they begin, or that a settling time is none."""
     length, deepest = interval(updater), chain(updater)[-1]
-    if length is None:
-        return
-    calm = longest_calm(updater)
-    place = _child(faults.node_of(deepest), "interval")
-    if _is_nothing(length, timestep):
+    if length is not None and _is_nothing(length, timestep):
+        place = _child(faults.node_of(deepest), "interval")
         yield place, f"<interval> is {length:g} s: {step}, so nothing would be played"
-    elif length > calm and _is_nothing(length - calm, timestep):
-        yield (
-            place,
-            f"<interval> is {length:.9g} s: the first {calm:g} s are calm and the rest is {step}, "
-            "so nothing would be measured",
-        )
+    for each in chain(updater):
+        if each.settling_time > 0.0 and _is_nothing(each.settling_time, timestep):
+            yield faults.node_of(each), f"u:settlingTime is {each.settling_time:g} s: {step}"
 
 
 def _is_nothing(seconds: float, timestep: float) -> bool:

@@ -28,6 +28,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array
+from ..linear import length, product
 from ..simulation import Simulation
 from .ground_truth import CornersFromCameraSpec, GroundTruth
 from .measures import EuclideanNormSpec
@@ -46,7 +47,8 @@ def visibility_facts(
     Returns:
         ``S``, ``sigma`` and ``sigma_grey`` [grey level], ``d`` [m], ``z``, ``f_star`` and
         ``f_star_grey`` [1/m]: with the camera's noise and with that of the grey picture.
-        Empty when no measure asks for corners.
+        The last three only of an algorithm that has the rule, by its parameter
+        ``zncc_threshold``. Empty when no measure asks for corners.
     """
     for spec in plan.benchmark.measures:
         if not isinstance(spec, EuclideanNormSpec):
@@ -54,7 +56,7 @@ def visibility_facts(
         truth = spec.ground_truth
         if not isinstance(truth, CornersFromCameraSpec):
             continue
-        corners = truth.bind(simulation).read()
+        corners = truth.bind(simulation, spec.truth).read()
         if corners is None:
             continue
         camera = simulation.camera(truth.camera)
@@ -65,20 +67,22 @@ def visibility_facts(
         inside &= np.isfinite(picture.range)
         if not inside.any():
             continue
-        grey = picture.colour[..., :3].astype(np.float64) @ GREY
+        grey = product(picture.colour[..., :3].astype(np.float64), GREY)
         contrast = float(grey[inside].std())
         distance = float(picture.range[inside].mean())
         sigma = 255.0 * camera.std
-        sigma_grey = sigma * float(np.linalg.norm(GREY))
-        given = parameters.get("zncc_threshold", 0.5)
-        threshold = float(given) if isinstance(given, float | int) else 0.5
+        sigma_grey = sigma * length(GREY)
+        given = parameters.get("zncc_threshold")
         facts: dict[str, Fact] = {
             "S": (contrast, "grey level"),
             "sigma": (sigma, "grey level"),
             "sigma_grey": (sigma_grey, "grey level"),
             "d": (distance, "m"),
-            "z": (threshold, "1"),
         }
+        if not isinstance(given, float | int):
+            return facts
+        threshold = float(given)
+        facts["z"] = (threshold, "1")
         for name, noise in (("f_star", sigma), ("f_star_grey", sigma_grey)):
             limit = fog_of_loss(contrast, noise, distance, threshold)
             if limit is not None:
@@ -125,7 +129,7 @@ def _first_truth(simulation: Simulation, plan: Plan) -> GroundTruth | None:
         if isinstance(spec, EuclideanNormSpec) and isinstance(
             spec.ground_truth, CornersFromCameraSpec
         ):
-            return spec.ground_truth.bind(simulation)
+            return spec.ground_truth.bind(simulation, spec.truth)
     return None
 
 

@@ -45,11 +45,30 @@ class Gated:
         self._began = world.step
         self._was_on = False
         self._log_due = 0 if spec.log is not None else None
+        self.never_started = True
+        """Whether it was off all the time so far."""
+
+    @property
+    def value(self) -> object:
+        """The measure's value.
+
+        Of one that never started it is None; with the compatibility ``never-started``, as in the
+        original, what it starts with, unless that is an error there, too.
+        """
+        return self.spec.start_value if self.has_start_value else self.measure.value
+
+    @property
+    def has_start_value(self) -> bool:
+        """Whether its value is one that was never measured."""
+        is_asked = "never-started" in self._world.compatibility
+        is_known = self.spec.error_flag == 0 and self.spec.start_value is not None
+        return self.never_started and is_asked and is_known
 
     def tick(self) -> None:
         """Start or update the measure, whichever the triggers ask for."""
         on = self._ask() if self._asks else self._is_on
         if on and not self._was_on:
+            self.never_started = False
             self.measure.start()
         elif on:
             self.measure.update()
@@ -58,6 +77,12 @@ class Gated:
         if on and self._log_due is not None and self._world.step - self._began >= self._log_due:
             self._take_log()
         self._was_on = on
+
+    def end(self) -> None:
+        """Stop the measure with the level."""
+        if self._was_on:
+            self.measure.went_off()
+            self._was_on = False
 
     def close(self) -> None:
         """Let go of the measure's and the triggers' subscriptions and services."""

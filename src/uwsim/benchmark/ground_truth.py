@@ -27,6 +27,7 @@ import numpy as np
 
 from ..dialect import element
 from ..geometry import Array
+from ..linear import placed, product, turned_back
 from ..world import Body, Box, Camera, World
 from .rectangle import like_rectangle, rectangle
 
@@ -56,6 +57,11 @@ class GroundTruth(abc.ABC):
     """The names of its numbers."""
     missing: ClassVar[str] = ""
     """Why there may be none."""
+
+    @property
+    def n_pictures(self) -> int | None:
+        """Pictures that its camera took so far; None where no camera takes pictures of it."""
+        return None
 
     @abc.abstractmethod
     def read(self) -> Array | None:
@@ -159,8 +165,7 @@ class RelativeLocation(GroundTruth):
     def read(self) -> Array:
         """Return the location now, (3,) [m]."""
         frame = self._from.world_from_body
-        located: Array = frame.rotation.T @ (self._to.world_from_body.position - frame.position)
-        return located
+        return turned_back(frame.rotation, self._to.world_from_body.position - frame.position)
 
 
 class _Seen(GroundTruth):
@@ -177,6 +182,11 @@ class _Seen(GroundTruth):
         self._seen_from: tuple[bytes, ...] = ()
         self._seen: Array | None = None
 
+    @property
+    def n_pictures(self) -> int | None:
+        """Pictures that its camera took so far; None where it takes none."""
+        return self._camera.n_pictures
+
     def read(self) -> Array | None:
         """Return the truth now [px]; None when a point is not in front of the camera."""
         camera, body = self._camera.world_from_camera, self._body.world_from_body
@@ -187,8 +197,8 @@ class _Seen(GroundTruth):
             body.rotation.tobytes(),
         )
         if key != self._seen_from:
-            points = self._points.dot(body.rotation.T) + (body.position - camera.position)
-            seen = points.dot(camera.rotation)  # (n, 3) [m], camera frame
+            points = placed(self._points, body.rotation, body.position - camera.position)
+            seen = product(points, camera.rotation)  # (n, 3) [m], camera frame
             pixels = self._camera.intrinsics.project(seen, behind=self._unseen)  # (n, 2) [px]
             is_seen = all(map(math.isfinite, pixels.ravel().tolist()))
             self._seen = self._from_pixels(pixels) if is_seen else None
@@ -230,6 +240,11 @@ class CentroidFromCamera(GroundTruth):
     def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
         self._camera, self._body, self._unseen = camera, body, unseen
 
+    @property
+    def n_pictures(self) -> int | None:
+        """Pictures that its camera took so far; None where it takes none."""
+        return self._camera.n_pictures
+
     def read(self) -> Array | None:
         """Return the centroid now, (2,) [px]; None when it is not in front of the camera."""
         pixel = self.pixel()
@@ -239,7 +254,7 @@ class CentroidFromCamera(GroundTruth):
         """As `read`, in plain numbers: it is asked for at every step."""
         camera = self._camera.world_from_camera
         way = self._body.world_from_body.position - camera.position  # (3,) [m]
-        x, y, z = way.dot(camera.rotation).tolist()
+        x, y, z = turned_back(camera.rotation, way).tolist()
         u, v = self._camera.intrinsics.pixel(x, y, z, behind=self._unseen)
         return (u, v) if math.isfinite(u) and math.isfinite(v) else None
 

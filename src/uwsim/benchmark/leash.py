@@ -9,7 +9,18 @@ from __future__ import annotations
 import os
 import threading
 from contextlib import suppress
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+
+from ..interrupts import born_deaf
+
+
+def start_deaf(process: BaseProcess) -> None:
+    """Start a process that hears no Ctrl-C, which is for its employer alone."""
+    resource_tracker.ensure_running()  # else it starts with the process, and lets Ctrl-C through
+    with born_deaf():
+        process.start()
 
 
 def put_on(leash: Connection) -> None:

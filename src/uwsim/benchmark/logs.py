@@ -73,8 +73,9 @@ def log_text(log: Log) -> str:
     return stream.getvalue()
 
 
-def load_log(path: Path) -> Log:
+def load_log(path: Path | str) -> Log:
     """Read a log back; raises ResultError when it is no log."""
+    path = Path(path)
     try:
         with path.open(encoding="utf-8", newline="") as stream:
             header, *rows = csv.reader(stream, strict=True)

@@ -8,9 +8,11 @@ r"""The original's files: its result, here ``result.dat``, and its logs, ``bench
 
 Every field is followed by a tab, numbers have C++'s default format (``%g``, six digits). A value
 that is missing is ``nan`` and no row is dropped; the compatibility ``rows`` has the original back:
-a row with a measure in error is left out, and a function that fails leaves its field out. The
-original sums the errors of a row, and a path that is not there counts -1: with one missing estimate
-beside it the row stays, and -1 and 0 stand for the two.
+a row with a measure in error is left out, and a function that fails leaves its field out. In error
+are only a `euclideanNorm` without an estimate and a `pathFollowing` without a path; what else has
+measured nothing has the value that it starts with. The original sums the errors of a row, and a
+path that is not there counts -1: with one missing estimate beside it the row stays, and -1 and 0
+stand for the two.
 
 A measure with ``<log>`` has a file of its own, beside our CSV of the same samples. Its first column
 has the outermost updater's name and holds, in the original too, the running time; the details of
@@ -28,13 +30,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from .answers import sample_of
-from .gated import finite
+from .gated import Gated, finite
 from .logs import TIME, Log, file_name
 from .measures import (
     CollisionSpec,
     DistanceSpec,
     EuclideanNormSpec,
-    Measure,
     MeasureSpec,
     ObjectCenteredOnCamSpec,
     PathFollowingSpec,
@@ -43,6 +44,7 @@ from .measures import (
     TimeSpec,
 )
 from .result import Cell, Column, Result
+from .score import parse
 from .whole_file import write_whole
 
 LEVEL_NAMES = {
@@ -80,13 +82,37 @@ def dat_text(
             missing = [name for name in measured if row[result.index(name)] is None]
             if sum(specs[name].error_flag if name in specs else 1 for name in missing):
                 continue
-            cells = [
-                (column, specs[column.name].error_value if column.name in missing else cell)
-                for column, cell in cells
-                if cell is not None or column.kind != "score"
-            ]
+            cells = list(_as_the_original(result, row, cells, specs))
         lines.append("".join(f"{_number(cell)}\t" for _, cell in cells))
     return "\n".join(lines) + "\n"
+
+
+def _as_the_original(
+    result: Result,
+    row: Sequence[Cell],
+    cells: Sequence[tuple[Column, Cell]],
+    specs: Mapping[str, MeasureSpec],
+) -> Iterator[tuple[Column, Cell]]:
+    """Yield the fields of a row with start values for what is missing, and the score of those."""
+    values: dict[str, float | None] = {}
+    for column in result.of_kind("measure"):
+        cell = row[result.index(column.name)]
+        spec = specs.get(column.name)
+        start = None if spec is None else spec.start_value
+        values[column.name] = float(cell) if isinstance(cell, int | float) else start
+    for column, cell in cells:
+        measure = column.name.partition(".")[0]
+        if cell is None and measure in values and row[result.index(measure)] is None:
+            yield column, values[measure]
+        elif column.kind != "score" or cell is not None:
+            yield column, cell
+        elif column.expression and (total := _score(column.expression, values)) is not None:
+            yield column, total
+
+
+def _score(expression: str, values: Mapping[str, float | None]) -> float | None:
+    """Return the score of these values; None where the function fails."""
+    return finite(parse(expression, list(values)).evaluate(values))[0]
 
 
 def save_dat(
@@ -141,10 +167,12 @@ def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
     return names[:n_logged]
 
 
-def details(spec: MeasureSpec, measure: Measure) -> tuple[float | None, ...]:
+def details(gated: Gated) -> tuple[float | None, ...]:
     """Return the details of a measure as of now, in the order of `detail_names`."""
-    values = [finite(value)[0] for value in sample_of(measure)]
-    return tuple(values[: len(detail_names(spec, len(values)))])
+    values = [finite(value)[0] for value in sample_of(gated.measure)]
+    if gated.has_start_value:
+        values = [gated.spec.start_value, *(0.0 for _ in values[1:])]
+    return tuple(values[: len(detail_names(gated.spec, len(values)))])
 
 
 def data_text(log: Log, spec: MeasureSpec) -> str:

@@ -14,10 +14,12 @@ from typing import Any, Literal
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean
 from ..scene.spec import SceneSpec
+from ..scene.variation import Draw, draw
 from ..world import TIMESTEP
 from .measures import EuclideanNormSpec
 from .plugin import Plugin
 from .spec import BenchmarkSpec
+from .updater_settings import updater_draws
 from .updaters import Level, chain
 from .updaters import levels as levels_of
 
@@ -65,7 +67,7 @@ class Plan:
     parameters: Mapping[str, float | str] = field(default_factory=dict)
     """What ``--set algorithm.NAME=VALUE`` said."""
     settings: tuple[tuple[str, str], ...] = ()
-    """Every ``--set``, as given; those of the scene are already in `scene`."""
+    """Every ``--set``, as given; those of scene and updaters are already in these."""
     mode: Mode = "sequential"
     """How levels follow each other."""
     seed: int = 0
@@ -106,6 +108,10 @@ class Plan:
     def patience(self) -> float:
         """How long a start is waited for [s of simulation time]."""
         return PATIENCE if self.benchmark.patience is None else self.benchmark.patience
+
+    def draws(self, seed: int) -> tuple[Draw, ...]:
+        """Return what varies under a seed: in the scene, then in the benchmark."""
+        return (*draw(self.scene, seed), *updater_draws(self.benchmark, seed))
 
     def levels(self) -> tuple[Level, ...]:
         """Return the levels to play.

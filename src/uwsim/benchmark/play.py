@@ -17,8 +17,10 @@ from ..messages import String
 from ..simulation import Simulation, Studio, what_broke
 from .answers import check_answers, parameters_of
 from .facts import Fact, Shift, visibility_facts
+from .floor import Floor
 from .gate import Gate
 from .gated import Gated, Sample, finite
+from .known_corners import known_corners
 from .live_topics import LiveTopics
 from .log_columns import log_columns
 from .pictures import Shot, shoot
@@ -27,15 +29,17 @@ from .plugin import blamed
 from .score import parse
 from .spec import LONGEST_TASK
 from .trace import Trace, Tracer
+from .updater_settings import benchmark_of_seed
 from .updaters import (
     Level,
     apply_level,
+    begin_level,
     bind_updaters,
     blend,
-    calm,
     initial_level,
     interval,
     ramp_level,
+    settling_time,
 )
 from .verdict import Verdict, legible
 
@@ -141,20 +145,22 @@ class _Playing:
 
     def __init__(self, plan: Plan, unit: Unit, simulation: Simulation) -> None:
         self._plan, self._unit, self._simulation = plan, unit, simulation
-        benchmark = plan.benchmark
+        benchmark = benchmark_of_seed(plan.benchmark, unit.seed)
         self._updater = benchmark.scene_updater
         self._tracer = Tracer(simulation)
         self._updaters = bind_updaters(self._updater, simulation)
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
-        apply_level(self._updaters, initial_level(self._updater))
-        for gated in [Gated(spec, simulation) for spec in benchmark.measures]:
+        self._measures = benchmark.measures  # as they are bound for the next level
+        ramp_level(self._updaters, initial_level(self._updater))
+        for gated in self._bind_measures():
             gated.close()  # the bus now keeps what they want to find when they start
         self._gate = Gate(benchmark, simulation)
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.inbox(STATUS_TOPIC, String)
         self._algorithm = _make(plan)
+        self._parameters = {**known_corners(plan), **plan.parameters}
         self._node = simulation.attach(
-            self._algorithm, name=plan.algorithm_name, parameters=plan.parameters, raises=False
+            self._algorithm, name=plan.algorithm_name, parameters=self._parameters, raises=False
         )
         self._verdict = Verdict(self._node, status)
         self._notes: dict[str, None] = {}
@@ -166,21 +172,33 @@ class _Playing:
         simulation.open()
         facts: dict[str, Fact] = {}
         shift: Shift | None = None
-        parameters = parameters_of(self._algorithm, plan.parameters)
+        floor: Floor | None = None
+        parameters = parameters_of(self._algorithm, self._parameters)
         if not plan.is_blind:
             facts = visibility_facts(simulation, plan, parameters)
         self._wait("The benchmark never started")
         if not plan.is_blind:
             shift = Shift(simulation, plan)
+            floor = Floor(simulation, plan)
         before: Level | None = None
         for level in self._unit.levels:
             if self._unit.is_alone:
+                if floor is not None:
+                    floor.start()
                 self._prelude(level)
             self._begin(level, before)
-            yield self._play(level, calm(self._updater, level, after=before))
+            self._settle(settling_time(self._updater, level, after=before))
+            if floor is not None:
+                floor.begin()
+            row = self._play(level)
+            if floor is not None:
+                floor.end()
+            yield row
             before = level
         yield UnitEnd(
-            facts=facts | (shift.facts if shift is not None else {}),
+            facts=facts
+            | (shift.facts if shift is not None else {})
+            | (floor.facts if floor is not None else {}),
             parameters=parameters,
             streams=() if plan.is_blind else self._streams(),
             notes=tuple(self._notes),
@@ -224,7 +242,7 @@ class _Playing:
     def _prelude(self, level: Level) -> None:
         """Let the algorithm settle at the initial values, then ramp in the level's."""
         plan, simulation = self._plan, self._simulation
-        measures = [Gated(spec, simulation) for spec in plan.benchmark.measures]
+        measures = self._bind_measures()
         settling, ramp = round(SETTLING / plan.timestep), round(RAMP / plan.timestep)
         initial = initial_level(self._updater)
         _tick(measures)
@@ -235,32 +253,52 @@ class _Playing:
         for i in range(1, ramp + 1):
             ramp_level(self._updaters, blend(self._updater, level, i / ramp))
             simulation.advance()
+        self._close_measures(measures)
+
+    def _bind_measures(self) -> list[Gated]:
+        """Bind every measure afresh."""
+        return [Gated(spec, self._simulation) for spec in self._measures]
+
+    def _close_measures(self, measures: list[Gated]) -> None:
+        """Let go of them, and remember whom they have initialised."""
+        self._measures = tuple(
+            gated.spec.once_initialised if gated.measure.has_initialised else gated.spec
+            for gated in measures
+        )
         for gated in measures:
             gated.close()
 
+    def _step_to(self, level: Level, before: Level | None) -> None:
+        """Bring the scene to a level; the first of a sequence is no step."""
+        if before is None and not self._unit.is_alone:
+            begin_level(self._updaters, level)
+        else:
+            apply_level(self._updaters, level, after=before)
+
     def _begin(self, level: Level, before: Level | None) -> None:
         """Bring the scene to a level, and wait until it may begin."""
-        apply_level(self._updaters, level, after=before)
+        self._step_to(level, before)
         from_initial = initial_level(self._updater) if self._unit.is_alone else before
         self._live.changed(level, after=from_initial)
         self._gate.arm()
         if self._wait(f"Level {level} never began"):
-            apply_level(self._updaters, level, after=before)
+            self._step_to(level, before)
             self._gate.arm()
 
-    def _play(self, level: Level, still: float) -> Row:
-        """Play one level, with triggers and measures that have seen nothing before.
+    def _settle(self, seconds: float) -> None:
+        """Let time pass that neither measures nor the interval see."""
+        for _ in range(round(seconds / self._plan.timestep)):
+            self._simulation.advance()
+            self._verdict.listen(self._simulation.time)
 
-        Its first ``still`` seconds are not measured.
-        """
+    def _play(self, level: Level) -> Row:
+        """Play one level, with triggers and measures that have seen nothing before."""
         plan, simulation, verdict = self._plan, self._simulation, self._verdict
-        for _ in range(round(still / plan.timestep)):
-            simulation.advance()
-            verdict.listen(simulation.time)
         began = simulation.step
-        measures = [Gated(spec, simulation) for spec in plan.benchmark.measures]
+        verdict.begin_level()
+        measures = self._bind_measures()
         length = interval(self._updater)
-        n_steps = round((LONGEST_TASK if length is None else length - still) / plan.timestep)
+        n_steps = round((LONGEST_TASK if length is None else length) / plan.timestep)
         stopped, ended = False, None
         _tick(measures)
         verdict.listen(simulation.time)
@@ -275,14 +313,14 @@ class _Playing:
             if stopped or ended is not None:
                 break
         for gated in measures:
+            gated.end()
             check_answers(gated.measure)
         overran = LONGEST_TASK if length is None and not stopped and ended is None else None
         status, why = verdict.status(measures, overran=overran, ended=ended)
         for gated in measures:
             self._notes.update((f"{gated.spec.name}: {note}", None) for note in gated.measure.notes)
         row = self._row(level, measures, status, why, began)
-        for gated in measures:
-            gated.close()
+        self._close_measures(measures)
         return row
 
     def _row(
@@ -297,7 +335,7 @@ class _Playing:
             name, measure = gated.spec.name, gated.measure
             blank = status != "ok" and measure.fed_by_algorithm
             units[name] = measure.unit
-            values[name], slip = (None, why) if blank else finite(measure.value)
+            values[name], slip = (None, why) if blank else finite(gated.value)
             if values[name] is None:
                 missing[name] = slip or measure.why or "nothing to measure"
             for detail, value in measure.details.items():
@@ -305,6 +343,8 @@ class _Playing:
                 unit = measure.detail_units.get(detail, unit)
                 number, slip = (None, None) if blank else finite(value)
                 details[f"{name}.{detail}"] = (number, unit)
+                if number is None and gated.has_start_value:
+                    slip = measure.why
                 if slip is not None:
                     missing[f"{name}.{detail}"] = slip
             if not blank:

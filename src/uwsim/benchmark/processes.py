@@ -17,7 +17,7 @@ from multiprocessing.connection import Connection, wait
 from ..environment import environment
 from ..simulation import Studio
 from .crew import ENVIRONMENT, Here, Job, Roster, play_and_keep
-from .leash import put_on
+from .leash import put_on, start_deaf
 from .unit_work import UnitFailed, portable
 
 PATIENCE = 10.0
@@ -84,12 +84,8 @@ class Worker:
         self._pipe, theirs = context.Pipe()
         leash, self._leash = context.Pipe(duplex=False)
         self._process = context.Process(target=work, args=(theirs, leash))
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-        try:
-            with environment(ENVIRONMENT):
-                self._process.start()  # deaf to Ctrl-C, which is for the employer alone
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        with environment(ENVIRONMENT):
+            start_deaf(self._process)
         for end in (theirs, leash):
             end.close()  # so that a pipe ends when the process at its other end does
         self.job: Job | None = None

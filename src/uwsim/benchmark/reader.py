@@ -17,6 +17,7 @@ them than the package has.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 import re
 import textwrap
@@ -40,6 +41,7 @@ from ..dialect import (
     text_of,
 )
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
+from ..scene.variation import check_variations
 from ..world import TIMESTEP
 from . import score
 from .durations import too_short
@@ -50,10 +52,13 @@ from .plugin import PREFIX
 from .spec import LONGEST_TASK, BenchmarkSpec, FunctionSpec
 from .start_notices import never_started
 from .triggers import TRIGGERS, NeverSpec, TriggerSpec
+from .updater_settings import locate_in_benchmark, same_levels
 from .updaters import (
     MAX_LEVELS,
+    STILL_WATER,
     UPDATERS,
     CameraNoiseUpdaterSpec,
+    CurrentForceUpdaterSpec,
     NoneSpec,
     SceneFogUpdaterSpec,
     SceneLightUpdaterSpec,
@@ -75,7 +80,7 @@ T = TypeVar("T")
 
 
 def read_benchmark(
-    path: Path,
+    path: Path | str,
     *,
     measures: Mapping[str, type[MeasureSpec]] = MEASURES,
     triggers: Mapping[str, type[TriggerSpec]] = TRIGGERS,
@@ -87,6 +92,7 @@ def read_benchmark(
     Raises:
         BenchmarkError: with everything that is wrong about it.
     """
+    path = Path(path)
     faults = Faults(path)
     spec = _Reader(faults, measures, triggers, updaters, timestep).benchmark(path)
     faults.check(BenchmarkError)
@@ -155,9 +161,16 @@ class _Reader:
         if updater is not None:
             self.check_levels(updater)
             self.notice_overridden(updater)
-            self.notice_calm(updater)
+            self.notice_still_water(updater)
         given["compatibility"] = self.compatibility(root)
         spec = read(BenchmarkSpec, root, self.faults, given=given)
+        if spec is not None and updater is not None:
+            check_variations(
+                spec,
+                self.faults,
+                find=locate_in_benchmark,
+                also=functools.partial(same_levels, spec),
+            )
         self.check_names(found, updater)
         function = None if spec is None else spec.function
         if function is not None:
@@ -246,6 +259,9 @@ class _Reader:
         """Read ``<groundTruth>``, by its type."""
         placeholder = ConstantSpec(values=())
         kind = str(node.attrib.pop("type", "")).strip()
+        if not kind and {_name(child) for child in self.children(node)} == {"value"}:
+            kind = "constant"
+            self.faults.notice(node, "<groundTruth> without a type, as in 2013: read as constant")
         cls = GROUND_TRUTHS.get(kind)
         if cls is None:
             near = did_you_mean(kind, GROUND_TRUTHS) if len(kind) < 80 else ""
@@ -318,16 +334,18 @@ class _Reader:
                 )
             around.append(updater)
 
-    def notice_calm(self, outermost: SceneUpdaterSpec) -> None:
-        """Say where levels are over before the calm is that they begin with."""
+    def notice_still_water(self, outermost: SceneUpdaterSpec) -> None:
+        """Say where levels are over before their current flows."""
         length, deepest = interval(outermost), chain(outermost)[-1]
         for updater in chain(outermost):
-            if length is not None and 0.0 < length <= updater.calm:
+            if not isinstance(updater, CurrentForceUpdaterSpec) or length is None:
+                continue
+            if 0.0 < length + updater.settling_time <= STILL_WATER:
                 node = self.faults.node_of(deepest)
                 self.faults.notice(
                     None if node is None else self.place_of(node, "<interval>"),
-                    f"<interval> {length:g} s: the first {updater.calm:g} s of a new "
-                    f"{updater.name} are calm, so such a level sees nothing of it",
+                    f"<interval> {length:g} s: for {STILL_WATER:g} s after each change of the "
+                    "current the water is still, so such a level sees nothing of it",
                 )
 
     def compatibility(self, root: etree._Element) -> tuple[str, ...]:

@@ -16,9 +16,9 @@ if d >= 0.15 m, else an *inlier*. These are the original's rules.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from ..geometry import Array
+from ..linear import product
 from ..world import Box
 from .coverage import Coverage
 
@@ -54,7 +54,7 @@ class Reconstruction:
             if not is_place.all():
                 self.n_skipped += len(block) - int(is_place.sum())
                 block = block[is_place]
-            moved = rotation @ block.T + offset[:, None]  # (3, n) [m]
+            moved = product(rotation, block.T) + offset[:, None]  # (3, n) [m]
             self._classify(moved)
             self._coverage.mark(moved)
 
@@ -132,6 +132,6 @@ def turned_box(box: Box, rotation: Array) -> Box:
 
     A box round the turned one only where ``rotation`` (3, 3) is made of quarter turns.
     """
-    ends: npt.NDArray[np.float64] = np.array([box.lower, box.upper]) @ rotation.T
+    ends = product([box.lower, box.upper], rotation.T)
     lower, upper = ends.min(axis=0).tolist(), ends.max(axis=0).tolist()
     return Box(tuple(lower), tuple(upper))

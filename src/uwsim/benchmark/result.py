@@ -24,6 +24,9 @@ Kind = Literal["run", "level", "measure", "detail", "score", "status", "time"]
 Cell = float | int | str | None
 Json = Mapping[str, object]
 
+FLOOR = "floor_"
+"""Begins the names of facts that say what a perfect tracker scores, before that of a measure."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Column:
@@ -54,6 +57,25 @@ class Missing:
     """Name of the column."""
     why: str
     """The reason with its time, for people."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variation:
+    """A value of the scene or the benchmark that differs from seed to seed."""
+
+    path: str
+    """Which value, as ``--set`` names it."""
+    unit: str
+    """Its unit; ``1`` where it has none, or none is known."""
+    drawn_from: str
+    """The distribution in words: ``uniform 1.95 to 2.05``."""
+    values: tuple[tuple[int, float], ...]
+    """Seed and value, in the order of the repeats."""
+
+    def __post_init__(self) -> None:
+        if isinstance(self.values, tuple):  # JSON has lists for pairs
+            pairs = tuple(tuple(pair) if isinstance(pair, list) else pair for pair in self.values)
+            object.__setattr__(self, "values", pairs)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,7 +129,10 @@ class Result:
     missing: tuple[Missing, ...] = ()
     """Reasons of the null cells."""
     facts: Json = field(default_factory=dict)
-    """Measured constants of the scene as (value, unit): ``S``, ``sigma``, ``d``, ``f_star``."""
+    """Measured constants of the scene as (value, unit): ``S``, ``sigma``, ``d``, ``f_star``; of the
+    first seed."""
+    variations: tuple[Variation, ...] = ()
+    """What was drawn for each seed."""
     image_streams: tuple[ImageStream, ...] = ()
     """Fingerprints of what the algorithm saw."""
     pictures: tuple[TakenPicture, ...] = ()
@@ -116,7 +141,7 @@ class Result:
     def __post_init__(self) -> None:
         for name in ("inputs", "run", "facts"):
             object.__setattr__(self, name, _plain(getattr(self, name), name))
-        for name in ("columns", "missing", "image_streams", "pictures"):
+        for name in ("columns", "missing", "variations", "image_streams", "pictures"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         object.__setattr__(self, "rows", _plain(self.rows, "rows"))
         _check_columns(self)
@@ -210,6 +235,12 @@ def _check_notes(result: Result) -> None:
         fits = isinstance(stream.level, tuple) and len(stream.level) == n_levels
         said = f"image_streams[{i}] is of the level {stream.level!r}; expected {n_levels} values"
         _expect(stream.level is None or fits, said)
+    for i, variation in enumerate(result.variations):
+        at = f"variations[{i}]"
+        texts = (variation.path, variation.unit, variation.drawn_from)
+        _expect(all(isinstance(text, str) and text for text in texts), f"{at} lacks words")
+        whole = isinstance(variation.values, tuple) and all(map(_is_draw, variation.values))
+        _expect(whole, f"{at} ({variation.path}) has something else than pairs of seed and value")
     for i, picture in enumerate(result.pictures):
         at = f"pictures[{i}]"
         _expect(_is_row(picture.row, n), f"{at} is of row {picture.row!r}, which is not there")
@@ -221,6 +252,15 @@ def _check_notes(result: Result) -> None:
 
 def _is_number(cell: object) -> bool:
     return isinstance(cell, int | float) and not isinstance(cell, bool) and abs(cell) <= MOST
+
+
+def _is_draw(pair: object) -> bool:
+    return (
+        isinstance(pair, tuple)
+        and len(pair) == 2
+        and isinstance(pair[0], int)
+        and all(map(_is_number, pair))
+    )
 
 
 def _is_row(row: object, n: int) -> bool:

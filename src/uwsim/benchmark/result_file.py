@@ -4,7 +4,8 @@ The format's history, newest first:
 
 ``uwsim-result/1`` (uwsim 0.1.0)
     ``inputs``, ``run``, ``columns``, ``rows``, ``missing``; and, read as empty where they are not
-    there, ``facts``, ``image_streams``, ``pictures``. ``docs/result-format.md`` describes them.
+    there, ``facts``, ``variations``, ``image_streams``, ``pictures``. ``docs/result-format.md``
+    describes them.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from typing import TypeVar, cast
 
 from ..errors import ResultError, did_you_mean
 from .interrupted import instead_of_a_result
-from .result import Column, ImageStream, Missing, Result, TakenPicture
+from .result import Column, ImageStream, Missing, Result, TakenPicture, Variation
 from .whole_file import write_whole
 
 FORMAT = "uwsim-result/1"
@@ -37,12 +38,13 @@ def save(result: Result, path: Path) -> Path:
     return path
 
 
-def load(path: Path) -> Result:
+def load(path: Path | str) -> Result:
     """Read a result directory or its ``result.json``.
 
     Raises:
         ResultError: it is not there, not whole, or not in this format; says which.
     """
+    path = Path(path)
     file = file_of(path)
     try:
         text = file.read_text(encoding="utf-8")
@@ -65,6 +67,7 @@ def dumps(result: Result) -> str:
         "inputs": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.inputs.items()]),
         "run": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.run.items()]),
         "facts": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.facts.items()]),
+        **_variations(result),
         "columns": _block("[]", [_json(_given(column)) for column in result.columns]),
         "rows": _block("[]", [_json(row) for row in result.rows]),
         "missing": _block("[]", [_json(asdict(missing)) for missing in result.missing]),
@@ -98,6 +101,7 @@ def loads(text: str) -> Result:
         rows=tuple(_take(document, "rows", list)),
         missing=tuple(_take_each(document, "missing", Missing)),
         facts=_take(document, "facts", dict, {}),
+        variations=tuple(_take_each(document, "variations", Variation, [])),
         image_streams=tuple(_take_each(document, "image_streams", ImageStream, [])),
         pictures=tuple(_take_each(document, "pictures", TakenPicture, [])),
     )
@@ -117,6 +121,12 @@ def _json(value: object) -> str:
 def _block(brackets: str, lines: Iterable[str]) -> str:
     text = ",\n    ".join(lines)
     return f"{brackets[0]}\n    {text}\n  {brackets[1]}" if text else brackets
+
+
+def _variations(result: Result) -> dict[str, str]:
+    """The key is only there where something varies."""
+    lines = [_json(asdict(each)) for each in result.variations]
+    return {"variations": _block("[]", lines)} if lines else {}
 
 
 def _given(column: Column) -> dict[str, object]:

@@ -38,6 +38,7 @@ from typing import Any
 import lark
 import numpy as np
 
+from .. import elementwise
 from ..errors import UwsimError, did_you_mean
 
 MAX_LENGTH = 4096
@@ -316,37 +317,37 @@ OPERATORS: dict[str, Function] = {
     "-": np.subtract,
     "*": np.multiply,
     "/": np.divide,
-    "^": np.power,
+    "^": elementwise.power,
 }
 """What stands between two operands."""
 
 FUNCTIONS: dict[str, tuple[int | None, Function]] = {
     "abs": (1, np.abs),
-    "acos": (1, np.arccos),
-    "acosh": (1, np.arccosh),
-    "asin": (1, np.arcsin),
-    "asinh": (1, np.arcsinh),
-    "atan": (1, np.arctan),
-    "atan2": (2, np.arctan2),
-    "atanh": (1, np.arctanh),
+    "acos": (1, elementwise.arccos),
+    "acosh": (1, elementwise.arccosh),
+    "asin": (1, elementwise.arcsin),
+    "asinh": (1, elementwise.arcsinh),
+    "atan": (1, elementwise.arctan),
+    "atan2": (2, elementwise.arctan2),
+    "atanh": (1, elementwise.arctanh),
     "avg": (None, _mean),
     "cos": (1, np.cos),
-    "cosh": (1, np.cosh),
-    "exp": (1, np.exp),
+    "cosh": (1, elementwise.cosh),
+    "exp": (1, elementwise.exp),
     "if": (3, _if),
-    "ln": (1, np.log),
-    "log": (1, np.log10),
-    "log10": (1, np.log10),
-    "log2": (1, np.log2),
+    "ln": (1, elementwise.log),
+    "log": (1, elementwise.log10),
+    "log10": (1, elementwise.log10),
+    "log2": (1, elementwise.log2),
     "max": (None, lambda *values: max(values)),
     "min": (None, lambda *values: min(values)),
     "rint": (1, _rint),
     "sign": (1, np.sign),
     "sin": (1, np.sin),
-    "sinh": (1, np.sinh),
+    "sinh": (1, elementwise.sinh),
     "sqrt": (1, np.sqrt),
     "sum": (None, _sum),
-    "tan": (1, np.tan),
-    "tanh": (1, np.tanh),
+    "tan": (1, elementwise.tan),
+    "tanh": (1, elementwise.tanh),
 }
 """Name -> number of arguments (None: one or more), and what it does."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ..dialect import element
+from ..scene.variation import DISTRIBUTIONS, VariationSpec
 from .measures import MeasureSpec
 from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec, chain
@@ -53,6 +54,9 @@ class BenchmarkSpec:
     is all of them but ``visual-frames``."""
     patience: float | None = element(default=None, attribute=True, namespaced=True, above=0.0)
     """How long the start is waited for, in simulation time [s]; None: 10 s."""
+    vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
+    """Values of its scene updaters that are drawn anew for each seed: ``u:path`` begins with the
+    name of the updater, ``currentForceUpdater.timeOffset``."""
     path: str = field(default="", compare=False, metadata={"path": True})
     """The file as the user named it."""
 

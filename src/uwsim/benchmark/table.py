@@ -2,10 +2,12 @@
 
 .. code-block:: text
 
-      fog  corners  total  time
-    [1/m]     [px]   [px]   [s]  status
-     0.00     1.83   4.24   2.0  ok
-     1.20        -      -  50.0  lost    tracker lost at 48.6 s: ZNCC 0.43 on 5 frames
+      fog  corners  total  ended_at
+    [1/m]     [px]   [px]       [s]  status
+     0.00     1.83   4.24       2.0  ok
+     1.20        -      -      50.0  lost    tracker lost at 48.6 s: ZNCC 0.43 on 5 frames
+
+``ended_at`` is the benchmark's running time, summed over the levels so far.
 
 With several repeats a measure is its mean with the 95 % interval, ``1.83 [1.71, 1.99]``, and the
 status says how many ended ``ok``, with the interval of that rate: ``8 of 10 ok, 44 to 97 %``.
@@ -42,7 +44,7 @@ class Line:
     level: tuple[float, ...]
     """The updaters' references."""
     cells: tuple[str, ...]
-    """Level, measures, total, time; ``-`` where there is nothing."""
+    """Level, measures, total, ended_at; ``-`` where there is nothing."""
     status: str
     """``ok``, ``lost``, ... or, over repeats, ``8 of 10 ok, 44 to 97 %``."""
     ok: bool
@@ -176,9 +178,8 @@ def sensible_decimals(values: Sequence[float]) -> int:
 
 
 def _head(result: Result, column: Column) -> tuple[str, str]:
-    name = "time" if column.kind == "time" else column.name
     unit = unit_of(result, column)
-    return name, f"[{unit}]" if unit else ""
+    return column.name, f"[{unit}]" if unit else ""
 
 
 def _notes(shown: Sequence[Line], n_levels: int) -> list[str]:

@@ -14,14 +14,27 @@ SILENCE = 1.0
 
 
 class Verdict:
-    """What the algorithm says of itself, and what befell it."""
+    """What the algorithm says of itself, and what befell it.
+
+    ``lost: why`` holds until the algorithm says ``tracking``. A level in which it was said has the
+    status ``lost``, and so has one at whose end it still holds; ``failed: why`` holds for good.
+    """
 
     def __init__(self, node: InProcessNode, inbox: Inbox[String]) -> None:
         self._node, self._inbox = node, inbox
-        self.lost: str | None = None
-        """Why and when it said it was lost."""
+        self._is_lost: str | None = None  # why and when it said so, until it tracks again
+        self._was_lost: str | None = None  # the same of the first time in this level
         self.failed: str | None = None
         """Why and when it failed or raised."""
+
+    @property
+    def lost(self) -> str | None:
+        """Why and when it said that it was lost: in this level, or before and still."""
+        return self._was_lost or self._is_lost
+
+    def begin_level(self) -> None:
+        """Forget what was said in the level before, but what still holds."""
+        self._was_lost = None
 
     def listen(self, time: float) -> None:
         """Take note of what came in since the last call."""
@@ -30,8 +43,11 @@ class Verdict:
         for message in self._inbox.take():
             state, _, why = message.data.partition(":")
             said = legible(f"{self._node.name} {state.strip()} at {time:g} s: {why.strip()}")
-            if state.strip() == "lost" and self.lost is None:
-                self.lost = said
+            if state.strip() == "lost":
+                self._is_lost = self._is_lost or said
+                self._was_lost = self._was_lost or said
+            elif state.strip() == "tracking":
+                self._is_lost = None
             elif state.strip() == "failed" and self.failed is None:
                 self.failed = said
         if self._node.error is not None and self.failed is None:

@@ -9,16 +9,15 @@ from __future__ import annotations
 import importlib
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
-from typer.core import TyperCommand
 
 from .. import __version__
-from ..errors import AllErrors, BadSetting
+from .completion import words_typed
 from .faults import INTERRUPTED, exit_status, one_line
+from .taught import HELP_NAMES, TaughtCommand
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,6 +74,12 @@ COMMANDS: dict[str, Command] = {
             'uwsim envelope visibility-moving --over fog --until "status == lost" --algorithm orb',
         ),
     ),
+    "info": Command(
+        module="info",
+        function="info",
+        summary="Show what is in a scene: vehicles, cameras, topics, joints, floor.",
+        examples=("uwsim info visibility-scene", "uwsim info my-scene.xml --json"),
+    ),
     "list": Command(
         module="list",
         function="list_names",
@@ -108,6 +113,13 @@ COMMANDS: dict[str, Command] = {
     ),
 }
 
+FIRST_STEPS = """\b
+First steps:
+  $ uwsim list benchmarks
+  $ uwsim info visibility-scene
+  $ uwsim bench visibility --seed 1
+  $ uwsim COMMAND -h                    what a command does, with examples
+"""
 TRACEBACK = "--traceback"
 READER_LEFT = 1
 """Exit status when whoever read our output has closed it, as in ``uwsim list | head -1``."""
@@ -123,8 +135,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         sys.stdout = None  # whoever read us has left; say no more
         return READER_LEFT
-    except SystemExit:  # so says rich, for the same reason
-        return READER_LEFT
+    except SystemExit as left:  # rich, for the same reason; or typer, when it has shown completion
+        return left.code if isinstance(left.code, int) else READER_LEFT
     except (Exception, KeyboardInterrupt) as error:
         if TRACEBACK in given:
             raise
@@ -143,45 +155,29 @@ def say(error: BaseException) -> int:
 
 
 def build(arguments: Sequence[str]) -> typer.Typer:
-    """Build the application, with only the command that ``arguments`` ask for imported."""
-    wanted = next((word for word in arguments if not word.startswith("-")), None)
+    """Build the application, with only the command that ``arguments`` ask for imported.
+
+    When it is the shell that asks, to complete a word, that is the command on its line.
+    """
+    words = words_typed() or arguments
+    wanted = next((word for word in words if not word.startswith("-")), None)
     app = typer.Typer(
         help="Underwater robots, simulated and measured.",
-        epilog="Try 'uwsim bench visibility'. 'uwsim COMMAND --help' shows examples.",
-        add_completion=False,
+        epilog=FIRST_STEPS,
         rich_markup_mode=None,
+        context_settings=HELP_NAMES,
     )
     app.callback()(global_options)
     for name, command in COMMANDS.items():
         examples = "\b\nExamples:\n" + "\n".join(f"  $ {line}" for line in command.examples)
-        app.command(name, cls=AllAtOnce, short_help=command.summary, epilog=examples)(
-            command.load() if name == wanted else not_wanted
-        )
+        app.command(
+            name,
+            cls=TaughtCommand,
+            short_help=command.summary,
+            epilog=examples,
+            context_settings=HELP_NAMES,
+        )(command.load() if name == wanted else not_wanted)
     return app
-
-
-class AllAtOnce(TyperCommand):
-    """A command that says of all its options what is wrong with them, not of the first alone."""
-
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Read the options; raises SeveralErrors, or typer's own where there is but one."""
-        given = list(args)
-        try:
-            return super().parse_args(ctx, args)
-        except typer.TyperException as first:
-            wrong = AllErrors()
-            values, rest, _ = self.make_parser(ctx).parse_args(args=given)
-            for parameter in self.get_params(ctx):
-                if parameter.is_eager:
-                    continue
-                with wrong.kept():
-                    try:
-                        parameter.handle_parse_result(ctx, values, rest)
-                    except typer.TyperException as error:
-                        raise BadSetting(error.format_message()) from None
-            with suppress(BadSetting):  # the only one: as typer says it
-                wrong.check()
-            raise first
 
 
 def not_wanted() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import shutil
 import signal
 import sys
-import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,12 +14,24 @@ import typer
 from rich.console import Console
 
 from ..errors import AllErrors, BadSetting, RunFailed
-from .crew import WorkersOption, crew_of
-from .options import CompatOption, DataPathOption
-from .plan import make_plan
+from ..interrupts import raise_from_now_on
+from .completion import algorithm_names
+from .crew import WorkersOption, crew_of, n_at_once
+from .faults import running
+from .options import (
+    BenchmarkArgument,
+    CompatOption,
+    DataPathOption,
+    ModeOption,
+    SceneOption,
+    SetOption,
+)
+from .plan import make_plan, say_warnings
 from .plugins import PluginOption
 from .progress import progress
-from .took import Took
+from .repeats import repeats_note
+from .taught import INPUT, OUTPUT, RUN, in_group
+from .took import Stopwatch, Took
 
 if TYPE_CHECKING:
     from ..benchmark.bench import Bench
@@ -37,60 +48,66 @@ UNWRAPPED = 1000
 
 def bench(
     context: typer.Context,
-    benchmark: Annotated[
-        str, typer.Argument(metavar="BENCHMARK", help="A benchmark file, or a bundled name.")
-    ],
-    scene: Annotated[
-        str | None,
-        typer.Option(help="The scene; without it the one that the benchmark names (u:scene)."),
-    ] = None,
+    benchmark: BenchmarkArgument,
+    scene: SceneOption = None,
     algorithm: Annotated[
         list[str] | None,
-        typer.Option(
+        in_group(
+            INPUT,
+            "--algorithm",
+            metavar="NAME|module:Class",
             help="What is tested: a name of `uwsim list algorithms`, or module:Class of your own; "
             "without it the one that the benchmark names (u:algorithm). May be repeated: each has "
-            "its result in a folder of --out."
+            "its result in a folder of --out.",
+            autocompletion=algorithm_names,
         ),
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of every random stream.")] = 0,
-    repeat: Annotated[
-        int, typer.Option(min=1, help="Play K times, with seeds SEED ... SEED+K-1.")
-    ] = 1,
-    mode: Annotated[
-        str | None,
-        typer.Option(
-            help="sequential or independent; without it what the benchmark says (u:mode)."
-        ),
-    ] = None,
+    mode: ModeOption = None,
     level: Annotated[
         list[str] | None,
-        typer.Option(help="Only this level of the sweep, as fog=0.5; may be repeated."),
-    ] = None,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set",
-            metavar="PATH=VALUE",
-            help="Change the scene or the algorithm, as oceanState.fog.density=0.4, "
-            "vehicle[girona500].virtualCamera[bowtech1].std=0.016 or algorithm.kp=0.4; "
-            "may be repeated.",
+        in_group(
+            INPUT,
+            "--level",
+            metavar="NAME=VALUE",
+            help="Only this level of the sweep, as fog=0.5; may be repeated.",
         ),
     ] = None,
+    settings: SetOption = None,
     compat: CompatOption = None,
+    seed: Annotated[
+        int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of every random stream.")
+    ] = 0,
+    repeat: Annotated[
+        int,
+        in_group(
+            RUN,
+            "--repeat",
+            metavar="K",
+            min=1,
+            help="Play K times, with seeds SEED ... SEED+K-1; a comparison of two results needs "
+            "six at least.",
+        ),
+    ] = 1,
     workers: WorkersOption = "1",
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Result directory [./NAME.result].")
+        Path | None,
+        in_group(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
     ] = None,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Go on with an interrupted run in --out.")
+        bool, in_group(OUTPUT, "--resume", help="Go on with an interrupted run in --out.")
     ] = False,
     overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace an earlier result in --out.")
+        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier result in --out.")
     ] = False,
     plugin: PluginOption = None,
     data_path: DataPathOption = None,
 ) -> None:
-    """Play a benchmark: every level, scored; a table, logs, plots and a report come out."""
+    """Play a benchmark: every level, scored; a table, logs, plots and a report come out.
+
+    Written into --out: result.json (all numbers, with units, seeds and hashes), result.dat (the
+    original's table), logs as CSV, plots, report.html. Same files and same seed: the same bytes. A
+    run that was stopped goes on with --resume.
+    """
     from ..benchmark.directory import check, prepared
 
     wrong, crew, folders = AllErrors(), None, []
@@ -124,22 +141,27 @@ def bench(
 
     from ..benchmark.bench import Bench, open_once
 
-    began = time.time()
+    watch = Stopwatch()
     inputs, renderer = open_once(plans[0])
+    say_warnings(plans[0])
+    raise_from_now_on()
     signal.signal(signal.SIGTERM, interrupt)
     runs = [
         Bench(plan=plan, out=directory / folder, inputs=inputs, renderer=renderer)
         for plan, folder in zip(plans, folders or [""], strict=True)
     ]
-    with prepared(directory, resume=resume, overwrite=overwrite, results=folders):
-        play_and_finish(runs, crew, workers, began, context.obj)
+    said = repeats_note(len(plans), len(plans[0].levels()), repeat)
+    if said is not None:
+        print(said, file=sys.stderr)
+    with running(), prepared(directory, resume=resume, overwrite=overwrite, results=folders):
+        play_and_finish(runs, crew, workers, watch, context.obj)
 
 
 def play_and_finish(
     runs: Sequence[Bench],
     crew: Crew,
     workers: str,
-    began: float,
+    watch: Stopwatch,
     command: Sequence[str],
 ) -> None:
     """Play one benchmark with an algorithm each, and write and show all there is to it.
@@ -148,7 +170,7 @@ def play_and_finish(
         runs: an algorithm each.
         crew: who plays.
         workers: the same, as it was said.
-        began: when the command did [s since 1970].
+        watch: started with the command.
         command: what was typed behind ``uwsim``.
 
     Raises:
@@ -164,14 +186,15 @@ def play_and_finish(
         controls = [control_of(run) for run in runs if wants_control(run)]
         if controls:
             beside.ask(controls[0])
-        outcome = play_with_progress(runs, crew)
+        outcome = play_with_progress(runs, crew, n_at_once(workers))
         failed = {id(run) for run, _ in outcome.failures}
         if controls and len(failed) < len(runs):
             beside.wait()
             for other in controls[1:]:  # the control looks at nothing: it is the same for all
                 shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
-        wall = time.time() - began
-        took = Took(began=began, wall=wall, workers=workers, command=command, runs=runs)
+        took = Took(
+            began=watch.began, wall=watch.passed(), workers=workers, command=command, runs=runs
+        )
         for run, result in zip(runs, outcome.results, strict=True):
             if id(run) not in failed:
                 if len(runs) > 1:
@@ -224,7 +247,7 @@ def interrupt(number: int, frame: object) -> None:
     raise KeyboardInterrupt
 
 
-def play_with_progress(runs: Sequence[Bench], crew: Crew) -> Outcome:
+def play_with_progress(runs: Sequence[Bench], crew: Crew, at_once: int) -> Outcome:
     """Play one benchmark, with an algorithm each, and show how far it is."""
     from ..benchmark.crew import play_each
 
@@ -232,7 +255,7 @@ def play_with_progress(runs: Sequence[Bench], crew: Crew) -> Outcome:
     title = f"{Path(runs[0].plan.benchmark.path).stem} ({names})"
     total = sum(len(unit.levels) for run in runs for unit in run.plan.units())
     done = sum(run.n_finished() for run in runs)
-    with progress(title, total, done=done, of="levels") as on_level:
+    with progress(title, total, done=done, of="levels", at_once=at_once) as on_level:
         return play_each(runs, crew, on_level=on_level)
 
 

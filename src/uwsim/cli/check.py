@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from functools import partial
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..errors import BadSetting, Fault, FileError, PluginError, UwsimError
+from .completion import checked_names, scene_names
 from .faults import WRONG_INPUT, printable
 from .files import bundled, scene_file
-from .options import DataPathOption
+from .options import DataPathOption, JsonOption
 from .plugins import PluginOption, read_plugins
+from .taught import INPUT, in_group
 
 if TYPE_CHECKING:
     from ..benchmark.plugin import Plugin, Tables
@@ -23,38 +28,66 @@ def check(
     files: Annotated[
         list[Path],
         typer.Argument(
-            metavar="FILE.xml ...", help="Scenes, robots, side files of vehicles, benchmarks."
+            metavar="FILE.xml",
+            help="Scenes, robots, hydrodynamics files of vehicles, benchmarks; or bundled names.",
+            autocompletion=checked_names,
         ),
     ],
     scene: Annotated[
         Path | None,
-        typer.Option(metavar="SCENE.xml", help="The scene that the benchmarks play in."),
+        in_group(
+            INPUT,
+            "--scene",
+            metavar="SCENE.xml",
+            help="The scene that the benchmarks are played in.",
+            autocompletion=scene_names,
+        ),
     ] = None,
     strict: Annotated[
-        bool, typer.Option("--strict", help="Also hold files against the original's order.")
+        bool,
+        in_group(INPUT, "--strict", help="Also compare files with the original's order."),
     ] = False,
+    as_json: JsonOption = False,
     plugin: PluginOption = None,
     data_path: DataPathOption = None,
 ) -> None:
-    """Say everything that is wrong with scene, robot, side and benchmark files.
+    """Say everything that is wrong with scene, robot, hydrodynamics and benchmark files.
 
-    Exit status 0 without faults, else 2; what is read and not simulated yet is a notice.
+    Exit status 0 without faults, else 2; what is read and not simulated yet is a notice. With
+    --json: {"files": [{"file", "faults": [{"file", "line", "severity", "message"}]}], "n_faults"}.
     """
     folders = tuple(data_path or ())
     own = read_plugins(plugin)
     named = [bundled_or(file) for file in files]
     scene = None if scene is None else bundled_or(scene)
-    n_faults = 0
-    for file in [*named, *([scene] if scene is not None and scene not in named else [])]:
-        found = faults_of(file, strict=strict, data_path=folders, scene=scene, own=own)
-        wrong = [fault for fault in found if fault.severity == "fault"]
-        n_faults += len(wrong)
-        for fault in found:
-            mark = "" if fault.severity == "fault" else " (notice)"
-            typer.echo(printable(f"{fault}{mark}"))
-        typer.echo(printable(f"{file}: {_count(len(wrong))}"))
+    found = {
+        str(file): faults_of(file, strict=strict, data_path=folders, scene=scene, own=own)
+        for file in [*named, *([scene] if scene is not None and scene not in named else [])]
+    }
+    n_faults = sum(fault.severity == "fault" for faults in found.values() for fault in faults)
+    typer.echo(json_of(found, n_faults) if as_json else lines_of(found))
     if n_faults:
         raise typer.Exit(WRONG_INPUT)
+
+
+def lines_of(found: Mapping[str, Sequence[Fault]]) -> str:
+    """Return a line a fault or notice, and one a file."""
+    lines = []
+    for file, faults in found.items():
+        for fault in faults:
+            mark = "" if fault.severity == "fault" else " (notice)"
+            lines.append(f"{fault}{mark}")
+        lines.append(f"{file}: {_count(sum(fault.severity == 'fault' for fault in faults))}")
+    return printable("\n".join(lines))
+
+
+def json_of(found: Mapping[str, Sequence[Fault]], n_faults: int) -> str:
+    """Return the same for a program."""
+    files = [
+        {"file": file, "faults": [asdict(fault) for fault in faults]}
+        for file, faults in found.items()
+    ]
+    return json.dumps({"files": files, "n_faults": n_faults}, indent=1)
 
 
 def bundled_or(file: Path) -> Path:
@@ -120,15 +153,16 @@ def faults_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fa
     if not (
         scene.ocean_state.currents
         or any(vehicle.dynamics is not None or vehicle.faults for vehicle in scene.vehicles)
+        or scene.stands_on_floor
         or any(
             isinstance(interface, ROSThrustersToPATSpec | ROSWrenchToPATSpec)
             for interface in scene.ros_interfaces
         )
     ):
         return []
-    from ..simulation.dynamics import check_dynamics
+    from ..simulation.scene_checks import check_simulated
 
-    return check_dynamics(scene, data_path)
+    return check_simulated(scene, data_path)
 
 
 def faults_of_benchmark(
@@ -223,15 +257,23 @@ class Folders:
 
         return find(name, beside=beside, data_path=self._data_path)
 
+    def find_robot(self, name: str, beside: Path) -> Path | None:
+        """Return the robot file ``name``, or else the bundled one of the same file name."""
+        from ..assets import bundled_robot
+
+        return self.find(name, beside) or bundled_robot(name)
+
+    def unreadable(self, name: str, beside: Path) -> str:
+        """Return why the file of a model cannot be read here; empty if it can, or is not there."""
+        from ..assets import why_unreadable
+
+        return why_unreadable(name, beside=beside, data_path=self._data_path)
+
     def has_model(self, name: str, beside: Path) -> bool:
         """Tell whether there is a model of that name: its file, its stem's, or a stand-in."""
-        from ..assets import READABLE, STAND_INS
+        from ..assets import has_model
 
-        stem = name.rpartition(".")[0] or name
-        if any(self.find(each, beside) for each in (name, *(stem + end for end in READABLE))):
-            return True
-        parts = PurePosixPath(stem.replace("\\", "/")).parts
-        return any("/".join(parts[k:]) in STAND_INS for k in range(len(parts)))
+        return has_model(name, beside=beside, data_path=self._data_path)
 
     def searched(self, beside: Path) -> str:
         """Return the folders that were searched, those that exist."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -11,10 +12,16 @@ from rich.console import Console
 
 from ..errors import ResultError
 from .faults import printable
+from .options import JsonOption
+from .taught import COMPARED, OUTPUT, in_group
 
 Results = Annotated[
     list[Path],
-    typer.Argument(metavar="RESULT", help="Result directories, or their result.json."),
+    typer.Argument(
+        metavar="RESULT",
+        help="Result directories, or their result.json; or one with the results of several "
+        "algorithms.",
+    ),
 ]
 UNWRAPPED = 1000
 """Columns for a reader that is a program: wide enough to leave every line whole."""
@@ -24,7 +31,9 @@ def compare(
     results: Results,
     measure: Annotated[
         str | None,
-        typer.Option(
+        in_group(
+            COMPARED,
+            "--measure",
             metavar="NAME",
             help="What is compared: a column of the results, as corners or corners.max; without "
             "it the score.",
@@ -32,24 +41,30 @@ def compare(
     ] = None,
     baseline: Annotated[
         Path | None,
-        typer.Option(
+        in_group(
+            COMPARED,
+            "--baseline",
             metavar="RESULT",
-            help="Hold every other result against this one; without it each against each.",
+            help="Compare every other result with this one; without it each with each.",
         ),
     ] = None,
     higher_is_better: Annotated[
-        bool, typer.Option("--higher-is-better", help="More of it is better; errors are not so.")
-    ] = False,
-    out: Annotated[
-        Path, typer.Option(metavar="DIR", help="Where numbers, plots and page go.")
-    ] = Path("comparison"),
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace an earlier comparison in --out.")
+        bool,
+        in_group(COMPARED, "--higher-is-better", help="More of it is better; errors are not so."),
     ] = False,
     force: Annotated[
         bool,
-        typer.Option("--force", help="Compare results of different experiments, with a warning."),
+        in_group(
+            COMPARED, "--force", help="Compare results of different experiments, with a warning."
+        ),
     ] = False,
+    out: Annotated[
+        Path, in_group(OUTPUT, "--out", metavar="DIR", help="Where numbers, plots and page go.")
+    ] = Path("comparison"),
+    overwrite: Annotated[
+        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier comparison in --out.")
+    ] = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Say which of several results is better, by how much, and how surely.
 
@@ -74,11 +89,12 @@ def compare(
         shared_column,
         write_comparison,
     )
+    from ..benchmark.comparison.document import json_text
     from ..benchmark.comparison.terminal import drawn
     from ..benchmark.comparison.write import FOLDERS, OURS
     from ..benchmark.directory import make_room
 
-    paths, place = with_baseline(results, baseline)
+    paths, place = with_baseline(each_of(results), baseline)
     entries = read_entries(paths)
     column = shared_column(entries, measure)
     differing = differences(entries)
@@ -102,10 +118,23 @@ def compare(
     for remark in comparison.remarks:
         print(printable(f"note: {remark}"), file=sys.stderr)
     page = write_comparison(comparison, out)
+    if as_json:
+        print(json_text(comparison), end="")
+        return
     console = Console(width=None if sys.stdout.isatty() else UNWRAPPED, highlight=False)
     for part in drawn(comparison, width=console.width):
         console.print(part)
     print(f"written: {out}/comparison.json, comparison.csv, plots; page: {page}")
+
+
+def each_of(paths: Sequence[Path]) -> list[Path]:
+    """Return the results that are meant: of a directory with several, as bench writes it, all."""
+    found: list[Path] = []
+    for path in paths:
+        inside = sorted(file.parent for file in path.glob("*/result.json"))
+        is_result = (path / "result.json").exists()
+        found += inside if len(inside) > 1 and not is_result else [path]
+    return found
 
 
 def with_baseline(results: list[Path], baseline: Path | None) -> tuple[list[Path], int | None]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..errors import BadSetting, did_you_mean
+from .taught import RUN, in_group
 
 if TYPE_CHECKING:
     from ..benchmark.crew import Crew
@@ -17,12 +17,19 @@ MOST_WORKERS = 1024
 
 WorkersOption = Annotated[
     str,
-    typer.Option(
+    in_group(
+        RUN,
+        "--workers",
         metavar="N|ray",
-        help="Number of processes that units of work are spread over; or ray, for the cluster "
-        "that RAY_ADDRESS names, else all cores here.",
+        help="Processes to use on this machine; or ray, for the cluster that RAY_ADDRESS names, "
+        "else all cores here.",
     ),
 ]
+
+
+def n_at_once(workers: str) -> int:
+    """Return how many levels are played at one time; of a cluster nobody knows: those of here."""
+    return int(workers) if workers.isdigit() else os.cpu_count() or 1
 
 
 def crew_of(workers: str) -> Crew:

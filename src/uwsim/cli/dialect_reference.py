@@ -15,6 +15,7 @@ from pathlib import Path
 
 from ..dialect import Slot, slots
 from ..dialect.names import local
+from .list import clark
 from .relax_ng import benchmark_grammar, scene_grammar
 
 HEAD = """\
@@ -23,9 +24,10 @@ HEAD = """\
 What may stand in a scene file, made from the specs that read it by `scripts/docs`. Elements may
 stand in any order; what equals its default may be left out. Numbers may be `M_PI`, `M_PI_2`,
 `M_PI_4` and their negatives. Flags are 0 or 1. `u:` is the namespace `urn:uwsim:1`: a file that
-uses it carries no DOCTYPE, and what stands in it must say something: an empty element of `u:` is a
-fault, where one of the original's is as good as none. Old names that older UWSim files use are
-read, too, with a notice; `uwsim check FILE.xml` names them.
+uses it carries no DOCTYPE, and what stands in it must say something: an empty element of `u:` that
+holds a value is a fault, where one of the original's is as good as none. [Old names](#old-names)
+that older UWSim files use are read, too, with a notice; `uwsim check FILE.xml` names them.
+What is marked as *read, not simulated yet* may stand in a file and does nothing.
 
 The grammar for editors is [uwsim-scene.rng](grammar/uwsim-scene.rng) (RELAX NG). It knows today's
 names only.
@@ -49,16 +51,36 @@ today's names only, and neither the limits of numbers nor the parts of a plugin.
 
 def page() -> str:
     """Return ``docs/dialect.md``."""
+    from ..scene.not_yet import limit_of
     from ..scene.reader import ROOT
     from ..scene.spec import SceneSpec
 
     parts = [HEAD]
     done: set[type] = set()
-    for name, cls in _specs(ROOT, SceneSpec):
+    for parent, name, cls in _specs("", ROOT, SceneSpec):
         if cls not in done:
             done.add(cls)
-            parts.append(_section(name, cls))
-    return "\n".join(parts)
+            parts.append(_section(name, cls, limit=limit_of(parent, clark(name))))
+    return "\n".join([*parts, _old_names()])
+
+
+def _old_names() -> str:
+    """What files of 2011 to 2019 may say besides."""
+    from ..scene.legacy import ANYWHERE, RULES
+
+    by_parent: dict[str, list[str]] = {}
+    for parent, element in RULES:
+        by_parent.setdefault(parent, []).append(element)
+    lines = [
+        "## Old names", "",
+        "Elements that UWSim or its forks once had. They are read as what they are called today, "
+        "or passed over; `uwsim check` says which.", "",
+        "| in | old elements |", "|---|---|",
+    ]  # fmt: skip
+    for parent, elements in [*sorted(by_parent.items()), ("anything", list(ANYWHERE))]:
+        where = parent if parent == "anything" else f"`{parent}`"
+        lines.append(f"| {where} | " + ", ".join(f"`{each}`" for each in sorted(elements)) + " |")
+    return "\n".join(lines) + "\n"
 
 
 def benchmark_page() -> str:
@@ -89,28 +111,33 @@ def benchmark_page() -> str:
     return "\n".join(parts)
 
 
-def _specs(name: str, cls: type) -> Iterator[tuple[str, type]]:
-    """Every spec below a spec, itself first, in the order of the files."""
-    yield name, cls
+def _specs(parent: str, name: str, cls: type) -> Iterator[tuple[str, str, type]]:
+    """Every spec below a spec with its parent and name, itself first, in the order of the files."""
+    yield parent, name, cls
     for slot in slots(cls):
         if slot.kind == "spec":
-            yield from _specs(slot.shown, slot.type)
+            yield from _specs(name, slot.shown, slot.type)
         elif slot.kind == "choice":
             for child, spec in slot.type.items():
-                yield from _specs(local(child), spec)
+                yield from _specs(slot.shown, local(child), spec)
 
 
-def _section(name: str, cls: type, *, title: str | None = None) -> str:
+def _section(name: str, cls: type, *, title: str | None = None, limit: str = "") -> str:
     """One element: what it is, how it looks, what stands in it.
 
     Args:
         name: of the element.
         cls: its spec.
         title: of a member of a family, whose file is about it alone.
+        limit: how far it is simulated; empty: wholly.
     """
+    from ..scene.not_yet import limit_of
+
     doc = (inspect.getdoc(cls) or "").strip()
     module = sys.modules[cls.__module__].__doc__ or ""
     lines = [f"## `<{name}>`" if title is None else f"### `{title}`", "", _markdown(doc), ""]
+    if limit:
+        lines += [f"*{_markdown(limit)[0].upper()}{_markdown(limit)[1:]}.*", ""]
     block = re.search(r"\.\. code-block:: xml\n\n((?:    .*\n|\n)+)", module)
     begins = rf"<{re.escape(name)}[ >/]|<(start|stop)On>.*<type>{name}<"
     if block and re.search(begins, " ".join(block[1].split("\n")[: 1 if title is None else 2])):
@@ -120,7 +147,9 @@ def _section(name: str, cls: type, *, title: str | None = None) -> str:
     lines += ["| element | what stands there | default | meaning |", "|---|---|---|---|"]
     for slot in slots(cls):
         mark = " (attribute)" if slot.xml.attribute else ""
-        cells = (f"`{slot.shown}`{mark}", _kind(slot), _default(slot), _markdown(slot.doc))
+        part = "" if title is not None else limit_of(name, clark(slot.shown))
+        meaning = _markdown(slot.doc) + (f" *({part})*" if part else "")
+        cells = (f"`{slot.shown}`{mark}", _kind(slot), _default(slot), meaning)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"
 
@@ -135,6 +164,8 @@ def _kind(slot: Slot) -> str:
     elif slot.kind == "triple":
         unit = f" [{slot.unit}]" if slot.unit else ""
         what = " ".join(f"`<{part}>`" for part in slot.xml.parts) + unit
+        if slot.xml.words:
+            what += ", or one of " + ", ".join(f"`{word}`" for word in slot.xml.words)
     elif slot.kind == "hand":
         what = _family(slot)
     elif slot.xml.item:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import signal
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -12,14 +11,18 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import AllErrors, BadSetting
+from ..interrupts import raise_from_now_on
 from .bench import interrupt
-from .crew import WorkersOption, crew_of
-from .faults import printable
-from .options import CompatOption, DataPathOption
-from .plan import chosen_level, make_plan
+from .completion import algorithm_names
+from .crew import WorkersOption, crew_of, n_at_once
+from .faults import printable, running
+from .options import BenchmarkArgument, CompatOption, DataPathOption, SceneOption, SetOption
+from .plan import chosen_level, make_plan, say_warnings
 from .plugins import PluginOption
 from .progress import progress
 from .question import Question, question_of
+from .taught import INPUT, OUTPUT, RUN, SEARCH, in_group
+from .took import Stopwatch
 
 if TYPE_CHECKING:
     from ..benchmark.bench import Bench
@@ -32,69 +35,98 @@ MAX_REPEATS = 1000
 
 def envelope(
     context: typer.Context,
-    benchmark: Annotated[
-        str, typer.Argument(metavar="BENCHMARK", help="A benchmark file, or a bundled name.")
-    ],
+    benchmark: BenchmarkArgument,
     over: Annotated[
         str,
-        typer.Option(metavar="REFERENCE", help="What grows: a reference of its sweep, as fog."),
+        in_group(
+            SEARCH,
+            "--over",
+            metavar="PARAMETER",
+            help="What grows: a swept parameter of the benchmark, as fog.",
+        ),
     ],
     until: Annotated[
         str,
-        typer.Option(
+        in_group(
+            SEARCH,
+            "--until",
             metavar="CRITERION",
             help="When a run counts as broken, in the language of scores: corners > 5.",
         ),
     ],
     start: Annotated[
         float | None,
-        typer.Option("--from", metavar="A", help="Near end, where it holds [first of the sweep]."),
+        in_group(
+            SEARCH, "--from", metavar="A", help="Near end, where it holds [first of the sweep]."
+        ),
     ] = None,
     stop: Annotated[
         float | None,
-        typer.Option("--to", metavar="B", help="Far end, where it breaks [last of the sweep]."),
+        in_group(SEARCH, "--to", metavar="B", help="Far end, where it breaks [last of the sweep]."),
     ] = None,
     tolerance: Annotated[
         float | None,
-        typer.Option(metavar="T", help="How finely each seed is searched [1 % of the range]."),
-    ] = None,
-    repeat: Annotated[
-        int, typer.Option(min=1, help="Search with K seeds, SEED ... SEED+K-1.")
-    ] = 10,
-    confidence: Annotated[
-        float, typer.Option(help="How surely the bound shall hold the breaking point.")
-    ] = 0.95,
-    scene: Annotated[
-        str | None,
-        typer.Option(help="The scene; without it the one that the benchmark names (u:scene)."),
-    ] = None,
-    algorithm: Annotated[
-        str | None,
-        typer.Option(help="What is tested; without it the one that the benchmark names."),
-    ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of the first search.")] = 0,
-    level: Annotated[
-        list[str] | None,
-        typer.Option(help="Where another reference of the sweep stays, as current=0.1."),
-    ] = None,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set",
-            metavar="PATH=VALUE",
-            help="Change the scene or the algorithm, as for bench; may be repeated.",
+        in_group(
+            SEARCH,
+            "--tolerance",
+            metavar="T",
+            help="How finely each seed is searched [1 % of the range].",
         ),
     ] = None,
+    confidence: Annotated[
+        float,
+        in_group(
+            SEARCH,
+            "--confidence",
+            metavar="C",
+            help="How surely the bound shall hold the breaking point.",
+        ),
+    ] = 0.95,
+    level: Annotated[
+        list[str] | None,
+        in_group(
+            SEARCH,
+            "--level",
+            metavar="NAME=VALUE",
+            help="Where another swept parameter stays, as current=0.1.",
+        ),
+    ] = None,
+    scene: SceneOption = None,
+    algorithm: Annotated[
+        str | None,
+        in_group(
+            INPUT,
+            "--algorithm",
+            metavar="NAME|module:Class",
+            help="What is tested; without it the one that the benchmark names.",
+            autocompletion=algorithm_names,
+        ),
+    ] = None,
+    settings: SetOption = None,
     compat: CompatOption = None,
+    seed: Annotated[
+        int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of the first search.")
+    ] = 0,
+    repeat: Annotated[
+        int,
+        in_group(
+            RUN,
+            "--repeat",
+            metavar="K",
+            min=1,
+            help="Search with K seeds, SEED ... SEED+K-1; 95 % needs six.",
+        ),
+    ] = 10,
     workers: WorkersOption = "1",
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Where it goes [./NAME.envelope].")
+        Path | None,
+        in_group(OUTPUT, "--out", metavar="DIR", help="Where it goes [./NAME.envelope]."),
     ] = None,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Use the runs that are in --out already.")
+        bool, in_group(OUTPUT, "--resume", help="Use the runs that are in --out already.")
     ] = False,
     overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace an earlier envelope in --out.")
+        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier envelope in --out.")
     ] = False,
     plugin: PluginOption = None,
     data_path: DataPathOption = None,
@@ -150,6 +182,7 @@ def envelope(
     seeds = tuple(range(seed, seed + repeat))
     play(
         plan_for(plan), directory, question, seeds, confidence=confidence, crew=crew,
+        at_once=n_at_once(workers),
         resume=resume, overwrite=overwrite, command=context.obj,
     )  # fmt: skip
 
@@ -181,6 +214,7 @@ def play(
     *,
     confidence: float,
     crew: Crew,
+    at_once: int,
     resume: bool,
     overwrite: bool,
     command: Sequence[str],
@@ -193,10 +227,12 @@ def play(
     from ..benchmark.provenance import machine, save_beginning, save_provenance
 
     inputs, renderer = open_once(plan)
+    say_warnings(plan)
+    raise_from_now_on()
     signal.signal(signal.SIGTERM, interrupt)
     over, where, at = question.over, question.where, question.at
-    began = time.time()
-    with alone_in(directory):
+    watch = Stopwatch()
+    with running(), alone_in(directory):
         check_out(directory, resume=resume, overwrite=overwrite)
         if not resume:
             empty(directory)
@@ -204,7 +240,7 @@ def play(
         bench = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
         most = 9 + len(seeds) * (where.most_cuts() + 1)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
-        with progress(title, most, of="runs") as on_run:
+        with progress(title, most, of="runs", at_once=at_once) as on_run:
             runs = Evaluations(bench, at=at, over=over, criterion=question.criterion)
             found = runs.run(strategy(seeds, where), crew, on_run)
         envelope = Envelope(
@@ -225,7 +261,7 @@ def play(
         envelope.save(directory)
         draw(envelope, directory)
         save_provenance(
-            {**machine(), "wall_s": time.time() - began, "command": list(command)}, directory
+            {**machine(), "wall_s": watch.passed(), "command": list(command)}, directory
         )
     tell(envelope, directory)
 

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import typer
 
-from ..errors import (
-    FileError,
-    NeverStarted,
-    ReplayDiffers,
-    RunFailed,
-    SeveralErrors,
-    UwsimError,
-)
+from .. import interrupts
+from ..errors import RUN_ERRORS, FileError, RunFailed, SeveralErrors, UwsimError
 
 WRONG_INPUT = 2
 RUN_FAILED = 3
-INTERRUPTED = 130
+INTERRUPTED = interrupts.STATUS
+LONGEST_QUOTE = 300
+"""Letters of what a file said that are shown: a word, or what stands between quotes."""
+LONGEST_LINE = 4000
+"""Letters of a line, whatever is in it."""
 
-RUN_ERRORS = (NeverStarted, ReplayDiffers, RunFailed)
-"""What can only be found by running; every other `UwsimError` is wrong input."""
+
+def warn(message: str) -> None:
+    """Tell the user what the command goes on in spite of."""
+    typer.echo(printable(f"uwsim: warning: {message}"), err=True)
 
 
 def exit_status(error: BaseException) -> int:
@@ -46,18 +50,55 @@ def one_line(error: BaseException) -> str:
         return printable(str(error))
     if isinstance(error, typer.TyperException):
         message = error.format_message()
+        context = getattr(error, "ctx", None)
+        if message.startswith("Missing") and context is not None:
+            message = f"{message.rstrip('.')}; {context.command_path} -h shows what it takes."
     elif isinstance(error, UwsimError):
         message = str(error)
     elif isinstance(error, OSError) and error.filename is not None:
-        message = f"{error.strerror}: {error.filename}"
+        message = _of_system(error)
     else:
         message = f"{type(error).__name__}: {error} (--traceback shows where)"
     return printable(f"uwsim: {message.strip()}") if message.strip() else ""
 
 
+@contextmanager
+def running() -> Iterator[None]:
+    """Make what the system refuses in this block a failed run: what was asked for was checked."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise  # whoever read our output has left
+    except OSError as error:
+        raise RunFailed(_of_system(error)) from error
+
+
 def printable(text: str) -> str:
-    """Show control characters, which a hostile file may hold, instead of obeying them."""
-    return "".join(
-        letter if letter.isprintable() or letter == "\n" else f"\\x{ord(letter):02x}"
-        for letter in text
-    )
+    """Show what a hostile file may hold: no control characters, and not more than can be read."""
+    return "\n".join(_legible(line) for line in text.split("\n"))
+
+
+def _of_system(error: OSError) -> str:
+    if error.filename is None:
+        return error.strerror or str(error)
+    return f"{error.strerror}: {error.filename}"
+
+
+def _legible(line: str) -> str:
+    shown = LONG.sub(_shortened, line[: 10 * LONGEST_LINE])
+    if len(shown) > LONGEST_LINE or len(line) > 10 * LONGEST_LINE:
+        shown = f"{shown[:LONGEST_LINE]}…"
+    return "".join(letter if letter.isprintable() else f"\\x{ord(letter):02x}" for letter in shown)
+
+
+LONG = re.compile(rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{LONGEST_QUOTE + 1},}}""")
+"""What a file said: what stands between quotes, and what is long and has no gap."""
+
+
+def _shortened(found: re.Match[str]) -> str:
+    text = found[0]
+    if len(text) <= LONGEST_QUOTE:
+        return text
+    end = text[-1] if text[0] in "'\"" else ""
+    left_out = len(text) - LONGEST_QUOTE - len(end)
+    return f"{text[:LONGEST_QUOTE]}… ({left_out} more letters){end}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 from collections.abc import Callable, Mapping
@@ -12,9 +13,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from ..errors import UnknownName
+from .completion import one_of
 from .files import bundled
+from .options import JsonOption
 from .plugins import PluginOption, read_plugins
 
 if TYPE_CHECKING:
@@ -28,28 +32,56 @@ def list_names(
     kind: Annotated[
         str | None,
         typer.Argument(
-            help="scenes, benchmarks, algorithms, vehicles, measures, triggers, updaters or "
-            "sensors; all of them when left out."
+            metavar="KIND",
+            help="scenes, benchmarks, algorithms, vehicles, measures, triggers, updaters, sensors, "
+            "devices or interfaces; all of them when left out.",
+            autocompletion=lambda incomplete: one_of(KINDS)(incomplete),
         ),
     ] = None,
+    as_json: JsonOption = False,
     plugin: PluginOption = None,
 ) -> None:
-    """List what can be named on the command line and in files, with a line about each."""
+    """List what can be named on the command line and in files, with a line about each.
+
+    What uwsim reads in a scene and does not simulate is marked. With --json: {KIND: [{"name",
+    "summary", "limit"}]}; limit is empty where all of it is simulated.
+    """
     if kind is not None and kind not in KINDS:
         raise UnknownName("kind of thing to list", kind, KINDS)
     _, tables = read_plugins(plugin)
+    found = {name: KINDS[name](tables) for name in (KINDS if kind is None else (kind,))}
+    if as_json:
+        print(json.dumps({name: documents(name, each) for name, each in found.items()}, indent=1))
+        return
     console = Console(highlight=False, width=None if sys.stdout.isatty() else UNWRAPPED)
-    for name in KINDS if kind is None else (kind,):
+    for name, entries in found.items():
         table = Table(box=None, show_header=False, padding=(0, 2, 0, 0), pad_edge=False)
         table.add_column(no_wrap=True, style="bold")
         table.add_column()
-        for entry, description in KINDS[name](tables).items():
-            table.add_row(entry, description)
+        for entry, description in entries.items():
+            limit = limit_in(name, entry)
+            table.add_row(entry, Text(description + (f" [{limit}]" if limit else "")))
         if kind is None:
             console.print(name, style="underline")
         console.print(table)
         if kind is None:
             console.print()
+
+
+def documents(kind: str, entries: Mapping[str, str]) -> list[dict[str, str]]:
+    """Return what is listed of one kind, for a program."""
+    return [
+        {"name": name, "summary": summary, "limit": limit_in(kind, name)}
+        for name, summary in entries.items()
+    ]
+
+
+def limit_in(kind: str, name: str) -> str:
+    """Say how far something is simulated; an empty text: wholly, or it is nothing to simulate."""
+    from ..scene.not_yet import limit_of
+
+    parent = {"sensors": "vehicle", "devices": "vehicle", "interfaces": "rosInterfaces"}.get(kind)
+    return "" if parent is None else limit_of(parent, clark(name))
 
 
 def scenes(tables: Tables) -> dict[str, str]:
@@ -95,6 +127,33 @@ def sensors(tables: Tables) -> dict[str, str]:
     return family(SENSORS)
 
 
+def devices(tables: Tables) -> dict[str, str]:
+    """Devices that a scene file may use, and what else it may give a vehicle."""
+    from ..devices import DEVICES
+    from ..devices.lamp import LampSpec
+    from ..devices.sway import SwaySpec
+    from ..devices.thruster_fault import ThrusterFaultSpec
+
+    ours = {"u:lamp": LampSpec, "u:sway": SwaySpec, "u:fault": ThrusterFaultSpec}
+    titled = {name: without_title(line) for name, line in family(ours).items()}
+    return {**family(DEVICES), **titled}
+
+
+def interfaces(tables: Tables) -> dict[str, str]:
+    """Elements of ``<rosInterfaces>``: topics in and out of a scene."""
+    from ..dialect.names import local
+    from ..scene.ros_interfaces import INTERFACES
+
+    return {local(name): first_line(spec.__doc__) for name, spec in INTERFACES.items()}
+
+
+def clark(name: str) -> str:
+    """Return a name as tables have it: ``u:lamp`` with its namespace written out."""
+    from ..dialect import NAMESPACE
+
+    return f"{{{NAMESPACE}}}{name[2:]}" if name.startswith("u:") else name
+
+
 KINDS: dict[str, Callable[[Tables], dict[str, str]]] = {
     "scenes": scenes,
     "benchmarks": benchmarks,
@@ -104,6 +163,8 @@ KINDS: dict[str, Callable[[Tables], dict[str, str]]] = {
     "triggers": triggers,
     "updaters": updaters,
     "sensors": sensors,
+    "devices": devices,
+    "interfaces": interfaces,
 }
 
 

@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import AllErrors, AssetNotFound, BadSetting, did_you_mean
+from .faults import printable
 from .files import benchmark_file, scene_file
 from .plugins import read_plugins
+from .stand_ins import warn_of_stand_ins
 
 if TYPE_CHECKING:
     from ..benchmark.plan import Mode, Plan
@@ -45,6 +47,7 @@ def make_plan(
         UwsimError: a file, a name or a setting that is wrong; or SeveralErrors, with all of them.
     """
     from ..benchmark.plan import Plan
+    from ..benchmark.updater_settings import apply_updater_setting, leads_to_updater
     from ..scene.settings import apply_setting
 
     wrong = AllErrors()
@@ -68,7 +71,11 @@ def make_plan(
     }
     for name, value in pairs:
         with wrong.kept():
-            if scene_spec is not None and not name.startswith(OF_ALGORITHM):
+            if name.startswith(OF_ALGORITHM):
+                continue
+            if spec is not None and leads_to_updater(spec, name):
+                spec = apply_updater_setting(spec, name, value)
+            elif scene_spec is not None:
                 scene_spec = apply_setting(scene_spec, name, value)
     kind: type[Algorithm] | None = None
     wanted = algorithm or (None if spec is None else spec.algorithm) or ""
@@ -102,6 +109,15 @@ def make_plan(
         data_path=data_path,
         plugins=own,
     )
+
+
+def say_warnings(plan: Plan) -> None:
+    """Say on standard error what stands for lost files, and what autopilots cannot do."""
+    from ..simulation.thrust_warnings import warnings_of
+
+    warn_of_stand_ins(plan.scene, plan.data_path)
+    for fault in warnings_of(plan.scene, plan.data_path):
+        print(printable(f"{fault} (notice)"), file=sys.stderr)
 
 
 def benchmark_of(path: Path, own: Sequence[Plugin], tables: Tables) -> BenchmarkSpec:
@@ -241,7 +257,8 @@ def check_length(
         raise BadSetting(f"--repeat {repeat}: at most {MAX_REPEATS}.")
     if spec is None:
         return
-    length = updaters.interval(spec.scene_updater) or 0.0
+    settling = max(each.settling_time for each in updaters.chain(spec.scene_updater))
+    length = (updaters.interval(spec.scene_updater) or 0.0) + settling
     n_levels = len(chosen_levels(updaters.levels(spec.scene_updater), chosen))
     total = length * n_levels * repeat
     if total > LONGEST:

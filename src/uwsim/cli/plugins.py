@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..errors import AllErrors
+from .taught import FILES, in_group
 
 if TYPE_CHECKING:
     from ..benchmark.plugin import Plugin, Tables
 
 PluginOption = Annotated[
     list[Path] | None,
-    typer.Option(
+    in_group(
+        FILES,
         "--plugin",
         metavar="FILE.py",
         help="Measures, triggers, updaters or algorithms of your own; may be repeated.",

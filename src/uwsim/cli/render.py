@@ -1,4 +1,4 @@
-"""``uwsim render``: what a camera of a scene sees, as picture files."""
+"""``uwsim render``: what a camera of a scene sees, or a view of it, as picture files."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-import typer
 from PIL import Image
 
 from ..errors import AllErrors, BadSetting
 from .files import scene_file
-from .options import CompatOption, DataPathOption
+from .options import CompatOption, DataPathOption, SceneArgument, SetOption
 from .plan import compatibility_of, pairs_of
+from .stand_ins import warn_of_stand_ins
+from .taught import INPUT, OUTPUT, in_group
+from .views import Wanted
 
 if TYPE_CHECKING:
     from ..rendering.renderer import Picture
@@ -24,14 +26,65 @@ DEEPEST = 65535
 
 
 def render(
-    scene: Annotated[str, typer.Argument(metavar="SCENE", help="A scene file, or a bundled name.")],
-    camera: Annotated[str, typer.Option(help="Name of a virtual camera of the scene.")],
+    scene: SceneArgument,
     out: Annotated[
-        Path, typer.Option("--out", "-o", metavar="FILE.png", help="Where the picture goes.")
+        Path, in_group(OUTPUT, "--out", "-o", metavar="FILE.png", help="Where the picture goes.")
     ],
+    camera: Annotated[
+        str | None,
+        in_group(
+            INPUT,
+            "--camera",
+            metavar="NAME",
+            help="A virtual camera of the scene (uwsim info SCENE names them); need not be given "
+            "where there is one.",
+        ),
+    ] = None,
+    view: Annotated[
+        str | None,
+        in_group(
+            INPUT,
+            "--view",
+            metavar="orbit|top|viewer",
+            help="Look at the vehicles from where they are seen best, from above, or as the file's "
+            "viewer does (its element camera).",
+        ),
+    ] = None,
+    eye: Annotated[
+        str | None,
+        in_group(INPUT, "--from", metavar="X,Y,Z", help="Look from here, in the file's frame [m]."),
+    ] = None,
+    at: Annotated[
+        str | None,
+        in_group(
+            INPUT, "--at", metavar="X,Y,Z", help="Look at this point, in the file's frame [m]."
+        ),
+    ] = None,
+    settings: SetOption = None,
+    compat: CompatOption = None,
+    seed: Annotated[
+        int,
+        in_group(
+            INPUT,
+            "--seed",
+            metavar="N",
+            min=0,
+            help="Seed of the camera's noise, and of what varies in the scene (u:vary).",
+        ),
+    ] = 0,
+    size: Annotated[
+        str | None,
+        in_group(
+            OUTPUT,
+            "--size",
+            metavar="WxH",
+            help="Of the picture [px], instead of the camera's own, or of resw and resh.",
+        ),
+    ] = None,
     depth: Annotated[
         bool,
-        typer.Option(
+        in_group(
+            OUTPUT,
             "--depth",
             help="Also FILE-depth.png (16 bit, millimetres, 0: nothing there) and FILE-depth.npy "
             "(float32, metres, inf: nothing there), both along the optical axis.",
@@ -39,30 +92,27 @@ def render(
     ] = False,
     segmentation: Annotated[
         bool,
-        typer.Option(
+        in_group(
+            OUTPUT,
             "--segmentation",
             help="Also FILE-ids.png (16 bit, 0: nothing there) and FILE-ids.csv: the name of "
             "each number in it.",
         ),
     ] = False,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of the camera's noise.")] = 0,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set",
-            metavar="PATH=VALUE",
-            help="Change the scene, as oceanState.fog.density=0.4; may be repeated.",
-        ),
-    ] = None,
-    compat: CompatOption = None,
     data_path: DataPathOption = None,
 ) -> None:
-    """Draw what a camera of a scene sees at time 0: with its noise, and through the water."""
+    """Draw a scene at time 0: what a camera of it sees, or a view of it.
+
+    A virtual camera sees with its noise and through the water. A view has no noise, and air above
+    the water; orbit and top are drawn without fog, unless --set gives it. Without --camera, --view
+    and --from the scene's one virtual camera sees; where there is none, the file's viewer; without
+    either it is an orbit view.
+    """
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting
     from ..simulation import Simulation
 
-    wrong, spec = AllErrors(), None
+    wrong, spec, wanted = AllErrors(), None, None
     folders = tuple(data_path or ())
     with wrong.kept():
         if out.suffix.lower() != ".png":
@@ -72,22 +122,24 @@ def render(
     for name, value in pairs_of(settings or [], wrong):
         with wrong.kept():
             spec = None if spec is None else apply_setting(spec, name, value)
+    with wrong.kept():
+        wanted = Wanted.of(camera, view, eye, at, size, settings or ())
     slips = compatibility_of(compat or [], wrong)
     wrong.check()
     assert spec is not None
+    assert wanted is not None
+    warn_of_stand_ins(spec, folders)
     simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=slips)
     try:
-        eye = simulation.camera(camera)
-        written = [save(out, eye.shoot())]
-        if depth or segmentation:
-            picture = simulation.picture(eye.world_from_camera, eye.intrinsics)
-            if depth:
-                written += save_depth(out, picture)
-            if segmentation:
-                written += save_ids(out, picture, simulation.part_names)
+        shot = wanted.shoot(simulation, spec)
+        written = [save(out, shot.pixels)]
+        if depth:
+            written += save_depth(out, shot.picture())
+        if segmentation:
+            written += save_ids(out, shot.picture(), simulation.part_names)
     finally:
         simulation.close()
-    print("written: " + ", ".join(str(path) for path in written))
+    print(f"{shot.what}; written: " + ", ".join(str(path) for path in written))
 
 
 def save(path: Path, pixels: np.ndarray) -> Path:

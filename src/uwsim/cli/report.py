@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
-import typer
 from rich.console import Console
 
-Result = Annotated[
-    Path, typer.Argument(metavar="RESULT", help="A result directory or its result.json.")
-]
-Pdf = Annotated[bool, typer.Option("--pdf", help="Draw every plot as PDF, too, for a paper.")]
+from .options import ResultArgument
+from .taught import OUTPUT, in_group
+
+Pdf = Annotated[bool, in_group(OUTPUT, "--pdf", help="Draw every plot as PDF, too, for a paper.")]
 
 
-def report(result: Result, pdf: Pdf = False) -> None:
+def report(result: ResultArgument, pdf: Pdf = False) -> None:
     """Draw report.html and the plots of RESULT again, from what lies in it alone."""
     from ..benchmark.report import write_report
 

@@ -3,12 +3,30 @@
 from __future__ import annotations
 
 import datetime
+import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..benchmark.bench import Bench
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stopwatch:
+    """When a command began, and how long it has taken since.
+
+    The time of day may be set while a run lasts; what has passed is told by a clock that is not.
+    """
+
+    began: float = field(default_factory=time.time)
+    """Time of day [s since 1970]."""
+    start: float = field(default_factory=time.monotonic)
+    """The same moment on the clock that only runs [s]."""
+
+    def passed(self) -> float:
+        """How long ago that was [s]."""
+        return time.monotonic() - self.start
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ResultError
-from .crew import WorkersOption, crew_of
-from .faults import RUN_FAILED, printable
-from .options import DataPathOption
+from ..interrupts import raise_from_now_on
+from .crew import WorkersOption, crew_of, n_at_once
+from .faults import RUN_FAILED, printable, running
+from .options import DataPathOption, ResultArgument
 from .plugins import PluginOption
 from .progress import progress
 from .recorded import NOT_DRAWN, Given, check_inputs, named_input, plan_of
+from .taught import FILES, RUN, in_group
 
 if TYPE_CHECKING:
     from ..benchmark.result import Result
@@ -46,21 +48,40 @@ PROMISES = {
 
 
 def verify(
-    result: Annotated[
-        Path, typer.Argument(metavar="RESULT", help="A result directory or its result.json.")
-    ],
+    result: ResultArgument,
     sample: Annotated[
-        int, typer.Option(min=1, help="How many units of work to replay, chosen by --seed.")
+        int,
+        in_group(
+            RUN,
+            "--sample",
+            metavar="N",
+            min=1,
+            help="How many units of work to replay, chosen by --seed.",
+        ),
     ] = 3,
-    whole: Annotated[bool, typer.Option("--all", help="Replay every unit.")] = False,
-    seed: Annotated[int, typer.Option(min=0, help="Chooses the sample; not the run's.")] = 0,
+    whole: Annotated[bool, in_group(RUN, "--all", help="Replay every unit.")] = False,
+    seed: Annotated[
+        int, in_group(RUN, "--seed", metavar="N", min=0, help="Chooses the sample; not the run's.")
+    ] = 0,
+    workers: WorkersOption = "1",
     benchmark: Annotated[
-        Path | None, typer.Option(help="The benchmark, where it is not found by its name.")
+        Path | None,
+        in_group(
+            FILES,
+            "--benchmark",
+            metavar="FILE.xml",
+            help="The benchmark, where it is not found by its name.",
+        ),
     ] = None,
     scene: Annotated[
-        Path | None, typer.Option(help="The scene, where it is not found by its name.")
+        Path | None,
+        in_group(
+            FILES,
+            "--scene",
+            metavar="FILE.xml",
+            help="The scene, where it is not found by its name.",
+        ),
     ] = None,
-    workers: WorkersOption = "1",
     plugin: PluginOption = None,
     data_path: DataPathOption = None,
 ) -> None:
@@ -106,7 +127,9 @@ def verify(
     others = made_otherwise(stored, directory, bench.head(units[0])["run"])
     for line in others.values():
         typer.echo(printable(line))
-    with progress("replaying", n_levels, of="levels") as on_level:
+    raise_from_now_on()
+    at_once = n_at_once(workers)
+    with running(), progress("replaying", n_levels, of="levels", at_once=at_once) as on_level:
         found = compare(directory, stored, bench, units, crew=crew, on_level=on_level)
     for line in tell(found, len(whole_units), others):
         typer.echo(printable(line))

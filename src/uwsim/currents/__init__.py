@@ -17,6 +17,7 @@ from .profile import (
     PowerProfileSpec,
 )
 from .python_function import PythonFunction, PythonFunctionSpec
+from .target import TargetCurrent
 from .tidal import ConstituentSpec, Tidal, TidalSpec
 from .total import TotalCurrent, bind_currents
 from .uwsim_sinusoid import LEAST_PERIOD, UwsimSinusoid, UwsimSinusoidSpec
@@ -59,6 +60,7 @@ __all__ = [
     "PowerProfileSpec",
     "PythonFunction",
     "PythonFunctionSpec",
+    "TargetCurrent",
     "Tidal",
     "TidalSpec",
     "TotalCurrent",

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Pose
+from ..linear import product
 
 Array = npt.NDArray[np.float64]
 FASTEST = 100.0
@@ -36,7 +37,7 @@ class Place:
     def depths(self, points: Array) -> Array:
         """Return how far below the still surface points of L lie, (n,) [m]; above it negative."""
         pose = self.world_from_localized
-        below: Array = self.surface_height - (points @ pose.rotation[2] + pose.position[2])
+        below: Array = self.surface_height - (product(points, pose.rotation[2]) + pose.position[2])
         return below
 
 

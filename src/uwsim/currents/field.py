@@ -291,7 +291,7 @@ class Field(Current):
             [corner for corner in itertools.product((0, 1), repeat=3) if _within(corner, used)]
         )
         self._corners = corners.T.copy()  # (3, c)
-        self._offsets = (corners @ np.array(self._strides))[:, None]  # (c, 1)
+        self._offsets = (corners * np.array(self._strides)).sum(axis=1)[:, None]  # (c, 1)
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""

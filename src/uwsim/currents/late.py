@@ -11,25 +11,26 @@ from .current import Array, Current
 
 
 class LateCurrent(Current):
-    """Nothing before ``began + calm``; then the current as of the time since ``began``.
+    """Nothing before ``began + delay``; then the current as of ``offset`` and the time since began.
 
     The time since ``began`` is rounded to nanoseconds, so that a level gives the same numbers
     whether it is played alone or late in a sweep.
     """
 
-    def __init__(self, current: Flow, *, began: float, calm: float) -> None:
-        self._current, self._began, self._calm = current, began, calm
+    def __init__(self, current: Flow, *, began: float, delay: float, offset: float = 0.0) -> None:
+        self._current, self._began, self._delay = current, began, delay
+        self._offset = offset
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         elapsed = round(time - self._began, 9)
-        if elapsed < self._calm:
+        if elapsed < self._delay:
             return np.zeros((len(points), 3))
-        return self._current.velocity(points, elapsed, vehicles)
+        return self._current.velocity(points, elapsed + self._offset, vehicles)
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return its acceleration, in L, (n, 3) [m/s2]; the jump at its beginning is left out."""
         elapsed = round(time - self._began, 9)
-        if elapsed < self._calm:
+        if elapsed < self._delay:
             return np.zeros((len(points), 3))
-        return self._current.acceleration(points, elapsed, vehicles)
+        return self._current.acceleration(points, elapsed + self._offset, vehicles)

@@ -33,6 +33,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..dialect import element
+from ..elementwise import log, power
 from ..errors import BadSetting
 from .current import FASTEST, Array, Current, CurrentSpec, Place
 
@@ -157,7 +158,7 @@ class PowerProfile(Profile):
     def at_depth(self, depths: Array) -> Array:
         """Return the velocity at a depth, (n, 3) [m/s]."""
         height = np.clip(1.0 - depths / self._depth, 0.0, 1.0)
-        velocities: Array = (height**self._exponent)[:, None] * self._surface
+        velocities: Array = power(height, self._exponent)[:, None] * self._surface
         return velocities
 
 
@@ -180,7 +181,7 @@ class LogProfile(Profile):
     def at_depth(self, depths: Array) -> Array:
         """Return the velocity at a depth, (n, 3) [m/s]."""
         heights = np.clip(self._depth - depths, self._roughness, self._depth)
-        share = np.log(heights / self._roughness) / math.log(self._depth / self._roughness)
+        share = log(heights / self._roughness) / math.log(self._depth / self._roughness)
         velocities: Array = share[:, None] * self._surface
         return velocities
 

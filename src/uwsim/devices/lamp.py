@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..dialect import element
+from ..sensors.sensor import DIRECTIONS, LookAt
 
 MOST_LAMPS = 4
 """So many lamps may shine in a scene."""
@@ -37,6 +38,9 @@ class LampSpec:
         namespaced=True, default=(0.0, 0.0, 0.0), parts="rpy"
     )
     """Of the lamp in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    look_at: LookAt = element(namespaced=True, default=None, words=DIRECTIONS)
+    """Where it shines at the start, instead of ``orientation``: a point in L [m], or a direction
+    of the vehicle. It stays fixed to its link."""
     fov: float = element(namespaced=True, default=60.0, above=0, maximum=160)
     """Angle of the whole cone [deg]."""
     softness: float = element(namespaced=True, default=0.2, minimum=0, maximum=1)

@@ -32,10 +32,12 @@ class SwaySpec:
     """How far it swings; of angles in radians [m or rad]."""
     period: float = element(namespaced=True, above=0)
     """Time of one swing [s]."""
+    phase: float = element(namespaced=True, default=0.0)
+    """Where in the swing it begins [rad]."""
 
     def offset(self, time: float) -> float:
-        """Return ``amplitude * sin(2 pi time / period)`` [m or rad]."""
-        return self.amplitude * math.sin(2.0 * math.pi * time / self.period)
+        """Return ``amplitude * sin(2 pi time / period + phase)`` [m or rad]."""
+        return self.amplitude * math.sin(2.0 * math.pi * time / self.period + self.phase)
 
 
 def swayed(

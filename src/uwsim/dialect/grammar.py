@@ -34,6 +34,7 @@ class Xml:
     namespaced: bool = False
     aliases: tuple[str, ...] = ()
     parts: str = "xyz"
+    words: tuple[str, ...] = ()
     item: str | None = None
     choice: Mapping[str, type] | None = None
     minimum: float | None = None
@@ -57,6 +58,7 @@ def element(
     namespaced: bool = False,
     aliases: tuple[str, ...] = (),
     parts: str = "xyz",
+    words: tuple[str, ...] = (),
     item: str | None = None,
     choice: Mapping[str, type] | None = None,
     minimum: float | None = None,
@@ -79,6 +81,7 @@ def element(
         namespaced: it is an extension, ``u:name``.
         aliases: old names, read with a notice.
         parts: names of a triple's elements, one letter each.
+        words: of a triple, what may stand in the place of its elements.
         item: the element is a list; this is the name of its items.
         choice: name -> spec of the children that may stand in the element, in any number.
         minimum: smallest value allowed.
@@ -90,7 +93,7 @@ def element(
         required_by_dtd: the original's grammar wants it although it has a default.
     """
     xml = Xml(
-        name, unit, attribute, text, namespaced, aliases, parts, item, choice,
+        name, unit, attribute, text, namespaced, aliases, parts, words, item, choice,
         minimum, maximum, above, below, invalid, lenient, required_by_dtd,
     )  # fmt: skip
     metadata = {"xml": xml}
@@ -144,7 +147,9 @@ class Slot:
     def expected(self) -> str:
         """What should have stood there, in words."""
         if self.kind == "word":
-            return "one of " + ", ".join(repr(word) for word in self.type)
+            said = "one of " + ", ".join(repr(word) for word in self.type)
+            parts = " ".join(f"<{part}>" for part in self.xml.parts)
+            return f"{said}, or {parts}" if self.xml.words else said
         if self.kind == "bool":
             return "true or false" if self.xml.attribute else "0 or 1"
         words = {"float": "a number", "triple": "a number", "int": "a whole number"}

@@ -211,6 +211,8 @@ def _leaf(slot: Slot, node: etree._Element, faults: Faults) -> Any:
 def _read_triple(slot: Slot, node: etree._Element, faults: Faults) -> Any:
     values: dict[str, float] = {}
     seen: set[str] = set()
+    if slot.xml.words and not any(True for _ in _elements(node, faults)):
+        return _leaf(dataclasses.replace(slot, kind="word", type=slot.xml.words), node, faults)
     _refuse_text(node, faults)
     for child in _elements(node, faults):
         tag = str(child.tag)

@@ -62,7 +62,7 @@ def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: s
         value = {"0": False, "1": True}.get(text, BAD)
         if slot.xml.attribute and value is BAD:
             value = {"false": False, "true": True}.get(text, BAD)
-        if value is BAD and not slot.xml.attribute:
+        if value is BAD and not slot.xml.attribute and not slot.xml.namespaced:
             value = slot.default if slot.xml.invalid is None else slot.xml.invalid
             faults.notice(
                 node,

@@ -65,7 +65,7 @@ def _write_items(node: etree._Element, slot: Slot, items: Iterable[Any]) -> None
 def _write_one(node: etree._Element, slot: Slot, value: Any) -> None:
     if slot.kind == "spec":
         _fill(node, value)
-    elif slot.kind == "triple":
+    elif slot.kind == "triple" and not isinstance(value, str):
         for part, number_ in zip(slot.xml.parts, value, strict=True):
             etree.SubElement(node, part).text = _text(number_)
     else:

@@ -6,21 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
-from rosbags.typesys.stores.ros2_jazzy import (
-    builtin_interfaces__msg__Time as Time,
-)
-from rosbags.typesys.stores.ros2_jazzy import (
-    sensor_msgs__msg__Image as Image,
-)
-from rosbags.typesys.stores.ros2_jazzy import (
-    std_msgs__msg__Float32MultiArray as Float32MultiArray,
-)
-from rosbags.typesys.stores.ros2_jazzy import (
-    std_msgs__msg__Header as Header,
-)
-from rosbags.typesys.stores.ros2_jazzy import (
-    std_msgs__msg__MultiArrayLayout as MultiArrayLayout,
-)
+
+from .types import Float32MultiArray, Header, Image, MultiArrayLayout, Time
 
 NANOSECONDS = 1_000_000_000
 

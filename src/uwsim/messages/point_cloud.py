@@ -7,19 +7,12 @@ are stepped over. x, y, z may each be float32 or float64, in either byte order.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 import numpy.typing as npt
-from rosbags.typesys.stores.ros2_jazzy import (
-    sensor_msgs__msg__PointCloud2 as PointCloud2,
-)
-from rosbags.typesys.stores.ros2_jazzy import (
-    sensor_msgs__msg__PointField as PointField,
-)
 
 from ..errors import BadSetting
 from .build import header
+from .types import PointCloud2, PointField
 
 FLOATS = {7: "f4", 8: "f8"}
 """PointField.FLOAT32 and FLOAT64 -> numpy's name of it, without the byte order."""
@@ -44,7 +37,7 @@ def _points(cloud: PointCloud2) -> npt.NDArray[np.float64]:
     height, width = int(cloud.height), int(cloud.width)
     step, row = int(cloud.point_step), int(cloud.row_step)
     order = ">" if cloud.is_bigendian else "<"
-    places = [_place(cloud.fields, axis, step) for axis in "xyz"]
+    places = [_place(cloud, axis, step) for axis in "xyz"]
     if height <= 0 or width <= 0:
         return np.empty((0, 3))
     if height > 1 and row < width * step:
@@ -60,11 +53,11 @@ def _points(cloud: PointCloud2) -> npt.NDArray[np.float64]:
     return xyz.reshape(-1, 3)
 
 
-def _place(fields: Iterable[PointField], axis: str, step: int) -> tuple[int, str]:
+def _place(cloud: PointCloud2, axis: str, step: int) -> tuple[int, str]:
     """Where a coordinate begins in a point [byte], and what kind of float it is."""
-    found = next((field for field in fields if field.name == axis), None)
+    found = next((field for field in cloud.fields if field.name == axis), None)
     if found is None:
-        names = ", ".join(repr(field.name[:20]) for field in list(fields)[:8]) or "none"
+        names = ", ".join(repr(field.name[:20]) for field in list(cloud.fields)[:8]) or "none"
         raise BadSetting(f"it has no field {axis!r}; its fields: {names}")
     kind = FLOATS.get(int(found.datatype))
     if kind is None:

@@ -24,6 +24,16 @@ righted: the angle is the integral of the rate, and pulls with :math:`k_i` as th
 do. Forces are shared out by least squares and turned into commands by the thrusters' own curves;
 where they are not enough, surge and sway go short.
 
+*Axes that the thrusters cannot drive* (`uwsim.physics.allocation`) are let go: nothing is asked of
+thrusters for them, and their integrals stay 0. Where pitch is driven and heave is not, depth is
+held by the angle :math:`\gamma` at which the vehicle goes ahead, with the climb c wished for and
+the speed u
+
+.. math:: \gamma = c\,u / (u^2 + u_0^2), \qquad |\gamma| \le 0.35
+
+Where pitch is not driven, surge wished for fades out while the hull leans by `LEVEL` to `STEEP`, so
+that what it cannot right does not take it to the surface or the floor.
+
 The autopilot knows the true state. Not modelled: noise and delay of its sensors.
 """
 
@@ -37,10 +47,12 @@ from typing import Literal
 import numpy as np
 
 from ..geometry import Array, Pose
+from ..linear import pseudo_inverse
+from .allocation import N_POINTS, ROLL, allocate, curve
 from .hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 
 USUAL = (0, 1, 2, 4, 5)
-"""Surge, sway, heave, pitch and yaw: what thrusters usually reach."""
+"""Surge, sway, heave, pitch and yaw: of a commanded wrench where thrusters do not reach roll."""
 ALL = (0, 1, 2, 3, 4, 5)
 
 
@@ -56,10 +68,6 @@ class Gains:
     """Yaw rate wished for per heading error [1/s]."""
 
 
-N_POINTS = 401
-"""Of a thruster's curve as the autopilot knows it."""
-LEAST_LEVER = 0.02
-"""What moves a vehicle less than this per newton of its thrusters is not asked of them [1, m]."""
 LEAST_LAG = 0.08
 """Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
 LARGEST = 1e6
@@ -71,7 +79,14 @@ class Autopilot:
     """Velocity loops, holding of depth, heading and position of one vehicle."""
 
     def __init__(
-        self, vehicle: VehicleHydrodynamics, link: str, mass: float, gains: Gains | None = None
+        self,
+        vehicle: VehicleHydrodynamics,
+        link: str,
+        mass: float,
+        gains: Gains | None = None,
+        *,
+        stiffness: float = math.inf,
+        thrusters: Sequence[ThrusterSpec] | None = None,
     ) -> None:
         """Prepare the loops of a vehicle.
 
@@ -80,6 +95,8 @@ class Autopilot:
             link: its base.
             mass: of the whole vehicle with its arm [kg].
             gains: how hard the loops pull.
+            stiffness: with which the hull rights itself [N m/rad].
+            thrusters: in the base's frame; without those of the set, all on the base.
         """
         from . import autopilot_law
 
@@ -100,20 +117,24 @@ class Autopilot:
             np.diag(matrix(body.quadratic_damping)).copy() if body else np.zeros(6),
             self._reference,
         )
-        columns = [_column(thruster, self._reference) for thruster in vehicle.thrusters]
-        wrenches = np.array(columns).reshape(-1, 6).T  # (6, n): N, N m per N
-        axes = list(ALL if _reaches_roll(wrenches) else USUAL)
-        self._axes = np.array(axes, dtype=np.int64)
-        self._reached = np.ascontiguousarray(wrenches[axes])  # (k, n)
-        # (n, k): [N per N or N m]
-        self._share = np.ascontiguousarray(np.linalg.pinv(self._reached, rcond=1e-6))
-        curves = [_curve(thruster) for thruster in vehicle.thrusters]
+        thrusters = vehicle.thrusters if thrusters is None else thrusters
+        self.allocation = allocate(thrusters, self._reference, stiffness)
+        """What the thrusters can do."""
+        found = self.allocation
+        self._axes = np.array(found.axes, dtype=np.int64)
+        self._reached, self._share = found.reached, found.share  # (k, n), (n, k)
+        self._drives, self._most = found.drives, found.most  # (6,)
+        self._least, self._greatest = found.least, found.greatest  # (n,) [N]
+        # a wrench that is commanded is given as nearly as thrusters can, whatever comes with it
+        asked = ALL if ROLL in found.axes else USUAL
+        self._asked = np.array(asked, dtype=np.int64)
+        rows = np.ascontiguousarray(found.wrenches[list(asked)])
+        self._nearest = np.ascontiguousarray(pseudo_inverse(rows, rcond=1e-6))  # (n, k)
+        curves = [curve(thruster) for thruster in thrusters]
         self._curves = (
             np.array([thrusts for thrusts, _ in curves]).reshape(-1, N_POINTS),
             np.array([commands for _, commands in curves]).reshape(-1, N_POINTS),
         )
-        ends = [(thrusts[0], thrusts[-1]) for thrusts, _ in curves]
-        self._least, self._greatest = np.array(ends).reshape(-1, 2).T.copy()  # (n,) [N]
         self._wanted = np.zeros(6)  # [m/s, rad/s]
         self._model = np.zeros(6)  # the velocity that is followed [m/s, rad/s]
         self._integral = np.zeros(6)
@@ -177,7 +198,7 @@ class Autopilot:
         if self._mode == "thrusters":
             return self._commands
         if self._mode == "wrench":
-            forces = self._law.shared(self._wrench, self._axes, self._share)
+            forces = self._law.shared(self._wrench, self._asked, self._nearest)
             return self._law.commands(forces, *self._curves)
         if self._takes_over:
             self._takes_over = False
@@ -201,36 +222,9 @@ class Autopilot:
             self._reached,
             self._least,
             self._greatest,
+            self._drives,
+            self._most,
             self._model,
             self._integral,
         )
         return self._law.commands(forces, *self._curves)
-
-
-def _reaches_roll(wrenches: Array) -> bool:
-    """Whether thrusters (6, n) can roll the vehicle and leave the other axes alone."""
-    usual, all_ = wrenches[list(USUAL)], wrenches[list(ALL)]
-    return bool(
-        np.linalg.matrix_rank(all_, tol=LEAST_LEVER) > np.linalg.matrix_rank(usual, tol=LEAST_LEVER)
-    )
-
-
-def _column(thruster: ThrusterSpec, reference: Array) -> Array:
-    """Force and moment about the reference of one newton of a thruster, (6,)."""
-    direction = np.array(thruster.direction, dtype=np.float64)
-    direction /= np.linalg.norm(direction)
-    arm = np.array(thruster.position) - reference
-    return np.concatenate([direction, np.cross(arm, direction)])
-
-
-def _curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
-    """Thrust [N] and the command that gives it [1], both rising."""
-    commands = np.linspace(*thruster.limits, N_POINTS)
-    backward = thruster.forward if thruster.backward is None else thruster.backward
-    thrusts = []
-    for command in commands:
-        size = max(0.0, abs(command) - thruster.dead_zone)
-        numbers = thruster.forward if command > 0.0 else backward
-        force = sum(c * size ** (i + 1) for i, c in enumerate(numbers))
-        thrusts.append(math.copysign(force, command))
-    return np.maximum.accumulate(np.array(thrusts)), commands

@@ -17,6 +17,13 @@ FASTEST = 0.5
 """What position hold wishes for at most [m/s]."""
 FASTEST_CLIMB = 0.3
 """What depth hold wishes for at most [m/s]."""
+STEEPEST_DIVE = 0.35
+"""Angle at which a vehicle without heave goes up and down at most [rad]."""
+SLOW = 0.3
+"""Speed below which it hardly can [m/s]."""
+LEVEL, STEEP = 0.4363, 0.7854
+"""Lean from which on, and up to which, surge fades out where pitch is not driven: 25 and 45 degrees
+[rad]."""
 
 
 @njit
@@ -41,6 +48,8 @@ def loops(
     reached: Array,
     least: Array,
     greatest: Array,
+    drives: Array,
+    most: Array,
     model: Array,
     integral: Array,
 ) -> Array:
@@ -67,6 +76,8 @@ def loops(
         reached: the other way, (k, n).
         least: thrusts, (n,) [N].
         greatest: thrusts, (n,) [N].
+        drives: 1 for each axis that the thrusters drive, 0 for the others, (6,).
+        most: force of an axis at most, lest the hull leans, (6,) [N].
         model: the velocity that is followed, (6,) [m/s, rad/s]; goes after the wanted one.
         integral: of the error, (6,) [m, rad]; moves on unless thrusters are at their limits.
     """
@@ -92,6 +103,18 @@ def loops(
         along += rotation[k, 0] * heading[k, 0]
         across += rotation[k, 1] * heading[k, 0]
     wanted[5] += gains[HEADING] * math.atan2(across, along)
+    # W's z in base axes; of a base whose z points down it is the other way round
+    side = 1.0 if up >= 0.0 else -1.0
+    x, y, z = side * rotation[2, 0], side * rotation[2, 1], side * rotation[2, 2]
+    lean = math.atan2(-x, z)  # about the base's y
+    dive = 0.0  # the lean wished for
+    if drives[4] == 0.0:
+        wanted[0] *= min(max((STEEP - abs(lean)) / (STEEP - LEVEL), 0.0), 1.0)
+    elif drives[2] == 0.0:
+        ahead_speed = velocity[0]
+        slope = min(max(climb, -FASTEST_CLIMB), FASTEST_CLIMB) + commanded[2] * up
+        slope *= ahead_speed / (ahead_speed * ahead_speed + SLOW * SLOW)
+        dive = -side * min(max(slope, -STEEPEST_DIVE), STEEPEST_DIVE)
     speeding = (wanted - model) / max(lag, dt)
     model += speeding * dt
     error = model - velocity
@@ -103,17 +126,22 @@ def loops(
     before = integral.copy()
     integral += error * dt
     integral[3] = integral[4] = 0.0
+    for i in range(6):
+        if drives[i] == 0.0:
+            integral[i] = 0.0
     tau = mass * (speeding + gains[VELOCITY] * error + gains[INTEGRAL] * integral)
     tau += linear * model + quadratic * np.abs(model) * model
     u, v, w = velocity[0], velocity[1], velocity[2]
     tau[3] += (added[2] - added[1]) * v * w  # the Munk moment v x A v, which turns hulls broadside
     tau[4] += (added[0] - added[2]) * w * u
     tau[5] += (added[1] - added[0]) * u * v
-    # W's z in base axes; of a base whose z points down it is the other way round
-    side = 1.0 if rotation[2, 2] >= 0.0 else -1.0
-    x, y, z = side * rotation[2, 0], side * rotation[2, 1], side * rotation[2, 2]
     tau[3] -= mass[3] * gains[INTEGRAL] * math.atan2(y, z)
-    tau[4] -= mass[4] * gains[INTEGRAL] * math.atan2(-x, z)
+    tau[4] -= mass[4] * gains[INTEGRAL] * (lean - dive)
+    for i in range(3):
+        held = min(max(tau[i], -most[i]), most[i])
+        if (tau[i] - held) * error[i] > 0.0:
+            integral[i] = before[i]
+        tau[i] = held
     asked = shared(tau, axes, share)
     forces = within_reach(tau, asked, axes, share, least, greatest)
     for i in range(len(axes)):

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..errors import BadSetting, UwsimError
 from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
+from ..linear import product
 from ..scene.spec import PhysicsSpec, SceneSpec
 from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
 from .engine_warnings import hush
@@ -235,14 +236,16 @@ def _add_children(
             )
             if links:
                 _add_servo(spec, name, joint.effort)
-                if joint.mimic is not None and is_geared(joint):
+                if joint.mimic is not None and is_geared(joint, robot):
                     _add_gear(spec, name, vehicle_joint(index, joint.mimic.joint), joint.mimic)
         _add_children(spec, child, robot, joint.child, index, links)
 
 
-def is_geared(joint: JointSpec) -> bool:
+def is_geared(joint: JointSpec, robot: RobotSpec) -> bool:
     """Whether a joint is bound to another so that neither moves alone."""
-    return joint.mimic is not None and "slidercrank" not in joint.name
+    moving = [other.name for other in robot.joints if other.moves]
+    is_bound = joint.mimic is not None and joint.mimic.joint in moving
+    return is_bound and "slidercrank" not in joint.name
 
 
 def _add_gear(spec: mujoco.MjSpec, joint: str, leader: str, mimic: MimicSpec) -> None:
@@ -317,7 +320,7 @@ def _add_body(
         if min(xx, yy, zz) > 0.0:
             own = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
             turn = rotation_from_rpy(*link.inertia_rpy)
-            turned = turn @ own @ turn.T
+            turned = product(product(turn, own), turn.T)
             body.fullinertia = [*np.diag(turned), turned[0, 1], turned[0, 2], turned[1, 2]]
             body.inertia = [0.0, 0.0, 0.0]
     return body

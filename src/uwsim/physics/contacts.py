@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array
+from ..linear import dot
 from ..world import Contact
 
 
@@ -40,8 +41,8 @@ def contacts_of(
     for i in np.flatnonzero(presses & (own[:, 0] != own[:, 1])).tolist():
         first, second = bodies[i].tolist()
         normal = found.frame[i][:3]  # from the first to the second, W
-        v_first = float(normal @ _velocity(model, data, first, found.pos[i]))
-        v_second = float(normal @ _velocity(model, data, second, found.pos[i]))
+        v_first = dot(normal, _velocity(model, data, first, found.pos[i]))
+        v_second = dot(normal, _velocity(model, data, second, found.pos[i]))
         is_first = bool(own[i, 0])
         contacts.append(
             Contact(

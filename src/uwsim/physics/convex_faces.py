@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array
+from ..linear import dot, length, product
 
 SAME = 1e-4
 """Corners nearer than this are one, and triangles lower than this are none [m]."""
@@ -45,14 +46,15 @@ def convex_faces(triangles: Array) -> list[Array]:
     polygons: list[Array] = []
     for patch in _patches(triangles, normals):
         frame = _frame(triangles[patch[0]], normals[patch[0]])  # mesh_from_plane
-        flat = triangles[patch] @ frame  # (m, 3, 3)
+        flat = product(triangles[patch], frame)  # (m, 3, 3)
         height = float(flat[0, 0, 2])
         pieces = _pieces(flat[:, :, :2], len(patch))
         if pieces is None or len(pieces) >= len(patch):
             polygons += list(triangles[patch])
             continue
         for piece in pieces:
-            polygons.append(np.column_stack([piece, np.full(len(piece), height)]) @ frame.T)
+            polygon = np.column_stack([piece, np.full(len(piece), height)])
+            polygons.append(product(polygon, frame.T))
     return polygons
 
 
@@ -60,7 +62,7 @@ def _frame(triangle: Array, normal: Array) -> Array:
     """Axes whose first is the longest edge of a triangle and whose third is its normal, (3, 3)."""
     edges = np.roll(triangle, -1, axis=0) - triangle
     along = edges[int(np.argmax(np.linalg.norm(edges, axis=1)))]
-    along = along / np.linalg.norm(along)
+    along = along / length(along)
     return np.column_stack([along, np.cross(normal, along), normal])
 
 
@@ -101,8 +103,8 @@ def _grown(corners: Ints, normals: Array, points: Array) -> list[list[int]]:
                 for i in at_corner[corner]:
                     if (
                         free[i]
-                        and normals[i] @ normal >= PARALLEL
-                        and np.abs((points[i] - origin) @ normal).max() <= LEVEL
+                        and dot(normals[i], normal) >= PARALLEL
+                        and np.abs(product(points[i] - origin, normal)).max() <= LEVEL
                     ):
                         free[i] = False
                         group.append(i)
@@ -183,16 +185,16 @@ def _border_lines(part: Array) -> list[tuple[Array, float]]:
         if n_triangles[key] > 1:
             continue
         way = part[i, b] - part[i, a]
-        length = float(np.linalg.norm(way))
-        if length <= SAME:
+        size = length(way)
+        if size <= SAME:
             continue
-        normal = np.array([-way[1], way[0]]) / length
+        normal = np.array([-way[1], way[0]]) / size
         if (normal[0], normal[1]) < (0.0, 0.0):
             normal = -normal
-        offset = float(normal @ part[i, a])
+        offset = dot(normal, part[i, a])
         line = tuple(np.round(np.array([*normal, offset]) / LEVEL).astype(np.int64).tolist())
-        if length > found.get(line, (0.0,))[0]:
-            found[line] = (length, normal, offset)
+        if size > found.get(line, (0.0,))[0]:
+            found[line] = (size, normal, offset)
     ranked = sorted(found.values(), key=lambda one: -round(one[0] / LEVEL))
     return [(normal, offset) for _, normal, offset in ranked[:MOST_LINES]]
 
@@ -200,7 +202,7 @@ def _border_lines(part: Array) -> list[tuple[Array, float]]:
 def _clipped(part: Array, normal: Array, offset: float) -> Array:
     """What of the triangles (n, 3, 2) lies where ``normal @ x >= offset``, (m, 3, 2)."""
     kept: list[Array] = []
-    heights = part @ normal - offset  # (n, 3)
+    heights = product(part, normal) - offset  # (n, 3)
     heights[np.abs(heights) < SAME] = 0.0
     for triangle, height in zip(part, heights, strict=True):
         if height.max() <= 0.0:

@@ -19,6 +19,7 @@ import mujoco
 import numpy as np
 
 from ..geometry import Array
+from ..linear import turned
 from ..scene.spec import PhysicsSpec, SceneSpec
 from .touching import LONGEST_JUMP
 
@@ -50,7 +51,7 @@ class Falling:
             if model.body(body).name.startswith("vehicle/"):
                 model.body_mass[body] = HEAVY
                 model.body_inertia[body] = HEAVY
-        mujoco.mj_setConst(model, data)
+        mujoco.mj_setConst(model, mujoco.MjData(model))  # it sets the state to the model's own
         bodies = model.jnt_bodyid[[joint for _, joint in loose]]
         own = np.column_stack([model.body_mass[bodies], model.body_inertia[bodies]])
         model.stat.meaninertia = float(own.mean())  # the solver's scale: not the vehicles' own
@@ -91,9 +92,10 @@ class _Damped:
         """Take from its velocities what one step takes."""
         rotation = self._rotation.reshape(3, 3)
         turning = self._velocity[3:]
-        of_middle = self._velocity[:3] + rotation @ np.cross(turning, self._middle)
+        of_middle = self._velocity[:3] + turned(rotation, np.cross(turning, self._middle))
         turning *= self._keeps_turning
-        self._velocity[:3] = self._keeps * of_middle - rotation @ np.cross(turning, self._middle)
+        lever = turned(rotation, np.cross(turning, self._middle))
+        self._velocity[:3] = self._keeps * of_middle - lever
 
 
 class _Mover:

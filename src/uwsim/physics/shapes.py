@@ -12,7 +12,8 @@ compound trimesh   as trimesh
 =================  ======================================================================
 
 A fixed trimesh becomes plates behind its flat faces (`convex_faces`): a rectangle a slab, any other
-polygon a prism, `THICKNESS` deep, away from the side the face is seen from. Not modelled: hollows
+polygon a prism, `THICKNESS` deep, away from the side the face is seen from. Ground whose faces look
+down as a whole is turned over: its file has its corners the other way round. Not modelled: hollows
 of loose things, faces seen from both sides.
 """
 
@@ -28,8 +29,11 @@ import numpy.typing as npt
 from ..assets.mesh import Model
 from ..errors import UwsimError
 from ..geometry import Array, Pose
+from ..linear import dot, length, placed, product
 from .convex_faces import convex_faces
 
+TRIMESHES = ("trimesh", "compound trimesh")
+"""The collisionShapeTypes that are faces where nothing moves."""
 THICKNESS = 0.1
 """Of the plates of a fixed trimesh; not more than its shortest extent, unless it is `FLAT` [m]."""
 FLAT = 0.01
@@ -40,6 +44,8 @@ THINNEST = 1e-3
 """Least edge of a box [m]."""
 SQUARE = 1e-3
 """How far a rectangle may be from one: cosine of its corner, share of its edge."""
+OPEN = 0.5
+"""Ground is a sheet that looks down if this share of its area, seen from above, does on balance."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -57,7 +63,12 @@ class Shape:
 
 
 def shapes_of(
-    model: Model, body_from_mesh: npt.NDArray[np.float64], kind: str, *, is_fixed: bool
+    model: Model,
+    body_from_mesh: npt.NDArray[np.float64],
+    kind: str,
+    *,
+    is_fixed: bool,
+    up: Array | None = None,
 ) -> tuple[Shape, ...]:
     """Make the shapes of a body.
 
@@ -66,17 +77,19 @@ def shapes_of(
         body_from_mesh: where they are on the body, with their scale, (4, 4) [m].
         kind: collisionShapeType; an unknown one is read as box.
         is_fixed: whether the body never moves.
+        up: W's z in the body's axes, (3,), if it is the ground, which is seen from above.
 
     Raises:
         UwsimError: a fixed trimesh has too many faces.
     """
     turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
-    parts = [mesh.vertices.astype(np.float64) @ turn.T + shift for mesh in model.meshes]
-    if kind in ("trimesh", "compound trimesh"):
+    parts = [placed(mesh.vertices.astype(np.float64), turn, shift) for mesh in model.meshes]
+    if kind in TRIMESHES:
         if not is_fixed:
             return tuple(_hull(part) for part in parts)
-        triangles = [part[mesh.triangles] for part, mesh in zip(parts, model.meshes, strict=True)]
-        return _plates(np.concatenate(triangles), model.name)
+        faces = [part[mesh.triangles] for part, mesh in zip(parts, model.meshes, strict=True)]
+        triangles = np.concatenate(faces)
+        return _plates(triangles if up is None else seen_from(up, triangles), model.name)
     if kind == "compound box":
         return tuple(box_around(part) for part in parts)
     if kind == "compound cylinder":
@@ -110,6 +123,17 @@ def _hull(points: Array) -> Shape:
     return Shape(kind="hull", body_from_shape=Pose.identity(), corners=points)
 
 
+def seen_from(up: Array, triangles: Array) -> Array:
+    """Triangles (n, 3, 3) of the ground, turned over if they are a sheet that looks down.
+
+    A closed mesh looks up as much as down and stays as it is.
+    """
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    ways = product(normals, up)
+    turned: Array = triangles[:, ::-1] if ways.sum() < -OPEN * np.abs(ways).sum() else triangles
+    return turned
+
+
 def _plates(triangles: Array, name: str) -> tuple[Shape, ...]:
     """Slabs and prisms behind the faces of triangles (n, 3, 3) [m]."""
     faces = convex_faces(triangles)
@@ -129,10 +153,10 @@ def _plate(face: Array, depth: float) -> Shape:
     """What stands behind a flat convex polygon, (k, 3) [m]: a slab if it is a rectangle."""
     edges = np.roll(face, -1, axis=0) - face
     normal = np.cross(face[1:-1] - face[0], face[2:] - face[0]).sum(axis=0)
-    normal /= np.linalg.norm(normal)
+    normal /= length(normal)
     lengths = np.linalg.norm(edges, axis=1)
-    is_square = abs(edges[0] @ edges[1]) <= SQUARE * lengths[0] * lengths[1]
-    is_even = np.linalg.norm(edges[0] + edges[2]) <= SQUARE * lengths[0]
+    is_square = abs(dot(edges[0], edges[1])) <= SQUARE * lengths[0] * lengths[1]
+    is_even = length(edges[0] + edges[2]) <= SQUARE * lengths[0]
     if len(face) == 4 and is_square and is_even:
         along = edges[0] / lengths[0]
         turn = np.column_stack([along, np.cross(normal, along), normal])  # body_from_shape

@@ -7,21 +7,26 @@ from typing import TYPE_CHECKING, Literal
 
 import mujoco
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import RunFailed
 from ..geometry import Array, Pose, quaternion_from_rotation
+from ..linear import product, turned, turned_back
 from ..scene.kinematics import joint_positions
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..world import Contact
 from .actuators import Actuators
+from .allocation import thrusters_on_base
 from .autopilot import Autopilot
+from .balance import balance_of
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .contacts import contacts_of
 from .engine_warnings import why_untrue
 from .falling import Falling
 from .hydrodynamics import VehicleHydrodynamics
 from .motion import Motion
+from .scaled import ScaledLinks, stretched_axes
 from .servos import Servos
 from .shapes import Shape
 
@@ -78,10 +83,18 @@ class State:
         self._body_names = [_called(scene, name) for name in bodies]
         self.motion = Motion(self._model, self._data, self._body_names)
         """Where everything is and how it moves, as numbers."""
+        self._scene = scene
         self._robots = robots
         self._dynamics = dynamics
         self._timestep = timestep
-        self._joints: dict[int, Array] = {}
+        scales = {i: vehicle.scale_factor for i, vehicle in enumerate(scene.vehicles)}
+        self._scales = {i: scale for i, scale in scales.items() if scale != (1.0, 1.0, 1.0)}
+        self._scaled = {
+            i: ScaledLinks(self._model, robots[i], i, scale)
+            for i, scale in self._scales.items()
+            if i not in dynamics
+        }
+        self._joint_places = {i: self._places_of(i, robots[i]) for i in robots}
         self._servos = {i: Servos(self._model, self._data, robots[i], i) for i in dynamics}
         self._is_stale = True
         self._n_steps = 0
@@ -253,7 +266,13 @@ class State:
         """Return a copy of the joint vector of a vehicle, (n,) [rad or m]."""
         if index in self._servos:
             return self._servos[index].positions
-        return self._joints[index].copy()
+        joints: Array = self._data.qpos[self._joint_places[index]]
+        return joints
+
+    def _places_of(self, index: int, robot: RobotSpec) -> npt.NDArray[np.intp]:
+        """Where the joint vector of a vehicle lies among all positions, (n,)."""
+        names = [vehicle_joint(index, joint.name) for joint in robot.movable]
+        return np.array([self._model.joint(name).qposadr[0] for name in names], dtype=np.intp)
 
     def set_joints(self, index: int, values: Array) -> None:
         """Set the joint vector of a vehicle (n,) [rad or m]; clamped to the limits.
@@ -264,16 +283,39 @@ class State:
             self._servos[index].put(values)
         else:
             positions = joint_positions(self._robots[index], values.tolist())
-            movable = self._robots[index].movable
-            self._joints[index] = np.array([positions[joint.name] for joint in movable])
             for name, value in positions.items():
                 joint = self._model.joint(vehicle_joint(index, name))
                 self._data.qpos[joint.qposadr[0]] = value
+            if index in self._scaled:
+                self._scaled[index].follow(values)
         self._moved()
 
     def link_pose(self, index: int, link: str) -> Pose:
         """Return ``world_from_link`` (the kinematic frame) of a vehicle's link."""
         return self._body_pose(self._links[index, link])
+
+    def link_frame(self, index: int, link: str) -> Array:
+        """Return ``world_from_link`` with the vehicle's scale in it, (4, 4) [m]."""
+        pose = self.link_pose(index, link)
+        frame = pose.matrix
+        if index in self._scales:
+            frame[:3, :3] = stretched_axes(self.vehicle_pose(index), pose, self._scales[index])
+        return frame
+
+    def mounted_pose(self, index: int, link: str, link_from_part: Pose) -> Pose:
+        """Return where something on a link is; the vehicle's scale moves it and does not turn it.
+
+        Args:
+            index: number of the vehicle.
+            link: name of the link.
+            link_from_part: where the file puts it on the link.
+        """
+        pose = self.link_pose(index, link)
+        if index not in self._scales:
+            return pose @ link_from_part
+        axes = stretched_axes(self.vehicle_pose(index), pose, self._scales[index])
+        position = pose.position + turned(axes, link_from_part.position)
+        return Pose(position, product(pose.rotation, link_from_part.rotation))
 
     def object_pose(self, index: int) -> Pose:
         """Return ``world_from_object`` (before its offsets and its scale)."""
@@ -284,14 +326,23 @@ class State:
         return int(self._model.body_weldid[self._objects[index]]) == 0
 
     def _make_pilot(self, index: int) -> Autopilot:
+        pose = self.vehicle_pose(index)
+        robot, dynamics = self._robots[index], self._dynamics[index]
         mass = float(self._model.body_subtreemass[self._bases[index]])
-        pilot = Autopilot(self._dynamics[index], self._robots[index].root, mass)
-        pilot.hold(self.vehicle_pose(index))
+        values = self._scene.vehicles[index].joint_values
+        pilot = Autopilot(
+            dynamics,
+            robot.root,
+            mass,
+            stiffness=balance_of(robot, dynamics, values).stiffness(pose.rotation[2]),
+            thrusters=thrusters_on_base(robot, dynamics.thrusters, values),
+        )
+        pilot.hold(pose)
         return pilot
 
     def _twist(self, index: int, world_from_base: Pose) -> Array:
         twist: Array = self._free_velocities[index].copy()
-        twist[:3] = world_from_base.rotation.T.dot(twist[:3])
+        twist[:3] = turned_back(world_from_base.rotation, twist[:3])
         return twist
 
     def _fly(self, index: int, pilot: Autopilot, velocity: Array) -> None:
@@ -300,7 +351,7 @@ class State:
         pose = self.vehicle_pose(index)
         twist = self._twist(index, pose)
         if not self._over_ground[index] and not pilot.is_over_ground:
-            twist[:3] -= pose.rotation.T.dot(velocity[self._base_rows[index]])
+            twist[:3] -= turned_back(pose.rotation, velocity[self._base_rows[index]])
         commands = pilot.thrust(pose, twist, self._pilot_steps * self._timestep)
         self._water.set_thrusters(self._data, commands, self._thrusters[index])
 

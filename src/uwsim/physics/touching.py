@@ -15,6 +15,7 @@ import mujoco
 import numpy as np
 
 from ..geometry import Array, Pose, quaternion_from_rotation
+from ..linear import dot
 from ..world import Contact
 from .compile import ALL, OBJECTS, SHAPES
 from .shapes import Shape
@@ -77,8 +78,8 @@ class Touching:
         for i in np.flatnonzero((own[:, 0] != own[:, 1]) & (found.dist < 0.0)).tolist():
             first, second = found.geom[i].tolist()
             normal, point = found.frame[i][:3], found.pos[i]  # from the first to the second
-            v_first = float(normal @ self._velocity(first, point))
-            v_second = float(normal @ self._velocity(second, point))
+            v_first = dot(normal, self._velocity(first, point))
+            v_second = dot(normal, self._velocity(second, point))
             is_first = bool(own[i, 0])
             contacts.append(
                 Contact(

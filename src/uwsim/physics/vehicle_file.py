@@ -112,7 +112,7 @@ def _own_sets(beside: Path | None) -> list[str]:
 
 
 def read_vehicle(
-    path: Path, links: Iterable[str] | None = None, joints: Iterable[str] | None = None
+    path: Path | str, links: Iterable[str] | None = None, joints: Iterable[str] | None = None
 ) -> VehicleHydrodynamics:
     """Read a side file.
 
@@ -124,6 +124,7 @@ def read_vehicle(
     Raises:
         VehicleError: with every fault of the file.
     """
+    path = Path(path)
     faults = Faults(path)
     vehicle = read_vehicle_into(path, links, faults, joints)
     faults.check(VehicleError)

@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 
 from ..geometry import Array, Intrinsics, Pose
+from ..linear import product, turned_back
 from .program import Block
 from .sun_shadow import SunShadow
 from .water import AMBIENT, SPECULAR, SUN_COLOURS, Light, Water, sun_direction
@@ -50,9 +51,11 @@ class Frame:
         near, far = intrinsics.near, intrinsics.far
         height = world_from_camera.position[2] - water.surface_height
         values["clip_from_camera"] = clip_from_camera.T  # OpenGL counts columns first
-        values["shadow_from_camera"] = (shadow.texture_from_world @ world_from_camera.matrix).T
+        values["shadow_from_camera"] = product(
+            shadow.texture_from_world, world_from_camera.matrix
+        ).T
         values["up"] = *rotation[2], height
-        values["sun"] = *(sun_direction(light.sun) @ rotation), shadow.lift
+        values["sun"] = *turned_back(rotation, sun_direction(light.sun)), shadow.lift
         values["sunlight"][:3] = [light.rate * colour for colour in SUN_COLOURS[light.sun]]
         values["sky"][:2] = light.rate * AMBIENT, light.rate * SPECULAR
         values["water_colour"][:3] = water.colour

@@ -24,7 +24,7 @@ VERTEX = np.dtype(
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """Triangles of a model that are drawn with one call: same texture, same sides, near by."""
+    """Triangles of a model drawn with one call: same texture, sides and opacity, near by."""
 
     vertices: moderngl.Buffer
     indices: moderngl.Buffer
@@ -35,6 +35,8 @@ class Batch:
     texture: Texture | None
     """Uploaded when first drawn: `GpuModels.texture`."""
     two_sided: bool
+    opacity: float
+    """1 hides what is behind it, 0 is not seen."""
     centre: npt.NDArray[np.float64]
     """Of the bounding sphere, model frame, (3,) [m]."""
     radius: float
@@ -95,10 +97,11 @@ class GpuModels:
         """The model's batches; the same object is uploaded only once."""
         known = self._models.get(id(model))
         if known is None:
-            groups: dict[tuple[int, bool], list[Mesh]] = {}
+            groups: dict[tuple[int, bool, float], list[Mesh]] = {}
             for mesh in model.meshes:
                 if len(mesh.triangles):
-                    groups.setdefault((id(mesh.texture), mesh.two_sided), []).append(mesh)
+                    look = id(mesh.texture), mesh.two_sided, mesh.opacity
+                    groups.setdefault(look, []).append(mesh)
             several = [self._batches(meshes) for meshes in groups.values()]
             known = model, tuple(itertools.chain.from_iterable(several))
             self._models[id(model)] = known  # holds the model, so that its id stays its own
@@ -139,6 +142,7 @@ class GpuModels:
                 size=3 * len(piece),
                 texture=texture,
                 two_sided=meshes[0].two_sided,
+                opacity=meshes[0].opacity,
                 centre=centre,
                 radius=float(np.sqrt(((corners - centre) ** 2).sum(axis=1).max())),
                 corners=np.array(list(itertools.product(*box.T))),

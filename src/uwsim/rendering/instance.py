@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from ..errors import UnknownName
 from ..geometry import Array, Intrinsics, Pose
+from ..linear import determinants, inverse, product
 from .gpu_model import Batch
 from .minification import needs_no_copies
 from .program import Block
@@ -103,6 +104,12 @@ class Instances:
             return np.arange(len(self._owners))
         return np.flatnonzero(np.isin(self._owners, rows))
 
+    def casting(self, rows: Sequence[int]) -> npt.NDArray[np.intp]:
+        """Numbers of the batches of rows that cast shadows: what is seen through casts none."""
+        numbers = self.owned(rows)
+        casting: npt.NDArray[np.intp] = numbers[self._is_opaque[numbers]]
+        return casting
+
     @property
     def spheres(self) -> Array:
         """Round each batch, in W: centre and radius, (m, 4) [m]."""
@@ -150,6 +157,7 @@ class Instances:
         self._own_radii = np.array([batch.radius for batch in batches])
         self._own_corners = np.array([batch.corners for batch in batches]).reshape(-1, 8, 3)
         self._own_normals = np.array([batch.normal for batch in batches]).reshape(-1, 3)
+        self._is_opaque = np.array([batch.opacity >= 1.0 for batch in batches], dtype=bool)
         self._own_densities = np.array([batch.density for batch in batches])
         self._is_known = True
 
@@ -161,21 +169,24 @@ class Instances:
         if not self._is_known:
             self._stand()
         linear, origin = self.world_from_model[:, :3, :3], self.world_from_model[:, :3, 3]
-        self._normals: Array = np.linalg.inv(linear).transpose(0, 2, 1).astype(np.float64)
-        self._is_mirrored: list[bool] = (np.linalg.det(linear) < 0.0).tolist()
+        self._normals: Array = inverse(linear).transpose(0, 2, 1)
+        self._is_mirrored: list[bool] = (determinants(linear) < 0.0).tolist()
         # The largest row sum of A'A bounds the square of the largest stretch; exact without shear.
-        squares = np.abs(linear.transpose(0, 2, 1) @ linear).sum(axis=2).max(axis=1)
+        squares = np.abs(product(linear.transpose(0, 2, 1), linear)).sum(axis=2).max(axis=1)
         stretch = np.sqrt(squares)[self._owners].astype(np.float64)
         turn, shift = linear[self._owners].transpose(0, 2, 1), origin[self._owners]
-        centres = (self._own_centres[:, None] @ turn)[:, 0] + shift
+        centres = product(self._own_centres[:, None], turn)[:, 0] + shift
         radii = self._own_radii * stretch
         self._spheres: Array = np.column_stack([centres, radii])
-        self._corners: Array = self._own_corners @ turn + shift[:, None]
-        turned = (self._own_normals[:, None] @ self._normals[self._owners].transpose(0, 2, 1))[:, 0]
+        self._corners: Array = product(self._own_corners, turn) + shift[:, None]
+        facing = self._normals[self._owners].transpose(0, 2, 1)
+        turned = product(self._own_normals[:, None], facing)[:, 0]
         sizes = np.linalg.norm(turned, axis=1, keepdims=True)
         self._flat_normals: Array = np.divide(turned, sizes, out=turned, where=sizes > 0.0)
         # As above, the normals' matrix bounds how much a model shrinks, and its texels crowd.
-        crowding = np.abs(self._normals.transpose(0, 2, 1) @ self._normals).sum(axis=2).max(axis=1)
+        crowding = (
+            np.abs(product(self._normals.transpose(0, 2, 1), self._normals)).sum(axis=2).max(axis=1)
+        )
         self._densities: Array = self._own_densities * np.sqrt(crowding)[self._owners]
         high = np.full((len(self.ids), 3), -np.inf)
         low = np.full((len(self.ids), 3), np.inf)
@@ -208,8 +219,8 @@ class Slots:
         if len(self._values) < n:
             self._values = np.zeros(2 * n, dtype=self._DTYPE)
             self._buffer.orphan(self._values.nbytes)
-        models = camera_from_world @ instances.world_from_model
-        normals = camera_from_world[:3, :3] @ instances.normals
+        models = product(camera_from_world, instances.world_from_model)
+        normals = product(camera_from_world[:3, :3], instances.normals)
         values = self._values[:n]
         values["camera_from_model"] = models.transpose(0, 2, 1)  # OpenGL counts columns first
         values["camera_normals"][:, :3, :3] = normals.transpose(0, 2, 1)
@@ -243,13 +254,13 @@ def in_view(
     if not len(numbers):
         return []
     spheres = instances.spheres[numbers]
-    centres = (spheres[:, :3] - world_from_camera.position) @ world_from_camera.rotation
-    beyond = centres @ planes[:, :3].T + planes[:, 3] + spheres[:, 3:]  # (n, 6) [m]
+    centres = product(spheres[:, :3] - world_from_camera.position, world_from_camera.rotation)
+    beyond = product(centres, planes[:, :3].T) + planes[:, 3] + spheres[:, 3:]  # (n, 6) [m]
     near = np.flatnonzero(np.all(beyond > 0.0, axis=1))
     numbers, spheres, centres = numbers[near], spheres[near], centres[near]
     corners = instances.corners[numbers]
-    points = (corners - world_from_camera.position) @ world_from_camera.rotation
-    inside = points @ planes[:, :3].T + planes[:, 3] > 0.0  # (n, 8, 6)
+    points = product(corners - world_from_camera.position, world_from_camera.rotation)
+    inside = product(points, planes[:, :3].T) + planes[:, 3] > 0.0  # (n, 8, 6)
     visible = np.all(np.any(inside, axis=1), axis=1)
     nearness = np.linalg.norm(centres, axis=1) + spheres[:, 3]
     order = np.argsort(nearness, kind="stable")

@@ -22,7 +22,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..elementwise import exp
 from ..geometry import Array, Pose
+from ..linear import product
 from .water import Colour
 
 LARGEST_HALF_ANGLE = math.radians(80.0)
@@ -80,11 +82,11 @@ class Lamp:
         towards = self.world_from_lamp.position - points
         distance = np.maximum(np.linalg.norm(towards, axis=1, keepdims=True), NEAREST)  # (n, 1)
         facing = np.maximum((normals * towards).sum(axis=1, keepdims=True) / distance, 0.0)
-        cosine = (towards @ self.world_from_lamp.rotation[:, 2:]) / distance
+        cosine = product(towards, self.world_from_lamp.rotation[:, 2:]) / distance
         outer, steepness = self.edge
         within = np.clip((cosine - outer) * steepness, 0.0, 1.0)
         cone = within * within * (3.0 - 2.0 * within)
-        left = np.exp(-np.asarray(attenuation) * distance)
+        left = exp(-np.asarray(attenuation) * distance)
         light: Array = (
             np.asarray(self.colour) * (self.intensity * facing * cone / distance**2) * left
         )

@@ -6,12 +6,14 @@ anew only when its lamp or anything in the scene moved, and serves all cameras.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import moderngl
 import numpy as np
 
 from ..geometry import Array, Intrinsics, Pose
+from ..linear import product
 from .instance import INSTANCE, Instances, Slots, in_view
 from .lamp import Lamp
 from .program import Block, build
@@ -92,11 +94,13 @@ class Lamps:
         values, camera_from_world = self._values, world_from_camera.inverse()
         for tile, lamp in enumerate(lamps):
             lamp_from_world = lamp.world_from_lamp.inverse()
-            map_from_lamp = _tile_from_clip(tile) @ clip_from_camera(_map_camera(lamp))
-            map_from_camera = map_from_lamp @ lamp_from_world.matrix @ world_from_camera.matrix
+            map_from_lamp = product(_tile_from_clip(tile), clip_from_camera(_map_camera(lamp)))
+            map_from_camera = product(
+                product(map_from_lamp, lamp_from_world.matrix), world_from_camera.matrix
+            )
             camera_from_lamp = camera_from_world @ lamp.world_from_lamp
             outer, steepness = lamp.edge
-            texel = 2.0 * MARGIN * np.tan(lamp.half_angle) / TILE  # at 1 m [m]
+            texel = 2.0 * MARGIN * math.tan(lamp.half_angle) / TILE  # at 1 m [m]
             values["lamp_from_camera"][tile] = map_from_camera.T  # OpenGL counts columns first
             values["lamp_place"][tile] = *camera_from_lamp.position, outer
             values["lamp_axis"][tile] = *camera_from_lamp.rotation[:, 2], steepness
@@ -117,9 +121,11 @@ class Lamps:
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
         slots, planes = self._slots[tile], frustum(clip_from_lamp)
-        slots.fill(instances, clip_from_lamp @ lamp.world_from_lamp.inverse().matrix)
+        slots.fill(instances, product(clip_from_lamp, lamp.world_from_lamp.inverse().matrix))
         for number in in_view(instances, casters, lamp.world_from_lamp, planes):
             row, batch = instances.batch(number)
+            if batch.opacity < 1.0:  # glass casts no shadow
+                continue
             # As in the renderer's pictures: upside down for OpenGL, so outside is clockwise.
             context.front_face = "ccw" if instances.is_mirrored[row] else "cw"
             slots.bind(row)
@@ -128,7 +134,7 @@ class Lamps:
 
 
 def _map_camera(lamp: Lamp) -> Intrinsics:
-    focal = TILE / 2.0 / (MARGIN * np.tan(lamp.half_angle))
+    focal = TILE / 2.0 / (MARGIN * math.tan(lamp.half_angle))
     half = TILE / 2.0
     return Intrinsics(
         width=TILE, height=TILE, fx=focal, fy=focal, cx=half, cy=half, near=NEAR, far=FAR

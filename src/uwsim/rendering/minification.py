@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array, Intrinsics, Pose
+from ..linear import product
 
 MOST_TEXELS = 2.0**0.5
 """A pixel may cover so many, along its longer side: half a level of the smaller copies."""
@@ -38,8 +39,8 @@ def needs_no_copies(
         world_from_camera: where the camera is; OpenGL axes.
         intrinsics: its pinhole.
     """
-    points = (corners - world_from_camera.position) @ world_from_camera.rotation
-    facing = normals @ world_from_camera.rotation  # (m, 3), camera frame
+    points = product(corners - world_from_camera.position, world_from_camera.rotation)
+    facing = product(normals, world_from_camera.rotation)  # (m, 3), camera frame
     depths = -points[:, :, 2]
     away = np.abs(np.einsum("mi,mki->mk", facing, points)).min(axis=1)  # from the plane [m]
     farthest = np.sqrt(np.square(points).sum(axis=2).max(axis=1))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array
+from ..linear import length, product
 
 LONGEST_PIECE = 2.0
 """Pieces are no longer than this ... [m]"""
@@ -74,11 +73,11 @@ def flat_normal(normals: Array) -> Array:
         normals: of the triangles, as long as twice their areas, (m, 3) [m2].
     """
     total = normals.sum(axis=0)
-    size = math.sqrt(float(total @ total))
+    size = length(total)
     if size == 0.0:
         return np.zeros(3)
     normal: Array = total / size
-    along = normals @ normal
+    along = product(normals, normal)
     squares = np.square(normals).sum(axis=1)
     is_flat = (squares - along**2 <= FLAT**2 * squares).all()
     return normal if is_flat else np.zeros(3)

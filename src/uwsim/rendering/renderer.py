@@ -1,7 +1,8 @@
 """The renderer: a scene in, pictures out. It knows nothing of topics, sensors or benchmarks.
 
 One forward pass draws colour, range and ids, whichever are asked for, through UWSim's water
-(`rendering.water`). Not modelled: the water's surface, caustics, reflections, transparency.
+(`rendering.water`). What is seen through is blended over the rest, the farthest first. Not
+modelled: the water's surface, caustics, reflections, refraction.
 """
 
 from __future__ import annotations
@@ -183,6 +184,8 @@ class Renderer:
             switches += (("NO_FOG", 1),)
         elif water.fog_distance == "clip":
             switches += (("FOG_CLIP", 1),)
+        if water.has_air:
+            switches += (("AIR", 1),)
         if lamps and "colour" in view.wanted:
             switches += (("LAMPS", len(lamps)),)
             self._shine(lamps, rows, world_from_camera, hidden)
@@ -203,7 +206,7 @@ class Renderer:
         """Bring the shadow map up to date; returns which of what is seen may lie in shadow."""
         instances, sun = self._instances, sun_direction(view.light.sun)
         radii = instances.radii
-        casters = instances.owned([row for row in rows if radii[row] <= LARGEST_CASTER])
+        casters = instances.casting([row for row in rows if radii[row] <= LARGEST_CASTER])
         may = reached(instances, casters.tolist(), seen, sun, world_from_camera, clip)
         if may.any():
             needed = casters[np.any(may, axis=0)].tolist()
@@ -227,37 +230,80 @@ class Renderer:
     def _draw_into(
         self, target: Targets, drawn: Sequence[tuple[int, bool, bool]], switches: Switches
     ) -> None:
-        """Draw near and small things first, terrain last, then the emptiness.
+        """Draw near and small things first, terrain last, then the emptiness, then glass.
 
         Args:
             target: Where to draw.
             drawn: Number of each batch, whether it may lie in shadow, and whether its texture
-                needs no smaller copies.
+                needs no smaller copies; near ones first.
             switches: Of all of them.
         """
         context = self._context
+        opacities = [self._instances.batch(number)[1].opacity for number, _, _ in drawn]
         target.framebuffer.use()
         target.framebuffer.clear(depth=1.0)  # of no account: every pixel is drawn
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<="
         self._shadow.texture.use(SAMPLERS["shadow_map"])
-        is_mirrored = self._instances.is_mirrored
-        for number, in_shadow, is_close in drawn:
-            row, batch = self._instances.batch(number)
-            # The picture is upside down for OpenGL, so outside is clockwise unless mirrored.
-            context.front_face = "ccw" if is_mirrored[row] else "cw"
-            own: Switches = (("SHADOWS", 1),) if in_shadow else ()
-            if batch.texture is not None:
-                self._models.use(batch.texture, SAMPLERS["base_map"], is_close=is_close)
-                own += (("TEXTURED", 1),)
-            self._slots.bind(row)
-            batch.draw(self._program("surface", target, switches + own))
+        for one, opacity in zip(drawn, opacities, strict=True):
+            if opacity >= 1.0:
+                self._draw_batch(target, one, switches)
         self._models.release(SAMPLERS["base_map"])
         context.disable(moderngl.CULL_FACE)
         program = self._program("background", target, ())
         if program.glo not in self._empty:
             self._empty[program.glo] = context.vertex_array(program, [])
         self._empty[program.glo].render(moderngl.TRIANGLES, vertices=3)
+        clear = [
+            (one, opacity) for one, opacity in zip(drawn, opacities, strict=True) if opacity < 1.0
+        ]
+        if clear:
+            self._draw_glass(target, clear[::-1], switches)
+
+    def _draw_batch(self, target: Targets, one: tuple[int, bool, bool], switches: Switches) -> None:
+        """Draw one batch with the state as it is; ``one`` as in `_draw_into`."""
+        number, in_shadow, is_close = one
+        row, batch = self._instances.batch(number)
+        # The picture is upside down for OpenGL, so outside is clockwise unless mirrored.
+        self._context.front_face = "ccw" if self._instances.is_mirrored[row] else "cw"
+        own: Switches = (("SHADOWS", 1),) if in_shadow else ()
+        if batch.texture is not None:
+            self._models.use(batch.texture, SAMPLERS["base_map"], is_close=is_close)
+            own += (("TEXTURED", 1),)
+        self._slots.bind(row)
+        batch.draw(self._program("surface", target, switches + own))
+
+    def _draw_glass(
+        self,
+        target: Targets,
+        clear: Sequence[tuple[tuple[int, bool, bool], float]],
+        switches: Switches,
+    ) -> None:
+        """Blend what is seen through over the colours; range and ids are those of the nearest."""
+        context, buffer, places = self._context, target.framebuffer, target.places
+
+        def write(*, colour: bool, rest: bool) -> None:
+            rgb = (colour, colour, colour, False)  # alpha stays 1
+            masks = [rgb if name == "colour" else (rest,) * 4 for name in places]
+            buffer.color_mask = masks  # type: ignore[assignment]  # one for each target
+
+        shown = [(one, round(255.0 * opacity)) for one, opacity in clear if opacity > 0.0]
+        if "colour" in places:
+            write(colour=True, rest=False)
+            buffer.depth_mask = False
+            context.enable(moderngl.BLEND)
+            context.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
+            for one, opacity in shown:
+                self._draw_batch(target, one, (*switches, ("OPACITY", opacity)))
+            context.disable(moderngl.BLEND)
+            buffer.depth_mask = True
+        if set(places) != {"colour"}:
+            write(colour=False, rest=True)
+            for one, _ in shown:
+                self._draw_batch(target, one, switches)
+        buffer.color_mask = [(True,) * 4] * len(places)  # type: ignore[assignment]
+        self._models.release(SAMPLERS["base_map"])
+        context.disable(moderngl.CULL_FACE)
 
     def _program(self, effect: str, target: Targets, switches: Switches) -> moderngl.Program:
         key = (effect, *target.places, *switches)

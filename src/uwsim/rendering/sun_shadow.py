@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array, Pose
+from ..linear import length, product, solve
 from .instance import INSTANCE, Instances, Slots
 from .program import build
 
@@ -75,7 +76,7 @@ class SunShadow:
         clip_from_world, edge = _fit(spheres, sun)
         size = SMALL if edge / SMALL <= FINE_TEXEL else LARGE
         self.texture = self._maps[size]
-        self.texture_from_world = _TO_TEXTURE @ clip_from_world
+        self.texture_from_world = product(_TO_TEXTURE, clip_from_world)
         self.lift = 1.5 * edge / size
         context = self._context
         self._framebuffers[size].use()
@@ -120,9 +121,9 @@ def reached(
     """
     frame = _along(sun)
     boxes = instances.corners[list(seen)]  # (n, 8, 3) [m]
-    depths = (world_from_camera.position - boxes) @ world_from_camera.rotation[:, 2]  # (n, 8)
+    depths = product(world_from_camera.position - boxes, world_from_camera.rotation[:, 2])  # (n, 8)
     ends = np.stack([depths.min(axis=1), depths.max(axis=1)], axis=1).clip(min=0.0)  # (n, 2)
-    rays = _corner_rays(clip_from_camera) @ world_from_camera.rotation.T  # (4, 3), 1 m deep
+    rays = product(_corner_rays(clip_from_camera), world_from_camera.rotation.T)  # (4, 3), 1 m deep
     slices = world_from_camera.position + ends[:, :, None, None] * rays  # (n, 2, 4, 3)
     low, high = _bounds(boxes, frame)
     near, far = _bounds(slices.reshape(-1, 8, 3), frame)
@@ -146,7 +147,7 @@ def _along(sun: Array) -> Array:
 
 def _bounds(points: Array, frame: Array) -> tuple[Array, Array]:
     """Least and greatest coordinates of (n, k, 3) in another frame, (n, 3) each."""
-    turned = points @ frame.T
+    turned = product(points, frame.T)
     return turned.min(axis=1), turned.max(axis=1)
 
 
@@ -155,14 +156,14 @@ def _corner_rays(clip_from_camera: Array) -> Array:
     corners = np.array([[x, y, 1.0] for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
     # With z = -1: x_clip = P00 x + P01 y - P02, y_clip = P11 y - P12, w = 1.
     matrix = clip_from_camera[:2, :3]
-    xy = np.linalg.solve(matrix[:, :2], (corners[:, :2] + matrix[:, 2]).T).T
+    xy = solve(matrix[:, :2], (corners[:, :2] + matrix[:, 2]).T).T
     return np.column_stack([xy, -corners[:, 2]])
 
 
 def _axes(sun: Array) -> tuple[Array, Array]:
     """What is right and up for a camera that looks from the sun, (3,) each."""
     aside = np.cross(-sun, [0.0, 0.0, 1.0] if abs(sun[2]) < 0.9 else [1.0, 0.0, 0.0])
-    aside /= np.linalg.norm(aside)
+    aside /= length(aside)
     return aside, np.cross(aside, -sun)
 
 
@@ -174,7 +175,7 @@ def _fit(spheres: Array, sun: Array) -> tuple[Array, float]:
         sun: Unit vector towards the sun in W, (3,).
     """
     axes = np.stack([*_axes(sun), -sun])  # (3, 3)
-    centres, radii = spheres[:, :3] @ axes.T, spheres[:, 3:]  # (n, 3), (n, 1) [m]
+    centres, radii = product(spheres[:, :3], axes.T), spheres[:, 3:]  # (n, 3), (n, 1) [m]
     low, high = (centres - radii).min(axis=0), (centres + radii).max(axis=0)
     half = max(high[0] - low[0], high[1] - low[1]) / 2.0
     reach = 20.0  # [m] below the casters where shadows still fall

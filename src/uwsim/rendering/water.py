@@ -22,7 +22,9 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from ..elementwise import exp
 from ..geometry import Intrinsics
+from ..linear import length
 
 Colour = tuple[float, float, float]
 Sun = Literal["clear", "dusk", "cloudy"]
@@ -64,6 +66,8 @@ class Water:
     """z of the water's surface in W [m]."""
     fog_distance: Literal["ray", "clip"] = "ray"
     """Distance the fog law uses: along the ray, or the original's clip-space z."""
+    has_air: bool = False
+    """Whether only the way below the surface counts; the original's cameras are always in water."""
 
     @property
     def far_colour(self) -> Colour:
@@ -86,7 +90,7 @@ class Light:
 def sun_direction(sun: Sun) -> npt.NDArray[np.float64]:
     """Unit vector towards the sun in W, (3,)."""
     direction = np.array(SUN_DIRECTIONS[sun])
-    unit: npt.NDArray[np.float64] = direction / np.linalg.norm(direction)
+    unit: npt.NDArray[np.float64] = direction / length(direction)
     return unit
 
 
@@ -99,6 +103,22 @@ def clip_distance(
     """
     near, far = intrinsics.near, intrinsics.far
     return ((far + near) * depth - 2.0 * far * near) / (far - near)
+
+
+def wet_share(
+    world_z: npt.NDArray[np.float64], eye_z: float, water: Water
+) -> npt.NDArray[np.float64]:
+    """Share of the way from an eye to points that lies under the surface, any shape, 0..1.
+
+    Args:
+        world_z: z of the points in W [m].
+        eye_z: that of the eye [m].
+        water: the water; its surface is flat and bends no light.
+    """
+    depth, own = water.surface_height - world_z, water.surface_height - eye_z
+    deeper, higher = np.maximum(depth, own), np.minimum(depth, own)
+    share: npt.NDArray[np.float64] = deeper / np.maximum(deeper - higher, 1e-6)
+    return share.clip(0.0, 1.0)
 
 
 def apply_water(
@@ -117,6 +137,7 @@ def apply_water(
         world_z: z of the points in W (...) [m].
         water: The water.
         fog_range: Distance for the fog (...) [m] when it is not the range (`clip_distance`).
+            Where there is air, both distances are those times `wet_share`.
 
     Returns:
         Colours at the camera (..., 3).
@@ -125,9 +146,9 @@ def apply_water(
     distance = np.where(nothing, 0.0, range)[..., None]
     s = distance if fog_range is None else np.where(nothing, 0.0, fog_range)[..., None]
     depth = np.maximum(water.surface_height - np.where(nothing, 0.0, world_z), 0.0)[..., None]
-    left = np.exp(-2.0 * np.asarray(water.attenuation) * distance)
-    seen = lit * left + np.asarray(water.colour) * (1.0 - left * np.exp(-0.001 * depth))
-    clear = np.exp(-((water.fog * s) ** 2))
+    left = exp(-2.0 * np.asarray(water.attenuation) * distance)
+    seen = lit * left + np.asarray(water.colour) * (1.0 - left * exp(-0.001 * depth))
+    clear = exp(-((water.fog * s) ** 2))
     fogged = clear * seen + (1.0 - clear) * np.asarray(water.fog_colour)
     colours: npt.NDArray[np.float64] = np.where(
         nothing[..., None], np.asarray(water.far_colour), fogged

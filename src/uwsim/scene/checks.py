@@ -6,7 +6,7 @@ A fault where the original, too, would stop or crash; a notice where it warns an
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import chain
 
 from ..devices.force_sensor import ForceSensorSpec
@@ -25,6 +25,9 @@ from .vehicle import VehicleSpec
 
 SOLVERS = ("dantzig", "solveprojectedgauss", "sequentialimpulse")
 SHAPES = ("box", "sphere", "compound box", "compound cylinder", "trimesh", "compound trimesh")
+
+MOST_NAMED = 8
+"""Objects that one notice names."""
 
 SOURCES: dict[str, tuple[str, ...]] = {
     "VirtualCameraToROSImage": ("virtualCamera", "virtualRangeImage"),
@@ -46,17 +49,25 @@ SOURCES: dict[str, tuple[str, ...]] = {
 """Interface -> elements that it can publish; those with a vehicleName move or publish vehicles."""
 
 
-def check_names(scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Faults) -> None:
+def check_names(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    faults: Faults,
+    stand_ins: Collection[int] = (),
+) -> None:
     """Follow every name of a scene.
 
     Args:
         scene: the scene.
         robots: the robot of each vehicle that has one, by its number in the scene.
         faults: where to say what leads nowhere; it remembers the elements of the specs.
+        stand_ins: numbers of the vehicles whose robot stands for another: what theirs has is not
+            known.
     """
     for index, vehicle in enumerate(scene.vehicles):
         if index in robots:
-            _check_links(vehicle, robots[index], scene, faults)
+            is_its_own = index not in stand_ins
+            _check_links(vehicle, robots[index], scene, faults, is_its_own=is_its_own)
             _check_joints(vehicle, robots[index], faults)
     known = _names(scene)
     for interface in _interfaces(scene):
@@ -67,6 +78,9 @@ def check_names(scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Fault
         faults.add(faults.node_of(lamp), f"<u:lamp> {lamp.name!r}: more than {MOST_LAMPS} lamps")
     for thing in scene.objects:
         _check_physics(thing, faults)
+    if scene.is_dynamic:
+        _check_passable_objects(scene, faults)
+        _check_passable_vehicles(scene, robots, faults)
     if scene.sim_params.physics_solver.lower() not in SOLVERS:
         faults.notice(
             faults.node_of(scene.sim_params),
@@ -84,7 +98,9 @@ def mounted(vehicle: VehicleSpec) -> Iterator[tuple[str, object]]:
         yield from (("echo", part) for part in vehicle.simulated_devices.echo)
 
 
-def _check_links(vehicle: VehicleSpec, robot: RobotSpec, scene: SceneSpec, faults: Faults) -> None:
+def _check_links(
+    vehicle: VehicleSpec, robot: RobotSpec, scene: SceneSpec, faults: Faults, *, is_its_own: bool
+) -> None:
     links = {link.name: None for link in robot.links}
     for element, part in mounted(vehicle):
         link = getattr(part, "relative_to", None) or getattr(part, "target", None)
@@ -101,7 +117,7 @@ def _check_links(vehicle: VehicleSpec, robot: RobotSpec, scene: SceneSpec, fault
                 faults.notice(faults.node_of(part), f"{said} It is left out, as in the original")
         elif isinstance(part, ForceSensorSpec) and scene.sim_params.enable_physics:
             mass = next(each.mass for each in robot.links if each.name == link)
-            if mass <= 0:
+            if mass <= 0 and is_its_own:
                 faults.add(faults.node_of(part), f"<{element}>: its link {link!r} has no mass")
 
 
@@ -207,6 +223,49 @@ def _check_physics(thing: ObjectSpec, faults: Faults) -> None:
         faults.notice(
             faults.node_of(thing.physics),
             f"<collisionShapeType> is {said[:60]!r}; read as box; known: {', '.join(SHAPES)}",
+        )
+
+
+def _check_passable_objects(scene: SceneSpec, faults: Faults) -> None:
+    """Name the objects that simulated vehicles pass through, unless the file says so itself."""
+    things = [
+        thing
+        for thing in scene.objects
+        if thing.is_solid is None and not thing.is_touched(in_water=True)
+    ]
+    if not things:
+        return
+    nodes = [faults.node_of(thing) for thing in things]
+    named = [
+        f"{thing.name!r} (line {getattr(node, 'sourceline', '?')})"
+        for thing, node in zip(things[:MOST_NAMED], nodes, strict=False)
+    ]
+    more = f" and {len(things) - MOST_NAMED} more" if len(things) > MOST_NAMED else ""
+    faults.notice(
+        nodes[0],
+        f"simulated vehicles pass through what has no <physics>: {', '.join(named)}{more}; "
+        "<u:solid>1</u:solid> in the object makes it solid, <u:solid>0</u:solid> says that it is "
+        "meant",
+    )
+
+
+def _check_passable_vehicles(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Faults
+) -> None:
+    """Name the vehicles that simulated ones pass through, and those without any shape."""
+    for index, vehicle in enumerate(scene.vehicles):
+        if "passable" in vehicle.accepts or vehicle.vr:
+            continue
+        links = robots[index].links if index in robots else ()
+        if vehicle.dynamics is None:
+            why = "simulated vehicles pass through it: it has no <u:dynamics>"
+        elif links and not any(link.solids for link in links):
+            why = "it passes through everything: no link has a <collision> or a <visual>"
+        else:
+            continue
+        faults.notice(
+            faults.node_of(vehicle),
+            f"vehicle {vehicle.name!r}: {why}; if that is meant: <u:accept>passable</u:accept>",
         )
 
 

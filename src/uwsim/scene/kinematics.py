@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..geometry import Pose, rotation_about
+from ..linear import length
 from .urdf import JointSpec, RobotSpec
 
 
@@ -46,7 +47,7 @@ def _motion(joint: JointSpec, value: float) -> Pose:
         return Pose.identity()
     axis = np.array(joint.axis)  # (3,)
     if joint.kind == "prismatic":
-        return Pose(axis / np.linalg.norm(axis) * value, np.eye(3))
+        return Pose(axis / length(axis) * value, np.eye(3))
     return Pose(np.zeros(3), rotation_about(axis, value))
 
 

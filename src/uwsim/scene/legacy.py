@@ -10,7 +10,11 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from ..dialect import Faults, number
+from ..dialect import NAMESPACE, Faults, number
+
+U = f"{{{NAMESPACE}}}"
+BEAM_RANGE = "10"
+"""Of the multibeams in the original's scenes; those of March 2013 had none [m]."""
 
 Rule = Callable[[etree._Element, etree._Element, Faults], None]
 
@@ -21,7 +25,7 @@ def upgrade(root: etree._Element, faults: Faults) -> None:
         parent = node.getparent()
         if parent is None:
             continue
-        rule = RULES.get((str(parent.tag), str(node.tag)))
+        rule = RULES.get((str(parent.tag), str(node.tag))) or ANYWHERE.get(str(node.tag))
         if rule is not None:
             rule(node, parent, faults)
 
@@ -58,9 +62,11 @@ def _numpixels(node: etree._Element, parent: etree._Element, faults: Faults) -> 
     if wide is None or beams is None or angle is None or beams < 2:
         faults.add(node, "<numpixels> needs two beams or more and a <fieldOfView> [deg]")
         return
-    faults.notice(
-        node, "<numpixels> and <fieldOfView> are read as initAngle, finalAngle, angleIncr"
-    )
+    said = "<numpixels> and <fieldOfView> are read as initAngle, finalAngle, angleIncr"
+    if parent.find("range") is None:
+        said += f"; there is no <range>: {BEAM_RANGE} m, as in the original's scenes"
+        _new(parent, "range", BEAM_RANGE, line=node.sourceline)
+    faults.notice(node, said)
     for name, value in (
         ("initAngle", -angle / 2),
         ("finalAngle", angle / 2),
@@ -83,6 +89,63 @@ def _factor(kind: str) -> Rule:
                 for axis, is_locked in zip("xyz", locked, strict=True):
                     _new(limit, axis, "0" if is_locked else free, line=node.sourceline)
         _remove(node)
+
+    return rule
+
+
+def _current(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+    """``<current>`` of the benchmarks of 2013: today's ``currentForceUpdater``, at one level."""
+    faults.notice(
+        node, "<current> is read as <u:current> <u:uwsimSinusoid>, its <forceModule> as <u:speed>"
+    )
+    current = _new(parent, f"{U}current", line=node.sourceline)
+    sinusoid = _new(current, f"{U}uwsimSinusoid", line=node.sourceline)
+    for old, new in SINUSOID.items():
+        child = node.find(old)
+        text = _text(child)
+        is_no_period = new.endswith("Period") and number(text) == 0
+        if child is not None and text and not is_no_period:  # a period of 0: nothing varies
+            _new(sinusoid, U + new, text, line=child.sourceline)
+    _remove(node)
+
+
+def _wrapper(kept: str = "") -> Rule:
+    """What stands in a wrapper is read as standing beside it.
+
+    The original takes any device in one, and its interface; of the wrapper that its grammar knows
+    the echoes stay in it.
+    """
+
+    def rule(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+        is_first = parent.find(str(node.tag)) is node
+        moved = [
+            child
+            for child in node
+            if isinstance(child.tag, str) and not (kept and is_first and _stays(child, kept))
+        ]
+        if moved:
+            names = ", ".join(dict.fromkeys(f"<{child.tag}>" for child in moved))
+            faults.notice(node, f"{names} in <{node.tag}>: read as in <{parent.tag}>")
+        for place, child in enumerate(moved, start=parent.index(node) + 1):
+            parent.insert(place, child)
+        is_empty = not any(isinstance(child.tag, str) for child in node)
+        if is_empty and not (kept and is_first):
+            _remove(node)
+
+    return rule
+
+
+def _stays(child: etree._Element, kept: str) -> bool:
+    """Whether a child of a wrapper may stay: an echo; of the echoes' interfaces the first."""
+    wrapper = child.getparent()
+    is_only = kept == "echo" or (wrapper is not None and wrapper.find(kept) is child)
+    return child.tag == kept and is_only
+
+
+def _rename(new: str) -> Rule:
+    def rule(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+        faults.notice(node, f"<{node.tag}> is an old name of <{new}>")
+        node.tag = new
 
     return rule
 
@@ -154,14 +217,40 @@ def _remove(node: etree._Element | None) -> None:
         parent.remove(node)
 
 
+SINUSOID = {
+    "forceModule": "speed",
+    "forceVariation": "speedVariation",
+    "forcePeriod": "speedPeriod",
+    "sphericalDirection/theta": "theta",
+    "directionVariation/theta": "thetaVariation",
+    "directionPeriod/theta": "thetaPeriod",
+    "sphericalDirection/phi": "phi",
+    "directionVariation/phi": "phiVariation",
+    "directionPeriod/phi": "phiPeriod",
+    "random": "random",
+}
+"""Element of a ``<current>`` -> of a ``<u:uwsimSinusoid>``."""
+
+ANYWHERE: dict[str, Rule] = {
+    "includesFixedAndMimic": _drop("had no effect"),
+}
+"""Old element, whatever it stands in -> what to do with it."""
+
 RULES: dict[tuple[str, str], Rule] = {
     ("ROSOdomToPAT", "visualize"): _visualize,
+    ("oceanState", "current"): _current,
+    ("simParams", "disableTextures"): _drop("was an option of UWSim's first years"),
     ("simParams", "physicsWater"): _drop("is Bullet's fluid, removed from UWSim in 2014"),
     ("simParams", "eye_in_hand"): _drop("never had an effect"),
     ("structuredLightProjector", "visible"): _drop("had no effect since 2013"),
     ("multibeamSensor", "numpixels"): _numpixels,
     ("physics", "linearFactor"): _factor("Linear"),
     ("physics", "angularFactor"): _factor("Angular"),
+    ("vehicle", "simulatedDevices"): _wrapper(kept="echo"),
+    ("vehicle", "simulatedDevice"): _wrapper(),
+    ("rosInterfaces", "SimulatedDeviceROS"): _wrapper(kept="echoROS"),
+    ("rosInterfaces", "SimulatedDevicesROS"): _wrapper(),
+    ("rosInterfaces", "CommsDeviceROS"): _rename("CustomCommsDeviceROS"),
     ("vehicle", "CommsDevice"): _comms_device,
     ("CustomCommsDevice", "maxBitRate"): _max_bit_rate,
     ("CustomCommsDevice", "bitrateSd"): _drop("was dropped from UWSim-NET"),

@@ -35,8 +35,6 @@ SIMULATED = (
 NOT_YET: dict[tuple[str, str], str] = {
     **{("oceanState", name): "waves" for name in WAVES},
     ("simParams", "disableShaders"): "the window",
-    ("simParams", "resw"): "the window",
-    ("simParams", "resh"): "the window",
     ("simParams", "enablePhysics"): "physics of contacts",
     ("simParams", "gravity"): "physics of contacts",
     ("simParams", "physicsFrequency"): "physics of contacts",
@@ -44,7 +42,6 @@ NOT_YET: dict[tuple[str, str], str] = {
     ("simParams", "physicsSolver"): "physics of contacts",
     ("object", "physics"): "physics of contacts",
     ("simParams", "showTrajectory"): "trajectories",
-    ("UWSimScene", "camera"): "the viewer's camera",
     ("UWSimScene", "nedOrigin"): "nedOrigin",
     ("UWSimScene", "netTracingScript"): "communication",
     ("UWSimScene", "CustomCommsChannel"): "communication",
@@ -94,6 +91,19 @@ OFF = {"disableShaders": "0", "enablePhysics": "0", "fdm": "-1", "showpath": "0"
 """An element with this text asks for nothing."""
 
 
+READ_ONLY = "read, not simulated yet"
+FALLS_ALONE = "simulated where no vehicle has u:dynamics"
+
+
+def limit_of(parent: str, name: str) -> str:
+    """Say how far an element below ``parent`` is simulated; an empty text: wholly."""
+    if (parent, name) in FALL:
+        return FALLS_ALONE
+    if (parent, name) in CONTACTS:
+        return ""
+    return READ_ONLY if (parent, name) in NOT_YET else ""
+
+
 def not_simulated(root: etree._Element, faults: Faults) -> None:
     """Name every kind of thing that is read and not simulated yet, with its lines."""
     lines: dict[str, list[int]] = {}
@@ -117,7 +127,7 @@ def not_simulated(root: etree._Element, faults: Faults) -> None:
         shown = sorted(set(where))
         listed = ", ".join(map(str, shown[:8])) + (", ..." if len(shown) > 8 else "")
         many = "line" if len(shown) == 1 else "lines"
-        faults.notice(shown[0], f"read, not simulated yet: {kind} ({many} {listed})")
+        faults.notice(shown[0], f"{READ_ONLY}: {kind} ({many} {listed})")
 
 
 def _line(node: etree._Element) -> int:

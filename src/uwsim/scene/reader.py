@@ -12,10 +12,12 @@ from ..dialect import Document, Faults, check_head, parse, read
 from ..errors import Fault, SceneError
 from .checks import check_names
 from .legacy import upgrade
+from .look_checks import check_looks
 from .not_yet import not_simulated
-from .spec import SceneSpec
+from .spec import ObjectSpec, SceneSpec
 from .urdf import RobotSpec
 from .urdf_reader import read_robot, read_urdf
+from .variation import check_variations
 
 ROOT = "UWSimScene"
 """Name of the root element."""
@@ -29,19 +31,26 @@ class Library(Protocol):
     def find(self, name: str, beside: Path) -> Path | None:
         """The file ``name``, which the file ``beside`` names; None when it is nowhere."""
 
+    def find_robot(self, name: str, beside: Path) -> Path | None:
+        """The robot file ``name``, or else ours of the same file name; None without either."""
+
     def has_model(self, name: str, beside: Path) -> bool:
         """Whether there is a model of that name, or a stand-in."""
+
+    def unreadable(self, name: str, beside: Path) -> str:
+        """Why the file of a model cannot be read here; empty if it can, or is not there."""
 
     def searched(self, beside: Path) -> str:
         """The folders that were searched."""
 
 
-def read_scene(path: Path) -> SceneSpec:
+def read_scene(path: Path | str) -> SceneSpec:
     """Read a scene file.
 
     Raises:
         SceneError: with every fault of the file.
     """
+    path = Path(path)
     faults = Faults(path)
     scene = read_document(parse(path, error=SceneError), faults)
     faults.check(SceneError)
@@ -58,12 +67,15 @@ def read_document(document: Document, faults: Faults) -> SceneSpec | None:
     if faults.strict:
         for node in document.root.iter("ProfilingSonar", "ProfilingSonarROS"):
             faults.add(node, f"<{node.tag}> is not in the original grammar")
-    return read(
+    scene = read(
         SceneSpec,
         document.root,
         faults,
         given={"path": str(document.path), "is_original": document.has_doctype},
     )
+    if scene is not None:
+        check_variations(scene, faults)
+    return scene
 
 
 def check_scene(
@@ -90,12 +102,15 @@ def check_scene(
     others: list[Fault] = []
     if scene is not None:
         robots, others = _robots(scene, document, library, faults)
-        check_names(scene, robots, faults)
+        stand_ins = [
+            index
+            for index in robots
+            if library and library.find(scene.vehicles[index].file, document.path) is None
+        ]
+        check_names(scene, robots, faults, stand_ins)
+        check_looks(scene, robots, faults)
         if library is not None:
-            first = {thing.file: thing for thing in reversed(scene.objects)}
-            for name, thing in itertools.islice(first.items(), MOST_FILES):
-                if not library.has_model(name, path):
-                    _lost(f"model {name!r}", thing, document, library, faults)
+            _check_models(scene, document, library, faults)
         not_simulated(document.root, faults)
         if further is not None and not faults.any:
             others += further(scene)
@@ -111,8 +126,10 @@ def check_robot(path: Path, *, library: Library | None = None) -> list[Fault]:
         return list(error.faults)
     if robot is not None and library is not None:
         for name in itertools.islice(dict.fromkeys(_meshes(robot)), MOST_FILES):
-            if not library.has_model(name, path):
-                faults.notice(None, f"there is no model {name!r}, nor a stand-in of that name")
+            if why := library.unreadable(name, path):
+                faults.add(None, why)
+            elif not library.has_model(name, path):
+                faults.notice(None, f"there is no model {name!r}, nor a stand-in: a labelled box")
     return faults.all()
 
 
@@ -128,10 +145,18 @@ def _robots(
     for index, vehicle in enumerate(scene.vehicles):
         if vehicle.file not in by_file and len(by_file) < MOST_FILES:
             by_file[vehicle.file] = None
-            path = library.find(vehicle.file, document.path)
+            path = library.find_robot(vehicle.file, document.path)
             if path is None:
-                _lost(f"robot file {vehicle.file!r}", vehicle, document, library, faults)
+                searched = library.searched(document.path)
+                faults.add(
+                    faults.node_of(vehicle),
+                    f"robot file {vehicle.file!r} is nowhere, and no bundled robot is called so; "
+                    f"searched: {searched}",
+                )
                 continue
+            if library.find(vehicle.file, document.path) is None:
+                what = f"robot file {vehicle.file!r} is nowhere; the bundled {path.name} is used"
+                faults.notice(faults.node_of(vehicle), what)
             said += check_robot(path, library=library)
             with suppress(SceneError):
                 by_file[vehicle.file] = read_urdf(path)
@@ -140,10 +165,24 @@ def _robots(
     return robots, said
 
 
+def _check_models(scene: SceneSpec, document: Document, library: Library, faults: Faults) -> None:
+    """Say which models of objects are nowhere, or cannot be read."""
+    first: dict[str, ObjectSpec] = {}
+    for thing in scene.objects:
+        first.setdefault(thing.file, thing)
+        if thing.physics is not None and thing.physics.collision_shape:
+            first.setdefault(thing.physics.collision_shape, thing)
+    for name, thing in itertools.islice(first.items(), MOST_FILES):
+        if why := library.unreadable(name, document.path):
+            faults.add(faults.node_of(thing), why)
+        elif not library.has_model(name, document.path):
+            _lost(f"model {name!r}", thing, document, library, faults)
+
+
 def _meshes(robot: RobotSpec) -> Iterator[str]:
     for link in robot.links:
-        for shape in (link.visual, link.collision):
-            if shape is not None and shape.kind == "mesh":
+        for shape in (*link.visuals, *link.collisions):
+            if shape.kind == "mesh":
                 yield shape.file
 
 

@@ -27,7 +27,12 @@ class InterfaceSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class ROSOdomToPATSpec(InterfaceSpec):
-    """Moves a vehicle by nav_msgs/Odometry."""
+    """Moves a vehicle by nav_msgs/Odometry.
+
+    A position or turn that is not all zero puts it there, in L; else it goes on by the twist, in
+    its own axes, for the time since the twist before (1 s at most). A pose takes no time from a
+    twist.
+    """
 
     topic: str
     """Name of the topic."""
@@ -121,7 +126,10 @@ class ROSImageToHUDSpec(InterfaceSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class ROSTwistToPATSpec(InterfaceSpec):
-    """Moves a vehicle by geometry_msgs/TwistStamped in its own axes."""
+    """Moves a vehicle by geometry_msgs/TwistStamped in its own axes.
+
+    It goes on for the time since the message before; nothing is held after more than 1 s.
+    """
 
     topic: str
     """Name of the topic."""

@@ -1,9 +1,10 @@
 """Settings from the command line: ``--set oceanState.fog.density=0.4`` changes one value of a spec.
 
 A path is element names joined by dots; ``[name]`` chooses among equals, and may be left out where
-there is only one: ``vehicle[girona500].virtualCamera[bowtech1].std``. The value is read by the same
-rules as in a file. Three numbers are set together (``position=1 2 3``) or one by one
-(``position.x=1``), a list as a whole (``jointValues=0 0 2.2 0 0.8``).
+there is only one: ``vehicle[girona500].virtualCamera[bowtech1].std``. What has no name is chosen by
+its axis (``sway[x]``), or by its number from 1 (``oceanState.current.gaussMarkov[2]``). The value
+is read by the same rules as in a file. Three numbers are set together (``position=1 2 3``) or one
+by one (``position.x=1``), a list as a whole (``jointValues=0 0 2.2 0 0.8``).
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
 from lxml import etree
@@ -22,16 +24,138 @@ T = TypeVar("T")
 _PART = re.compile(r"([^\[\].=]+)(?:\[([^\]]*)\])?(?:\.|$)")
 
 
+@dataclass(frozen=True)
+class Place:
+    """Where a path leads."""
+
+    steps: tuple[Step, ...]
+    """From the whole down to the spec that has the value."""
+    leaf: Any
+    """That spec."""
+    slot: dialect.Slot
+    """The value's field in it."""
+    rest: tuple[str, ...]
+    """What the path says behind it: a letter of a triple."""
+
+    @property
+    def path(self) -> str:
+        """The path in full: with every name, without ``u:``."""
+        names = [step.name for step in self.steps if step.name]
+        return ".".join([*names, self.slot.shown.removeprefix("u:"), *self.rest])
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is one number."""
+        is_scalar = self.slot.kind in ("float", "int") and not self.slot.repeated
+        return (is_scalar and not self.rest) or (self.slot.kind == "triple" and len(self.rest) == 1)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether it is a whole number."""
+        return self.slot.kind == "int"
+
+    @property
+    def kind(self) -> str:
+        """What it is, in words."""
+        if self.slot.kind == "triple":
+            return f"three numbers; choose one, .{self.slot.xml.parts[0]}"
+        words = {"str": "text", "bool": "a flag", "word": "a word"}
+        return "a list" if self.slot.repeated else words.get(self.slot.kind, "a number")
+
+    @property
+    def unit(self) -> str:
+        """Its unit, as far as its documentation names one."""
+        return self.slot.unit
+
+    def with_value(self, text: str) -> Any:
+        """Return a copy of the whole with another value here; BadSetting if it cannot stand."""
+        changed = _with_value(self.leaf, self.slot, list(self.rest), text)
+        for step in reversed(self.steps):
+            changed = step.put(changed)
+        return changed
+
+
+@dataclass(frozen=True)
+class Step:
+    """From a spec to one that stands in it."""
+
+    spec: Any
+    """The outer one."""
+    field: str
+    """Its field in which the inner one stands."""
+    index: int | None
+    """Where in a tuple; None: the field is the inner one itself."""
+    name: str
+    """What a path says for it; empty: nothing."""
+
+    def put(self, inner: Any) -> Any:
+        """Return the outer spec with another inner one."""
+        if self.index is not None:
+            entries = getattr(self.spec, self.field)
+            inner = (*entries[: self.index], inner, *entries[self.index + 1 :])
+        return dataclasses.replace(self.spec, **{self.field: inner})
+
+
 def apply_setting(spec: T, path: str, value: str) -> T:
     """Return a copy of ``spec`` in which the value that ``path`` leads to is ``value``.
+
+    Variations (``u:vary``) of that value, of a part of it or of something around it are dropped.
 
     Raises:
         BadSetting: a path that leads nowhere or a value that cannot stand there; names what can.
     """
     try:
-        return cast(T, _changed(spec, _parts(path), value))
+        place = locate(spec, path)
+        changed = place.with_value(value)
     except BadSetting as error:
         raise BadSetting(f"--set {path}={value}: {error}") from None
+    if varied := getattr(changed, "vary", ()):
+        kept = tuple(v for v in varied if not overlaps(locate(spec, v.path), place))
+        changed = dataclasses.replace(changed, vary=kept)
+    return cast(T, changed)
+
+
+def locate(spec: Any, path: str) -> Place:
+    """Find where a path leads in ``spec``; raises BadSetting if it leads nowhere."""
+    parts = _parts(path)
+    steps: list[Step] = []
+    while True:
+        (name, chosen), parts = parts[0], parts[1:]
+        slot = _slot(type(spec), name)
+        current = getattr(spec, slot.field)
+        index: int | None = None
+        if slot.kind == "choice" and parts:
+            (name, chosen), parts = parts[0], parts[1:]
+            kinds = {tag.rpartition("}")[2]: kind for tag, kind in slot.type.items()}
+            name = name.removeprefix("u:")
+            if name not in kinds:
+                raise BadSetting(str(UnknownName(f"element of <{slot.shown}>", name, kinds)))
+            kind = kinds[name]
+            index = _index(current, [isinstance(entry, kind) for entry in current], name, chosen)
+            name = f"{slot.shown.removeprefix('u:')}.{name}"
+        elif slot.kind == "spec" and slot.repeated:
+            name = slot.shown.removeprefix("u:")
+            index = _index(current, [True] * len(current), name, chosen)
+        elif chosen is not None:
+            raise BadSetting(f"<{name}> stands once; leave [{chosen}] out.")
+        elif slot.kind == "spec":
+            name = slot.shown.removeprefix("u:")
+            if current is None:
+                raise BadSetting(f"the file has no <{name}> here.")
+        else:
+            return Place(tuple(steps), spec, slot, tuple(name for name, _ in parts))
+        inner = current if index is None else current[index]
+        if not parts:
+            raise BadSetting(_inside(name, type(inner)))
+        key = "" if index is None else f"[{_key(current, index)}]"
+        steps.append(Step(spec, slot.field, index, name + key))
+        spec = inner
+
+
+def overlaps(one: Place, other: Place) -> bool:
+    """Whether two places share a value."""
+    first, second = (place.path.split(".") for place in (one, other))
+    return all(a == b for a, b in zip(first, second, strict=False))
 
 
 def _parts(path: str) -> list[tuple[str, str | None]]:
@@ -45,37 +169,6 @@ def _parts(path: str) -> list[tuple[str, str | None]]:
         parts.append((match[1], match[2]))
         at = match.end()
     return parts
-
-
-def _changed(spec: Any, parts: Sequence[tuple[str, str | None]], value: str) -> Any:
-    """Return a copy of a spec in which the value at the end of the path is another."""
-    (name, chosen), rest = parts[0], parts[1:]
-    slot = _slot(type(spec), name)
-    current = getattr(spec, slot.field)
-    if slot.kind == "choice" and rest:
-        (name, chosen), rest = rest[0], rest[1:]
-        if name not in slot.type:
-            raise BadSetting(str(UnknownName(f"element of <{slot.shown}>", name, slot.type)))
-        kind = slot.type[name]
-        index = _index(current, [isinstance(entry, kind) for entry in current], name, chosen)
-    elif slot.kind == "spec" and slot.repeated:
-        index = _index(current, [True] * len(current), name, chosen)
-    elif chosen is not None:
-        raise BadSetting(f"<{name}> stands once; leave [{chosen}] out.")
-    elif slot.kind == "spec":
-        if current is None:
-            raise BadSetting(f"the file has no <{name}> here.")
-        if not rest:
-            raise BadSetting(_inside(name, slot.type))
-        return dataclasses.replace(spec, **{slot.field: _changed(current, rest, value)})
-    else:
-        return _with_value(spec, slot, [name for name, _ in rest], value)
-    if not rest:
-        raise BadSetting(_inside(name, type(current[index])))
-    entry = _changed(current[index], rest, value)
-    return dataclasses.replace(
-        spec, **{slot.field: (*current[:index], entry, *current[index + 1 :])}
-    )
 
 
 def _slot(cls: type, name: str) -> dialect.Slot:
@@ -94,23 +187,42 @@ def _inside(name: str, cls: type) -> str:
 
 
 def _index(entries: Sequence[Any], fits: Sequence[bool], name: str, chosen: str | None) -> int:
-    """Find the one entry that ``name[chosen]`` means."""
+    """Find the one entry that ``name[chosen]`` means: by its name, else by its number from 1."""
     found = [index for index, fit in enumerate(fits) if fit]
-    names = [str(getattr(entries[index], "name", "")) for index in found]
+    names = [_name_of(entries[index]) for index in found]
     if chosen is not None:
-        if chosen not in names:
-            raise BadSetting(str(UnknownName(f"<{name}>", chosen, names)))
-        return found[names.index(chosen)]
+        if chosen in names:
+            return found[names.index(chosen)]
+        if chosen.isdecimal() and 1 <= int(chosen) <= len(found) and not all(names):
+            return found[int(chosen) - 1]
+        raise BadSetting(str(UnknownName(f"<{name}>", chosen, names)))
     if len(found) != 1:
-        said = f"choose one: {', '.join(f'{name}[{each}]' for each in names)}" if found else "none"
+        shown = [each or str(number) for number, each in enumerate(names, start=1)]
+        said = f"choose one: {', '.join(f'{name}[{each}]' for each in shown)}" if found else "none"
         raise BadSetting(f"the file has {len(found)} <{name}>; {said}.")
     return found[0]
+
+
+def _name_of(entry: Any) -> str:
+    """What chooses an entry among equals: its name, or the axis that it is about."""
+    return str(getattr(entry, "name", getattr(entry, "axis", "")))
+
+
+def _key(entries: Sequence[Any], index: int) -> str:
+    """What a path in full says for an entry: its name, or its number among those of its kind."""
+    entry = entries[index]
+    same = [other for other in entries if type(other) is type(entry)]
+    name = _name_of(entry)
+    is_first = next(other for other in same if _name_of(other) == name) is entry
+    return name if name and is_first else str(1 + [id(o) for o in same].index(id(entry)))
 
 
 def _with_value(spec: Any, slot: dialect.Slot, rest: list[str], text: str) -> Any:
     """Let the dialect read the value as if it stood in a file."""
     node = etree.Element(dialect.camel(type(spec).__name__.removesuffix("Spec")))
-    if slot.kind == "triple":
+    if slot.kind == "triple" and not rest and text in slot.xml.words:
+        etree.SubElement(node, slot.tag).text = text
+    elif slot.kind == "triple":
         _write_triple(etree.SubElement(node, slot.tag), getattr(spec, slot.field), slot, rest, text)
     elif rest:
         raise BadSetting(f"<{slot.shown}> is a value; nothing stands in it.")
@@ -142,7 +254,7 @@ def _with_value(spec: Any, slot: dialect.Slot, rest: list[str], text: str) -> An
 
 def _write_triple(
     node: etree._Element,
-    current: tuple[float, float, float] | None,
+    current: tuple[float, float, float] | str | None,
     slot: dialect.Slot,
     rest: list[str],
     text: str,
@@ -152,12 +264,15 @@ def _write_triple(
     if not rest:
         words = text.replace(",", " ").split()
         if len(words) != len(letters):
-            raise BadSetting(f"<{slot.shown}> wants {len(letters)} numbers, as in '1 2 3'.")
-    elif len(rest) > 1 or rest[0] not in letters or current is None:
+            words_too = f", or one of {', '.join(slot.xml.words)}" if slot.xml.words else ""
+            raise BadSetting(
+                f"<{slot.shown}> wants {len(letters)} numbers, as in '1 2 3'{words_too}."
+            )
+    elif len(rest) > 1 or rest[0] not in letters or current is None or isinstance(current, str):
         raise BadSetting(f"<{slot.shown}> has {', '.join(f'<{letter}>' for letter in letters)}.")
     else:
         words = [
-            text if letter == rest[0] else repr(number)
+            text if letter == rest[0] else repr(float(number))
             for letter, number in zip(letters, current, strict=True)
         ]
     for letter, word in zip(letters, words, strict=True):

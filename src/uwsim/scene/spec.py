@@ -26,7 +26,10 @@ from ..currents import CURRENTS, CurrentSpec
 from ..devices.comms import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..dialect import FARTHEST, NAMESPACE, element
 from ..geometry import Pose, rotation_from_xyz
+from ..linear import product
+from .on_floor import OnFloorSpec
 from .ros_interfaces import INTERFACES, InterfaceSpec
+from .variation import DISTRIBUTIONS, VariationSpec
 from .vehicle import VehicleSpec
 
 Triple = tuple[float, float, float]
@@ -36,7 +39,7 @@ ONE: Triple = (1.0, 1.0, 1.0)
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
 TERRAIN = "terrain"
 """An object of this name is the ground: nothing picks it up, and without ``<physics>`` it is
-fixed."""
+fixed, and solid for simulated vehicles."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,6 +133,9 @@ class SimParamsSpec:
     """Trails to draw in the viewer."""
     light_rate: float = element(default=1.0, minimum=0, maximum=1e6)
     """Factor on the light of the scene [1]."""
+    sun_shadow: bool | None = element(namespaced=True, default=None)
+    """Whether vehicles and objects cast the sun's shadow; when absent they do, but not in a scene
+    of the original's, which had no shadows."""
 
     @property
     def original_gravity(self) -> Triple:
@@ -227,6 +233,16 @@ class PhysicsSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
+class WeatheringSpec:
+    """A ``<u:weathering>``: clouds of light and dark on the textures of an object."""
+
+    pattern: int = element(namespaced=True, minimum=0, maximum=1_000_000)
+    """Number of the pattern; each is another, 0 is none."""
+    strength: float = element(namespaced=True, default=0.15, minimum=0, maximum=1)
+    """How strong the clouds are: standard deviation of the brightness, relative [1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class ObjectSpec:
     """An ``<object>``: a thing in the water; the one called ``terrain`` cannot be picked up."""
 
@@ -250,18 +266,37 @@ class ObjectSpec:
     """How it moves when physics is on."""
     buried: float = element(attribute=True, default=0.0)
     """How much of its height lies under sand [1]."""
+    is_solid: bool | None = element("solid", namespaced=True, default=None)
+    """1: it can be touched, without `<physics>` as its faces, fixed. 0: everything passes through
+    it, and it stays where it is. Without: solid with `<physics>`, and if it is called `terrain`."""
+    on_floor: OnFloorSpec | None = element(namespaced=True, default=None)
+    """Whether it is set on the ground."""
+    weathering: WeatheringSpec | None = element(namespaced=True, default=None)
+    """Clouds of light and dark on its textures; None: as they are."""
 
     @property
     def solid(self) -> PhysicsSpec:
         """Its ``<physics>``; without one what the original gives it, a loose box of 1 kg.
 
         But an object called ``terrain`` stands fixed, as its faces: in the original it falls too.
+        So does what is said to be ``u:solid``.
         """
         if self.physics is not None:
             return self.physics
-        if self.name == TERRAIN:
+        if self.is_ground or self.is_solid:
             return PhysicsSpec(mass=0.0, collision_shape_type="trimesh")
         return PhysicsSpec()
+
+    @property
+    def is_ground(self) -> bool:
+        """Whether it is called ``terrain``."""
+        return self.name == TERRAIN
+
+    def is_touched(self, *, in_water: bool) -> bool:
+        """Whether others touch it, beside vehicles that are simulated (``in_water``) or not."""
+        if self.is_solid is not None:
+            return self.is_solid
+        return self.physics is not None or (in_water and self.is_ground)
 
     @property
     def localized_from_object(self) -> Pose:
@@ -273,7 +308,7 @@ class ObjectSpec:
         """``Rx Ry Rz(offsetr) T(-offsetp)``: the scale acts outside of it."""
         rotation = rotation_from_xyz(*self.offsetr)
         x, y, z = self.offsetp
-        return Pose(rotation @ [-x, -y, -z], rotation)
+        return Pose(product(rotation, [-x, -y, -z]), rotation)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -284,7 +319,7 @@ class SceneSpec:
     """The surface and the water."""
     sim_params: SimParamsSpec = element(default_factory=SimParamsSpec)
     """Frames, window, physics, light."""
-    camera: ViewerCameraSpec = element(default_factory=ViewerCameraSpec)
+    camera: ViewerCameraSpec | None = None
     """The viewer's camera."""
     ned_origin: NedOriginSpec | None = None
     """Where on Earth the scene lies."""
@@ -304,10 +339,23 @@ class SceneSpec:
     """Everything else."""
     ros_interfaces: tuple[InterfaceSpec, ...] = element(choice=INTERFACES, default=())
     """Topics in and out."""
+    vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
+    """Values that are drawn anew for each seed."""
     path: str = dataclasses.field(default="", compare=False, metadata={"path": True})
     """The file it was read from."""
     is_original: bool = dataclasses.field(default=False, compare=False, metadata={"path": True})
     """Whether it names the original's DTD: models that are nowhere are then labelled boxes."""
+
+    @property
+    def nominal(self) -> SceneSpec:
+        """The same without variations: as the file says, whatever the seed."""
+        return dataclasses.replace(self, vary=())
+
+    @property
+    def has_sun_shadows(self) -> bool:
+        """Whether vehicles and objects cast the sun's shadow."""
+        asked = self.sim_params.sun_shadow
+        return not self.is_original if asked is None else asked
 
     @cached_property
     def world_from_localized(self) -> Pose:
@@ -315,26 +363,55 @@ class SceneSpec:
         return Pose.from_xyz(self.sim_params.offsetp, self.sim_params.offsetr)
 
     @property
+    def stands_on_floor(self) -> bool:
+        """Whether anything is to be set on the ground."""
+        vehicles, objects = self.vehicles, self.objects
+        return any(one.on_floor is not None for one in vehicles) or any(
+            one.on_floor is not None for one in objects
+        )
+
+    @property
+    def is_dynamic(self) -> bool:
+        """Whether a vehicle is simulated."""
+        return any(vehicle.dynamics is not None for vehicle in self.vehicles)
+
+    @property
     def is_original_physics(self) -> bool:
         """Whether the original's physics is asked for: ``enablePhysics``, nothing in water."""
-        return self.sim_params.enable_physics and all(
-            vehicle.dynamics is None for vehicle in self.vehicles
-        )
+        return self.sim_params.enable_physics and not self.is_dynamic
 
     @property
     def things_fall(self) -> bool:
         """Whether objects move by the original's physics."""
-        return self.is_original_physics and any(thing.solid.is_loose for thing in self.objects)
+        return self.is_original_physics and any(
+            physics.is_loose for physics in self.solid_objects.values()
+        )
+
+    @property
+    def simulated_solids(self) -> dict[int, PhysicsSpec]:
+        """What can be touched beside vehicles in simulated water, by number.
+
+        Objects with ``<physics>`` or ``u:solid`` 1, and ``terrain``; nothing with ``u:solid`` 0.
+        """
+        is_dynamic = self.is_dynamic
+        return {
+            i: thing.solid
+            for i, thing in enumerate(self.objects)
+            if thing.is_touched(in_water=is_dynamic)
+        }
 
     @property
     def solid_objects(self) -> dict[int, PhysicsSpec]:
-        """What can be touched, by number: those with ``<physics>``; by the original's physics all.
+        """What can be touched, by number: `simulated_solids`; by the original's physics all.
 
-        All, too, and fixed, where none has one: there the original ends when asked for contacts.
+        All, too, and fixed, where nothing is solid: there the original ends when asked for
+        contacts. Nothing with ``u:solid`` 0.
         """
+        objects = {i: thing for i, thing in enumerate(self.objects) if thing.is_solid is not False}
         if self.is_original_physics:
-            return {i: thing.solid for i, thing in enumerate(self.objects)}
-        if all(thing.physics is None for thing in self.objects):
-            solid = [thing.solid for thing in self.objects]
-            return {i: dataclasses.replace(each, is_kinematic=True) for i, each in enumerate(solid)}
-        return {i: thing.solid for i, thing in enumerate(self.objects) if thing.physics is not None}
+            return {i: thing.solid for i, thing in objects.items()}
+        if solids := self.simulated_solids:
+            return solids
+        return {
+            i: dataclasses.replace(thing.solid, is_kinematic=True) for i, thing in objects.items()
+        }

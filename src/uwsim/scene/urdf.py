@@ -53,10 +53,10 @@ class LinkSpec:
 
     name: str
     """Its name."""
-    visual: VisualSpec | None = None
-    """What is seen of it."""
-    collision: VisualSpec | None = None
-    """What is touched of it."""
+    visuals: tuple[VisualSpec, ...] = ()
+    """What is seen of it; the original sees the first only."""
+    collisions: tuple[VisualSpec, ...] = ()
+    """What is touched of it; the original feels the first only, at the link's origin."""
     mass: float = 0.0
     """Its mass [kg]."""
     centre_of_mass: Triple = ZERO
@@ -65,6 +65,16 @@ class LinkSpec:
     """Axes of the inertia in the link's frame, roll, pitch, yaw: Rz Ry Rx [rad]."""
     inertia: tuple[float, float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     """About the centre of mass: xx, yy, zz, xy, xz, yz [kg m2]."""
+
+    @property
+    def visual(self) -> VisualSpec | None:
+        """The first of what is seen of it: its origin is the link's visual frame."""
+        return self.visuals[0] if self.visuals else None
+
+    @property
+    def solids(self) -> tuple[VisualSpec, ...]:
+        """What touches others: its collisions, else what is seen of it."""
+        return self.collisions or self.visuals
 
 
 @dataclass(frozen=True, kw_only=True)

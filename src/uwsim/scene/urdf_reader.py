@@ -1,10 +1,11 @@
 """A robot file (URDF) becomes a `RobotSpec`, or every fault it has.
 
 UWSim's rules: the tree is walked depth first, children in the alphabetical order of their joints'
-names, and the movable joints in that order are the joint vector; only the first visual and the
-first collision of a link count; limits hold for continuous joints too, and a ``<limit>`` without
-bounds means 0 to 0; without one a joint goes from -pi to pi, prismatic ones included. Its
-``effort`` and ``velocity``, which UWSim passes over, limit the joints of simulated vehicles.
+names, and the movable joints in that order are the joint vector; limits hold for continuous joints
+too, and a ``<limit>`` without bounds means 0 to 0; without one a joint goes from -pi to pi,
+prismatic ones included. Its ``effort`` and ``velocity``, which UWSim passes over, limit the joints
+of simulated vehicles. Of a link all ``<visual>`` and ``<collision>`` elements count, where UWSim
+took the first. A material is meant by its name wherever it is defined, as in URDF.
 
 What a plug-in or another program wrote into the file (``<gazebo>``, ``<transmission>``, ...) is
 passed over, as the original does. Not read: joint dynamics, safety controllers, textures.
@@ -12,6 +13,7 @@ passed over, as the original does. Not read: joint dynamics, safety controllers,
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -41,12 +43,13 @@ MOVABLE = ("revolute", "continuous", "prismatic")
 STIFF = ("floating", "planar")
 
 
-def read_urdf(path: Path) -> RobotSpec:
+def read_urdf(path: Path | str) -> RobotSpec:
     """Read a robot file.
 
     Raises:
         SceneError: with every fault of the file.
     """
+    path = Path(path)
     faults = Faults(path)
     robot = read_robot(path, faults)
     faults.check(SceneError)
@@ -60,11 +63,7 @@ def read_robot(path: Path, faults: Faults) -> RobotSpec | None:
     if root.tag != "robot":
         faults.add(root, f"the root element is <{str(root.tag)[:60]}>; expected <robot>")
         return None
-    materials = {
-        _name(node): colour
-        for node in root.findall("material")
-        if (colour := _colour(node, faults)) is not None
-    }
+    materials = _materials(root, faults)
     links: dict[str, LinkSpec] = {}
     for node in root.findall("link"):
         if _unique(node, links, "link", faults):
@@ -76,6 +75,7 @@ def read_robot(path: Path, faults: Faults) -> RobotSpec | None:
             if joint is not None:
                 joints[joint.name] = joint
                 faults.remember(joint, node)
+    joints = {name: _with_leader(joint, joints, faults) for name, joint in joints.items()}
     for joint in joints.values():
         _check_mimic(joint, joints, faults)
     if not links:
@@ -152,8 +152,8 @@ def _link(node: etree._Element, materials: dict[str, Colour], faults: Faults) ->
             inertia = (xx, yy, zz, xy, xz, yz)
     return LinkSpec(
         name=_name(node),
-        visual=_shape(node.find("visual"), materials, faults),
-        collision=_shape(node.find("collision"), materials, faults),
+        visuals=_shapes(node.findall("visual"), materials, faults),
+        collisions=_shapes(node.findall("collision"), materials, faults),
         mass=mass,
         centre_of_mass=centre,
         inertia_rpy=turn,
@@ -161,11 +161,26 @@ def _link(node: etree._Element, materials: dict[str, Colour], faults: Faults) ->
     )
 
 
-def _shape(
-    node: etree._Element | None, materials: dict[str, Colour], faults: Faults
-) -> VisualSpec | None:
-    if node is None:
-        return None
+def _materials(root: etree._Element, faults: Faults) -> dict[str, Colour]:
+    """The colours that have names: those of the robot, then those that visuals define."""
+    found: dict[str, Colour] = {}
+    quiet = Faults(faults.file)  # what is wrong with a visual's is said with the visual
+    for path, told in (("material", faults), ("link/visual/material", quiet)):
+        for node in root.findall(path):
+            colour = _colour(node, told)
+            if colour is not None and _name(node):
+                found.setdefault(_name(node), colour)
+    return found
+
+
+def _shapes(
+    nodes: list[etree._Element], materials: dict[str, Colour], faults: Faults
+) -> tuple[VisualSpec, ...]:
+    shapes = (_shape(node, materials, faults) for node in nodes)
+    return tuple(shape for shape in shapes if shape is not None)
+
+
+def _shape(node: etree._Element, materials: dict[str, Colour], faults: Faults) -> VisualSpec | None:
     position, rpy = _origin(node, faults)
     geometry = node.find("geometry")
     shape = None if geometry is None else next(_elements(geometry), None)
@@ -284,15 +299,23 @@ def _mimic(node: etree._Element, faults: Faults) -> MimicSpec | None:
     )
 
 
+def _with_leader(joint: JointSpec, joints: dict[str, JointSpec], faults: Faults) -> JointSpec:
+    """Return the joint; one that mimics nobody is free."""
+    if joint.mimic is None or joint.mimic.joint in joints:
+        return joint
+    node, source = faults.node_of(joint), joint.mimic.joint
+    faults.notice(
+        node,
+        f"joint {joint.name!r} mimics {source[:60]!r}, which is no joint"
+        f".{faults.near(source, joints, 'notice')} It moves by itself",
+    )
+    free = dataclasses.replace(joint, mimic=None)
+    if node is not None:
+        faults.remember(free, node)
+    return free
+
+
 def _check_mimic(joint: JointSpec, joints: dict[str, JointSpec], faults: Faults) -> None:
-    if joint.mimic is not None and joint.mimic.joint not in joints:
-        source = joint.mimic.joint
-        faults.add(
-            faults.node_of(joint),
-            f"joint {joint.name!r} mimics {source[:60]!r}, which is no joint"
-            f".{faults.near(source, joints)}",
-        )
-        return
     passed: list[str] = []
     while joint.mimic is not None and joint.name not in passed and joint.mimic.joint in joints:
         passed.append(joint.name)
@@ -329,7 +352,13 @@ def _colour(node: etree._Element, faults: Faults) -> Colour | None:
     if colour is None:
         return None
     values = _numbers(colour, "rgba", 4, faults)
-    return None if values is None else (values[0], values[1], values[2], values[3])
+    if values is None:
+        return None
+    red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in values)
+    if [red, green, blue, opacity] != values:
+        said = colour.get("rgba", "")
+        faults.notice(colour, f"rgba of <color> is {said[:60]!r}; held within 0 to 1")
+    return red, green, blue, opacity
 
 
 def _triple(node: etree._Element, attribute: str, faults: Faults, default: Triple | None) -> Triple:

@@ -38,11 +38,16 @@ from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.structured_light_projector import StructuredLightProjectorSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
+from .on_floor import OnFloorSpec
 
 Triple = tuple[float, float, float]
 
 ZERO: Triple = (0.0, 0.0, 0.0)
 ONE: Triple = (1.0, 1.0, 1.0)
+
+
+Doubt = Literal["passable", "thrust"]
+"""What `uwsim check` asks about, and a file may say that it is meant."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,7 +83,8 @@ class VehicleSpec:
     orientation: Triple = element(default=ZERO, parts="rpy")
     """Of its base in the file's frame, in UWSim's vehicle order: Rx Ry Rz [rad]."""
     scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6)
-    """Scale of the whole vehicle along x, y, z [1]."""
+    """Scale of the whole vehicle along x, y, z of its base: of its meshes, the distances of its
+    links, and what is mounted on them; a simulated vehicle has none [1]."""
     virtual_cameras: tuple[VirtualCameraSpec, ...] = element("virtualCamera", default=())
     """Colour cameras."""
     structured_light_projectors: tuple[StructuredLightProjectorSpec, ...] = element(
@@ -134,6 +140,10 @@ class VehicleSpec:
     """Thrusters of a simulated vehicle that fail; of several on one the greatest loss counts."""
     lamps: tuple[LampSpec, ...] = element("lamp", namespaced=True, default=())
     """Lamps that light what cameras see."""
+    on_floor: OnFloorSpec | None = element(namespaced=True, default=None)
+    """Whether it begins on the ground."""
+    accepts: tuple[Doubt, ...] = element("accept", namespaced=True, default=())
+    """What is meant as it is, though `uwsim check` would ask about it."""
 
     @property
     def localized_from_base(self) -> Pose:

@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Literal, Protocol, get_args
 
-from ..geometry import Pose
+from ..world import Body
+
+Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
+"""Of the vehicle, as it stands in its file."""
+DIRECTIONS: tuple[str, ...] = get_args(Direction)
+LookAt = tuple[float, float, float] | Direction | None
+"""What ``<u:lookAt>`` may say: a point in L [m], a direction of the vehicle, or nothing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,7 +25,11 @@ class SensorSpec:
 
 
 class Mounted(Protocol):
-    """Anything with a place on a link."""
+    """Anything with a place on a link that looks somewhere."""
+
+    @property
+    def relative_to(self) -> str:
+        """The link."""
 
     @property
     def position(self) -> tuple[float, float, float]:
@@ -29,7 +39,21 @@ class Mounted(Protocol):
     def orientation(self) -> tuple[float, float, float]:
         """Fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
 
+    @property
+    def look_at(self) -> LookAt:
+        """Where it looks at the start, instead of ``orientation``."""
 
-def link_from_sensor(spec: Mounted) -> Pose:
-    """Where a sensor or device stands on its link."""
-    return Pose.from_rpy(spec.position, spec.orientation)
+
+class Carrier(Protocol):
+    """A vehicle that carries sensors."""
+
+    @property
+    def name(self) -> str:
+        """Its name in the scene."""
+
+    def mount(self, spec: Mounted, *, visual: bool = False) -> Body:
+        """Fix something to its link, or to the link's visual frame: a frame that moves with it.
+
+        Raises:
+            UnknownName: the vehicle has no such link.
+        """

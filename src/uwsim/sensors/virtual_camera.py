@@ -22,7 +22,7 @@ from ..dialect import FARTHEST, element
 from ..geometry import Intrinsics, Pose
 from ..messages import CameraInfo, RegionOfInterest, header
 from ..world import Body, SensorWorld
-from .sensor import SensorSpec, link_from_sensor
+from .sensor import DIRECTIONS, Carrier, LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,6 +79,9 @@ class VirtualCameraSpec(SensorSpec):
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    look_at: LookAt = element(namespaced=True, default=None, words=DIRECTIONS)
+    """Where it looks at the start, instead of ``orientation``: a point in L [m], or a direction
+    of the vehicle. It stays fixed to its link."""
     baseline: float = element(default=0.0, minimum=-FARTHEST, maximum=FARTHEST)
     """Distance to the first camera of a stereo pair [m]; Tx = -fx * baseline in CameraInfo."""
     frame_id: str = ""
@@ -100,14 +103,13 @@ class VirtualCameraSpec(SensorSpec):
             return self.parameters.intrinsics(self.resw, self.resh, compatibility)
         return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
 
-    def bind(self, world: SensorWorld, vehicle: str) -> VirtualCamera:
+    def bind(self, world: SensorWorld, vehicle: Carrier) -> VirtualCamera:
         """Mount it on its link; raises UnknownName if the vehicle has no such link.
 
         With the compatibility ``visual-frames`` it hangs on the link's visual frame.
         """
-        frame = "@visual" if "visual-frames" in world.compatibility else ""
-        link = world.body(f"{vehicle}/{self.relative_to}{frame}")
-        return VirtualCamera(self, link, world, world.stream(f"{vehicle}/{self.name}/noise"))
+        mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
+        return VirtualCamera(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
 
 
 class VirtualCamera:
@@ -117,10 +119,9 @@ class VirtualCamera:
     """
 
     def __init__(
-        self, spec: VirtualCameraSpec, link: Body, world: SensorWorld, random: np.random.Generator
+        self, spec: VirtualCameraSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._link, self._world, self._random = link, world, random
-        self._link_from_camera = link_from_sensor(spec)
+        self._mount, self._world, self._random = mount, world, random
         self._baseline = spec.baseline
         self._intrinsics = spec.intrinsics(world.compatibility)
         self._published_cy = self._intrinsics.cy
@@ -134,6 +135,8 @@ class VirtualCamera:
         """Whether it gives mono8 instead of rgb8."""
         self.std = spec.std
         """Noise of each channel, 0..1; scene updaters may turn it."""
+        self.n_pictures: int | None = None
+        """Pictures due on its topics so far, read or not; None: it has no topic."""
 
     @property
     def intrinsics(self) -> Intrinsics:
@@ -143,7 +146,11 @@ class VirtualCamera:
     @property
     def world_from_camera(self) -> Pose:
         """Where it is now; OpenGL axes."""
-        return self._link.world_from_body @ self._link_from_camera
+        return self._mount.world_from_body
+
+    def resize(self, intrinsics: Intrinsics) -> None:
+        """Give it another pinhole; who publishes its pictures does not know of that."""
+        self._intrinsics = intrinsics
 
     def shoot(self) -> npt.NDArray[np.uint8]:
         """Take a picture, (h, w, 3), or (h, w) when it is grey; row 0 is the top."""

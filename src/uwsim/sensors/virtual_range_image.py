@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from ..dialect import FARTHEST, element
 from ..geometry import Intrinsics
-from .sensor import SensorSpec
+from .sensor import DIRECTIONS, LookAt, SensorSpec
 from .virtual_camera import CameraParametersSpec
 
 
@@ -33,6 +33,9 @@ class VirtualRangeImageSpec(SensorSpec):
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    look_at: LookAt = element(namespaced=True, default=None, words=DIRECTIONS)
+    """Where it looks at the start, instead of ``orientation``: a point in L [m], or a direction
+    of the vehicle. It stays fixed to its link."""
     frame_id: str = ""
     """Name of the frame in the headers of image and info."""
     fovy: float = element(default=50.0, above=0, below=180)

@@ -10,15 +10,16 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ..assets import find, folders_searched
+from ..assets import bundled_robot, find, folders_searched
 from ..errors import AssetNotFound, UnknownName, UwsimError
 from ..geometry import Pose
+from ..linear import placed, product
 from ..physics.state import State
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.urdf_reader import read_urdf
 from ..world import Box
-from .scenery import Part
+from .parts import Part
 
 
 class SceneBody:
@@ -54,6 +55,32 @@ def find_file(name: str, beside: str, data_path: tuple[Path, ...]) -> Path:
     return path
 
 
+def find_robot(name: str, beside: str, data_path: tuple[Path, ...]) -> Path:
+    """Find a robot file; where it is nowhere, the bundled one of the same file name stands for it.
+
+    Raises:
+        AssetNotFound: there is none of that name either; names every folder searched.
+    """
+    try:
+        return find_file(name, beside, data_path)
+    except AssetNotFound:
+        path = bundled_robot(name)
+        if path is None:
+            raise
+        return path
+
+
+def robot_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dict[str, Path]:
+    """Robot files that are nowhere, and the bundled ones that stand for them."""
+    beside = Path(scene.path).parent if scene.path else None
+    lost = {
+        vehicle.file: bundled_robot(vehicle.file)
+        for vehicle in scene.vehicles
+        if find(vehicle.file, beside=beside, data_path=data_path) is None
+    }
+    return {name: path for name, path in lost.items() if path is not None}
+
+
 def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, RobotSpec]:
     """Find and read the URDF of every vehicle, by the vehicle's number.
 
@@ -62,7 +89,7 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
         SceneError: a file is wrong.
     """
     return {
-        index: read_urdf(find_file(vehicle.file, scene.path, data_path))
+        index: read_urdf(find_robot(vehicle.file, scene.path, data_path))
         for index, vehicle in enumerate(scene.vehicles)
     }
 
@@ -86,7 +113,7 @@ def name_bodies(
     bodies = {
         "localizedWorld": SceneBody("localizedWorld", lambda: scene.world_from_localized, None)
     }
-    boxes = {(part.vehicle, part.link, part.object): part.model.box for part in parts}
+    boxes = {part.object: part.model.box for part in parts if part.object is not None}
 
     def add(names: Sequence[str], pose: Callable[[], Pose], box: Box | None) -> None:
         for name in names:
@@ -103,14 +130,11 @@ def name_bodies(
                 add(seen, pose, None)
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
-            box = boxes.get((index, link.name, None))
-            add(
-                seen,
-                partial(_attached, pose, link_from_visual),
-                None if box is None else scaled_box(box, np.eye(3), link.visual.scale),
-            )
+            pose = partial(state.mounted_pose, index, link.name, link_from_visual)
+            shown = [part for part in parts if (part.vehicle, part.link) == (index, link.name)]
+            add(seen, pose, _box_of(shown, pose(), state.link_frame(index, link.name)))
     for index, thing in enumerate(scene.objects):
-        mesh, box = thing.object_from_mesh, boxes.get((None, "", index))
+        mesh, box = thing.object_from_mesh, boxes.get(index)
         if box is not None and "box-scale" not in compatibility:
             box = scaled_box(box, mesh.rotation, thing.scale_factor)
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
@@ -118,6 +142,28 @@ def name_bodies(
         pose = partial(_attached, partial(state.object_pose, index), object_from_mesh)
         add([thing.name], pose().copy if state.is_fixed(index) else pose, box)
     return bodies
+
+
+def _box_of(
+    parts: Sequence[Part], world_from_visual: Pose, world_from_link: npt.NDArray[np.float64]
+) -> Box:
+    """Return the bounding box of all that is seen of a link, in its visual frame.
+
+    Args:
+        parts: what is seen.
+        world_from_visual: the visual frame.
+        world_from_link: the link with its vehicle's scale, (4, 4) [m].
+    """
+    visual_from_link = product(world_from_visual.inverse().matrix, world_from_link)
+    corners = np.concatenate(
+        [
+            placed(part.model.box.corners(), matrix[:3, :3], matrix[:3, 3])
+            for part in parts
+            for matrix in [product(visual_from_link, part.frame_from_mesh)]
+        ]
+    )  # (8 n, 3) [m]
+    lower, upper = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+    return Box(tuple(lower), tuple(upper))
 
 
 def scaled_box(
@@ -132,8 +178,9 @@ def scaled_box(
     """
     if scale == (1.0, 1.0, 1.0):
         return box
-    scaling = object_from_mesh.T @ np.diag(scale) @ object_from_mesh  # in the mesh's frame
-    corners = box.corners() @ scaling.T  # (8, 3) [m]
+    stretched = product(np.diag(scale), object_from_mesh)
+    scaling = product(object_from_mesh.T, stretched)  # in the mesh's frame
+    corners = product(box.corners(), scaling.T)  # (8, 3) [m]
     lower, upper = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Box(tuple(lower), tuple(upper))
 
@@ -167,10 +214,16 @@ def touchable(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"]
     if name in vehicles:
         return "vehicle", vehicles.index(name)
     solid = scene.solid_objects
-    if objects.index(name) not in solid:
-        have = ", ".join(objects[index] for index in solid)
-        raise untouchable(name, f"it has no <physics>; of the objects have: {have}")
-    return "object", objects.index(name)
+    index = objects.index(name)
+    if index not in solid:
+        have = ", ".join(objects[each] for each in solid)
+        why = (
+            "it has no <physics>, nor <u:solid> 1"
+            if scene.objects[index].is_solid is None
+            else "<u:solid> is 0"
+        )
+        raise untouchable(name, f"{why}; solid are: {have or 'none'}")
+    return "object", index
 
 
 def untouchable(name: str, why: str) -> UwsimError:

@@ -3,8 +3,10 @@
 Every link of a vehicle, as the box around its collision geometry, else around what is seen of it,
 and the objects that `uwsim.scene.spec.SceneSpec.solid_objects` names. Where a vehicle is simulated,
 or the scene asks for the original's physics, an object is loose if it has a mass and is not
-``isKinematic``; elsewhere it stands still. Not modelled: contacts of a vehicle with itself, of
-objects that stand still with each other; limits of objects; hollows between the hulls of a link.
+``isKinematic``; elsewhere it stands still. Solid scenery without ``<physics>`` is its faces; of a
+mesh of more than `MOST_TRIANGLES` those of a simpler one. Not modelled: contacts of a vehicle with
+itself, of objects that stand still with each other; limits of objects; hollows between the hulls of
+a link.
 """
 
 from __future__ import annotations
@@ -15,12 +17,20 @@ from pathlib import Path
 
 import numpy as np
 
-from ..geometry import Pose
+from ..assets.mesh import Model
+from ..geometry import Array, Pose
+from ..linear import placed, product, turned
 from ..physics.compile import object_body, vehicle_body
-from ..physics.shapes import Shape, shapes_of
-from ..scene.spec import PhysicsSpec, SceneSpec
-from ..scene.urdf import RobotSpec
-from .scenery import object_model, visual_model
+from ..physics.ground import triangles_of
+from ..physics.shapes import TRIMESHES, Shape, seen_from, shapes_of
+from ..scene.kinematics import link_poses
+from ..scene.spec import ObjectSpec, PhysicsSpec, SceneSpec
+from ..scene.urdf import RobotSpec, VisualSpec
+from ..scene.vehicle import VehicleSpec
+from .parts import object_model, visual_model
+
+MOST_TRIANGLES = 8000
+"""Of solid scenery without ``<physics>`` as it is touched: a mesh of more is simplified."""
 
 
 def simulated_shapes(
@@ -39,10 +49,10 @@ def simulated_shapes(
     """
     if scene.things_fall:
         return collision_shapes(scene, robots, robots, scene.solid_objects, data_path)
-    given = {i: thing.solid for i, thing in enumerate(scene.objects) if thing.physics is not None}
-    if not dynamics or not given:
+    solid = scene.simulated_solids
+    if not dynamics or (not solid and len(dynamics) == 1):
         return {}
-    return collision_shapes(scene, robots, dynamics, given, data_path)
+    return collision_shapes(scene, robots, dynamics, solid, data_path)
 
 
 def collision_shapes(
@@ -62,30 +72,104 @@ def collision_shapes(
         data_path: folders in which files are looked for.
     """
     shapes: dict[str, tuple[Shape, ...]] = {}
-    beside = Path(scene.path).parent if scene.path else None
     for index, physics in objects.items():
         thing = scene.objects[index]
-        placed = np.diag([*thing.scale_factor, 1.0]) @ thing.object_from_mesh.matrix
         shapes[object_body(index)] = shapes_of(
-            object_model(physics.collision_shape or thing.file, scene, beside, data_path),
-            placed,
+            _touched_model(thing, physics, scene, data_path),
+            _object_from_mesh(thing),
             physics.collision_shape_type,
             is_fixed=not physics.is_loose,
+            up=_up(thing, scene) if thing.is_ground else None,
         )
     for index in vehicles:
         robot = robots[index]
+        stretches = _stretches(robot, scene.vehicles[index])
         for link in robot.links:
-            solid = link.collision or link.visual
-            if solid is None:
-                continue
-            model = visual_model(solid, Path(robot.path).parent, data_path)
-            link_from_mesh = np.diag([*solid.scale, 1.0])
-            shapes[vehicle_body(index, link.name)] = tuple(
-                replace(
-                    shape,
-                    body_from_shape=Pose.from_rpy(solid.position, solid.rpy)
-                    @ shape.body_from_shape,
-                )
-                for shape in shapes_of(model, link_from_mesh, "box", is_fixed=False)
-            )
+            boxes = [
+                box
+                for solid in link.solids
+                for box in _boxes(solid, stretches.get(link.name), robot, data_path)
+            ]
+            if boxes:
+                shapes[vehicle_body(index, link.name)] = tuple(boxes)
     return shapes
+
+
+def _stretches(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
+    """What a vehicle's scale is in the frame of each link, (3, 3); nothing without a scale.
+
+    An uneven scale is that of the joints as they are at the start: a box stays what it is.
+    """
+    if vehicle.scale_factor == (1.0, 1.0, 1.0):
+        return {}
+    poses = link_poses(robot, vehicle.joint_values)
+    turns = {name: pose.rotation for name, pose in poses.items()}  # base_from_link
+    return {
+        name: product(turn.T, product(np.diag(vehicle.scale_factor), turn))
+        for name, turn in turns.items()
+    }
+
+
+def _boxes(
+    solid: VisualSpec, stretch: Array | None, robot: RobotSpec, data_path: tuple[Path, ...]
+) -> list[Shape]:
+    """What is touched of one shape of a link, in the link's frame."""
+    model, scale = visual_model(solid, Path(robot.path).parent, data_path)
+    link_from_solid = Pose.from_rpy(solid.position, solid.rpy)
+    solid_from_mesh = np.diag([*scale, 1.0])
+    if stretch is not None:
+        turn = link_from_solid.rotation
+        solid_from_mesh[:3, :3] = product(turn.T, product(stretch, turn)) * scale
+        link_from_solid = Pose(turned(stretch, link_from_solid.position), turn)
+    return [
+        replace(shape, body_from_shape=link_from_solid @ shape.body_from_shape)
+        for shape in shapes_of(model, solid_from_mesh, "box", is_fixed=False)
+    ]
+
+
+def standing_faces(
+    scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
+) -> Array:
+    """Triangles of an object that stands fixed, as it is touched, in W, (n, 3, 3) [m].
+
+    Args:
+        scene: what the file says.
+        index: number of the object.
+        physics: what it is.
+        data_path: folders in which files are looked for.
+    """
+    thing = scene.objects[index]
+    world_from_object = scene.world_from_localized @ thing.localized_from_object
+    model = _touched_model(thing, physics, scene, data_path)
+    if physics.collision_shape_type not in TRIMESHES:
+        shapes = shapes_of(
+            model, _object_from_mesh(thing), physics.collision_shape_type, is_fixed=True
+        )
+        return triangles_of(shapes, world_from_object)
+    world_from_mesh = product(world_from_object.matrix, _object_from_mesh(thing))
+    faces = np.concatenate([mesh.vertices[mesh.triangles] for mesh in model.meshes])
+    corners = faces.astype(np.float64).reshape(-1, 3)
+    triangles = placed(corners, world_from_mesh[:3, :3], world_from_mesh[:3, 3]).reshape(-1, 3, 3)
+    return seen_from(np.array([0.0, 0.0, 1.0]), triangles) if thing.is_ground else triangles
+
+
+def _touched_model(
+    thing: ObjectSpec, physics: PhysicsSpec, scene: SceneSpec, data_path: tuple[Path, ...]
+) -> Model:
+    """The mesh that an object is touched as, of `MOST_TRIANGLES` at most without ``<physics>``."""
+    file = physics.collision_shape or thing.file
+    beside = Path(scene.path).parent if scene.path else None
+    most = MOST_TRIANGLES if thing.physics is None else None
+    return object_model(file, scene, beside, data_path, max_triangles=most)
+
+
+def _object_from_mesh(thing: ObjectSpec) -> Array:
+    """Where its mesh is on an object, with its scale, (4, 4) [m]."""
+    return product(np.diag([*thing.scale_factor, 1.0]), thing.object_from_mesh.matrix)
+
+
+def _up(thing: ObjectSpec, scene: SceneSpec) -> Array:
+    """W's z in the axes of an object, (3,)."""
+    world_from_object = scene.world_from_localized @ thing.localized_from_object
+    up: Array = world_from_object.rotation[2]
+    return up

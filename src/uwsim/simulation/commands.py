@@ -12,9 +12,10 @@ u:ROSThrustersToPAT    std_msgs/Float64MultiArray   commands of the thrusters, s
 u:ROSWrenchToPAT       geometry_msgs/WrenchStamped  force and torque, simulated only
 =====================  ===========================  =============================================
 
-A velocity is not held: each message moves the vehicle by the time since the one before on its
-interface (nothing for the first, or after more than 1 s). Joints are clamped to their limits. Time
-is simulation time, where the original took the wall's.
+A velocity is not held: each message moves the vehicle by the time since the velocity before it on
+its interface (nothing for the first, or after more than 1 s). Poses and positions in between do
+not count, as in the original: they take no time from a velocity. Joints are clamped to their
+limits. Time is simulation time, where the original took the wall's.
 
 A vehicle that is simulated (``u:dynamics``) is never put anywhere by a message: its autopilot
 (`uwsim.physics.autopilot`) takes a pose for the place to go to and stay at, and holds a twist, a
@@ -114,13 +115,13 @@ class Commands:
             self._bus.subscribe(
                 interface.topic,
                 TwistStamped,
-                lambda m: later(lambda: self._push(vehicle, m.twist, gap.take())),
+                lambda m: later(lambda: self._push(vehicle, m.twist, gap)),
             )
         elif isinstance(interface, ROSOdomToPATSpec):
             self._bus.subscribe(
                 interface.topic,
                 Odometry,
-                lambda m: later(lambda: self._follow(vehicle, m, gap.take())),
+                lambda m: later(lambda: self._follow(vehicle, m, gap)),
             )
         elif isinstance(interface, ROSThrustersToPATSpec):
             self._bus.subscribe(
@@ -137,7 +138,7 @@ class Commands:
             self._bus.subscribe(
                 interface.topic,
                 JointState,
-                lambda m: later(lambda: self._bend(vehicle, m, gap.take())),
+                lambda m: later(lambda: self._bend(vehicle, m, gap)),
             )
 
     def _place(self, vehicle: int, pose: PoseMessage) -> None:
@@ -177,7 +178,8 @@ class Commands:
         if np.isfinite(force).all() and np.isfinite(torque).all():
             self._state.pilot(vehicle).push(force, torque)
 
-    def _push(self, vehicle: int, twist: Twist, time: float) -> None:
+    def _push(self, vehicle: int, twist: Twist, gap: _Gap) -> None:
+        time = gap.take()
         v, w = twist.linear, twist.angular
         numbers = np.array([v.x, v.y, v.z, w.x, w.y, w.z])
         if not np.isfinite(numbers).all():
@@ -190,15 +192,15 @@ class Commands:
         before_from_after = Pose(step[:3], rotation_from_xyz(*step[3:].tolist()))
         self._state.place_vehicle(vehicle, self._state.vehicle_pose(vehicle) @ before_from_after)
 
-    def _follow(self, vehicle: int, odometry: Odometry, time: float) -> None:
+    def _follow(self, vehicle: int, odometry: Odometry, gap: _Gap) -> None:
         pose = odometry.pose.pose
         p, q = pose.position, pose.orientation
         if any((p.x, p.y, p.z, q.x, q.y, q.z)):
             self._place(vehicle, pose)
         else:
-            self._push(vehicle, odometry.twist.twist, time)
+            self._push(vehicle, odometry.twist.twist, gap)
 
-    def _bend(self, vehicle: int, message: JointState, time: float) -> None:
+    def _bend(self, vehicle: int, message: JointState, gap: _Gap) -> None:
         if self._state.is_simulated(vehicle):
             servos = self._state.servos(vehicle)
             if message.position.size:
@@ -212,7 +214,8 @@ class Commands:
         if message.position.size:
             for number, value in self._numbered(vehicle, message, message.position).items():
                 joints[number] = value
-        else:
+        elif message.velocity.size:
+            time = gap.take()
             for number, value in self._numbered(vehicle, message, message.velocity).items():
                 joints[number] += value * time
         self._state.set_joints(vehicle, joints)
@@ -229,7 +232,7 @@ class Commands:
 
 
 class _Gap:
-    """Time since the message before."""
+    """Time since the velocity before."""
 
     def __init__(self, bus: Bus, timestep: float) -> None:
         self._bus, self._timestep = bus, timestep

@@ -8,16 +8,13 @@ interfaces use for different messages, files of currents.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Literal
 
-from lxml import etree
-
 from ..chance import stream
 from ..currents import Place, PythonFunctionSpec
-from ..dialect import NAMESPACE, Faults, parse
-from ..errors import Fault, FileError, SceneError, UnknownName, UwsimError, did_you_mean
+from ..dialect import NAMESPACE, Faults
+from ..errors import Fault, SceneError, UnknownName, UwsimError, did_you_mean
 from ..messages import (
     Bool,
     CameraInfo,
@@ -31,7 +28,6 @@ from ..messages import (
 )
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
 from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle_into
-from ..scene.legacy import upgrade
 from ..scene.ros_interfaces import (
     INTERFACES,
     ArmToROSJointStateSpec,
@@ -48,9 +44,9 @@ from ..scene.ros_interfaces import (
 )
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
-from ..scene.urdf_reader import read_urdf
 from ..scene.vehicle import VehicleSpec
 from .bodies import find_file
+from .scene_lines import SceneLines
 
 U = f"{{{NAMESPACE}}}"
 LIGHTEST = 100.0
@@ -80,27 +76,21 @@ def read_dynamics(
     Raises:
         SceneError: a name leads nowhere or a file is wrong; with every fault.
     """
-    search = _Search(scene, robots, data_path)
+    search = Search(scene, robots, data_path)
     if faults := [fault for fault in search.found if fault.severity == "fault"]:
         raise SceneError(faults)
     return search.dynamics
 
 
-def check_dynamics(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Fault]:
-    """Everything wrong with what of a scene is simulated; currents are read whole.
+class Search:
+    """Follows the names, and keeps what they lead to and what leads nowhere.
 
-    The user's own functions are not run.
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle that has one, by its number.
+        data_path: folders in which files are looked for.
+        is_thorough: read currents whole; the user's own functions are not run.
     """
-    robots: dict[int, RobotSpec] = {}
-    for index, vehicle in enumerate(scene.vehicles):
-        with suppress(UwsimError):  # said where robots are checked
-            if vehicle.dynamics is not None:
-                robots[index] = read_urdf(find_file(vehicle.file, scene.path, data_path))
-    return _Search(scene, robots, data_path, is_thorough=True).found
-
-
-class _Search:
-    """Follows the names, and keeps what they lead to and what leads nowhere."""
 
     def __init__(
         self,
@@ -111,12 +101,15 @@ class _Search:
         is_thorough: bool = False,
     ) -> None:
         self.dynamics: dict[int, VehicleHydrodynamics] = {}
+        """Of each vehicle that is simulated, by its number."""
         self.found: list[Fault] = []
+        """All that is wrong or worth knowing."""
         self._scene, self._data_path = scene, data_path
-        self._root: etree._Element | None = None
+        self._lines = SceneLines(scene)
         for index, vehicle in enumerate(scene.vehicles):
             if vehicle.dynamics is not None and index in robots:
                 self._read(index, vehicle.dynamics, robots[index])
+                self._refuse_scale(index, vehicle)
             self._follow_thrusters(index, vehicle)
         self._follow_interfaces()
         self._follow_currents(is_thorough)
@@ -160,6 +153,17 @@ class _Search:
             self._say(f"{said}; {LIGHTEST:g} times the mass is lighter than any foam", *place)
         elif displaced > LIGHT * mass or mass > HEAVY * displaced > 0.0:
             self._say(said, *place, severity="notice")
+
+    def _refuse_scale(self, index: int, vehicle: VehicleSpec) -> None:
+        """Masses, volumes and thrusts are those of the size that the files give."""
+        if vehicle.scale_factor != (1.0, 1.0, 1.0):
+            x, y, z = vehicle.scale_factor
+            self._say(
+                f"the vehicle {vehicle.name!r} is simulated (<u:dynamics>) and has a <scaleFactor> "
+                f"of {x:g} {y:g} {z:g}; expected 1 1 1: what a scaled vehicle weighs and resists "
+                "nobody has said. Change its URDF and its side file instead",
+                *("vehicle", index, "scaleFactor", 0),
+            )
 
     def _follow_thrusters(self, index: int, vehicle: VehicleSpec) -> None:
         for number, fault in enumerate(vehicle.faults):
@@ -245,26 +249,8 @@ class _Search:
     ) -> None:
         """Keep a fault of the ``number``th ``child`` of the ``index``th ``parent``."""
         self.found.append(
-            Fault(
-                file=self._scene.path or "the scene",
-                line=self._line(parent, index, child, number),
-                message=message,
-                severity=severity,
-            )
+            self._lines.fault(message, parent, index, child, number, severity=severity)
         )
-
-    def _line(self, parent: str, index: int, child: str, number: int) -> int | None:
-        if self._root is None and self._scene.path:
-            with suppress(FileError):
-                document = parse(Path(self._scene.path))
-                upgrade(document.root, Faults(document.path))
-                self._root = document.root
-        if self._root is None:
-            return None
-        parents = self._root.findall(parent)
-        nodes = parents[index].findall(child) if index < len(parents) else []
-        nodes = [node for node in nodes if isinstance(node.tag, str)]
-        return int(str(nodes[number].sourceline)) if number < len(nodes) else None
 
 
 def _plain(message: type) -> str:

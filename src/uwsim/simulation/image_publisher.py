@@ -55,6 +55,7 @@ class ImagePublisher:
     ) -> None:
         self.camera = camera
         """The camera whose images these are."""
+        camera.n_pictures = camera.n_pictures or 0
         self.n_frames = 0
         """Images published."""
         self.last: npt.NDArray[np.uint8] | None = None
@@ -81,6 +82,7 @@ class ImagePublisher:
     def publish(self) -> None:
         """Take the sample that is due and publish it."""
         self._n_samples += 1
+        self.camera.n_pictures = (self.camera.n_pictures or 0) + 1
         self.due = sample_step(self._n_samples, self._rate, self._timestep)
         time = self._bus.step * self._timestep
         if self._bus.has_readers(self._info_topic):

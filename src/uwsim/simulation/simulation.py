@@ -12,7 +12,7 @@ step 0, when the simulation is opened.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
@@ -23,8 +23,9 @@ import numpy.typing as npt
 from ..bus import Algorithm, Bus, Inbox
 from ..chance import stream
 from ..currents import Place, TotalCurrent, bind_currents
-from ..errors import UnknownName
-from ..geometry import Intrinsics, Pose
+from ..errors import BadSetting, UnknownName
+from ..geometry import Array, Intrinsics, Pose
+from ..linear import product
 from ..physics.motion import Motion
 from ..physics.state import State
 from ..rendering.grey import grey_truncated
@@ -33,8 +34,10 @@ from ..rendering.renderer import Picture
 from ..rendering.water import Light, Water
 from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
+from ..scene.variation import varied
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact, Flow
+from .below import Below, below
 from .bodies import (
     SceneBody,
     find_body,
@@ -42,20 +45,22 @@ from .bodies import (
     name_bodies,
     read_robots,
 )
+from .carriers import carriers_of
 from .collision_shapes import simulated_shapes
 from .commands import Commands
 from .dynamics import read_dynamics
+from .floor import set_on_floor
 from .image_publisher import ImagePublisher, SampleTimer
 from .node import InProcessNode
+from .parts import Part
 from .scenery import Scenery
 from .state_publishers import state_publishers
 from .studio import Studio
+from .thrust_warnings import thrust_warnings
 from .thruster_faults import ThrusterFaults
 from .touch import Touch
 
 M = TypeVar("M")
-BENCHMARK_FOG_COLOUR = (0.0, 0.05, 0.3)
-"""What the original sets whenever a benchmark changes the fog."""
 ALL_TARGETS = frozenset({"colour", "range", "ids"})
 
 
@@ -63,7 +68,7 @@ class Simulation:
     """A scene that lives: implements `uwsim.world.Stage` and owns the bus and the clock.
 
     Args:
-        scene: what the file says.
+        scene: what the file says; what varies in it is drawn for the seed.
         seed: the run's seed.
         stream_prefix: stands in front of the name of every random stream.
         timestep: length of a step [s].
@@ -85,7 +90,15 @@ class Simulation:
         is_blind: bool = False,
         studio: Studio | None = None,
     ) -> None:
-        self._scene = scene
+        if not isinstance(scene, SceneSpec):
+            raise BadSetting(
+                f"A Simulation is made of what read_scene returns, not of {_shown(scene)}."
+            )
+        data_path = tuple(Path(folder) for folder in data_path)
+        scene = varied(scene, seed)
+        self.robots = read_robots(scene, data_path)
+        """The robot of each vehicle, by its number in the scene."""
+        self._scene = scene = set_on_floor(scene, self.robots, data_path)
         self._seed = seed
         self._prefix = stream_prefix
         self._timestep = timestep
@@ -93,14 +106,15 @@ class Simulation:
         self._compatibility = compatibility
         self.bus = Bus()
         """Topics and services of this simulation."""
-        self.robots = read_robots(scene, data_path)
-        """The robot of each vehicle, by its number in the scene."""
         dynamics = read_dynamics(scene, self.robots, data_path)
         self.files = {path.name: path for one in dynamics.values() for path in one.files}
         """Side files of vehicles, and files of currents, by name."""
+        self.warnings = tuple(thrust_warnings(scene, self.robots, dynamics))
+        """What the autopilots of its vehicles cannot do, with the lines of the file."""
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
         self._state = State(scene, self.robots, dynamics, timestep, shapes)
-        self._scenery = Scenery(scene, self.robots, self._state, data_path, studio)
+        carriers = carriers_of(scene, self.robots, self._state)
+        self._scenery = Scenery(scene, self.robots, self._state, carriers, data_path, studio)
         self._bodies = name_bodies(
             scene, self.robots, self._state, self._scenery.parts, compatibility
         )
@@ -112,7 +126,7 @@ class Simulation:
             surface_height=scene.ocean_state.ocean_surface_height,
             fog_distance="clip" if "fog-distance" in compatibility else "ray",
         )
-        self._light = Light(rate=scene.sim_params.light_rate)
+        self._light = Light(rate=scene.sim_params.light_rate, shadows=scene.has_sun_shadows)
         place = Place(
             stream=self.stream,
             find=lambda name: find_file(name, scene.path, data_path),
@@ -134,6 +148,7 @@ class Simulation:
             "" if i is None else scene.vehicles[i].name for i in self._state.wet_vehicles()
         )
         self._swaying = [(i, v) for i, v in enumerate(scene.vehicles) if v.sways]
+        self._sway()
         robots = [self.robots[i] for i in range(len(scene.vehicles))]
         self._commands = Commands(scene, robots, self._state, self.bus, timestep)
         self._thruster_faults = ThrusterFaults(scene, self._state)
@@ -144,11 +159,11 @@ class Simulation:
             self.every(rate, tell)
         self._nodes: list[InProcessNode] = []
         self._cameras: dict[str, VirtualCamera] = {}
-        for vehicle in scene.vehicles:
+        for vehicle, carrier in zip(scene.vehicles, carriers, strict=True):
             for spec in vehicle.virtual_cameras:
                 # a sensor on a link that is not there is left out, as in the original
-                if f"{vehicle.name}/{spec.relative_to}" in self._bodies:
-                    self._cameras.setdefault(spec.name, spec.bind(self, vehicle.name))
+                if carrier.has_link(spec.relative_to):
+                    self._cameras.setdefault(spec.name, spec.bind(self, carrier))
         self.images: dict[str, ImagePublisher] = {}
         """What publishes images, by topic."""
         for interface in scene.ros_interfaces:
@@ -236,7 +251,7 @@ class Simulation:
         acceleration = self._flow.acceleration(points, time, self._wet_names)
         turn = self._localized_from_world.rotation
         self._thruster_faults.apply(time)
-        self._state.step(velocity.dot(turn), acceleration.dot(turn))
+        self._state.step(product(velocity, turn), product(acceleration, turn))
 
     def _sway(self) -> None:
         for index, vehicle in self._swaying:
@@ -314,6 +329,11 @@ class Simulation:
             raise UnknownName("virtual camera", name, self._cameras)
         return self._cameras[name]
 
+    @property
+    def cameras(self) -> tuple[str, ...]:
+        """Names of the virtual cameras, in the file's order."""
+        return tuple(self._cameras)
+
     def message_type(self, topic: str) -> type | None:
         """What a topic carries; None while nobody has said."""
         return self.bus.message_type(topic)
@@ -390,6 +410,45 @@ class Simulation:
             world_from_camera, intrinsics, water, self._light, targets=ALL_TARGETS, colour="uint8"
         )
 
+    def look(
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        *,
+        targets: Collection[str] = ALL_TARGETS,
+        hidden: frozenset[int] = frozenset(),
+        fog: float | None = None,
+    ) -> Picture:
+        """Draw what a viewer sees who is no camera of the scene: ghosts, too, and air above water.
+
+        Args:
+            world_from_camera: where the viewer is; OpenGL axes.
+            intrinsics: the pinhole.
+            targets: some of colour, range, ids.
+            hidden: numbers of parts that are left out.
+            fog: density of the fog instead of the scene's [1/m].
+        """
+        density = self._water.fog if fog is None else fog
+        return self._scenery.draw(
+            world_from_camera,
+            intrinsics,
+            replace(self._water, fog=density, has_air=True, fog_distance="ray"),
+            self._light,
+            targets=frozenset(targets),
+            colour="uint8",
+            hidden=hidden,
+        )
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """The models of the scene and whose they are."""
+        return self._scenery.parts
+
+    def corners(self, part: Part) -> Array:
+        """Return the corners of a part's box where it is now, in W, (8, 3) [m]."""
+        world_from_mesh = self._scenery.world_from_mesh(part)
+        return product(part.model.box.corners(), world_from_mesh[:3, :3].T) + world_from_mesh[:3, 3]
+
     @property
     def renderer_name(self) -> str:
         """What draws the pictures; makes the graphics context if there is none yet."""
@@ -418,8 +477,12 @@ class Simulation:
         return find_file(name, beside, self._data_path)
 
     def set_fog(self, density: float) -> None:
-        """Set the fog density [1/m] of the water, and its colour to (0, 0.05, 0.3)."""
-        self._water = replace(self._water, fog=density, fog_colour=BENCHMARK_FOG_COLOUR)
+        """Set the fog density [1/m] of the water; its colour stays.
+
+        The original sets the colour of its window's fog to (0, 0.05, 0.3) here, and leaves that of
+        its cameras as the scene has it.
+        """
+        self._water = replace(self._water, fog=density)
 
     def set_light_rate(self, rate: float) -> None:
         """Scale the light of the scene; 1 is as usual."""
@@ -433,6 +496,14 @@ class Simulation:
     def joints(self, vehicle: str) -> npt.NDArray[np.float64]:
         """Return the joint vector of a vehicle, (n,) [rad or m]; UnknownName if there is none."""
         return self._state.joints(self._vehicle(vehicle))
+
+    def below(self, vehicle: str) -> tuple[Below, ...]:
+        """Return what lies straight below a vehicle's origin, the nearest first."""
+        index = self._vehicle(vehicle)
+        others = [
+            part for part in self._scenery.parts if part.vehicle != index and not part.is_hidden
+        ]
+        return below(self._state.vehicle_pose(index).position, self._scenery, others)
 
     def _vehicle(self, name: str) -> int:
         if name not in self.vehicles:
@@ -460,7 +531,7 @@ class Simulation:
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest."""
         index = self._vehicle(vehicle)
-        localized_from_base = self._scene.vehicles[index].localized_from_base
+        localized_from_base = self._scene.vehicles[index].localized_from_base_at(self.time)
         self._state.place_vehicle(index, self.world_from_localized @ localized_from_base)
 
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
@@ -468,3 +539,9 @@ class Simulation:
         timer = SampleTimer(self.bus.step, rate, self._timestep, call)
         self._timers.append(timer)
         return lambda: self._timers.remove(timer) if timer in self._timers else None
+
+
+def _shown(found: object) -> str:
+    """``a str: 'scene.xml'``, cut where it is long."""
+    text = repr(found)
+    return f"a {type(found).__name__}: {text if len(text) <= 60 else text[:57] + '...'}"

@@ -169,4 +169,4 @@ def _can_touch(
         kind, index = touchable(interface.name, scene)
     except UwsimError:
         return False
-    return kind == "object" or any(link.collision or link.visual for link in robots[index].links)
+    return kind == "object" or any(link.solids for link in robots[index].links)

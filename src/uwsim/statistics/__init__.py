@@ -11,7 +11,7 @@ from .effect import cohens_d, hedges_g, rank_biserial, vargha_delaney
 from .holm import holm
 from .interval import Interval, mean_interval
 from .median import Median, fewest_for_median, median_interval
-from .paired import fewest_for, mcnemar, sign_flip, signed_rank
+from .paired import fewest_for, mcnemar, sign_flip, signed_rank, smallest_p
 from .power import power, repeats_needed
 from .rate import Rate, rate
 
@@ -33,5 +33,6 @@ __all__ = [
     "repeats_needed",
     "sign_flip",
     "signed_rank",
+    "smallest_p",
     "vargha_delaney",
 ]

@@ -95,11 +95,24 @@ def mcnemar(first_only: int, second_only: int) -> float:
     return min(1.0, 2 * float(bdtr(min(first_only, second_only), n, 0.5))) if n else 1.0
 
 
+def smallest_p(n: int) -> float:
+    r"""Return the smallest p-value that `sign_flip` can give for n pairs, whatever they measure.
+
+    :math:`2/2^n`, 1 without pairs, while all sign patterns are counted: the one found and its
+    mirror image are always as far from zero as the one found. Where m patterns are drawn none is
+    below :math:`1/(m+1)`, and where Student's distribution is used there is no least one.
+    """
+    if n <= MOST_EXACT:
+        return min(1.0, 2.0 ** (1 - n))
+    return 1 / (N_FLIPS + 1) if n <= MOST_COUNTED else 0.0
+
+
 def fewest_for(alpha: float) -> int:
     r"""Return the least number of pairs whose sign-flip test can reach ``alpha``: 6 for 5 %.
 
     :math:`n = \lceil \log_2(2/\alpha) \rceil`: the smallest p there is with n pairs is
-    :math:`2/2^n`.
+    :math:`2/2^n` (`smallest_p`). For m tests and Holm's correction ask for
+    :math:`\alpha/m`: unless one p is that small, none is called different.
     """
     n = max(1, math.ceil(math.log2(2 / alpha)))
     return n - 1 if n > 1 and 2.0 ** (2 - n) <= alpha else n

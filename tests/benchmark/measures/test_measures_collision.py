@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 from fakes import FakeBody, FakeWorld
+from uwsim.benchmark.gated import Gated
 from uwsim.benchmark.measures.collision import Collision, CollisionSpec
+from uwsim.benchmark.triggers import NeverSpec
 from uwsim.errors import UnknownName
 from uwsim.world import Contact
 
@@ -103,6 +105,25 @@ def test_its_speeds_are_in_metres_per_second_though_its_score_is_a_number() -> N
 def test_its_log_has_a_name_for_every_number() -> None:
     collision = play(tank(), [hit(0.2)])
     assert len(collision.log_header) == len(collision.log_values) == 4
+
+
+def test_a_collision_that_goes_on_again_begins_anew_in_the_original() -> None:
+    for quirks, highest in ((frozenset[str](), 0.4), (frozenset({"restart"}), 0.1)):
+        collision = play(tank(compatibility=quirks), [hit(0.4)], [])
+        collision._world.touching["girona500"] = []  # type: ignore[attr-defined]
+        collision.start()
+        collision._world.touching["girona500"] = [hit(0.1)]  # type: ignore[attr-defined]
+        collision.update()
+        assert collision.details["max_speed"] == highest
+    assert collision.value == pytest.approx(1.0 - (0.1 / 2) / 0.5 - 0.1 / 0.5)
+
+
+def test_a_collision_that_never_started_has_the_full_score_in_the_original() -> None:
+    gated = Gated(
+        CollisionSpec(name="hits", target="girona500", start_on=NeverSpec()),
+        tank(compatibility=frozenset({"never-started"})),
+    )
+    assert gated.value == 1.0
 
 
 def test_a_body_that_is_not_there_is_an_error() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from fakes import FakeBody, FakeCamera, FakeWorld
+from uwsim.benchmark.gated import Gated
 from uwsim.benchmark.ground_truth import (
     CentroidFromCameraSpec,
     ConstantSpec,
@@ -15,8 +16,9 @@ from uwsim.benchmark.ground_truth import (
     RelativeLocationSpec,
 )
 from uwsim.benchmark.measures import EuclideanNorm, EuclideanNormSpec
+from uwsim.benchmark.triggers import ServiceSpec
 from uwsim.errors import UnknownName
-from uwsim.messages import Float32MultiArray, GTpublish, GTpublishResponse, floats
+from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, floats
 from uwsim.world import Box
 
 STEPS_PER_SECOND = 500
@@ -52,15 +54,15 @@ def test_the_norm_is_the_root_of_the_summed_squares() -> None:
     assert norm.log_values == (3.0, 1.0, -2.0, 2.0)
 
 
-def test_only_a_step_with_a_new_estimate_is_a_sample() -> None:
+def test_an_estimate_holds_until_the_next() -> None:
     world = FakeWorld()
     norm = norm_of(world, 0.0)
     norm.start()
-    for error in (3.0, 5.0):
+    for error, steps in ((3.0, 10), (5.0, 32)):
         say(world, norm, error)
-        wait(world, norm, 10)
+        wait(world, norm, steps)
     assert norm.details["n"] == 2.0
-    assert norm.details["mean"] == 4.0
+    assert norm.details["mean"] == pytest.approx((3.0 * 11 + 5.0 * 33) / 44)
 
 
 def test_of_two_estimates_in_one_step_the_newer_is_scored() -> None:
@@ -69,7 +71,7 @@ def test_of_two_estimates_in_one_step_the_newer_is_scored() -> None:
     norm.start()
     world.publisher("estimate", Float32MultiArray)(floats([9.0]))
     say(world, norm, 2.0)
-    assert (norm.value, norm.details["n"]) == (2.0, 1.0)
+    assert (norm.value, norm.details["n"], norm.details["frames"]) == (2.0, 2.0, 1.0)
 
 
 @pytest.mark.parametrize(
@@ -96,6 +98,7 @@ def test_every_component_has_its_statistics() -> None:
             "mean": 9.0, "rms": math.sqrt(97.0), "max": 13.0, "std": 4.0, "n": 2.0,
             "1.mean": -1.0, "1.rms": math.sqrt(17.0), "1.max": 5.0, "1.std": 4.0, "1.n": 2.0,
             "2.mean": -8.0, "2.rms": math.sqrt(80.0), "2.max": 12.0, "2.std": 4.0, "2.n": 2.0,
+            "refused": 0.0, "frames": 2.0, "answered": 1.0,
         }
     )  # fmt: skip
 
@@ -171,7 +174,38 @@ def test_the_original_lets_the_last_norm_stand() -> None:
     assert norm.log_values == (4.0, -4.0)
     wait(world, norm, 5 * STEPS_PER_SECOND)
     assert (norm.value, norm.why) == (4.0, None)
+    assert norm.longest_silence == 0.0  # so that the level is no timeout
     assert norm.log_values == (4.0, 0.0)  # its components are those of no new estimate
+
+
+def test_in_the_original_an_estimate_counts_that_came_while_the_measure_was_off() -> None:
+    for quirks, value in ((frozenset[str](), 4.0), (frozenset({"last-norm"}), 7.0)):
+        world = FakeWorld(compatibility=quirks)
+        spec = EuclideanNormSpec(
+            name="e", ground_truth=ConstantSpec(values=(0.0,)), target="estimate",
+            stop_on=ServiceSpec(target="stop"),
+        )  # fmt: skip
+        gated = Gated(spec, world)
+        publish = world.publisher("estimate", Float32MultiArray)
+        gated.tick()
+        for estimate in (4.0, 7.0):
+            publish(floats([estimate]))
+            world.advance()
+            gated.tick()
+            if estimate == 4.0:
+                world.call("stop", Empty())
+                world.advance()
+                gated.tick()
+        gated.end()
+        assert gated.value == value
+
+
+def test_where_no_estimate_came_at_all_the_original_has_none_either() -> None:
+    norm = norm_of(world := FakeWorld(compatibility=frozenset({"last-norm"})), 0.0)
+    norm.start()
+    wait(world, norm, 2 * STEPS_PER_SECOND)
+    assert norm.value is None
+    assert norm.longest_silence == pytest.approx(2.0)
 
 
 def test_a_log_keeps_the_components_of_the_newest_estimate() -> None:

@@ -321,3 +321,14 @@ def test_names_that_are_not_there_are_errors_that_name_the_right_one() -> None:
         PathFollowingSpec(name="p", target="girona50", topic="t").bind(world)
     with pytest.raises(UnknownName, match="Did you mean 'girona500'"):
         PathFollowingSpec(name="p", target="girona500", topic="t", from_="girona5").bind(world)
+
+
+def test_a_path_of_one_point_is_a_place_and_for_the_original_no_path() -> None:
+    body = FakeBody((0.0, 3.0, 4.0))
+    for quirks, value in ((frozenset[str](), 5.0), (frozenset({"path-point"}), None)):
+        world = FakeWorld({"v": body}, timestep=1.0, compatibility=quirks)
+        measure = following(world, [(0.0, 0.0, 0.0)])
+        world.advance()
+        measure.update()
+        assert measure.value == value
+    assert measure.why == "the path on 'path' has one point"

@@ -292,6 +292,20 @@ def test_with_details_to_globals_result_dat_has_the_originals_names() -> None:
     assert dict(plain.original_fields) == {"r": "r"}
 
 
+def test_without_from_clouds_are_given_in_the_world() -> None:
+    stands = Pose.from_rpy((1.0, 2.0, -3.0), (0.0, 0.0, 0.5))
+    values = []
+    for frame, frame_pose in ((None, Pose.identity()), ("arm", Pose.identity())):
+        world = sea(target=stands, frame=frame_pose)
+        measure = Reconstruction3DSpec(
+            name="r", target="blackbox", topic="/cloud", from_=frame, level_of_detail=0.1
+        ).bind(world)
+        send(world, measure, cloud(stands.transform(np.array([[0.1, 0.2, 0.49]]))))
+        values.append(measure.value)
+    assert values[0] is not None
+    assert values[0] == values[1]
+
+
 def test_what_has_no_shape_cannot_be_rebuilt_and_what_is_not_there_is_named() -> None:
     with pytest.raises(BadSetting, match=r"'blackbox' has no shape .* link@visual") as shapeless:
         bound(sea(box=None))

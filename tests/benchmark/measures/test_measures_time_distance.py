@@ -7,7 +7,7 @@ import pytest
 from fakes import FakeBody, FakeWorld
 from uwsim.benchmark.gated import Gated
 from uwsim.benchmark.measures import Distance, DistanceSpec, TimeSpec
-from uwsim.benchmark.triggers import ServiceSpec, TopicSpec
+from uwsim.benchmark.triggers import NeverSpec, ServiceSpec, TopicSpec
 from uwsim.errors import UnknownName
 from uwsim.messages import Bool, Empty
 
@@ -77,16 +77,51 @@ def test_time_during_a_pause_does_not_count() -> None:
     assert time.value == 1.0
 
 
-def test_the_log_of_a_time_runs_except_in_the_original() -> None:
-    for slips, logged in ((frozenset[str](), 1.5), (frozenset({"time-log"}), 0.0)):
-        world = FakeWorld(timestep=0.5, compatibility=slips)
-        time = TimeSpec(name="t").bind(world)
-        time.start()
+def test_a_time_runs_except_in_the_original_which_knows_it_when_it_stops() -> None:
+    for quirks, running in ((frozenset[str](), 1.5), (frozenset({"time-log"}), 0.0)):
+        world = FakeWorld(timestep=0.5, compatibility=quirks)
+        gated = Gated(TimeSpec(name="t", log=0.5), world)
+        gated.tick()
         for _ in range(3):
             world.advance()
+            gated.tick()
+        assert gated.log[-1] == (1.5, running)
+        assert gated.value == running  # what is published of it meanwhile
+        gated.end()
+        assert gated.value == 1.5
+
+
+def test_a_time_that_goes_on_again_begins_anew_in_the_original() -> None:
+    world = FakeWorld(timestep=0.5, compatibility=frozenset({"restart"}))
+    time = TimeSpec(name="t").bind(world)
+    for n in (4, 3):
+        time.start()
+        for _ in range(n):
+            world.advance()
             time.update()
-        assert time.log_values == (logged,)
-        assert time.value == 1.5
+        time.went_off()
+    assert time.value == 1.5
+
+
+@pytest.mark.parametrize(("quirks", "value"), [((), None), (("never-started",), 0.0)])
+def test_what_never_started_is_0_in_the_original(
+    quirks: tuple[str, ...], value: float | None
+) -> None:
+    world = FakeWorld({"v": FakeBody()}, compatibility=frozenset(quirks))
+    for spec in (
+        TimeSpec(name="t", start_on=NeverSpec()),
+        DistanceSpec(name="d", target="v", start_on=NeverSpec()),
+    ):
+        gated = Gated(spec, world)
+        gated.tick()
+        assert gated.value == value
+
+
+def test_a_distance_that_started_and_stands_still_is_no_start_value() -> None:
+    world = FakeWorld({"v": FakeBody()}, compatibility=frozenset({"never-started"}))
+    gated = Gated(DistanceSpec(name="d", target="v"), world)
+    gated.tick()
+    assert (gated.never_started, gated.value) == (False, 0.0)
 
 
 def test_time_counts_from_the_start_to_the_stop_and_what_follows_adds_up() -> None:

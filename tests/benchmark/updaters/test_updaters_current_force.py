@@ -16,9 +16,9 @@ from uwsim.benchmark.updaters import (
     SphericalSpec,
     apply_level,
     bind_updaters,
-    calm,
     levels,
     ramp_level,
+    settling_time,
 )
 from uwsim.errors import BadSetting, UnknownName
 from uwsim.messages import Empty, EmptyResponse, WrenchStamped
@@ -63,6 +63,31 @@ def test_its_levels_are_those_the_original_plays() -> None:
     assert len(values) == 20
     assert (values[0], values[-1]) == (0.0, pytest.approx(0.19))
     assert (tracking().name, tracking().unit) == ("current", "m/s")
+
+
+def test_the_first_level_of_a_sequence_is_no_step_and_has_no_still_water() -> None:
+    world = ship()
+    updater = tracking().bind(world)
+    world.serve("dynamics/reset", Empty, lambda request: pytest.fail("it was reset"))
+    updater.ramp(0.2)
+    assert (world.current, len(world.put_backs)) == (None, 1)  # held before it begins
+    updater.begin(0.2)
+    assert len(world.put_backs) == 1
+    assert (np.linalg.norm(waters(world, 0.1), axis=1) > 0.19).all()
+
+
+def test_with_the_originals_target_the_current_moves_nothing_else() -> None:
+    world = ship(compatibility=frozenset({"current-target"}))
+    tracking().bind(world).begin(0.2)
+    assert world.current is not None
+    points, names = np.zeros((3, 3)), ("girona500", "", "bluerov2")
+    for moved in (
+        world.current.velocity(points, 1.0, names),
+        world.current.acceleration(points, 1.0, names),
+    ):
+        assert np.linalg.norm(moved[0]) > 0.0
+        assert not moved[1:].any()
+    assert not world.current.velocity(points, 1.0).any()
 
 
 def test_a_level_puts_the_vehicle_back_and_begins_with_2_s_of_still_water() -> None:
@@ -113,17 +138,17 @@ def test_on_the_way_to_a_level_the_vehicle_is_held_in_its_place_in_still_water()
 
 def test_the_vehicle_is_put_back_once_for_all_fogs_within_a_current() -> None:
     fog = SceneFogUpdaterSpec(initial_value=0.0, final_value=0.1, step=0.05, interval=5.0)
-    spec = tracking(final_value=0.01, child=fog)
+    spec = tracking(final_value=0.01, child=fog, settling_time=3.0)
     world = ship()
     updaters = bind_updaters(spec, world)
     before = None
-    calms = []
+    waits = []
     for level in levels(spec):
         apply_level(updaters, level, after=before)
-        calms.append(calm(spec, level, after=before))
+        waits.append(settling_time(spec, level, after=before))
         before = level
     assert len(world.put_backs) == 2
-    assert calms == [2.0, 0.0, 0.0, 2.0, 0.0, 0.0]
+    assert waits == [3.0, 0.0, 0.0, 3.0, 0.0, 0.0]
 
 
 def test_a_current_that_is_repeated_begins_anew_each_time() -> None:
@@ -134,7 +159,6 @@ def test_a_current_that_is_repeated_begins_anew_each_time() -> None:
     apply_level(updaters, first)
     apply_level(updaters, second, after=first)
     assert len(world.put_backs) == 2
-    assert calm(spec, second, after=first) == 2.0
 
 
 def forces(spec: CurrentForceUpdaterSpec, **other: object) -> list[WrenchStamped]:

@@ -29,11 +29,11 @@ from uwsim.benchmark.updaters import (
     SphericalSpec,
     apply_level,
     bind_updaters,
-    calm,
     initial_level,
     interval,
     levels,
     n_levels,
+    ramp_level,
     references,
 )
 from uwsim.bus import Node
@@ -133,12 +133,12 @@ class Knobs:
             return world.camera_noise == value
         if element == "currentForceUpdater":
             assert world.current is not None
-            calm, flows = (
+            still, flows = (
                 world.current.velocity(np.zeros((1, 3)), time)[0]
                 for time in (world.time, world.time + 2.0)
             )
             put_back = world.put_backs[-1]
-            return not calm.any() and flows[1] == pytest.approx(value) and put_back[0] == VEHICLE
+            return not still.any() and flows[1] == pytest.approx(value) and put_back[0] == VEHICLE
         if element == "sceneFogUpdater":
             return world.fog == pytest.approx(1.0 / value)
         if element == "sceneLightUpdater":
@@ -159,7 +159,7 @@ def test_three_deep_every_value_stands_at_every_level_and_restarts(
     world = FakeWorld(vehicles=(VEHICLE,), timestep=0.01)
     updaters = bind_updaters(spec, world)
     knobs = Knobs(world)
-    apply_level(updaters, initial_level(spec))
+    ramp_level(updaters, initial_level(spec))
     before: Level | None = None
     for level in played:
         apply_level(updaters, level, after=before)
@@ -251,13 +251,3 @@ def test_a_nested_file_is_played_outermost_slowest_in_both_modes(tmp_path: Path,
     )
     assert [name for name, _ in rows[0].values] == ["iteration", "armPosition", "noise"]
     assert {round(row.duration, 6) for row in rows} == {0.1}
-
-
-def test_a_level_that_is_over_before_the_calm_is_measured_whole() -> None:
-    outer = current()
-    spec = nested(outer, RepeatSpec(iterations=2, interval=2.0))
-    first, second, third, *_ = levels(spec)
-    assert [calm(spec, first), calm(spec, second, after=first)] == [0.0, 0.0]
-    longer = nested(outer, RepeatSpec(iterations=2, interval=2.1))
-    assert [calm(longer, first), calm(longer, second, after=first)] == [2.0, 0.0]
-    assert calm(longer, third, after=second) == 2.0

@@ -98,7 +98,8 @@ class ControllerNode:
 
     The camera looks down and the top of its picture points to the bow: what is right of the centre
     calls for sway to starboard, what is above it for surge. The twist is held by the vehicle until
-    the next one; when the tracker is lost, it is zero.
+    the next one; when the tracker is lost, it is zero. Each time the tracker is told where its
+    target is (``autoInit``) the law begins anew: what it summed up was about another place.
     """
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {**Esm.PARAMETERS, **PARAMETERS}
@@ -126,6 +127,11 @@ class ControllerNode:
         node.subscribe("algorithmStatus", String, self._on_status)
         tracking = {name: self._parameters[name] for name in Esm.PARAMETERS}
         self._tracker.start(NodeView(node, tracking))
+
+    @staticmethod
+    def check_parameters(parameters: Mapping[str, float | str]) -> None:
+        """Refuse what the tracker cannot use, with BadSetting."""
+        Esm.check_parameters(parameters)
 
     def law(self) -> Law:
         """Return the law that turns errors into speeds; one of your own goes here."""
@@ -156,6 +162,8 @@ class ControllerNode:
         if status.data.startswith(("lost", "failed")):
             self._is_over = True
             self._command(0.0, 0.0)
+        elif status.data == "tracking":
+            self._law, self._last, self._is_over = self.law(), None, False
 
     def _command(self, surge: float, sway: float) -> None:
         self._say(

@@ -23,6 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...jit import njit
+from ...linear import inverse, product
 from .homography import exponential, multiply
 from .pyramid import Grey
 from .template import Runs, Template
@@ -68,7 +69,7 @@ def align(image: Grey, template: Template, guess: Array, method: Method) -> Alig
         template.values,
         template.slope_u,
         template.slope_v,
-        np.ascontiguousarray(guess @ template.picture_from_normalised),
+        product(guess, template.picture_from_normalised),
         a,
         b,
         method.photometric,
@@ -77,8 +78,8 @@ def align(image: Grey, template: Template, guess: Array, method: Method) -> Alig
         method.max_iterations,
         method.precision,
     )
-    back = np.linalg.inv(template.picture_from_normalised)
-    return Alignment(homography @ back, correlation, iterations)
+    back = inverse(template.picture_from_normalised)
+    return Alignment(product(homography, back), correlation, iterations)
 
 
 def zncc(image: Grey, template: Template, homography: Array) -> float:
@@ -93,7 +94,7 @@ def zncc(image: Grey, template: Template, homography: Array) -> float:
         image,
         template.runs,
         template.values,
-        np.ascontiguousarray(homography @ template.picture_from_normalised),
+        product(homography, template.picture_from_normalised),
     )
 
 

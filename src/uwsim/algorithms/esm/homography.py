@@ -7,10 +7,13 @@ Points are image coordinates [px] from the top left corner, unless they are call
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
 from ...jit import njit
+from ...linear import determinant, product, solve
 
 Array = npt.NDArray[np.float64]
 
@@ -66,13 +69,13 @@ def generators() -> Array:
 
 def unimodular(homography: Array) -> Array:
     """The same homography scaled to determinant 1."""
-    scaled: Array = homography / np.cbrt(np.linalg.det(homography))
+    scaled: Array = homography / math.cbrt(determinant(homography))
     return scaled
 
 
 def warp(homography: Array, points: Array) -> Array:
     """Points (n, 2) sent through a homography, (n, 2)."""
-    sent = points @ homography[:, :2].T + homography[:, 2]
+    sent = product(points, homography[:, :2].T) + homography[:, 2]
     warped: Array = sent[:, :2] / sent[:, 2:]
     return warped
 
@@ -87,7 +90,7 @@ def between(source: Array, target: Array) -> Array:
     for (u, v), (x, y) in zip(source, target, strict=True):
         rows.append([u, v, 1.0, 0.0, 0.0, 0.0, -x * u, -x * v])
         rows.append([0.0, 0.0, 0.0, u, v, 1.0, -y * u, -y * v])
-    entries = np.linalg.solve(np.array(rows), target.reshape(8))
+    entries = solve(np.array(rows), target.reshape(8))
     return unimodular(np.append(entries, 1.0).reshape(3, 3))
 
 

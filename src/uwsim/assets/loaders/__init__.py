@@ -9,9 +9,9 @@ from pathlib import Path
 from ...errors import AssetError
 from ..mesh import Model
 from .by_trimesh import READABLE, read_meshes
-from .openscenegraph import BY_OSGCONV, converted, has_osgconv
+from .openscenegraph import BY_OSGCONV, converted, has_osgconv, without_osgconv
 
-__all__ = ["BY_OSGCONV", "READABLE", "can_read", "read_model"]
+__all__ = ["BY_OSGCONV", "READABLE", "can_read", "read_model", "why_not_read"]
 
 LARGEST_FILE = 512 * 1024 * 1024
 """Files above this size [bytes] are refused."""
@@ -21,6 +21,17 @@ def can_read(path: Path) -> bool:
     """Whether files of that type can be read here and now."""
     suffix = path.suffix.lower()
     return suffix in READABLE or (suffix in BY_OSGCONV and has_osgconv())
+
+
+def why_not_read(path: Path) -> str:
+    """Why files of that type cannot be read here and now; empty if they can."""
+    suffix = path.suffix.lower()
+    if can_read(path):
+        return ""
+    if suffix in BY_OSGCONV:
+        return without_osgconv(path)
+    known = ", ".join((*READABLE, *BY_OSGCONV))
+    return f"{path}: files of type {suffix or 'none'} are not read; expected one of {known}"
 
 
 def read_model(path: Path, *, name: str, max_triangles: int | None = None) -> Model:
@@ -54,9 +65,6 @@ def _read(path: Path, name: str, max_triangles: int | None, _: tuple[int, int]) 
         with converted(path) as obj:
             meshes = read_meshes(obj, max_triangles=max_triangles, beside=path.parent)
     else:
-        raise AssetError(
-            f"{path}: files of type {suffix or 'none'} are not read; expected one of "
-            + ", ".join((*READABLE, *BY_OSGCONV))
-        )
+        raise AssetError(why_not_read(path))
     digest = hashlib.sha256(path.read_bytes()).hexdigest()
     return Model(name=name, meshes=meshes, source="file", sha256=digest)

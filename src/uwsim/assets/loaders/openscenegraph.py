@@ -24,6 +24,14 @@ def has_osgconv() -> bool:
     return shutil.which("osgconv") is not None
 
 
+def without_osgconv(path: Path) -> str:
+    """Say what to install."""
+    return (
+        f"{path}: {path.suffix} files are read through osgconv, which is not installed. "
+        "Install it with: sudo apt-get install openscenegraph"
+    )
+
+
 @contextmanager
 def converted(path: Path) -> Iterator[Path]:
     """The file as OBJ, in a folder that is gone afterwards.
@@ -35,10 +43,7 @@ def converted(path: Path) -> Iterator[Path]:
     """
     program = shutil.which("osgconv")
     if program is None:
-        raise AssetError(
-            f"{path}: {path.suffix} files are read through osgconv, which is not installed. "
-            "Install it with: sudo apt-get install openscenegraph"
-        )
+        raise AssetError(without_osgconv(path))
     with tempfile.TemporaryDirectory(prefix="uwsim-") as folder:
         unpacked, obj = Path(folder) / "model.osgt", Path(folder) / "model.obj"
         _run(

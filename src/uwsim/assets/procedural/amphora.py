@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 
+from ...elementwise import power
 from ..mesh import Mesh, Texture
 from .shapes import Shape, lathe, mesh, tube
 from .textures import finished, mixed, noise, plain, step
@@ -36,7 +37,7 @@ def _clay() -> Texture:
 
 def _handle(side: float) -> Shape:
     angle = np.linspace(0.0, math.pi, 9)
-    x = side * (0.036 + 0.066 * np.sin(angle) ** 0.8)
+    x = side * (0.036 + 0.066 * power(np.sin(angle), 0.8))
     z = 0.615 + 0.05 * (1.0 - np.cos(angle))
     return tube(np.stack([x, np.zeros_like(x), z], axis=1), 0.0115, n=8)
 

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...linear import length
 from ..mesh import Mesh
 from .shapes import (
     Point,
@@ -67,7 +68,7 @@ def _link(
 def _ram(start: Point, end: Point, radius: float, rod: float) -> tuple[Shape, Shape]:
     """An electric linear actuator: its body, and the rod that leaves it for ``rod`` metres."""
     a, b = np.array(start), np.array(end)
-    split = b - rod * (b - a) / np.linalg.norm(b - a)
+    split = b - rod * (b - a) / length(b - a)
     x, y, z = split.tolist()
     body = cylinder(start, (x, y, z), radius, n=10, bevel=radius * 0.25)
     return body, cylinder((x, y, z), end, radius * 0.4, n=6)

@@ -15,6 +15,7 @@ import math
 import numpy as np
 
 from ...geometry import rotation_z
+from ...linear import product
 from ..mesh import Mesh, Texture
 from .shapes import Shape, cylinder, facing, join, lathe, mesh, quad, rounded_box, tube
 from .textures import finished, mixed, noise, plain, step, worn, write
@@ -88,7 +89,7 @@ def _thruster(at: tuple[float, float, float], way: tuple[float, float, float]) -
     parts = []
     for k in range(3):
         turn = rotation_z(k * 2.0 * math.pi / 3.0)
-        a, b, c, d = (tuple(corner) for corner in (blade @ turn.T).tolist())
+        a, b, c, d = (tuple(corner) for corner in product(blade, turn.T).tolist())
         parts += [quad(a, b, c, d), quad(a, b, c, d).flipped()]
         strut = quad((0.03, 0, -0.045), (0.09, 0, -0.045), (0.09, 0, -0.03), (0.03, 0, -0.03))
         strut = strut.turned(rotation_z(0.5 + k * 2.0 * math.pi / 3.0))

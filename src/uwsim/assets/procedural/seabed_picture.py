@@ -162,7 +162,7 @@ def _painted(
         )
     ):
         layers[row] = layer.ravel()
-    planes = (PALETTE.T * np.float32(255.0)) @ layers  # (3, h*w)
+    planes = np.einsum("ij,ik->jk", PALETTE * np.float32(255.0), layers)  # (3, h*w)
     merged: Pixels = cv2.merge([cv2.convertScaleAbs(plane.reshape(h, w)) for plane in planes])
     return merged
 

@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ...elementwise import arccos
+from ...linear import dot, length, product
 from ..mesh import Mesh, Texture
 
 Array = npt.NDArray[np.float64]
@@ -38,7 +40,7 @@ class Shape:
 
     def turned(self, rotation: Array) -> Shape:
         """The shape under a rotation (3, 3) about the origin."""
-        return Shape(self.corners @ rotation.T, self.uvs)
+        return Shape(product(self.corners, rotation.T), self.uvs)
 
     def scaled(self, x: float, y: float, z: float) -> Shape:
         """The shape with its axes stretched; a mirrored shape is wound anew."""
@@ -117,7 +119,7 @@ def _normals(corners: Array, crease: float) -> Array:
     sides = np.roll(corners, -1, axis=1) - corners  # (m, 3, 3) from each corner to the next
     sides /= np.linalg.norm(sides, axis=2, keepdims=True)
     cosine = -np.einsum("ijk,ijk->ij", sides, np.roll(sides, 1, axis=1))
-    weighted = face[:, None] * np.arccos(np.clip(cosine, -1.0, 1.0))[..., None]
+    weighted = face[:, None] * arccos(np.clip(cosine, -1.0, 1.0))[..., None]
     weighted = weighted.reshape(-1, 3)  # (3m, 3)
     point = _groups(corners.reshape(-1, 3) / _grain(corners))
     order = by_point = np.argsort(point, kind="stable")
@@ -136,8 +138,8 @@ def _normals(corners: Array, crease: float) -> Array:
         [np.bincount(first, weights=weighted[second, k], minlength=len(point)) for k in range(3)],
         axis=1,
     )
-    length = np.linalg.norm(total, axis=1, keepdims=True)
-    normals: Array = np.where(length > 0.0, total / np.where(length > 0.0, length, 1.0),
+    long = np.linalg.norm(total, axis=1, keepdims=True)
+    normals: Array = np.where(long > 0.0, total / np.where(long > 0.0, long, 1.0),
                               np.repeat(unit, 3, axis=0))  # fmt: skip
     return normals
 
@@ -329,10 +331,10 @@ def torus(ring: float, tube_radius: float, *, n: int = 32, m: int = 12) -> Shape
 def facing(direction: Array) -> Array:
     """A rotation (3, 3) that takes z into ``direction`` (3,)."""
     z = np.asarray(direction, dtype=np.float64)
-    z = z / np.linalg.norm(z)
+    z = z / length(z)
     helper = np.array([1.0, 0.0, 0.0]) if abs(z[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
     y = np.cross(z, helper)
-    y /= np.linalg.norm(y)
+    y /= length(y)
     return np.stack([np.cross(y, z), y, z], axis=1)
 
 
@@ -341,17 +343,17 @@ def cylinder(
 ) -> Shape:
     """A rod from ``start`` to ``end``; ``top`` times as thick at the end (0 is a cone)."""
     a, b = np.array(start), np.array(end)
-    length, wide = float(np.linalg.norm(b - a)), radius * top
+    tall, wide = length(b - a), radius * top
     if bevel > 0.0:
         sides = [
             (radius - bevel, 0.0),
             (radius, bevel),
-            (wide, length - bevel),
-            (wide - bevel, length),
+            (wide, tall - bevel),
+            (wide - bevel, tall),
         ]
     else:
-        sides = [(radius, 0.0), (wide, length)]
-    rod = lathe([(0.0, 0.0), *sides, (0.0, length)], n=n)
+        sides = [(radius, 0.0), (wide, tall)]
+    rod = lathe([(0.0, 0.0), *sides, (0.0, tall)], n=n)
     return rod.turned(facing(b - a)).moved(*start)
 
 
@@ -369,13 +371,14 @@ def tube(
     disc = circle(radius, n)
     rings = []
     for k, point in enumerate(points):
-        across = across - along[k] * (across @ along[k])
-        across /= np.linalg.norm(across)
+        across = across - along[k] * dot(across, along[k])
+        across /= length(across)
         offsets = disc[:, :1] * across + disc[:, 1:] * np.cross(along[k], across)
         bend = after[k] - before[k]
-        if bend @ bend > 1e-12:  # a mitre: wider across the bend, so that the bar stays as thick
-            bend /= np.linalg.norm(bend)
-            offsets += np.outer(offsets @ bend, bend) * (1.0 / (before[k] @ along[k]) - 1.0)
+        if dot(bend, bend) > 1e-12:  # a mitre: wider across the bend, to stay as thick
+            bend /= length(bend)
+            wider = 1.0 / dot(before[k], along[k]) - 1.0
+            offsets += np.outer(product(offsets, bend), bend) * wider
         rings.append(point + offsets)
     return loft(np.array(rings), closed=closed)
 

@@ -24,10 +24,10 @@ from ...statistics import (
     signed_rank,
     vargha_delaney,
 )
+from ..repeats import ALPHA
 from ..result import Column
 from .entries import Entry, same_pictures
 from .findings import (
-    ALPHA,
     CONFIDENCE,
     POWER,
     AtLevel,
@@ -38,6 +38,8 @@ from .findings import (
     Verdict,
     Versus,
     family_size,
+    fewest_of,
+    least_corrected,
 )
 from .pairs import Level, Pair, pair_up
 
@@ -233,21 +235,30 @@ def _judged(family: Sequence[Difference], higher_is_better: bool) -> list[Differ
     Tests that could not reach `ALPHA` alone are no part of it (Tarone 1990): they can never be
     called different, wrongly or not.
     """
-    alpha = ALPHA / family_size(family)
+    alpha, fewest = ALPHA / family_size(family), fewest_of(family)
+    corrected = holm([d.p if d.is_tested else None for d in family])
     return [
         replace(
             d,
             p_holm=p,
-            verdict=_verdict(d, p, higher_is_better),
+            verdict=_verdict(
+                d,
+                p,
+                can_differ=d.difference.n >= fewest or (least is not None and least <= ALPHA),
+                higher_is_better=higher_is_better,
+            ),
+            fewest=fewest,
             needed=None
             if d.hedges_g is None
             else repeats_needed(d.hedges_g, alpha=alpha, wanted=POWER),
         )
-        for d, p in zip(family, holm([d.p if d.is_tested else None for d in family]), strict=True)
+        for d, p, least in zip(family, corrected, least_corrected(family), strict=True)
     ]
 
 
-def _verdict(d: Difference, p: float | None, higher_is_better: bool) -> Verdict:
+def _verdict(
+    d: Difference, p: float | None, *, can_differ: bool, higher_is_better: bool
+) -> Verdict:
     mean, n = d.difference.mean, d.difference.n
     if n == 0 or mean is None:
         return "no pair"
@@ -255,6 +266,8 @@ def _verdict(d: Difference, p: float | None, higher_is_better: bool) -> Verdict:
         return "one repeat"
     if mean == 0.0 and d.difference.std == 0.0:
         return "equal"
+    if not can_differ:
+        return "too few"
     if p is None or p > ALPHA:
         return "not shown"
     return "second" if (mean > 0) == higher_is_better else "first"

@@ -19,8 +19,9 @@ from collections.abc import Mapping
 
 from ...statistics import Interval
 from ..interval import per_level, success_per_level
+from ..repeats import ALPHA
 from .entries import Entry
-from .findings import ALPHA, CONFIDENCE, POWER, AtLevel, Comparison, Difference, Overall, Versus
+from .findings import CONFIDENCE, POWER, AtLevel, Comparison, Difference, Overall, Versus
 from .words import sentences
 
 FORMAT = "uwsim-comparison/1"
@@ -50,21 +51,21 @@ def json_text(comparison: Comparison) -> str:
 
 def csv_text(comparison: Comparison) -> str:
     """Return the text of ``comparison.csv``."""
-    levels = comparison.entries[0].result.of_kind("level")
-    lines: list[Fields] = []
+    labels = [column.label for column in comparison.entries[0].result.of_kind("level")]
+    lines: list[tuple[list[object], Fields]] = []
     for versus in comparison.versus:
-        led: Fields = {"first": versus.first.name, "second": versus.second.name}
+        names = [versus.first.name, versus.second.name]
         for at in versus.levels:
-            place = {c.label: repr(v) for c, v in zip(levels, at.level, strict=True)}
-            lines.append({**led, "scope": "level", **place, **_level_fields(at)})
-        nowhere: Fields = {column.label: "" for column in levels}
-        lines.append({**led, "scope": "sweep", **nowhere, **_overall_fields(versus.overall)})
+            lines.append(([*names, "level", *map(repr, at.level)], _level_fields(at)))
+        lines.append(([*names, "sweep", *("" for _ in labels)], _overall_fields(versus.overall)))
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    header = list(lines[0])
-    writer.writerow(header)
-    for line in lines:
-        writer.writerow([_cell(line[name]) for name in header])
+    leading, numbers = ["first", "second", "scope"], list(lines[0][1])
+    taken = {*leading, *numbers}
+    places = [f"{label} (level)" if label in taken else label for label in labels]
+    writer.writerow([*leading, *places, *numbers])
+    for led, fields in lines:
+        writer.writerow([*led, *(_cell(fields[name]) for name in numbers)])
     return stream.getvalue()
 
 
@@ -191,6 +192,7 @@ def _difference(d: Difference) -> Fields:
         "p_signed_rank": d.p_signed_rank,
         "p_holm": d.p_holm,
         "repeats_needed": d.needed,
+        "repeats_to_test": d.fewest,
         "verdict": d.verdict,
     }
 

@@ -41,9 +41,9 @@ def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
     for i, path in enumerate(paths):
         if directories[i] in directories[:i]:
             raise ResultError(f"{path}: given twice; a result is no comparison with itself.")
+    results = [load(path) for path in paths]
     if len(paths) < 2:
         raise ResultError("A comparison needs at least two results.")
-    results = [load(path) for path in paths]
     sources = _distinct(directories)
     algorithms = [algorithm_of(result) or "no algorithm" for result in results]
     return tuple(

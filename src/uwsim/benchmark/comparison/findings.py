@@ -6,19 +6,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from ...statistics import Interval, Rate, fewest_for
+from ...statistics import Interval, Rate, fewest_for, holm, smallest_p
+from ..repeats import ALPHA
 from ..result import Column
 from .entries import Entry
 from .pairs import Level
 
-ALPHA = 0.05
-"""A difference is called one when its p, corrected by Holm, is not above this."""
 CONFIDENCE = 0.95
 POWER = 0.8
 """Chance of showing the observed effect with the repeats that are called needed."""
 
-Verdict = Literal["first", "second", "not shown", "equal", "one repeat", "no pair"]
-"""Which is better, or why nothing is said."""
+Verdict = Literal["first", "second", "not shown", "too few", "equal", "one repeat", "no pair"]
+"""Which is better, or why nothing is said. ``too few``: with so many repeats no data at all could
+have shown a difference (see `least_corrected`), so nothing was tested."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +48,8 @@ class Difference:
     """`p`, corrected over its family; None where so few repeats could not reach `ALPHA`."""
     needed: int | None = None
     """Repeats that would show the observed effect; None where there is none to plan by."""
+    fewest: int | None = None
+    """Repeats below which no test of its family can show anything."""
     verdict: Verdict = "no pair"
     """Which is better."""
 
@@ -167,10 +169,33 @@ class Comparison:
     @property
     def fewest(self) -> int:
         """Repeats below which no level can differ after Holm's correction."""
-        return fewest_for(ALPHA / max(1, self.n_tests))
+        return fewest_of([at.value for versus in self.versus for at in versus.levels])
+
+    @property
+    def fewest_for_sweep(self) -> int:
+        """Repeats below which no sweep as a whole can differ after Holm's correction."""
+        return fewest_of([versus.overall.value for versus in self.versus])
 
 
 def family_size(family: Sequence[Difference]) -> int:
     """Return how many tests Holm counts; where no test is possible, how many there would be."""
     tested = sum(d.is_tested for d in family)
     return tested or sum(d.difference.n > 0 for d in family) or 1
+
+
+def fewest_of(family: Sequence[Difference]) -> int:
+    """Return how many repeats it takes until a test of this family can show a difference.
+
+    With m tests of n repeats each the smallest corrected p there is is m times :math:`2/2^n`; m
+    are all that have a pair, for with more repeats all of them will be tested.
+    """
+    return fewest_for(ALPHA / max(1, sum(d.difference.n > 0 for d in family)))
+
+
+def least_corrected(family: Sequence[Difference]) -> tuple[float | None, ...]:
+    """Return the smallest p that each test could have after Holm's correction; None: not tested.
+
+    Holm's correction of no test falls when the p of another rises, so the least there is is that of
+    all tests at their smallest (`smallest_p`), which depends on their numbers of pairs alone.
+    """
+    return holm([smallest_p(d.difference.n) if d.is_tested else None for d in family])

@@ -13,8 +13,10 @@ from ..pages import template
 from ..plots import written_unit
 from ..result import Result
 from .findings import Comparison, Versus
+from .matrix import matrix, note, too_few
+from .matrix import title as matrix_title
 from .terminal import heading, lines
-from .words import sentences
+from .words import sentences, told_apart
 
 CAPTIONS = {
     "curves": "Mean over the repeats of each result, with its 95 % interval.",
@@ -32,6 +34,9 @@ def render(comparison: Comparison, plots: Sequence[Path]) -> str:
         names=[entry.name for entry in comparison.entries],
         lead=_lead(comparison),
         cards=[_card(versus, comparison.column.unit) for versus in comparison.versus],
+        matrix=matrix(comparison),
+        matrix_title=matrix_title(comparison),
+        matrix_note=note(comparison),
         forced=comparison.forced,
         remarks=comparison.remarks,
         plots=[(CAPTIONS[plot.stem], _data_url(plot.read_bytes())) for plot in plots],
@@ -94,6 +99,7 @@ def _card(versus: Versus, unit: str | None) -> dict[str, str]:
         "equal": "equal",
         "one repeat": "one repeat: no inference",
         "no pair": "not compared",
+        "too few": too_few(d)[0].lower() + too_few(d)[1:],
     }.get(d.verdict, "no difference shown")
     return {
         "label": f"{versus.second.name} against {versus.first.name}, the sweep as a whole",
@@ -108,7 +114,8 @@ def _spread(d: Interval, unit: str | None) -> str:
     behind = f" {written_unit(unit)}" if unit else ""
     text = f"difference {d.mean:.3g}{behind}"
     if d.low is not None and d.high is not None:
-        text += f", 95 % interval {d.low:.3g} to {d.high:.3g}{behind}"
+        low, high = told_apart(d.low, d.high)
+        text += f", 95 % interval {low} to {high}{behind}"
     return text.replace("-", "−")
 
 

@@ -14,16 +14,36 @@ from ...statistics import Interval
 from ..result import Column
 from ..table import exact_decimals, interval_text, number_text, sensible_decimals
 from .findings import AtLevel, Comparison, Versus
+from .matrix import Standing, matrix, note, title
 from .words import needed_text, p_text, sentences, short
 
+STYLES: dict[Standing, str] = {"better": "green", "worse": "red", "too few": "yellow"}
 LEGEND = (
     "n: pairs with a value from both; difference: with its 95 % interval; g: Hedges' g; A: chance "
     "that a repeat of the second is better; p: sign-flip test after Holm; ok: repeats that ended "
     "ok, first : second; needs: repeats that would show the observed difference in 4 of 5 "
     "experiments. docs/statistics.md says more."
 )
-DROPPED = ("A", "g", "ok", "n")
-"""Columns that give way on a narrow terminal, in this order."""
+GIVES_WAY = ("a", "g", "ok", "n")
+"""Columns that give way on a narrow terminal, in this order, by what they hold (a `Line`'s field).
+Headings say nothing about that: an algorithm may have any name."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shown:
+    """One column of a table."""
+
+    kind: str
+    """What it holds: a field of `Line`."""
+    heading: str
+    """What stands above it; two columns may have the same."""
+    cells: tuple[str, ...]
+    """A text a line."""
+
+    @property
+    def width(self) -> int:
+        """Letters of the longest text in it."""
+        return max(len(self.heading), *map(len, self.cells))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +98,7 @@ def heading(comparison: Comparison, versus: Versus) -> str:
 
 def drawn(comparison: Comparison, *, width: int) -> Iterator[RenderableType]:
     """Give everything that is printed, for a terminal of ``width`` columns."""
+    yield from _matrix(comparison, width)
     for versus in comparison.versus:
         yield Text(heading(comparison, versus), style="bold")
         yield _table(comparison, versus, width)
@@ -87,48 +108,78 @@ def drawn(comparison: Comparison, *, width: int) -> Iterator[RenderableType]:
     yield Text(LEGEND)
 
 
-def _table(comparison: Comparison, versus: Versus, width: int) -> Table:
-    shown = lines(comparison, versus)
-    columns = versus.first.result.of_kind("level")
-    cells = _columns(columns, versus, shown)
-    wide = {name: max(len(name), *map(len, texts)) for name, texts in cells.items()}
-    names = list(cells)
-    for name in DROPPED:
-        if sum(wide[n] + 2 for n in names) > width and name in names:
-            names.remove(name)
+def _matrix(comparison: Comparison, width: int) -> Iterator[RenderableType]:
+    """Who beats whom: in words where the terminal is wide enough, else in symbols."""
+    found = matrix(comparison)
+    yield Text(title(comparison), style="bold")
+    named = max(len(row.name) for row in found.rows) + len("  100 %")
+    cells = [
+        (name, [row.cells[j].text for row in found.rows]) for j, name in enumerate(found.columns)
+    ]
+    is_wide = named + sum(2 + max(len(name), *map(len, c)) for name, c in cells) <= width
     table = Table(box=None, pad_edge=False, header_style="bold")
-    for name in names:
-        is_verdict = name == "verdict"
+    table.add_column("", no_wrap=is_wide, overflow="fold")
+    table.add_column("ok", justify="right", no_wrap=True)
+    for number, name in enumerate(found.columns, 1):  # rows stand in the order of the columns
+        heading = Text(name if is_wide else str(number), justify="right")
+        table.add_column(heading, justify="right", no_wrap=True)
+    for number, row in enumerate(found.rows, 1):
+        name = row.name if is_wide else f"{number} {row.name}"
+        texts = (
+            Text(cell.text if is_wide else cell.symbol, style=STYLES.get(cell.standing, ""))
+            for cell in row.cells
+        )
+        table.add_row(Text(name, style="bold"), Text(row.ok), *texts)
+    yield table
+    yield Text(note(comparison) if is_wide else f"{found.legend()}. {note(comparison)}")
+    yield Text("")
+
+
+def _table(comparison: Comparison, versus: Versus, width: int) -> Table:
+    found = lines(comparison, versus)
+    columns = _columns(versus.first.result.of_kind("level"), versus, found)
+    for kind in GIVES_WAY:
+        if sum(column.width + 2 for column in columns) > width:
+            columns = [column for column in columns if column.kind != kind]
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for column in columns:
+        is_verdict = column.kind == "verdict"
         table.add_column(
-            Text(name, justify="left" if is_verdict else "right"),
+            Text(column.heading, justify="left" if is_verdict else "right"),
             justify="left" if is_verdict else "right",
             no_wrap=not is_verdict,
             overflow="fold",
         )
-    for i, line in enumerate(shown):
-        row = [Text(cells[name][i]) for name in names]
+    for i, line in enumerate(found):
+        row = [Text(column.cells[i]) for column in columns]
         table.add_row(*row, style="bold" if line.is_shown else "")
     return table
 
 
-def _columns(
-    levels: Sequence[Column], versus: Versus, shown: Sequence[Line]
-) -> dict[str, list[str]]:
-    """Heading -> its cells."""
-    found = {column.label: [line.level[i] for line in shown] for i, column in enumerate(levels)}
-    return {
-        **found,
-        "n": [line.n for line in shown],
-        versus.first.name: [line.first for line in shown],
-        versus.second.name: [line.second for line in shown],
-        "difference": [line.difference for line in shown],
-        "g": [line.g for line in shown],
-        "A": [line.a for line in shown],
-        "p": [line.p for line in shown],
-        "ok": [line.ok for line in shown],
-        "verdict": [line.verdict for line in shown],
-        "needs": [line.needed for line in shown],
+def _columns(levels: Sequence[Column], versus: Versus, found: Sequence[Line]) -> list[Shown]:
+    """The columns of a table, from left to right."""
+    headings = {
+        "n": "n",
+        "first": versus.first.name,
+        "second": versus.second.name,
+        "difference": "difference",
+        "g": "g",
+        "a": "A",
+        "p": "p",
+        "ok": "ok",
+        "verdict": "verdict",
+        "needed": "needs",
     }
+    return [
+        *(
+            Shown(kind="level", heading=column.label, cells=tuple(line.level[i] for line in found))
+            for i, column in enumerate(levels)
+        ),
+        *(
+            Shown(kind=kind, heading=heading, cells=tuple(getattr(line, kind) for line in found))
+            for kind, heading in headings.items()
+        ),
+    ]
 
 
 def _line(

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from ...statistics import Interval, fewest_for
+from ...statistics import Interval, smallest_p
 from ..plots import written_unit
+from ..repeats import ALPHA
 from ..result import Column
 from .entries import Entry
-from .findings import ALPHA, AtLevel, Comparison, Difference, Overall, Versus
+from .findings import AtLevel, Comparison, Difference, Overall, Versus
+from .matrix import too_few
 from .pairs import Level
 
 
@@ -27,17 +29,20 @@ def sentences(comparison: Comparison, versus: Versus) -> tuple[str, ...]:
 
 
 def short(versus: Versus, d: Difference) -> str:
-    """Return a verdict of a few words: ``ic better``, ``not shown``."""
+    """Return a verdict of a few words: ``ic better``, ``not shown``, ``too few (6 of 7)``."""
     if d.verdict in ("first", "second"):
         return f"{_winner(versus, d).name} better"
+    if d.verdict == "too few":
+        return f"too few ({d.difference.n} of {d.fewest})"
     return d.verdict
 
 
 def needed_text(comparison: Comparison, d: Difference) -> str:
     """Return how many repeats would show what was not shown: ``34``, ``290``, ``>1000``, ``≥6``."""
-    if d.verdict == "one repeat" or (d.verdict == "not shown" and d.hedges_g is None):
+    is_open = d.verdict in ("not shown", "too few")
+    if d.verdict == "one repeat" or (is_open and d.hedges_g is None):
         return f"≥{comparison.fewest}"
-    if d.verdict != "not shown" or d.needed is None:
+    if not is_open or d.needed is None:
         return "-"
     return _about(max(d.needed, d.difference.n + 1)).replace("more than ", ">")
 
@@ -83,7 +88,7 @@ def _sweep(comparison: Comparison, versus: Versus) -> str:
             f"{found}, on average {where}: below it at {overall.n_second_smaller} of these levels "
             f"and above it at {overall.n_first_smaller}. The levels of one repeat share its noise "
             "and its history and are no repeats. Play each with --repeat "
-            f"{fewest_for(ALPHA / len(comparison.versus))} or more for the sweep as a whole, "
+            f"{comparison.fewest_for_sweep} or more for the sweep as a whole, "
             f"{comparison.fewest} or more for single levels."
         )
     if d.verdict == "equal":
@@ -95,6 +100,8 @@ def _sweep(comparison: Comparison, versus: Versus) -> str:
             f"{_winner(versus, d).name} is better than {_loser(versus, d).name}: {found}, {over}; "
             f"{tested}."
         )
+    if d.verdict == "too few":
+        return f"{too_few(d)}: {found}, {over}; {tested}. {_needed(comparison, d)}"
     return f"No difference is shown: {found}, {over}; {tested}. {_needed(comparison, d)}"
 
 
@@ -114,7 +121,17 @@ def _limits(interval: Interval, mean: float, unit: str) -> str:
     if interval.low is None or interval.high is None:
         return ""
     ends = (interval.low, interval.high) if mean >= 0 else (-interval.high, -interval.low)
-    return f" (95 % interval {ends[0]:.3g} to {ends[1]:.3g}{unit})"
+    low, high = told_apart(*ends)
+    return f" (95 % interval {low} to {high}{unit})"
+
+
+def told_apart(low: float, high: float) -> tuple[str, str]:
+    """Return two numbers with the digits that show them apart: three, and at most seven."""
+    for digits in range(3, 8):
+        texts = f"{low:.{digits}g}", f"{high:.{digits}g}"
+        if texts[0] != texts[1]:
+            return texts
+    return f"{low:.3g}", f"{high:.3g}"
 
 
 def _where(overall: Overall) -> str:
@@ -143,12 +160,12 @@ def _tested(comparison: Comparison, d: Difference) -> str:
 
 def _needed(comparison: Comparison, d: Difference) -> str:
     """How many more repeats would say, or why that cannot be planned."""
-    n = d.difference.n
-    alpha = ALPHA / len(comparison.versus)
-    fewest = fewest_for(alpha)
-    if n < fewest:
+    n, fewest = d.difference.n, comparison.fewest_for_sweep
+    if d.verdict == "too few":
+        least, of = smallest_p(n), len(comparison.versus)
+        corrected = f", {_round(of * least)} after Holm" if of > 1 else ""
         return (
-            f"With {n} repeats p cannot fall below {_round(2 / 2**n)}: "
+            f"With {n} repeats p cannot fall below {_round(least)}{corrected}: "
             f"at least {fewest} are needed{_more(d, n, fewest)}."
         )
     if d.needed is None:
@@ -185,17 +202,16 @@ def _single_levels(comparison: Comparison, versus: Versus) -> str:
             f"no difference is shown at {'the ' if other else ''}{rest} {other}level"
             f"{'s' if rest > 1 else ''}"
         )
+    few = [at.value for at in tested if at.value.verdict == "too few"]
+    if few:
+        parts.append(
+            f"{len(few)} level{'s have' if len(few) > 1 else ' has'} too few repeats to test "
+            f"({_span([d.difference.n for d in few])} of {comparison.fewest} needed)"
+        )
     equal = sum(at.value.verdict == "equal" for at in tested)
     if equal:
         parts.append(f"equal in every repeat at {equal}")
-    most = max(at.value.difference.n for at in tested)
-    is_any = any(at.value.verdict in ("first", "second") for at in tested)
-    cannot = (
-        f" With {most} repeats no single level can differ: at least {comparison.fewest} are "
-        f"needed when {comparison.n_tests} are tested."
-    )
-    said = "" if is_any or most >= comparison.fewest else cannot
-    return f"Level by level (Holm over {comparison.n_tests}): {'; '.join(parts)}.{said}"
+    return f"Level by level (Holm over {comparison.n_tests}): {'; '.join(parts)}."
 
 
 def _levels(columns: Sequence[Column], versus: Versus, chosen: Sequence[AtLevel]) -> str:
@@ -239,7 +255,7 @@ def _success(versus: Versus) -> str:
             f"{_p_said(d.p if d.p_holm is None else d.p_holm)}: "
         )
         winner = {"first": versus.first, "second": versus.second}.get(d.verdict)
-        text += f"{winner.name} more often." if winner else "no difference is shown."
+        text += f"{winner.name} more often." if winner else f"{_open(d)}."
     columns = versus.first.result.of_kind("level")
     shown = [
         at
@@ -299,6 +315,18 @@ def _winner(versus: Versus, d: Difference) -> Entry:
 
 def _loser(versus: Versus, d: Difference) -> Entry:
     return versus.second if d.verdict == "first" else versus.first
+
+
+def _open(d: Difference) -> str:
+    """Say why no side is named."""
+    said = too_few(d) if d.verdict == "too few" else "no difference is shown"
+    return said[0].lower() + said[1:]
+
+
+def _span(numbers: Sequence[int]) -> str:
+    """``4``, ``2 to 4``."""
+    low, high = min(numbers), max(numbers)
+    return str(low) if low == high else f"{low} to {high}"
 
 
 def _about(n: int) -> str:

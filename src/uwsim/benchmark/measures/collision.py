@@ -28,6 +28,11 @@ class CollisionSpec(MeasureSpec):
     stop_on_contact: bool = element(default=False, attribute=True, namespaced=True)
     """Whether the first contact ends the level, in status ``collision`` (``u:stopOnContact``)."""
 
+    @property
+    def start_value(self) -> float:
+        """What the original begins with."""
+        return 1.0
+
     def bind(self, world: World) -> Collision:
         """Watch the target; raises UnknownName if it is not there."""
         world.contacts(self.target)
@@ -47,6 +52,7 @@ class Collision(Measure):
 
     Compatibility ``collision``: only contacts that list the body first, and only its own velocity
     count, as in the original, and of what it touches only the first with which a contact closes.
+    ``restart``: when it goes on again it begins anew.
     """
 
     unit = "1"
@@ -55,6 +61,7 @@ class Collision(Measure):
     def __init__(self, spec: CollisionSpec, world: World) -> None:
         self._world, self._target = world, spec.target
         self._is_original = "collision" in world.compatibility
+        self._begins_anew = "restart" in world.compatibility
         self._stops = spec.stop_on_contact
         self._stopped_for: str | None = None
         self._n_steps = 0
@@ -64,6 +71,9 @@ class Collision(Measure):
 
     def start(self) -> None:
         """Take the first step."""
+        if self._begins_anew:
+            self._n_steps = self._n_in_contact = 0
+            self._sum = self._highest = 0.0
         self.update()
 
     def update(self) -> None:

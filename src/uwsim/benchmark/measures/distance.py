@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from ...geometry import Array
+from ...linear import length
 from ...world import Body, World
 from .measure import Measure, MeasureSpec
 
@@ -22,6 +21,11 @@ class DistanceSpec(MeasureSpec):
 
     target: str
     """Name of the body to follow."""
+
+    @property
+    def start_value(self) -> float:
+        """What the original begins with."""
+        return 0.0
 
     def bind(self, world: World) -> Distance:
         """Follow the target in ``world``; raises UnknownName if it is not there."""
@@ -52,7 +56,7 @@ class Distance(Measure):
         """Add the segment covered by the last step."""
         position = self._body.world_from_body.position
         if self._last is not None:
-            self._travelled += float(np.linalg.norm(position - self._last))
+            self._travelled += length(position - self._last)
         self._last = position
 
     @property

@@ -14,7 +14,8 @@ r"""Euclidean norm: how far the algorithm's estimate is from the truth.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import dataclasses
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -22,6 +23,7 @@ import numpy as np
 
 from ...dialect import element
 from ...geometry import Array
+from ...linear import length
 from ...messages import Float32MultiArray, GTpublish
 from ...world import World
 from ..ground_truth import GroundTruth, GroundTruthSpec
@@ -30,6 +32,10 @@ from .signal import VALUES, Signal
 
 PATIENCE = 1.0
 """An estimate older than this is never scored [s]."""
+COUNTS = ("refused", "frames", "answered")
+"""Details of how many there were."""
+Sample = tuple[float, list[float]]
+"""A norm, and the components under its root."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +43,7 @@ class EuclideanNormSpec(MeasureSpec):
     """A ``<euclideanNorm>`` element of a benchmark file."""
 
     values: ClassVar[tuple[str, ...]] = VALUES
+    error_flag: ClassVar[int] = 1
 
     ground_truth: GroundTruthSpec
     """What the estimate should be."""
@@ -47,13 +54,38 @@ class EuclideanNormSpec(MeasureSpec):
     )
     """``original``, or ``face``: corners and centre of the target's top face (``u:truth``)."""
 
+    auto_init: Literal["always", "once"] = element(
+        default="always", attribute=True, namespaced=True
+    )
+    """When ``publishOn`` is called: ``always`` when the measure starts, as the original does, or
+    ``once``, until it was called for the first time (``u:autoInit``)."""
+
     def faults(self) -> Sequence[str]:
-        """A face is the true one of a camera's picture only."""
-        if self.truth == "original" or self.ground_truth.camera is not None:
-            return ()
-        return (
-            "u:truth='face' needs a ground truth of type cornersFromCamera or centroidFromCamera",
+        """A face is the true one of a camera's picture only; ``once`` needs a service to call."""
+        found = []
+        if self.truth == "face" and self.ground_truth.camera is None:
+            found.append(
+                "u:truth='face' needs a ground truth of type cornersFromCamera or "
+                "centroidFromCamera"
+            )
+        if self.auto_init == "once" and self.ground_truth.publish_on is None:
+            found.append("u:autoInit='once' needs <publishOn> in <groundTruth>: a service to call")
+        return found
+
+    @property
+    def once_initialised(self) -> EuclideanNormSpec:
+        """The same; with ``u:autoInit="once"`` it tells nobody any more."""
+        if self.auto_init == "always":
+            return self
+        assert dataclasses.is_dataclass(self.ground_truth)
+        return dataclasses.replace(
+            self, ground_truth=dataclasses.replace(self.ground_truth, publish_on=None)
         )
+
+    @property
+    def start_value(self) -> float:
+        """What the original begins with."""
+        return -1.0
 
     def bind(self, world: World) -> EuclideanNorm:
         """Listen to the estimate; raises UnknownName if a body of the truth is not there."""
@@ -65,16 +97,31 @@ class EuclideanNorm(Measure):
 
     .. math:: \lVert g - e \rVert = \sqrt{\sum_i (g_i - e_i)^2}
 
-    One sample for each step at which a new estimate arrived, against the truth at that step; the
-    components are :math:`g_i - e_i`. There is no value when there was no sample, or when no
-    estimate came for more than 1 s while the measure was on: an old estimate is never scored. At
-    the start, what arrived before is forgotten and ``publishOn`` is given the truth.
+    The last value is that of the newest estimate against the truth at the step at which it arrived;
+    the components are :math:`g_i - e_i`. The statistics are over time, not over messages:
 
-    Compatibility ``last-norm`` lets the last norm stand, however old it is, as the original does;
-    where its log has no new estimate, the components are 0 beside it.
+    .. math:: \text{mean} = \frac1K \sum_{k=1}^K \lVert g(t_k) - e(t_k) \rVert
+
+    with :math:`t_k` the steps at which the truth's camera took a picture while the measure was on
+    (every step, where no camera takes pictures), after what was published at that step arrived, and
+    :math:`e(t_k)` the newest estimate by then; before the first one, the first. So every picture
+    counts once, answered or not, and nothing is gained by publishing more often, or less.
+
+    There is no value when no estimate came, or none for more than 1 s while the measure was on: an
+    old estimate is never scored. What has the wrong length or is not finite is no estimate. At the
+    start, what arrived before is forgotten and ``publishOn`` is given the truth.
+
+    Details, besides the statistics: ``n``, how many estimates were published; ``refused``, how many
+    messages were no estimates; ``frames``, over how many :math:`t_k` the statistics are;
+    ``answered``, the share of these by which a new estimate had arrived since the one before.
+
+    Compatibility ``last-norm`` lets the last norm stand, however old it is, as the original does,
+    and reads estimates that come after it went off; where its log has no new estimate, the
+    components are 0 beside it.
     """
 
     unit = "1"
+    detail_units: ClassVar[Mapping[str, str]] = dict.fromkeys(COUNTS, "1")
     fed_by_algorithm = True
 
     def __init__(self, spec: EuclideanNormSpec, world: World, truth: GroundTruth) -> None:
@@ -84,68 +131,101 @@ class EuclideanNorm(Measure):
         self._publish_on = spec.ground_truth.publish_on
         self._last_norm_stands = "last-norm" in world.compatibility
         self._inbox = world.inbox(spec.target, Float32MultiArray)
-        self._signal = Signal(truth.components)
-        self._is_new = False  # whether there was a sample at this step
-        self._refused = ""  # why the newest estimate was not scored
+        self._frames = Signal(truth.components)
+        self._n_pictures: int | None = None  # of the truth's camera, at the last look
+        self._last: Sample | None = None  # of the newest estimate, as it arrived
+        self._n = self._n_refused = self._n_answered = 0
+        self._estimate: Array | None = None  # in force (k,)
+        self._unanswered: list[Array] = []  # truths before the first estimate, (k,) each
+        self._is_new = False  # whether an estimate arrived at this step
+        self._is_answered = False  # ... or since the last picture
+        self._refused = ""  # why the newest message was not scored
         self._notes: list[str] = []
-        self._waits_since: int | None = None  # step of the last good estimate, or of the start
+        self._has_initialised = False
+        self._waits_since: int | None = None  # step of the last estimate, or of the start
         self._silence = (0, 0)  # the longest: its length [steps], the step at which it began
 
     def start(self) -> None:
         """Forget old estimates and hand out the truth where the file says so."""
         self._inbox.clear()
+        self._estimate, self._is_answered = None, False
+        self._unanswered.clear()
         self._waits_since = self._world.step
+        self._n_pictures = self._truth.n_pictures
         if self._publish_on is not None:
             self._publish(self._publish_on)
 
     def update(self) -> None:
-        """Score the newest estimate, if one arrived."""
-        messages = self._inbox.take()
-        n_before = self._signal.n
-        if messages:
-            self._score(np.asarray(messages[-1].data, dtype=np.float64))
+        """Take what arrived; and a sample, if there was a picture."""
+        self._is_new = self._read()
+        self._is_answered |= self._is_new
         if self._waits_since is not None:
             waited = self._world.step - self._waits_since
             if waited > self._silence[0]:
                 self._silence = (waited, self._waits_since)
-        self._is_new = self._signal.n > n_before
+        if self._is_due():
+            self._take_sample()
 
     @property
     def value(self) -> float | None:
         """The last norm, or the statistic that ``u:value`` asks for."""
-        return None if self.why else self._signal.value(self._which)
+        if self._last_norm_stands and self._waits_since is not None:
+            self._read()
+        if self.why:
+            return None
+        if self._which == "last":
+            return None if self._last is None else self._last[0]
+        return self._frames.value(self._which)
 
     @property
     def why(self) -> str | None:
         """Why there is no value."""
         if self._waits_since is None:
             return "it was never on"
-        is_silent = self.longest_silence > PATIENCE and not self._last_norm_stands
-        if self._signal.n and not is_silent:
-            return None
+        if self._last is not None and self.longest_silence <= PATIENCE:
+            is_empty = self._which != "last" and not self._frames.n
+            return "its camera took no picture while the measure was on" if is_empty else None
         if self._refused:
             return self._refused
-        if not self._signal.n:
+        if self._last is None:
             return f"no estimate on {self._topic!r}"
         began = self._silence[1] * self._world.timestep  # [s]
         return f"no estimate on {self._topic!r} for {self.longest_silence:g} s from {began:g} s on"
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The statistics of the norm and of each component."""
-        return self._signal.details
+        """The statistics of the norm and of each component, and how many there were of what."""
+        found = self._frames.details
+        found |= {name: float(self._n) for name in found if name.rpartition(".")[2] == "n"}
+        frames = self._frames.n
+        return {
+            **found,
+            "refused": float(self._n_refused),
+            "frames": float(frames),
+            "answered": self._n_answered / frames if frames else None,
+        }
+
+    @property
+    def reasons(self) -> dict[str, str]:
+        """Why no share is known."""
+        if self._frames.n:
+            return {}
+        return {"answered": self.why or "its camera took no picture while the measure was on"}
 
     @property
     def log_header(self) -> tuple[str, ...]:
         """The norm, then each component."""
-        return ("total", *self._signal.components)
+        return ("total", *self._truth.components)
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """The newest sample."""
-        if self._last_norm_stands and self._signal.n and not self._is_new:
-            return (self._signal.last[0], *(0.0,) * len(self._signal.components))
-        return self._signal.last
+        """The newest estimate's, as it arrived."""
+        if self._last is None:
+            return (None,) * (1 + len(self._truth.components))
+        norm, components = self._last
+        if self._last_norm_stands and not self._is_new:
+            return (norm, *(0.0,) * len(components))
+        return (norm, *components)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -153,8 +233,15 @@ class EuclideanNorm(Measure):
         return tuple(self._notes)
 
     @property
+    def has_initialised(self) -> bool:
+        """Whether ``publishOn`` was called."""
+        return self._has_initialised
+
+    @property
     def longest_silence(self) -> float:
-        """Longest time without an estimate of the right length while it was on [s]."""
+        """Longest time without an estimate while it was on [s]."""
+        if self._last_norm_stands and self._last is not None:
+            return 0.0
         return self._silence[0] * self._world.timestep
 
     @property
@@ -164,7 +251,7 @@ class EuclideanNorm(Measure):
 
     @property
     def estimate(self) -> Array | None:
-        """The newest estimate, whether it could be scored or not."""
+        """The newest message, whether it could be scored or not."""
         last = self._inbox.last
         return None if last is None else np.asarray(last.data, dtype=np.float64)
 
@@ -172,21 +259,54 @@ class EuclideanNorm(Measure):
         """Listen no more."""
         self._inbox.close()
 
-    def _score(self, estimate: Array) -> None:
+    def _read(self) -> bool:
+        """Take what arrived; return whether an estimate was among it, which is then in force."""
+        good = [e for message in self._inbox.take() if (e := self._accepted(message)) is not None]
+        if not good:
+            return False
+        self._n += len(good)
+        self._estimate = good[-1]
+        self._waits_since = self._world.step
         truth = self._truth.read()
-        length = len(self._truth.components)
-        if estimate.shape != (length,):
+        self._refused = "" if truth is not None else f"no truth: {self._truth.missing}"
+        if truth is not None:
+            self._last = compared(truth, good[-1])
+        for before in self._unanswered:
+            self._frames.add(*compared(before, good[-1]))
+        self._unanswered.clear()
+        return True
+
+    def _accepted(self, message: Float32MultiArray) -> Array | None:
+        """Return the numbers of an estimate; None for what is none, and remember why."""
+        estimate: Array = np.asarray(message.data, dtype=np.float64)
+        n = len(self._truth.components)
+        if estimate.shape != (n,):
             self._refused = (
-                f"the estimate on {self._topic!r} has {estimate.size} numbers, expected {length}"
+                f"the estimate on {self._topic!r} has {estimate.size} numbers, expected {n}"
             )
         elif not np.isfinite(estimate).all():
             self._refused = f"the estimate on {self._topic!r} is not finite"
         else:
-            self._waits_since = self._world.step
-            self._refused = "" if truth is not None else f"no truth: {self._truth.missing}"
-            if truth is not None:
-                error = truth - estimate
-                self._signal.add(float(np.sqrt(error @ error)), error.tolist())
+            return estimate
+        self._n_refused += 1
+        return None
+
+    def _is_due(self) -> bool:
+        """Whether the camera took a picture since the last look; without one, always."""
+        before, self._n_pictures = self._n_pictures, self._truth.n_pictures
+        return self._n_pictures is None or self._n_pictures != before
+
+    def _take_sample(self) -> None:
+        """Compare the estimate in force with the truth; keep the truth until there is one."""
+        truth = self._truth.read()
+        if truth is None:
+            return
+        self._n_answered += self._is_answered
+        self._is_answered = False
+        if self._estimate is None:
+            self._unanswered.append(truth)
+        else:
+            self._frames.add(*compared(truth, self._estimate))
 
     def _publish(self, service: str) -> None:
         truth = self._truth.read()
@@ -196,3 +316,10 @@ class EuclideanNorm(Measure):
             self._notes.append(f"{service!r} was not called: {self._truth.missing}")
         else:
             self._world.call(service, GTpublish(truth.astype(np.float32)))
+            self._has_initialised = True
+
+
+def compared(truth: Array, estimate: Array) -> Sample:
+    """Return the norm of the difference, and its components."""
+    error = truth - estimate
+    return length(error), error.tolist()

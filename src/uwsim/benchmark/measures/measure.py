@@ -18,10 +18,8 @@ class MeasureSpec(abc.ABC):
 
     values: ClassVar[tuple[str, ...]] = ("last",)
     """What ``u:value`` may be."""
-    error_flag: ClassVar[int] = 1
+    error_flag: ClassVar[int] = 0
     """What a missing value adds to the original's sum of errors (compatibility ``rows``)."""
-    error_value: ClassVar[float] = -1.0
-    """What the original writes for it where that sum is 0 all the same."""
 
     name: str
     """Name of its column, and of the value in the function; an identifier."""
@@ -41,6 +39,16 @@ class MeasureSpec(abc.ABC):
         return ()
 
     @property
+    def start_value(self) -> float | None:
+        """What the original gives for it before it has measured anything; None: it has none."""
+        return None
+
+    @property
+    def once_initialised(self) -> MeasureSpec:
+        """What is bound in its place once it `has_initialised` an algorithm."""
+        return self
+
+    @property
     def original_fields(self) -> Mapping[str, str]:
         """Its fields in ``result.dat``: name there -> column of the result."""
         return {self.name: self.name}
@@ -54,7 +62,8 @@ class Measure(abc.ABC):
     """Something that is measured while its triggers say so.
 
     It is bound afresh for every level. At the first step at which it is on it is started, at
-    every later one updated; at the first at which it is off again it hears of that.
+    every later one updated; at the first at which it is off again, or when the level ends, it
+    `went_off`.
     """
 
     unit: ClassVar[str]
@@ -73,7 +82,7 @@ class Measure(abc.ABC):
         """Look at the world after one more step."""
 
     def went_off(self) -> None:  # noqa: B027 - to most measures it is nothing
-        """Look at the first step at which it is off again; a level may end without one."""
+        """Stop, at the first step at which it is off again, or at the last of the level."""
 
     @property
     @abc.abstractmethod
@@ -109,6 +118,11 @@ class Measure(abc.ABC):
     def notes(self) -> tuple[str, ...]:
         """What the reader of the result should know, besides the value."""
         return ()
+
+    @property
+    def has_initialised(self) -> bool:
+        """Whether it has told the algorithm under test where its target is."""
+        return False
 
     @property
     def longest_silence(self) -> float:

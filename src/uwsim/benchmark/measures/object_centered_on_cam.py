@@ -30,6 +30,11 @@ class ObjectCenteredOnCamSpec(MeasureSpec):
     camera: str
     """Name of the virtual camera."""
 
+    @property
+    def start_value(self) -> float:
+        """What the original begins with."""
+        return 0.0
+
     def bind(self, world: World) -> ObjectCenteredOnCam:
         """Find camera and target; raises UnknownName if one is not there."""
         camera = world.camera(self.camera)

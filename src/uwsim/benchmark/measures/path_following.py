@@ -18,6 +18,7 @@ import numpy as np
 from ...bus import Inbox
 from ...dialect import element
 from ...geometry import Array
+from ...linear import turned_back
 from ...messages import Path
 from ...world import Body, World
 from ..polyline import Polyline
@@ -40,7 +41,6 @@ class PathFollowingSpec(MeasureSpec):
 
     values: ClassVar[tuple[str, ...]] = VALUES
     error_flag: ClassVar[int] = -1
-    error_value: ClassVar[float] = 0.0
 
     target: str
     """Route of the body."""
@@ -48,6 +48,11 @@ class PathFollowingSpec(MeasureSpec):
     """Topic of the path (nav_msgs/Path); without one there is no path, and so no value."""
     from_: str | None = element("from", default=None)
     """Route of the body in whose frame the path is given; None: W, not L."""
+
+    @property
+    def start_value(self) -> float:
+        """What the original begins with."""
+        return 0.0
 
     def bind(self, world: World) -> PathFollowing:
         """Find target and frame; raises UnknownName if one is not there."""
@@ -82,7 +87,8 @@ class PathFollowing(Measure):
     Compatibility ``path-ise``: ``iae`` is the sum of :math:`d_1 \Delta t`, and stands under
     ``ise``, too. ``path-frame``: to the points of the path the place of ``from`` in W is added.
     ``path-repeats``: a repeated point is a segment of length 0; as the body is never nearer to it
-    than to the segment before, it holds up all that follows.
+    than to the segment before, it holds up all that follows. ``path-point``: a path of one point is
+    no path; here it is a segment of length 0. (The original reads beyond the end of its list.)
     """
 
     unit = "m s"
@@ -100,6 +106,7 @@ class PathFollowing(Measure):
         self._is_original = "path-ise" in world.compatibility
         self._adds_place = "path-frame" in world.compatibility
         self._keeps_repeats = "path-repeats" in world.compatibility
+        self._refuses_points = "path-point" in world.compatibility
         if spec.value != "last":
             self.unit = "m"  # type: ignore[misc]  # depends on u:value
         ise = {"ise": "m s"} if self._is_original else {}
@@ -211,6 +218,8 @@ class PathFollowing(Measure):
             self._refused = f"the path on {self._topic!r} has points that are no finite numbers"
         elif not len(points):
             self._refused = f"the path on {self._topic!r} has no points"
+        elif len(points) == 1 and self._refuses_points:
+            self._refused = f"the path on {self._topic!r} has one point"
         else:
             if self._adds_place and self._frame is not None:
                 points = points + self._frame.world_from_body.position
@@ -224,8 +233,7 @@ class PathFollowing(Measure):
         if self._frame is None:
             return position
         world_from_frame = self._frame.world_from_body
-        located: Array = world_from_frame.rotation.T @ (position - world_from_frame.position)
-        return located
+        return turned_back(world_from_frame.rotation, position - world_from_frame.position)
 
     def _add(self, before: float, distance: float, duration: float) -> None:
         """Add to the integrals what lies between two looks [m, m, s]."""

@@ -21,6 +21,7 @@ import numpy as np
 from ...bus import Inbox
 from ...dialect import element
 from ...geometry import Array, Pose
+from ...linear import turned
 from ...messages import PoseStamped
 from ...world import Body, World
 from .measure import Measure, MeasureSpec
@@ -42,6 +43,11 @@ class PositionErrorSpec(MeasureSpec):
     topic: str | None = element(default=None)
     """Topic that says where it should be instead (geometry_msgs/PoseStamped, in L): its newest
     message when the measure starts, or the first after that. None: ``position`` counts."""
+
+    @property
+    def start_value(self) -> float:
+        """What the original begins with: 100, or with a topic what it has until that spoke."""
+        return 100.0 if self.topic is None else -1.0
 
     def bind(self, world: World) -> PositionError:
         """Find the target; raises UnknownName if it is not there."""
@@ -133,8 +139,7 @@ class PositionError(Measure):
     def _position(self) -> Array:
         """Where the body is, in the frame of the components, (3,) [m]."""
         frame = self._frame_from_world
-        position: Array = frame.rotation.dot(self._body.world_from_body.position) + frame.position
-        return position
+        return turned(frame.rotation, self._body.world_from_body.position) + frame.position
 
     def _turn(self) -> tuple[float, ...]:
         w, x, y, z = (self._localized_from_world @ self._body.world_from_body).quaternion.tolist()

@@ -18,6 +18,7 @@ from typing import ClassVar
 from ...dialect import element
 from ...errors import BadSetting
 from ...geometry import Array, Pose
+from ...linear import product
 from ...messages import PointCloud2, points
 from ...world import Body, Box, World
 from ..coverage import Coverage
@@ -43,8 +44,8 @@ class Reconstruction3DSpec(MeasureSpec):
     """Route of the body that is rebuilt."""
     topic: str
     """Topic of the clouds (sensor_msgs/PointCloud2)."""
-    from_: str = element("from")
-    """Route of the body in whose frame the clouds are given."""
+    from_: str | None = element("from", default=None, required_by_dtd=True)
+    """Route of the body in whose frame the clouds are given; without one they are in W, not L."""
     level_of_detail: float = element(default=0.003, above=0.0)
     """Cell size of the coverage [m]."""
     detailed_results_to_globals: bool = element(default=False, attribute=True)
@@ -57,6 +58,11 @@ class Reconstruction3DSpec(MeasureSpec):
             return {self.name: self.name}
         return {name: f"{self.name}.{detail}" for name, detail in ORIGINAL_FIELDS.items()}
 
+    @property
+    def start_value(self) -> float:
+        """What the original begins with."""
+        return 0.0
+
     def bind(self, world: World) -> Reconstruction3D:
         """Find target and frame.
 
@@ -64,7 +70,8 @@ class Reconstruction3DSpec(MeasureSpec):
             UnknownName: one of them is not there.
             BadSetting: the target has no shape, or the level of detail makes too many cells.
         """
-        target, frame = world.body(self.target), world.body(self.from_)
+        target = world.body(self.target)
+        frame = None if self.from_ is None else world.body(self.from_)
         if target.box is None:
             raise BadSetting(
                 f"{self.target!r} has no shape that could be rebuilt; expected an object, or the "
@@ -113,7 +120,12 @@ class Reconstruction3D(Measure):
     fed_by_algorithm = True
 
     def __init__(
-        self, spec: Reconstruction3DSpec, world: World, target: Body, box: Box, frame: Body
+        self,
+        spec: Reconstruction3DSpec,
+        world: World,
+        target: Body,
+        box: Box,
+        frame: Body | None,
     ) -> None:
         slips = world.compatibility
         self._target, self._frame, self._topic = target, frame, spec.topic
@@ -220,12 +232,17 @@ class Reconstruction3D(Measure):
         self._inbox.close()
 
     def _target_from_frame(self) -> Pose:
-        return self._target.world_from_body.inverse() @ self._frame.world_from_body
+        target_from_world = self._target.world_from_body.inverse()
+        if self._frame is None:
+            return target_from_world
+        return target_from_world @ self._frame.world_from_body
 
     def _add(self, found: Array) -> None:
         """Add a cloud (n, 3) [m], given in the frame ``from``."""
         target_from_frame = self._fixed or self._target_from_frame()
         turn = self._box_from_target
         self._points.add(
-            found, turn @ target_from_frame.rotation, turn @ target_from_frame.position
+            found,
+            product(turn, target_from_frame.rotation),
+            product(turn, target_from_frame.position),
         )

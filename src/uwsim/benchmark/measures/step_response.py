@@ -25,12 +25,12 @@ same where there is no steady-state error, and honest about it where there is on
 
 from __future__ import annotations
 
-import math
 from array import array
 
 import numpy as np
 
 from ...geometry import Array
+from ...linear import dot, length, product
 
 RISE = (0.1, 0.9)
 """Parts of the step between which the rise time runs [1]."""
@@ -89,7 +89,7 @@ class StepResponse:
     def add(self, error: Array, steps: int) -> None:
         """Take a sample (k,), so many measured steps after the last; 0 for the first."""
         before, last = self._size, self._last
-        size = math.sqrt(float(error @ error))
+        size = length(error)
         since = self._steps[-1] if self._steps else 0
         self._steps.append(since + steps)
         self._errors.extend(error.tolist())
@@ -103,7 +103,7 @@ class StepResponse:
             self.iae += before * seconds
             self.itae += before * 0.5 * (start + end) * seconds
         else:
-            self.ise += (before * before + float(last @ error) + size * size) * seconds / 3.0
+            self.ise += (before * before + dot(last, error) + size * size) * seconds / 3.0
             self.iae += 0.5 * (before + size) * seconds
             self.itae += 0.5 * (start * before + end * size) * seconds
 
@@ -122,15 +122,15 @@ class StepResponse:
             return found, {}
         times = np.array(self._steps) * self._timestep  # (n,) [s]
         errors = np.array(self._errors).reshape(len(times), -1)  # (n, k)
-        step = math.sqrt(float(errors[0] @ errors[0]))
+        step = length(errors[0])
         tail = errors[times >= (1.0 - TAIL) * times[-1]].mean(axis=0)
         found["step"] = step
-        found["steady_state_error"] = math.sqrt(float(tail @ tail))
+        found["steady_state_error"] = length(tail)
         if step <= self._least_step:
             why = f"no step: the error was {step:.3g} at the start"
             return found, dict.fromkeys((name for name in found if found[name] is None), why)
         reasons: dict[str, str] = {}
-        done = 1.0 - errors @ (errors[0] / step) / step
+        done = 1.0 - product(errors, errors[0] / step) / step
         found["overshoot"] = max(0.0, float(done.max()) - 1.0) * step
         found["overshoot_percent"] = max(0.0, float(done.max()) - 1.0) * 100.0
         least, most = RISE

@@ -21,6 +21,11 @@ from .measure import Measure, MeasureSpec
 class TimeSpec(MeasureSpec):
     """A ``<time>`` element of a benchmark file."""
 
+    @property
+    def start_value(self) -> float:
+        """What the original begins with."""
+        return 0.0
+
     def bind(self, world: World) -> Time:
         """Watch the clock of ``world``."""
         return Time(world)
@@ -32,7 +37,8 @@ class Time(Measure):
     Without that, to the last step of the level. What passes while it is off does not count; it
     adds up when the measure goes on again. Never wall time.
 
-    Compatibility ``time-log``: its log shows 0, as the original's does until the time is stopped.
+    Compatibility ``time-log``: it is 0 until it goes off or the level ends. ``restart``: when it
+    goes on again it begins anew.
     """
 
     unit = "s"
@@ -41,11 +47,16 @@ class Time(Measure):
         self._world = world
         self._last: int | None = None  # step
         self._steps = 0
-        self._is_logged = "time-log" not in world.compatibility
+        self._is_known = True  # whether it can be read now
+        self._is_known_late = "time-log" in world.compatibility
+        self._begins_anew = "restart" in world.compatibility
 
     def start(self) -> None:
         """Count from now."""
         self._last = self._world.step
+        self._is_known = not self._is_known_late
+        if self._begins_anew:
+            self._steps = 0
 
     def update(self) -> None:
         """Add what has passed since the last look."""
@@ -56,13 +67,11 @@ class Time(Measure):
     def went_off(self) -> None:
         """Add the step in which it went off."""
         self.update()
+        self._is_known = True
 
     @property
     def value(self) -> float | None:
         """Time so far [s]; None when the measure was never on."""
-        return None if self._last is None else self._steps * self._world.timestep
-
-    @property
-    def log_values(self) -> tuple[float | None, ...]:
-        """Time so far [s]."""
-        return (self.value if self._is_logged else 0.0,)
+        if self._last is None:
+            return None
+        return self._steps * self._world.timestep if self._is_known else 0.0

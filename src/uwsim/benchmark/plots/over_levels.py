@@ -111,7 +111,10 @@ def compare_plot(
         curves = [curve for _, _, curve in drawn]
         scale_axes(axes, curves)
         label_axes(axes, results[0], shown)
-        draw_prediction(axes, results[0])
+        predicted = {result.fact("f_star"): result for result in results}
+        predicted.pop(None, None)
+        if len(predicted) == 1:  # the same for all that have the rule
+            draw_prediction(axes, next(iter(predicted.values())))
         if all(curve.is_empty for curve in curves):
             say_no_data(axes, next((c.why for c in curves if c.why), None))
         figure.legend(*legend_entries(axes), loc="outside right upper")

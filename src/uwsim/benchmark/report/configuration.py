@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..plots import algorithm_of, repeats_of, written_unit
-from ..result import Result
+from ..result import FLOOR, Result
 
 FACTS = {
     "S": "contrast S of the patch: standard deviation, no noise, fog 0",
@@ -127,7 +127,27 @@ def facts(result: Result) -> list[tuple[str, str]]:
         fact = result.fact(name)
         unit = "" if fact is None or fact[1] == "1" else f" {written_unit(fact[1])}"
         text = str(result.facts[name]) if fact is None else f"{fact[0]:.4g}{unit}"
-        found.append((FACTS.get(name, name), text))
+        found.append((_meaning(name), text))
+    return found
+
+
+def _meaning(name: str) -> str:
+    if name.startswith(FLOOR):
+        return f"floor of {name.removeprefix(FLOOR)}: what a perfect tracker scores"
+    return FACTS.get(name, name)
+
+
+def variations(result: Result) -> list[tuple[str, str, str]]:
+    """Return what varies: which value, drawn from what, and what was drawn.
+
+    Of several seeds the least and the largest value are shown.
+    """
+    found = []
+    for each in result.variations:
+        unit = "" if each.unit == "1" else f" {written_unit(each.unit)}"
+        drawn = [value for _, value in each.values]
+        ends = dict.fromkeys(f"{value:.4g}" for value in (min(drawn), max(drawn))) if drawn else []
+        found.append((each.path, each.drawn_from + unit, " to ".join(ends) + unit))
     return found
 
 

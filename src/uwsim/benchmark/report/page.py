@@ -35,7 +35,17 @@ from ..result_file import file_of, load
 from ..table import number_text, sensible_decimals, unit_of
 from ..whole_file import write_whole
 from .captions import caption, marks, seeds_text, statistic_of
-from .configuration import command, facts, hashes, logs_text, machine, remarks, settings, title
+from .configuration import (
+    command,
+    facts,
+    hashes,
+    logs_text,
+    machine,
+    remarks,
+    settings,
+    title,
+    variations,
+)
 from .endings import Ending, breaks, endings, named_level
 from .pictures import data_url, pictures_text, shown_pictures
 from .rows import all_cells, heads, level_rows
@@ -115,6 +125,7 @@ def render(
         settings=settings(result),
         inputs=hashes(result.inputs),
         facts=facts(result),
+        variations=variations(result),
         streams=[
             (
                 f"seed {stream.seed}"
@@ -199,7 +210,7 @@ def _values(result: Result) -> list[str]:
     said = [f"{', '.join(names)}: {statistic}" for statistic, names in by_statistic.items()]
     said += [f"total = {c.expression}" for c in result.of_kind("score") if c.expression]
     if result.of_kind("time"):
-        said.append("time: when the level ended, in simulation time without pauses")
+        said.append("ended_at: running time when the level ended, summed over the levels")
     return said
 
 

@@ -82,7 +82,7 @@ def all_cells(result: Result) -> tuple[list[Head], list[list[tuple[str, str]]]]:
 
 
 def _head(result: Result, column: Column) -> Head:
-    name = {"time": "time", "score": "total"}.get(column.kind, column.name)
+    name = "total" if column.kind == "score" else column.name
     return name, written_unit(unit_of(result, column))
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...linear import length
 from ...world import Body, World
 from .trigger import Trigger, TriggerSpec
 
@@ -54,5 +55,5 @@ class OnMove(Trigger):
         """Whether the body has been far enough from its start."""
         if not self._has_moved:
             way = self._body.world_from_body.position - self._from
-            self._has_moved = float(np.linalg.norm(way)) > self._distance
+            self._has_moved = length(way) > self._distance
         return self._has_moved

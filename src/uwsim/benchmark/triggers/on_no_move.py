@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ...linear import length
 from ...world import Body, World
 from .on_move import MOVED, threshold
 from .trigger import Trigger, TriggerSpec
@@ -67,4 +68,4 @@ class OnNoMove(Trigger):
         self._is_on = bool(self._memories) and step - self._memories[0][0] > self._still_steps
 
     def _is_far(self, before: npt.NDArray[np.float64], now: npt.NDArray[np.float64]) -> bool:
-        return float(np.linalg.norm(now - before)) > self._distance
+        return length(now - before) > self._distance

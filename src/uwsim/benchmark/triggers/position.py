@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ...linear import length
 from ...world import Body, World
 from .on_move import threshold
 from .trigger import Trigger, TriggerSpec
@@ -53,5 +54,5 @@ class Position(Trigger):
         """Whether the body has been there."""
         if not self._was_there:
             way = self._body.world_from_body.position - self._place
-            self._was_there = float(np.linalg.norm(way)) < self._distance
+            self._was_there = length(way) < self._distance
         return self._was_there

@@ -5,7 +5,12 @@ from __future__ import annotations
 from .arm_move_updater import ArmMoveUpdater, ArmMoveUpdaterSpec
 from .bag_fog_updater import BagFogUpdater, BagFogUpdaterSpec
 from .camera_noise_updater import CameraNoiseUpdaterSpec
-from .current_force_updater import CurrentForceUpdater, CurrentForceUpdaterSpec, SphericalSpec
+from .current_force_updater import (
+    STILL_WATER,
+    CurrentForceUpdater,
+    CurrentForceUpdaterSpec,
+    SphericalSpec,
+)
 from .none import NoneSpec, NoneUpdater
 from .repeat import Repeat, RepeatSpec
 from .scene_fog_updater import SceneFogUpdaterSpec
@@ -17,17 +22,17 @@ from .updater import (
     SceneUpdater,
     SceneUpdaterSpec,
     apply_level,
+    begin_level,
     bind_updaters,
     blend,
-    calm,
     chain,
     initial_level,
     interval,
     levels,
-    longest_calm,
     n_levels,
     ramp_level,
     references,
+    settling_time,
     steps,
 )
 
@@ -45,6 +50,7 @@ UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
 
 __all__ = [
     "MAX_LEVELS",
+    "STILL_WATER",
     "UPDATERS",
     "ArmMoveUpdater",
     "ArmMoveUpdaterSpec",
@@ -66,17 +72,17 @@ __all__ = [
     "SphericalSpec",
     "SweepSpec",
     "apply_level",
+    "begin_level",
     "bind_updaters",
     "blend",
-    "calm",
     "chain",
     "initial_level",
     "interval",
     "levels",
-    "longest_calm",
     "n_levels",
     "ramp_level",
     "references",
+    "settling_time",
     "steps",
     "sweep",
 ]

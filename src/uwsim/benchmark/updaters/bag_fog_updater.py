@@ -34,6 +34,7 @@ import numpy.typing as npt
 
 from ...dialect import element
 from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
+from ...linear import dot
 from ...messages import CameraInfo, Image, image, time_from_seconds
 from ...world import Stage
 from ..recording import Frame, Picture, Recording, camera_info
@@ -124,7 +125,6 @@ class BagFogUpdater(SceneUpdater):
         self._density = spec.density(spec.initial)  # [1/m]
         self._recording: Recording | None = None
         self._has_begun = False
-        self._was_applied = False
         self._since = 0  # step at which the first picture was due
         self._schedule: Iterator[tuple[int, Frame]] = iter(())
         self._next: tuple[int, Frame] | None = None  # step at which it is due, and what
@@ -133,12 +133,11 @@ class BagFogUpdater(SceneUpdater):
         stage.every(1.0 / stage.timestep, self._tick)
 
     def apply(self, value: float) -> None:
-        """Set the fog; the second time the benchmark has begun, and so does the replay."""
+        """Set the fog; with the first level the replay begins."""
         self._density = self._spec.density(value)
-        if self._was_applied and not self._has_begun:
+        if not self._has_begun:
             self._has_begun = True
             self._start(self._replay())
-        self._was_applied = True
 
     def ramp(self, value: float) -> None:
         """Set the fog alone."""
@@ -239,7 +238,7 @@ def fogged(
     stored = np.arange(256.0)[:, None]
     end = 255.0 * np.array(colour)
     if pixels.ndim == 2:
-        end = np.array([end @ GREY])
+        end = np.array([dot(end, GREY)])
     table = np.rint(seen * stored + (1.0 - seen) * end).astype(np.uint8)  # (256, 3) or (256, 1)
     changed = cv2.LUT(np.ascontiguousarray(pixels), table[None])
     return np.asarray(changed, dtype=np.uint8).reshape(pixels.shape)

@@ -20,7 +20,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...currents import FASTEST, LEAST_PERIOD, LateCurrent, Place, UwsimSinusoidSpec
+from ...currents import (
+    FASTEST,
+    LEAST_PERIOD,
+    LateCurrent,
+    Place,
+    TargetCurrent,
+    UwsimSinusoidSpec,
+)
 from ...dialect import element
 from ...errors import BadSetting, UnknownName
 from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
@@ -28,8 +35,10 @@ from ...world import Flow, Stage
 from .sweep import SweepSpec
 from .updater import SceneUpdater
 
-GRACE = 2.0
-"""A level begins with so long without any current [s]."""
+STILL_WATER = 2.0
+"""After each change of level there is no current for so long [s]."""
+LONGEST_OFFSET = 3600.0
+"""A clock that began earlier is a slip: all its random factors would have to be drawn first [s]."""
 RESET = "dynamics/reset"
 """The service called when a level begins, if somebody offers it."""
 FORCE_TOPIC = "currentForce"
@@ -55,7 +64,6 @@ class CurrentForceUpdaterSpec(SweepSpec):
 
     name: ClassVar[str] = "current"
     unit: ClassVar[str] = "m/s"
-    calm: ClassVar[float] = GRACE
 
     initial_value: float = element(aliases=("initialCurrent",), minimum=-FASTEST, maximum=FASTEST)
     """Speed of the current in the first level [m/s]."""
@@ -79,6 +87,10 @@ class CurrentForceUpdaterSpec(SweepSpec):
     """Name of the vehicle that is put back when a level begins."""
     publish_as_force: bool = element(default=False, attribute=True)
     """Whether the current is published as a force instead of moving the vehicle."""
+    time_offset: float = element(
+        default=0.0, attribute=True, namespaced=True, minimum=0.0, maximum=LONGEST_OFFSET
+    )
+    """What the current's clock shows when a level begins [s] (``u:timeOffset``)."""
 
     def current(self, value: float) -> UwsimSinusoidSpec:
         """Return the current of a level.
@@ -117,10 +129,15 @@ class CurrentForceUpdaterSpec(SweepSpec):
 
 
 class CurrentForceUpdater(SceneUpdater):
-    """Begins each level alike: the vehicle in its place, 2 s of still water, then the current.
+    """Each step puts the vehicle back; after 2 s of still water the level's current flows.
 
-    The current's time and its random factors begin with the level, so that a level is the same
-    alone and in a sweep. (In the original both ran on through the levels, from the clock.)
+    As in the original, the first level of a sequence is no step: the vehicle stays where it is and
+    the current flows at once. Before it there is none.
+
+    The current's time and its random factors begin with the level, so that a level does not depend
+    on those before it. (In the original both ran on through the levels, from the clock.)
+
+    Compatibility ``current-target``: the current moves the target alone, not all that floats.
     """
 
     def __init__(self, stage: Stage, spec: CurrentForceUpdaterSpec) -> None:
@@ -128,26 +145,32 @@ class CurrentForceUpdater(SceneUpdater):
         self._force: ForcePublisher | None = None
 
     def apply(self, value: float) -> None:
-        """Put the vehicle back and let a current of ``value`` [m/s] begin."""
-        stage = self._stage
-        stage.put_back(self._spec.target)
-        current = LateCurrent(
-            self._spec.current(value).bind(Place(stream=stage.stream)),
-            began=stage.time,
-            calm=GRACE,
-        )
-        if not self._spec.publish_as_force:
-            stage.set_current(current)
-        elif self._force is None:
-            self._force = ForcePublisher(stage, current)
-        else:
-            self._force.current = current
-        if stage.serves(RESET):
-            stage.call(RESET, Empty())
+        """Put the vehicle back and let a current of ``value`` [m/s] flow in 2 s."""
+        self._stage.put_back(self._spec.target)
+        self._flow(value, delay=STILL_WATER)
+        if self._stage.serves(RESET):
+            self._stage.call(RESET, Empty())
+
+    def begin(self, value: float) -> None:
+        """Let a current of ``value`` [m/s] flow."""
+        self._flow(value, delay=0.0)
 
     def ramp(self, value: float) -> None:
         """Hold the vehicle in its place: else the level would begin with a jump in the picture."""
         self._stage.put_back(self._spec.target)
+
+    def _flow(self, value: float, *, delay: float) -> None:
+        stage, spec = self._stage, self._spec
+        steady = spec.current(value).bind(Place(stream=stage.stream))
+        offset = spec.time_offset
+        current = LateCurrent(steady, began=stage.time, delay=delay, offset=offset)
+        if not spec.publish_as_force:
+            alone = "current-target" in stage.compatibility
+            stage.set_current(TargetCurrent(current, spec.target) if alone else current)
+        elif self._force is None:
+            self._force = ForcePublisher(stage, current)
+        else:
+            self._force.current = current
 
 
 class ForcePublisher:

@@ -35,11 +35,11 @@ class SceneUpdaterSpec(abc.ABC):
     """Its reference: the name of its column in the result."""
     unit: ClassVar[str] = "1"
     """Unit of its values."""
-    calm: ClassVar[float] = 0.0
-    """How long after a step of it nothing is measured yet [s]."""
-
     child: SceneUpdaterSpec | None = element("sceneUpdater", default=None)
     """The updater nested in it, which is stepped first."""
+    settling_time: float = element(default=0.0, attribute=True, namespaced=True, minimum=0.0)
+    """How long after each step of it, the first level included, measuring and the interval wait
+    [s] (``u:settlingTime``)."""
 
     @abc.abstractmethod
     def values(self) -> tuple[float, ...]:
@@ -84,14 +84,21 @@ class SceneUpdaterSpec(abc.ABC):
 
 
 class SceneUpdater(abc.ABC):
-    """Something that turns one knob of the scene."""
+    """Something that changes one quantity of the scene."""
 
     @abc.abstractmethod
     def apply(self, value: float) -> None:
-        """Bring the scene to ``value``."""
+        """Step to ``value``, with which a level begins."""
+
+    def begin(self, value: float) -> None:
+        """Begin the first level of a sequence, before which nothing has stepped: as `apply`."""
+        self.apply(value)
 
     def ramp(self, value: float) -> None:
-        """Bring the scene to ``value`` on the way from one level to another: as `apply`."""
+        """Bring the scene to ``value`` outside of any level: as `apply`.
+
+        That is before the first level, and on the way from the initial values to a level.
+        """
         self.apply(value)
 
     @property
@@ -179,31 +186,21 @@ def steps(level: Level, after: Level | None) -> tuple[bool, ...]:
     return tuple(after is None or after.values[:i] != level.values[:i] for i in range(1, n + 1))
 
 
-def longest_calm(spec: SceneUpdaterSpec) -> float:
-    """Return how long nothing is measured yet where every updater steps [s]."""
-    return max(updater.calm for updater in chain(spec))
-
-
-def calm(spec: SceneUpdaterSpec, level: Level, *, after: Level | None = None) -> float:
-    """Return how long after the beginning of ``level`` nothing is measured yet [s].
-
-    A level that is no longer than that is measured whole.
-    """
+def settling_time(spec: SceneUpdaterSpec, level: Level, *, after: Level | None = None) -> float:
+    """Return how long after the step to ``level`` measuring and the interval wait [s]."""
     stepped = zip(chain(spec), steps(level, after), strict=True)
-    longest = max(updater.calm if steps_now else 0.0 for updater, steps_now in stepped)
-    length = interval(spec)
-    return 0.0 if length is not None and length <= longest else longest
+    return max(updater.settling_time if steps_now else 0.0 for updater, steps_now in stepped)
 
 
 def apply_level(
     updaters: Sequence[SceneUpdater], level: Level, *, after: Level | None = None
 ) -> None:
-    """Bring the scene to ``level``, the outermost updater first.
+    """Step to ``level``, the outermost updater first.
 
     Args:
         updaters: bound, outermost first.
-        level: what to play.
-        after: the level played before in the same simulation, if any; see `steps`.
+        level: what begins.
+        after: the level before it in the same simulation, if any; see `steps`.
     """
     stepped = zip(updaters, level.values, steps(level, after), strict=True)
     for updater, (_, value), steps_now in stepped:
@@ -211,7 +208,13 @@ def apply_level(
             updater.apply(value)
 
 
+def begin_level(updaters: Sequence[SceneUpdater], level: Level) -> None:
+    """Begin the first level of a sequence, the outermost updater first."""
+    for updater, (_, value) in zip(updaters, level.values, strict=True):
+        updater.begin(value)
+
+
 def ramp_level(updaters: Sequence[SceneUpdater], level: Level) -> None:
-    """Bring the scene to what lies between two levels, the outermost updater first."""
+    """Bring the scene to values outside of any level, the outermost updater first."""
     for updater, (_, value) in zip(updaters, level.values, strict=True):
         updater.ramp(value)

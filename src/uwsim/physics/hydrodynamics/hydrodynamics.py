@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import UnknownName, UwsimError
+from ...linear import turned_back
 from . import callback
 from . import columns as c
 from .inverse_weights import correct_inverse_weights
@@ -159,9 +160,8 @@ class Hydrodynamics:
         inner = data.cfrc_int[body] - self.wrenches(data)[body]
         axes = data.site_xmat[site].reshape(3, 3)
         lever = data.site_xpos[site] - data.subtree_com[root]
-        force: Floats = axes.T @ inner[3:]
-        torque: Floats = axes.T @ (inner[:3] - np.cross(lever, inner[3:]))
-        return force, torque
+        torque = inner[:3] - np.cross(lever, inner[3:])
+        return turned_back(axes, inner[3:]), turned_back(axes, torque)
 
 
 def install(model: mujoco.MjModel) -> Hydrodynamics:

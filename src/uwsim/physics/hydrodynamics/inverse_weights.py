@@ -10,6 +10,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from ...linear import inverse
 from . import callback
 from . import columns as c
 
@@ -21,7 +22,7 @@ def correct_inverse_weights(model: mujoco.MjModel) -> None:
     """Recompute the inverse weights of ``model`` from M plus the added mass at ``qpos0``."""
     if model.nv == 0:
         return
-    inverse = np.linalg.inv(_mass_matrix(model))
+    inverted = _inverse(_mass_matrix(model), model.dof_treeid)
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
@@ -30,21 +31,21 @@ def correct_inverse_weights(model: mujoco.MjModel) -> None:
         first = model.jnt_dofadr[joint]
         n_parts = {_FREE: 2, _BALL: 1}.get(int(model.jnt_type[joint]), 0)
         if n_parts == 0:
-            model.dof_invweight0[first] = inverse[first, first]
+            model.dof_invweight0[first] = inverted[first, first]
             continue
         for part in range(n_parts):
             dofs = slice(first + 3 * part, first + 3 * part + 3)
-            model.dof_invweight0[dofs] = np.diag(inverse)[dofs].mean()
+            model.dof_invweight0[dofs] = np.diag(inverted)[dofs].mean()
     jacobian = np.empty((6, model.nv))
     for body in range(1, model.nbody):
         if model.body_weldid[body] == 0:
             continue
         mujoco.mj_jacBodyCom(model, data, jacobian[:3], jacobian[3:], body)
-        spread = np.einsum("ij,jk,ik->i", jacobian, inverse, jacobian)
+        spread = np.einsum("ij,jk,ik->i", jacobian, inverted, jacobian)
         model.body_invweight0[body] = spread[:3].mean(), spread[3:].mean()
     if model.ntendon:
         rows = _tendon_jacobian(model, data)
-        model.tendon_invweight0[:] = np.einsum("ij,jk,ik->i", rows, inverse, rows)
+        model.tendon_invweight0[:] = np.einsum("ij,jk,ik->i", rows, inverted, rows)
 
 
 def _mass_matrix(model: mujoco.MjModel) -> np.ndarray:
@@ -68,6 +69,15 @@ def _mass_matrix(model: mujoco.MjModel) -> np.ndarray:
         model.opt.enableflags = flags
     model.stat.meaninertia = float(np.diag(full).mean())
     return full
+
+
+def _inverse(masses: np.ndarray, trees: np.ndarray) -> np.ndarray:
+    """Invert M, in which no tree of bodies has anything to do with another."""
+    found = np.zeros_like(masses)
+    for tree in np.unique(trees):
+        dofs = np.ix_(trees == tree, trees == tree)
+        found[dofs] = inverse(masses[dofs])
+    return found
 
 
 def _tendon_jacobian(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:

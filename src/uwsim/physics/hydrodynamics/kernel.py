@@ -20,8 +20,9 @@ wrenches are summed up the tree, as in the composite-rigid-body algorithm, in Mu
 the centre of mass of the tree, world axes.
 
 After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), chapters 6 and 8.
-One file, although long: numba's cache on disk watches only the file of the function it compiled.
-After a change in `columns`, `layout`, `memory` or `submersion`, save this file anew too.
+The equations of one body are in `equations`; here is where the numbers lie. numba's cache on disk
+watches only the file of the function that it compiled, so that this file must change with those
+that it compiles in: `COMPILED_IN` is their digest, and a test says what it should be.
 
 Not modelled: the momentum of water shed when the submerged fraction changes, memory of waves,
 ground effect, flow of one body over another, thrust lost to inflow.
@@ -33,10 +34,8 @@ import numpy as np
 
 from ...jit import njit
 from .columns import (
-    ADDED,
     BACKWARD,
     BODY_COLUMNS,
-    CENTRE,
     CURVE_TERMS,
     DEAD_ZONE,
     DISPLACED,
@@ -46,25 +45,39 @@ from .columns import (
     IS_THRUSTER,
     KIND,
     LEAST,
-    LINEAR,
     MAGIC,
     MAGIC_NUMBER,
     MOST,
-    QUADRATIC,
     RADIUS,
-    REACH,
-    REFERENCE,
-    SHAPE,
-    SIZE,
     SURFACE,
     THETA,
     THRUSTER_COLUMNS,
     TORQUE,
     WATER_COLUMNS,
 )  # fmt: skip
+from .equations import (
+    add_lift,
+    buoyancy,
+    coriolis,
+    diagonal_force,
+    diagonal_inertia,
+    diagonal_momentum,
+    full_force,
+    known_rate,
+    move_diagonal_inertia,
+    move_full_inertia,
+    move_wrench,
+    reference_point,
+    relative_twist,
+    six,
+    subtract,
+    wet_part,
+)
 from .layout import DATA_FIELDS, MODEL_FIELDS
 from .memory import Floats, Ints64, floats, ints, real, small, word
-from .submersion import submerged
+
+COMPILED_IN = "56c9aecefb89bbd9"
+"""Digest of `columns`, `equations`, `layout`, `memory` and `submersion`."""
 
 _NAMES = (*MODEL_FIELDS, *DATA_FIELDS)
 _TIMESTEP = _NAMES.index("opt.timestep")
@@ -333,6 +346,7 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
     still = real(word(m + at[_BODY_USER]) + 8 * SURFACE)
     gravity = floats(m + at[_GRAVITY], 3)
     weight = 0.0 if (small(m + at[_DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
+    scratch = _ROW * nbody
     for body in range(1, nbody):
         table = floats(word(m + at[_BODY_USER]) + 8 * BODY_COLUMNS * body, BODY_COLUMNS)
         if table[KIND] == DRY or tree[body] < 0:
@@ -344,213 +358,30 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         axes = floats(word(d + at[_XMAT]) + 72 * body, 9)
         com = floats(word(d + at[_COM]) + 24 * root[body], 3)
         twist = floats(word(d + at[_CVEL]) + 48 * body, 6)
-        r00, r01, r02 = axes[0], axes[1], axes[2]
-        r10, r11, r12 = axes[3], axes[4], axes[5]
-        r20, r21, r22 = axes[6], axes[7], axes[8]
-        bx, by, bz = table[REFERENCE], table[REFERENCE + 1], table[REFERENCE + 2]
-        height = place[2] + r20 * bx + r21 * by + r22 * bz
-        rx = place[0] - com[0] + r00 * bx + r01 * by + r02 * bz
-        ry = place[1] - com[1] + r10 * bx + r11 * by + r12 * bz
-        rz = height - com[2]
-
-        # the submerged part
-        bx, by, bz = table[CENTRE], table[CENTRE + 1], table[CENTRE + 2]
-        depth = still + water[6] - height - (r20 * bx + r21 * by + r22 * bz)
-        wet = 1.0
-        if depth < table[REACH]:
-            wet, cx, cy, cz = submerged(
-                table[SHAPE], table[SIZE], table[SIZE + 1], table[SIZE + 2], r20, r21, r22, depth
-            )
-            bx, by, bz = bx + cx, by + cy, bz + cz
-            if wet <= 0.0:
-                continue
+        height, lever = reference_point(table, place, axes, com)
+        wet, centre = wet_part(table, axes, still + water[6] - height)
+        if wet <= 0.0:
+            continue
         base = _ROW * body
         work[base + _TOUCHED] = 1.0
-
-        # twist relative to the water, body axes
-        wx, wy, wz = twist[0], twist[1], twist[2]
-        x = twist[3] + wy * rz - wz * ry - water[0]
-        y = twist[4] + wz * rx - wx * rz - water[1]
-        z = twist[5] + wx * ry - wy * rx - water[2]
-        u = r00 * x + r10 * y + r20 * z
-        v = r01 * x + r11 * y + r21 * z
-        w = r02 * x + r12 * y + r22 * z
-        p = r00 * wx + r10 * wy + r20 * wz
-        q = r01 * wx + r11 * wy + r21 * wz
-        r = r02 * wx + r12 * wy + r22 * wz
-        # the part of its rate that is known: R^T (a - a_water) + omega x R^T v_water
-        ax, ay, az = work[base], work[base + 1], work[base + 2]
-        x = work[base + 3] + ay * rz - az * ry - water[3]
-        y = work[base + 4] + az * rx - ax * rz - water[4]
-        z = work[base + 5] + ax * ry - ay * rx - water[5]
-        cx = r00 * water[0] + r10 * water[1] + r20 * water[2]
-        cy = r01 * water[0] + r11 * water[1] + r21 * water[2]
-        cz = r02 * water[0] + r12 * water[1] + r22 * water[2]
-        du = r00 * x + r10 * y + r20 * z + q * cz - r * cy
-        dv = r01 * x + r11 * y + r21 * z + r * cx - p * cz
-        dw = r02 * x + r12 * y + r22 * z + p * cy - q * cx
-        dp = r00 * ax + r10 * ay + r20 * az
-        dq = r01 * ax + r11 * ay + r21 * az
-        dr = r02 * ax + r12 * ay + r22 * az
-
-        # -Ma rate - D(nu) nu, and the momentum Ma nu
         step = theta_h * table[THETA]
-        scratch = _ROW * nbody
+        nu = relative_twist(axes, lever, twist, water)
+        bias = six(work, base + _BIAS)
+        rate = known_rate(axes, lever, bias, water, nu)
         if table[KIND] == FULL:
-            _full(table, step, work, scratch, u, v, w, p, q, r, du, dv, dw, dp, dq, dr)
-            fx, fy, fz = work[scratch], work[scratch + 1], work[scratch + 2]
-            tx, ty, tz = work[scratch + 3], work[scratch + 4], work[scratch + 5]
-            px, py, pz = work[scratch + 6], work[scratch + 7], work[scratch + 8]
-            hx, hy, hz = work[scratch + 9], work[scratch + 10], work[scratch + 11]
+            force, momentum = full_force(table, nu, rate, step, work, scratch)
         else:
-            px, py, pz = table[ADDED] * u, table[ADDED + 7] * v, table[ADDED + 14] * w
-            hx, hy, hz = table[ADDED + 21] * p, table[ADDED + 28] * q, table[ADDED + 35] * r
-            fx = -table[ADDED] * du - (table[LINEAR] + table[QUADRATIC] * abs(u)) * u
-            fy = -table[ADDED + 7] * dv - (table[LINEAR + 7] + table[QUADRATIC + 7] * abs(v)) * v
-            fz = -table[ADDED + 14] * dw - (table[LINEAR + 14] + table[QUADRATIC + 14] * abs(w)) * w
-            tx = -table[ADDED + 21] * dp - (table[LINEAR + 21] + table[QUADRATIC + 21] * abs(p)) * p
-            ty = -table[ADDED + 28] * dq - (table[LINEAR + 28] + table[QUADRATIC + 28] * abs(q)) * q
-            tz = -table[ADDED + 35] * dr - (table[LINEAR + 35] + table[QUADRATIC + 35] * abs(r)) * r
-
-        # -Ca(nu) nu
-        tx -= q * hz - r * hy + v * pz - w * py
-        ty -= r * hx - p * hz + w * px - u * pz
-        tz -= p * hy - q * hx + u * py - v * px
-        fx -= q * pz - r * py
-        fy -= r * px - p * pz
-        fz -= p * py - q * px
-
-        # into world axes, about the centre of mass of the tree
-        x = wet * (r00 * fx + r01 * fy + r02 * fz)
-        y = wet * (r10 * fx + r11 * fy + r12 * fz)
-        z = wet * (r20 * fx + r21 * fy + r22 * fz)
-        ax = wet * (r00 * tx + r01 * ty + r02 * tz) + ry * z - rz * y
-        ay = wet * (r10 * tx + r11 * ty + r12 * tz) + rz * x - rx * z
-        az = wet * (r20 * tx + r21 * ty + r22 * tz) + rx * y - ry * x
-
-        # buoyancy, at the centre of the submerged part
-        mass = wet * table[DISPLACED]
-        cx = rx + r00 * bx + r01 * by + r02 * bz
-        cy = ry + r10 * bx + r11 * by + r12 * bz
-        cz = rz + r20 * bx + r21 * by + r22 * bz
-        fx = mass * (water[3] - weight * gravity[0])
-        fy = mass * (water[4] - weight * gravity[1])
-        fz = mass * (water[5] - weight * gravity[2])
-        work[base + _WRENCH] += ax + cy * fz - cz * fy
-        work[base + _WRENCH + 1] += ay + cz * fx - cx * fz
-        work[base + _WRENCH + 2] += az + cx * fy - cy * fx
-        work[base + _WRENCH + 3] += x + fx
-        work[base + _WRENCH + 4] += y + fy
-        work[base + _WRENCH + 5] += z + fz
+            force, momentum = diagonal_force(table, nu, rate), diagonal_momentum(table, nu)
+        force = subtract(force, coriolis(nu, momentum))
+        wrench = move_wrench(axes, lever, wet, force)
+        lift = buoyancy(wet * table[DISPLACED], water, gravity, weight)
+        to = base + _WRENCH
+        add_lift(axes, lever, centre, wrench, lift, work, to)
         if not with_mass:
             continue
+        ff, ft, tt = base + _FF, base + _FT, base + _TT
         if table[KIND] == FULL:
-            _full_inertia(axes, wet, rx, ry, rz, work, base, scratch + 12)
+            move_full_inertia(axes, lever, wet, work, scratch, ff, ft, tt)
         else:
-            h = wet * step
-            a = wet * table[ADDED] + h * (table[LINEAR] + 2.0 * table[QUADRATIC] * abs(u))
-            b = wet * table[ADDED + 7]
-            b += h * (table[LINEAR + 7] + 2.0 * table[QUADRATIC + 7] * abs(v))
-            c = wet * table[ADDED + 14]
-            c += h * (table[LINEAR + 14] + 2.0 * table[QUADRATIC + 14] * abs(w))
-            xx = a * r00 * r00 + b * r01 * r01 + c * r02 * r02
-            xy = a * r00 * r10 + b * r01 * r11 + c * r02 * r12
-            xz = a * r00 * r20 + b * r01 * r21 + c * r02 * r22
-            yy = a * r10 * r10 + b * r11 * r11 + c * r12 * r12
-            yz = a * r10 * r20 + b * r11 * r21 + c * r12 * r22
-            zz = a * r20 * r20 + b * r21 * r21 + c * r22 * r22
-            a = wet * table[ADDED + 21]
-            a += h * (table[LINEAR + 21] + 2.0 * table[QUADRATIC + 21] * abs(p))
-            b = wet * table[ADDED + 28]
-            b += h * (table[LINEAR + 28] + 2.0 * table[QUADRATIC + 28] * abs(q))
-            c = wet * table[ADDED + 35]
-            c += h * (table[LINEAR + 35] + 2.0 * table[QUADRATIC + 35] * abs(r))
-            ff, ft, tt = base + _FF, base + _FT, base + _TT
-            work[ff], work[ff + 1], work[ff + 2] = xx, xy, xz
-            work[ff + 3], work[ff + 4], work[ff + 5] = yy, yz, zz
-            # force by rotation: -B11 S(r)
-            f0, f1, f2 = xz * ry - xy * rz, xx * rz - xz * rx, xy * rx - xx * ry
-            f3, f4, f5 = yz * ry - yy * rz, xy * rz - yz * rx, yy * rx - xy * ry
-            f6, f7, f8 = zz * ry - yz * rz, xz * rz - zz * rx, yz * rx - xz * ry
-            work[ft], work[ft + 1], work[ft + 2] = f0, f1, f2
-            work[ft + 3], work[ft + 4], work[ft + 5] = f3, f4, f5
-            work[ft + 6], work[ft + 7], work[ft + 8] = f6, f7, f8
-            # torque by rotation: B22 + S(r) (force by rotation)
-            work[tt] = a * r00 * r00 + b * r01 * r01 + c * r02 * r02 + ry * f6 - rz * f3
-            work[tt + 1] = a * r00 * r10 + b * r01 * r11 + c * r02 * r12 + ry * f7 - rz * f4
-            work[tt + 2] = a * r00 * r20 + b * r01 * r21 + c * r02 * r22 + ry * f8 - rz * f5
-            work[tt + 3] = a * r10 * r10 + b * r11 * r11 + c * r12 * r12 + rz * f1 - rx * f7
-            work[tt + 4] = a * r10 * r20 + b * r11 * r21 + c * r12 * r22 + rz * f2 - rx * f8
-            work[tt + 5] = a * r20 * r20 + b * r21 * r21 + c * r22 * r22 + rx * f5 - ry * f2
-
-
-@njit
-def _full(
-    table: Floats, step: float, work: Floats, at: int,
-    u: float, v: float, w: float, p: float, q: float, r: float,
-    du: float, dv: float, dw: float, dp: float, dq: float, dr: float,
-) -> None:  # fmt: skip
-    """Full 6x6 matrices: -Ma rate - D(nu) nu, Ma nu, and Ma + step D' (symmetric part).
-
-    Left in ``work`` from ``at`` on: 6 forces, 6 momenta, 36 entries.
-    """
-    nu = (u, v, w, p, q, r)
-    rate = (du, dv, dw, dp, dq, dr)
-    for i in range(6):
-        force, momentum = 0.0, 0.0
-        for j in range(6):
-            added = table[ADDED + 6 * i + j]
-            linear = table[LINEAR + 6 * i + j]
-            steep = table[QUADRATIC + 6 * i + j] * abs(nu[j])
-            momentum += added * nu[j]
-            force -= added * rate[j] + (linear + steep) * nu[j]
-            mirrored = table[LINEAR + 6 * j + i] + 2.0 * table[QUADRATIC + 6 * j + i] * abs(nu[i])
-            slope = 0.5 * (linear + 2.0 * steep + mirrored)
-            work[at + 12 + 6 * i + j] = added + step * slope
-        work[at + i], work[at + 6 + i] = force, momentum
-
-
-@njit
-def _turn(axes: Floats, work: Floats, block: int, to: int) -> None:
-    """One 3x3 block, at ``block`` in rows of 6, into world axes: R B R^T, in rows of 3."""
-    for j in range(3):
-        x, y, z = axes[3 * j], axes[3 * j + 1], axes[3 * j + 2]
-        a = work[block] * x + work[block + 1] * y + work[block + 2] * z
-        b = work[block + 6] * x + work[block + 7] * y + work[block + 8] * z
-        c = work[block + 12] * x + work[block + 13] * y + work[block + 14] * z
-        work[to + j] = axes[0] * a + axes[1] * b + axes[2] * c
-        work[to + 3 + j] = axes[3] * a + axes[4] * b + axes[5] * c
-        work[to + 6 + j] = axes[6] * a + axes[7] * b + axes[8] * c
-
-
-@njit
-def _full_inertia(
-    axes: Floats, wet: float, rx: float, ry: float, rz: float, work: Floats, base: int, full: int
-) -> None:
-    """Move a full 6x6 inertia, at ``full``, to the centre of mass of the tree."""
-    to = full + 36
-    ff, ft, tt = base + _FF, base + _FT, base + _TT
-    _turn(axes, work, full, to)
-    xx, xy, xz = wet * work[to], wet * work[to + 1], wet * work[to + 2]
-    yy, yz, zz = wet * work[to + 4], wet * work[to + 5], wet * work[to + 8]
-    work[ff], work[ff + 1], work[ff + 2] = xx, xy, xz
-    work[ff + 3], work[ff + 4], work[ff + 5] = yy, yz, zz
-    # force by rotation: B12 - B11 S(r)
-    _turn(axes, work, full + 3, to)
-    a, b, c = wet * work[to], wet * work[to + 1], wet * work[to + 2]
-    d, e, f = wet * work[to + 3], wet * work[to + 4], wet * work[to + 5]
-    g, h, i = wet * work[to + 6], wet * work[to + 7], wet * work[to + 8]
-    f0, f1, f2 = a - xy * rz + xz * ry, b - xz * rx + xx * rz, c - xx * ry + xy * rx
-    f3, f4, f5 = d - yy * rz + yz * ry, e - yz * rx + xy * rz, f - xy * ry + yy * rx
-    f6, f7, f8 = g - yz * rz + zz * ry, h - zz * rx + xz * rz, i - xz * ry + yz * rx
-    work[ft], work[ft + 1], work[ft + 2] = f0, f1, f2
-    work[ft + 3], work[ft + 4], work[ft + 5] = f3, f4, f5
-    work[ft + 6], work[ft + 7], work[ft + 8] = f6, f7, f8
-    # torque by rotation: B22 + S(r) (force by rotation) - B12^T S(r)
-    _turn(axes, work, full + 21, to)
-    work[tt] = wet * work[to] + ry * f6 - rz * f3 - (d * rz - g * ry)
-    work[tt + 1] = wet * work[to + 1] + ry * f7 - rz * f4 - (g * rx - a * rz)
-    work[tt + 2] = wet * work[to + 2] + ry * f8 - rz * f5 - (a * ry - d * rx)
-    work[tt + 3] = wet * work[to + 4] + rz * f1 - rx * f7 - (h * rx - b * rz)
-    work[tt + 4] = wet * work[to + 5] + rz * f2 - rx * f8 - (b * ry - e * rx)
-    work[tt + 5] = wet * work[to + 8] + rx * f5 - ry * f2 - (c * ry - f * rx)
+            inertia = diagonal_inertia(table, nu, wet, step)
+            move_diagonal_inertia(axes, lever, inertia, work, ff, ft, tt)

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from ...linear import length
 from . import columns as c
 from .faults import body_faults, density_faults, thruster_faults
 from .spec import BadHydrodynamics, BodyHydrodynamics, ThrusterSpec, matrix
@@ -162,9 +163,9 @@ def _quat_to(direction: tuple[float, float, float]) -> list[float]:
     quat = np.zeros(4)
     unit = np.array(direction) / math.hypot(*direction)
     half = np.array([1.0, 0.0, 0.0]) + unit
-    if np.linalg.norm(half) < 1e-6:
+    if length(half) < 1e-6:
         return [0.0, 0.0, 0.0, 1.0]
-    half /= np.linalg.norm(half)
+    half /= length(half)
     quat[0] = half[0]
     quat[1:] = np.cross([1.0, 0.0, 0.0], half)
     return [float(value) for value in quat]

@@ -1,5 +1,5 @@
 // Provides: what the vertices of a surface hand to its pixels; BETWEEN is out there and in here.
-// Needs: the switches COLOUR, TEXTURED, SHADOWS, and LAMPS, how many there are.
+// Needs: the switches COLOUR, TEXTURED, SHADOWS, AIR, and LAMPS, how many there are.
 // Flat members carry the frame's constants: on llvmpipe a uniform costs far more to read in a pixel.
 BETWEEN vec3 position;  // camera frame [m]
 #ifdef COLOUR
@@ -12,6 +12,9 @@ flat BETWEEN vec3 losses;   // attenuation [1/m]
 flat BETWEEN vec4 mist;     // rgb: fog colour; w: density squared [1/m2]
 #ifdef TEXTURED
 BETWEEN vec2 place;         // on the texture
+#endif
+#ifdef AIR
+flat BETWEEN float sunk;    // depth of the camera below the water's surface [m]
 #endif
 #ifdef SHADOWS
 BETWEEN vec3 shadow_place;  // texture coordinates and depth in the shadow map, 0..1

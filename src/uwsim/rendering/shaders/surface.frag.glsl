@@ -1,5 +1,6 @@
 // Provides: colour, range and id of a surface seen through water, whichever are asked for.
 // Needs: between.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, lamplight.glsl, targets.glsl.
+// The switch OPACITY is 1..254 of 255, or not there: opaque; the renderer blends.
 // lit -> attenuation -> fog, on stored values; noise and 8 bit come later (noise.py).
 #define BETWEEN in
 #include "between.glsl"
@@ -48,7 +49,20 @@ void main() {
 #ifdef LAMPS
     dry += lamplight(colour, normal * unit);
 #endif
-    colour_out = vec4(through_water(dry, range, fog_range, along.z), 1.0);
+#ifdef AIR
+    float deeper = max(along.z, sunk);
+    float wet = clamp(deeper / max(deeper - min(along.z, sunk), 1e-6), 0.0, 1.0);
+    fog_range *= wet;
+    float water_range = range * wet;
+#else
+    float water_range = range;
+#endif
+#ifdef OPACITY
+    float opacity = float(OPACITY) / 255.0;
+#else
+    float opacity = 1.0;
+#endif
+    colour_out = vec4(through_water(dry, water_range, fog_range, along.z), opacity);
 #endif
 #ifdef RANGE
     range_out = range;

@@ -36,6 +36,9 @@ void main() {
 #ifdef TEXTURED
     place = uv;
 #endif
+#ifdef AIR
+    sunk = -up.w;
+#endif
 #ifdef SHADOWS
     vec3 lifted = position + normal * (sun.w * inversesqrt(max(dot(normal, normal), 1e-12)));
     shadow_place = (shadow_from_camera * vec4(lifted, 1.0)).xyz;

@@ -1,0 +1,25 @@
+"""Where the command ``uwsim`` and ``python -m uwsim`` begin."""
+
+from __future__ import annotations
+
+import sys
+
+from .interrupts import end_at_once
+
+
+def run() -> int:
+    """Run ``uwsim`` as a process of its own; returns its exit status."""
+    end_at_once()
+    from .cli import main
+    from .cli.app import say
+
+    try:
+        return main()
+    except KeyboardInterrupt as error:  # a second one, while the first was handled
+        return say(error)
+    finally:
+        end_at_once()  # the interpreter may take a moment to leave
+
+
+if __name__ == "__main__":
+    sys.exit(run())

@@ -1,0 +1,28 @@
+"""The colour that a robot file gives a shape, put over what its mesh brings."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+from .mesh import Model
+
+Colour = tuple[float, float, float, float]
+
+
+@lru_cache(maxsize=1024)
+def painted(model: Model, colour: Colour) -> Model:
+    """Return the model in another colour: the same object for the same paint.
+
+    The colour takes the place of the mesh's own and is multiplied with its texture. (UWSim and
+    RViz let a mesh's own materials stand, so that the file's colour shows on meshes without any.)
+
+    Args:
+        model: what is painted.
+        colour: red, green, blue, opacity, 0..1.
+    """
+    red, green, blue, opacity = colour
+    meshes = tuple(
+        replace(mesh, colour=(red, green, blue), opacity=opacity) for mesh in model.meshes
+    )
+    return replace(model, meshes=meshes)

@@ -1,0 +1,171 @@
+"""``uwsim info``: what is in a scene, before anything is written for it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from rich.console import Console, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from ..errors import AllErrors
+from .faults import printable
+from .files import scene_file
+from .options import DataPathOption, JsonOption, SceneArgument, SetOption
+from .plan import pairs_of
+
+UNWRAPPED = 160
+"""Columns for a reader that is a program."""
+Fields = Mapping[str, Any]
+
+
+def info(
+    scene: SceneArgument,
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+    data_path: DataPathOption = None,
+) -> None:
+    """Show what is in a scene: vehicles, cameras, topics, services, joints, water, floor.
+
+    Places are in the file's frame, as in the file and on topics: metres and radians. The floor is
+    looked for straight below each vehicle's origin. What the file says and uwsim does not simulate
+    is listed last.
+    """
+    from ..scene.reader import check_scene, read_scene
+    from ..scene.settings import apply_setting
+    from ..simulation import Simulation
+    from .inventory import inventory
+
+    folders = tuple(data_path or ())
+    path = scene_file(scene, folders)
+    wrong = AllErrors()
+    spec = read_scene(path)
+    for name, value in pairs_of(settings or [], wrong):
+        with wrong.kept():
+            spec = apply_setting(spec, name, value)
+    wrong.check()
+    simulation = Simulation(spec.nominal, data_path=folders, is_blind=True)
+    try:
+        found = inventory(spec, simulation, check_scene(path))
+    finally:
+        simulation.close()
+    if as_json:
+        print(json.dumps(found, indent=1))
+        return
+    console = Console(highlight=False, width=None if sys.stdout.isatty() else UNWRAPPED)
+    for part in drawn(found):
+        console.print(part)
+
+
+def drawn(found: Fields) -> Iterator[RenderableType]:
+    """Give everything that is printed."""
+    yield Text(printable(str(found["file"])), style="bold")
+    yield from _section("frame and water", [_frame(found["frame"]), *_water(found["water"])])
+    for vehicle in found["vehicles"]:
+        yield from _section(f"vehicle {vehicle['name']}", _vehicle(vehicle))
+    yield from _table("cameras", map(_camera, found["cameras"]))
+    yield from _table("objects", map(_object, found["objects"]))
+    yield from _table("topics", map(_topic, found["topics"]))
+    services = ", ".join(found["services"]) or "none of the scene's own"
+    yield from _section(
+        "services", [f"{services}; a benchmark offers startBench, stopBench and what it names"]
+    )
+    if found["varies"]:
+        yield from _section("differs from seed to seed", map(_varying, found["varies"]))
+    yield from _section("read, not simulated", found["not_simulated"])
+    if found["notices"]:
+        yield from _section("notices of uwsim check", found["notices"])
+
+
+def _varying(one: Fields) -> str:
+    unit = "" if one["unit"] in ("", "1") else f" {one['unit']}"
+    return f"{one['path']}: {one['drawn_from']}{unit}"
+
+
+def _section(title: str, lines: Iterable[str]) -> Iterator[RenderableType]:
+    yield Text(printable(f"\n{title}"), style="bold")
+    for line in list(lines) or ["nothing"]:
+        yield Padding(Text(printable(line)), (0, 0, 0, 2), expand=False)
+
+
+def _table(title: str, rows: Iterator[Sequence[str]]) -> Iterator[RenderableType]:
+    cells = [tuple(map(printable, row)) for row in rows]
+    if not cells:
+        yield from _section(title, [])
+        return
+    yield Text(f"\n{title}", style="bold")
+    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0), pad_edge=False)
+    for _ in cells[0]:
+        table.add_column(overflow="fold")
+    for row in cells:
+        table.add_row(*map(Text, row))
+    yield Padding(table, (0, 0, 0, 2), expand=False)
+
+
+def _frame(frame: Fields) -> str:
+    up = frame["up"] if isinstance(frame["up"], str) else f"along {_numbers(frame['up'])}"
+    return f"up is {up} in the file's frame; offset {_numbers(frame['offset'])} m"
+
+
+def _water(water: Fields) -> list[str]:
+    attenuation = _numbers(water["attenuation"])
+    return [
+        f"surface through {_numbers(water['surface_above_origin'])} m, level",
+        f"fog {water['fog_density']:g} 1/m; attenuation (red, green, blue) {attenuation} 1/m",
+        f"currents: {', '.join(water['currents']) or 'none'}",
+    ]
+
+
+def _vehicle(vehicle: Fields) -> list[str]:
+    lines = [
+        f"{vehicle['file']} at {_numbers(vehicle['position'])} m, "
+        f"turned {_numbers(vehicle['orientation'])} rad; {vehicle['moves']}",
+        f"below it: {_below(vehicle['below'])}",
+        f"thrusters: {', '.join(vehicle['thrusters']) or 'none that are simulated'}",
+        f"links: {', '.join(vehicle['links'])}",
+    ]
+    lines += [f"joint {_joint(joint)}" for joint in vehicle["joints"]]
+    return lines
+
+
+def _below(surfaces: Sequence[Fields]) -> str:
+    said = [
+        f"{each['name']} {each['distance']:.4g} m down, at {_numbers(each['position'])} m"
+        for each in surfaces
+    ]
+    return "; ".join(said) or "nothing: there is no floor there"
+
+
+def _joint(joint: Fields) -> str:
+    text = f"{joint['name']}: {joint['kind']}"
+    if joint["lower"] is not None:
+        text += f", {joint['lower']:g} to {joint['upper']:g} {joint['unit']}"
+    return text + (f", follows {joint['mimics']}" if joint["mimics"] else "")
+
+
+def _camera(camera: Fields) -> tuple[str, ...]:
+    field = "own matrix" if camera["fovy_deg"] is None else f"{camera['fovy_deg']:g}° high"
+    return (
+        camera["name"],
+        f"{camera['vehicle']}/{camera['link']}",
+        f"{camera['width']}x{camera['height']} px, {field}, noise {camera['std']:g}",
+        ", ".join(camera["topics"]) or "on no topic",
+    )
+
+
+def _object(thing: Fields) -> tuple[str, ...]:
+    return thing["name"], thing["file"], f"at {_numbers(thing['position'])} m", thing["kind"]
+
+
+def _topic(topic: Fields) -> tuple[str, ...]:
+    rate = f" at {topic['rate_hz']:g} Hz" if topic["rate_hz"] else ""
+    what = topic["limit"] or topic["type"] or ""
+    return topic["topic"], f"{topic['direction']}{rate}", what, topic["of"], topic["interface"]
+
+
+def _numbers(values: Sequence[float]) -> str:
+    return "(" + ", ".join(f"{value:.4g}" for value in values) + ")"

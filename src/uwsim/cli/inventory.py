@@ -1,0 +1,217 @@
+"""What is in a scene, as plain values: what ``uwsim info`` prints and ``--json`` gives to programs.
+
+Lengths in metres, angles in radians unless a name says otherwise; places and z are in the file's
+frame L, as everywhere in files and on topics.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..dialect.names import local
+from ..errors import Fault
+from ..scene.not_yet import READ_ONLY, limit_of
+from ..scene.ros_interfaces import INTERFACES, InterfaceSpec
+from ..scene.spec import ObjectSpec, SceneSpec
+from ..scene.urdf import JointSpec
+from ..scene.variation import draw
+from ..scene.vehicle import VehicleSpec
+from ..sensors.virtual_camera import VirtualCameraSpec
+from ..simulation import Simulation
+
+Fields = dict[str, Any]
+
+
+def inventory(scene: SceneSpec, simulation: Simulation, faults: Sequence[Fault]) -> Fields:
+    """Return everything that can be named in a scene, and what of it is not simulated."""
+    notices = [fault.message for fault in faults if fault.severity == "notice"]
+    return {
+        "file": scene.path,
+        "frame": _frame(scene),
+        "water": _water(scene),
+        "vehicles": [_vehicle(scene, i, simulation) for i in range(len(scene.vehicles))],
+        "cameras": [
+            _camera(scene, vehicle, camera)
+            for vehicle in scene.vehicles
+            for camera in vehicle.virtual_cameras
+        ],
+        "objects": [_object(scene, thing) for thing in scene.objects],
+        "topics": _topics(scene, simulation),
+        "services": list(simulation.bus.services),
+        "varies": [
+            {"path": each.path, "unit": each.unit, "drawn_from": each.drawn_from}
+            for each in draw(scene, 0)
+        ],
+        "not_simulated": [said.partition(": ")[2] for said in notices if _is_unsimulated(said)],
+        "notices": [said for said in notices if not _is_unsimulated(said)],
+    }
+
+
+def _is_unsimulated(notice: str) -> bool:
+    return notice.startswith(READ_ONLY)
+
+
+def _frame(scene: SceneSpec) -> Fields:
+    """Which way is up in L, and where L is in W."""
+    up = scene.world_from_localized.rotation[2]  # z of W in L, (3,)
+    axis = int(np.argmax(np.abs(up)))
+    sign = "+" if up[axis] > 0.0 else "-"
+    is_straight = abs(float(up[axis])) > 1.0 - 1e-6
+    return {
+        "up": f"{sign}{'xyz'[axis]}" if is_straight else _rounded(up),
+        "offset": list(scene.sim_params.offsetp),
+        "rotation": list(scene.sim_params.offsetr),
+    }
+
+
+def _water(scene: SceneSpec) -> Fields:
+    ocean = scene.ocean_state
+    surface = np.array([[0.0, 0.0, ocean.ocean_surface_height]])
+    return {
+        "surface_above_origin": _rounded(
+            scene.world_from_localized.inverse().transform(surface)[0]
+        ),
+        "fog_density": ocean.fog.density,
+        "fog_colour": list(ocean.fog.color),
+        "colour": list(ocean.color),
+        "attenuation": list(ocean.attenuation),
+        "currents": [type(current).__name__.removesuffix("Spec") for current in ocean.currents],
+    }
+
+
+def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
+    spec = scene.vehicles[index]
+    robot = simulation.robots[index]
+    actuators = simulation.actuators(spec.name)
+    return {
+        "name": spec.name,
+        "file": spec.file,
+        "position": list(spec.position),
+        "orientation": list(spec.orientation),
+        "dynamics": spec.dynamics,
+        "moves": _moves(scene, spec),
+        "links": [link.name for link in robot.links],
+        "joints": [_joint(joint) for joint in robot.movable],
+        "thrusters": list(actuators.thrusters) if actuators is not None else [],
+        "lamps": len(spec.lamps),
+        "below": _below(scene, spec, simulation),
+    }
+
+
+def _moves(scene: SceneSpec, spec: VehicleSpec) -> str:
+    """How it moves, in a few words."""
+    if spec.dynamics is not None:
+        return f"simulated in water ({spec.dynamics})"
+    if spec.sways:
+        return "sways, kinematically"
+    told = any(
+        getattr(interface, "vehicle_name", None) == spec.name and _listens(interface)
+        for interface in scene.ros_interfaces
+    )
+    return "kinematic: goes where messages put it" if told else "stands still"
+
+
+def _joint(joint: JointSpec) -> Fields:
+    is_limited = joint.kind in ("revolute", "prismatic")
+    return {
+        "name": joint.name,
+        "kind": joint.kind,
+        "lower": joint.lower if is_limited else None,
+        "upper": joint.upper if is_limited else None,
+        "unit": "m" if joint.kind == "prismatic" else "rad",
+        "mimics": joint.mimic.joint if joint.mimic is not None else None,
+    }
+
+
+def _below(scene: SceneSpec, spec: VehicleSpec, simulation: Simulation) -> list[Fields]:
+    """The surfaces below the vehicle's origin, the nearest first: the last one is the floor."""
+    origin = simulation.body(spec.name).world_from_body.position
+    localized_from_world = scene.world_from_localized.inverse()
+    found = []
+    for each in simulation.below(spec.name):
+        place = localized_from_world.transform(np.array([[origin[0], origin[1], each.height]]))[0]
+        distance = float(origin[2]) - each.height
+        found.append({"name": each.name, "distance": distance, "position": _rounded(place)})
+    return found
+
+
+def _rounded(values: npt.NDArray[np.float64]) -> list[float]:
+    """Numbers to a micrometre, and no zero with a sign."""
+    return [round(float(value), 6) + 0.0 for value in values]
+
+
+def _camera(scene: SceneSpec, vehicle: VehicleSpec, camera: VirtualCameraSpec) -> Fields:
+    topics = [
+        interface.image_topic
+        for interface in scene.ros_interfaces
+        if getattr(interface, "camera_name", None) == camera.name
+        and hasattr(interface, "image_topic")
+    ]
+    return {
+        "name": camera.name,
+        "vehicle": vehicle.name,
+        "link": camera.relative_to,
+        "width": camera.resw,
+        "height": camera.resh,
+        "fovy_deg": camera.fovy if camera.parameters is None else None,
+        "std": camera.std,
+        "topics": topics,
+    }
+
+
+def _object(scene: SceneSpec, thing: ObjectSpec) -> Fields:
+    solid = scene.solid_objects.get(scene.objects.index(thing))
+    kind = "seen only" if solid is None else "loose" if solid.is_loose else "solid, fixed"
+    if kind == "loose" and not (scene.things_fall or any(v.dynamics for v in scene.vehicles)):
+        kind = "solid, fixed"
+    return {
+        "name": thing.name,
+        "file": thing.file,
+        "position": list(thing.position),
+        "kind": kind,
+    }
+
+
+def _topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
+    """Every topic of an interface: what it carries, which way, how often."""
+    types: Mapping[str, str] = simulation.bus.topics
+    names = {spec: name for name, spec in INTERFACES.items()}
+    found = []
+    for interface in scene.ros_interfaces:
+        name = names[type(interface)]
+        is_heard = _listens(interface)
+        for field in ("topic", "image_topic", "info_topic"):
+            topic = getattr(interface, field, "")
+            if not topic:
+                continue
+            plain = topic.strip().lstrip("/")
+            found.append(
+                {
+                    "topic": f"/{plain}",
+                    "type": types.get(plain),
+                    "direction": "listens" if is_heard else "publishes",
+                    "rate_hz": None if is_heard else getattr(interface, "rate", None),
+                    "of": _of(interface),
+                    "interface": local(name),
+                    "limit": limit_of("rosInterfaces", name),
+                }
+            )
+    return found
+
+
+def _listens(interface: InterfaceSpec) -> bool:
+    """Whether an interface takes messages; the others give some."""
+    name = type(interface).__name__
+    return name.startswith("ROS")
+
+
+def _of(interface: InterfaceSpec) -> str:
+    """The vehicle, camera or device an interface is about."""
+    for field in ("vehicle_name", "camera_name", "name"):
+        if value := getattr(interface, field, None):
+            return str(value)
+    return ""

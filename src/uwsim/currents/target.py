@@ -1,0 +1,32 @@
+"""A current that one vehicle alone feels, as the original's benchmarks mean it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..world import Flow
+from .current import Array, Current
+
+
+class TargetCurrent(Current):
+    """Another current where its target floats; still water for everything else."""
+
+    def __init__(self, current: Flow, target: str) -> None:
+        self._current, self._target = current, target
+
+    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return the velocity of the water, in L, (n, 3) [m/s]."""
+        return self._own(self._current.velocity(points, time, vehicles), vehicles)
+
+    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
+        """Return the acceleration of the water, in L, (n, 3) [m/s2]."""
+        return self._own(self._current.acceleration(points, time, vehicles), vehicles)
+
+    def _own(self, vectors: Array, vehicles: Sequence[str]) -> Array:
+        """Set to 0 what is not the target's, (n, 3)."""
+        if not vehicles:
+            return np.zeros_like(vectors)
+        vectors[[name != self._target for name in vehicles]] = 0.0
+        return vectors

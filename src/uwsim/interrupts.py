@@ -1,0 +1,47 @@
+"""Ctrl-C in a command: until there is something to keep it ends the process at once.
+
+Python answers Ctrl-C by raising KeyboardInterrupt wherever it happens to be, and while libraries
+are loaded that is inside them: some turn it into another error, some print it and go on. So a
+command begins with `end_at_once`, and says `raise_from_now_on` before it writes its first file.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+STATUS = 130
+"""Exit status of what was interrupted: that of shells."""
+
+
+def end_at_once() -> None:
+    """From now on Ctrl-C ends this process with one line; who ignores it goes on ignoring it."""
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+        signal.signal(signal.SIGINT, _end)
+
+
+def raise_from_now_on() -> None:
+    """From now on Ctrl-C raises KeyboardInterrupt, if it ended the process before."""
+    if signal.getsignal(signal.SIGINT) is _end:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@contextmanager
+def born_deaf() -> Iterator[None]:
+    """Keep Ctrl-C from the processes that are started in this block, for as long as they live.
+
+    For this process it waits until the block is left.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    os.write(2, b"uwsim: interrupted.\n")
+    os._exit(STATUS)

@@ -1,0 +1,286 @@
+"""Small linear algebra with the same bytes on every processor.
+
+BLAS and LAPACK, which numpy's ``@``, ``dot`` and ``linalg`` call, choose their code by the
+processor: two machines add in different orders, and tracked for minutes such a difference of 1e-16
+becomes one of a pixel. Whatever makes numbers of a result multiplies and solves here, in loops
+whose order is written down; ``tests/test_same_bytes.py`` names who may still call the others.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from .jit import njit
+
+Array = npt.NDArray[np.float64]
+SWEEPS = 60
+"""Of Jacobi's method, which needs ten at most."""
+
+
+def product(left: npt.ArrayLike, right: npt.ArrayLike) -> Array:
+    """``left @ right``: matrices, vectors, and stacks of matrices along the first axis."""
+    a = np.ascontiguousarray(left, dtype=np.float64)
+    b = np.ascontiguousarray(right, dtype=np.float64)
+    if a.ndim == 1:
+        return product(b.swapaxes(-1, -2), a)
+    if a.shape[-1] != b.shape[-2 if b.ndim > 1 else 0]:
+        raise ValueError(f"{a.shape} and {b.shape} cannot be multiplied")
+    if a.ndim == 2 and b.ndim == 2:
+        return _matrices(a, b)
+    if b.ndim == 3:
+        return _stacks(a[None] if a.ndim == 2 else a, b)
+    columns = b[:, None] if b.ndim == 1 else b
+    found = _matrices(a.reshape(math.prod(a.shape[:-1]), a.shape[-1]), columns)
+    return found.reshape(a.shape[:-1] + b.shape[1:])
+
+
+def turned(rotation: Array, vector: Array) -> Array:
+    """``rotation @ vector`` for (3, 3) and (3,), quickly."""
+    return _turned(rotation, vector)
+
+
+def turned_back(rotation: Array, vector: Array) -> Array:
+    """``rotation.T @ vector`` for (3, 3) and (3,), quickly."""
+    return _turned_back(rotation, vector)
+
+
+def dot(left: Array, right: Array) -> float:
+    """Sum of the products of two vectors' components, first to last."""
+    total = 0.0
+    for x, y in zip(left.tolist(), right.tolist(), strict=True):
+        total += x * y
+    return total
+
+
+def length(vector: npt.ArrayLike) -> float:
+    """Euclidean length of a vector."""
+    components = np.asarray(vector, dtype=np.float64)
+    return math.sqrt(dot(components, components))
+
+
+def determinant(matrix: Array) -> float:
+    """Of a matrix (3, 3)."""
+    return float(determinants(matrix[None])[0])
+
+
+def determinants(matrices: Array) -> Array:
+    """Of matrices (n, 3, 3), (n,)."""
+    (a, b, c), (d, e, f), (g, h, i) = matrices.transpose(1, 2, 0)
+    found: Array = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    return found
+
+
+def solve(matrix: Array, right: Array) -> Array:
+    """Return x of ``matrix @ x = right`` for (n, n) and (n,) or (n, m), by elimination.
+
+    Raises:
+        numpy.linalg.LinAlgError: the matrix is singular.
+    """
+    columns = right if right.ndim == 2 else right[:, None]
+    found, is_regular = _solved(matrix.astype(np.float64), columns.astype(np.float64))
+    if not is_regular:
+        raise np.linalg.LinAlgError("Singular matrix")
+    return found if right.ndim == 2 else found[:, 0]
+
+
+def inverse(matrix: Array) -> Array:
+    """Of a matrix (n, n), or of each of a stack (..., n, n).
+
+    Raises:
+        numpy.linalg.LinAlgError: one is singular.
+    """
+    stack = np.array(matrix, dtype=np.float64, ndmin=3)
+    found, are_regular = _inverses(stack.reshape(-1, *matrix.shape[-2:]))
+    if not are_regular:
+        raise np.linalg.LinAlgError("Singular matrix")
+    return found.reshape(matrix.shape)
+
+
+def singular_values(matrix: Array) -> Array:
+    """Of a matrix (m, n), largest first, (min(m, n),)."""
+    return _decomposed(matrix)[1]
+
+
+def rank(matrix: Array) -> int:
+    """How many singular values are more than rounding, as numpy counts them."""
+    values = singular_values(matrix)
+    least = values.max(initial=0.0) * max(matrix.shape) * np.finfo(np.float64).eps
+    return int(np.sum(values > least))
+
+
+def pseudo_inverse(matrix: Array, *, rcond: float) -> Array:
+    """Moore-Penrose inverse (n, m) of a matrix (m, n).
+
+    Singular values up to ``rcond`` times the largest count as zero.
+    """
+    left, values, right = _decomposed(matrix)
+    kept = values > rcond * values.max(initial=0.0)
+    return product(right[:, kept] / values[kept], left[:, kept].T)
+
+
+def _decomposed(matrix: Array) -> tuple[Array, Array, Array]:
+    """``matrix = left @ diag(values) @ right.T`` by Jacobi's one-sided method (Hestenes 1958)."""
+    is_wide = matrix.shape[0] < matrix.shape[1]
+    tall = np.array(matrix.T if is_wide else matrix, dtype=np.float64, order="C")
+    turn = np.eye(tall.shape[1])
+    _turn_until_orthogonal(tall, turn)
+    values = np.linalg.norm(tall, axis=0)
+    order = np.argsort(-values, kind="stable")
+    values, tall, turn = values[order], tall[:, order], turn[:, order]
+    first = np.divide(tall, values, out=np.zeros_like(tall), where=values > 0.0)
+    return (turn, values, first) if is_wide else (first, values, turn)
+
+
+@njit
+def _matrices(a: Array, b: Array) -> Array:
+    """Row by row; the loop inside is along the rows of ``b`` where these are long."""
+    found = np.zeros((a.shape[0], b.shape[1]))
+    if b.shape[1] > 3:
+        for i in range(a.shape[0]):
+            for j in range(a.shape[1]):
+                for k in range(b.shape[1]):
+                    found[i, k] += a[i, j] * b[j, k]
+        return found
+    for i in range(a.shape[0]):
+        for k in range(b.shape[1]):
+            total = 0.0
+            for j in range(a.shape[1]):
+                total += a[i, j] * b[j, k]
+            found[i, k] = total
+    return found
+
+
+@njit
+def _stacks(a: Array, b: Array) -> Array:
+    """Products of (n, i, j) and (n, j, k); either may be one for all, with n = 1."""
+    n = max(a.shape[0], b.shape[0])
+    found = np.empty((n, a.shape[1], b.shape[2]))
+    for m in range(n):
+        one = a[m if a.shape[0] > 1 else 0]
+        other = b[m if b.shape[0] > 1 else 0]
+        for i in range(one.shape[0]):
+            for k in range(other.shape[1]):
+                total = 0.0
+                for j in range(one.shape[1]):
+                    total += one[i, j] * other[j, k]
+                found[m, i, k] = total
+    return found
+
+
+@njit
+def _turned(rotation: Array, vector: Array) -> Array:
+    found = np.empty(3)
+    for i in range(3):
+        found[i] = (
+            rotation[i, 0] * vector[0] + rotation[i, 1] * vector[1] + rotation[i, 2] * vector[2]
+        )
+    return found
+
+
+@njit
+def _turned_back(rotation: Array, vector: Array) -> Array:
+    found = np.empty(3)
+    for i in range(3):
+        found[i] = (
+            rotation[0, i] * vector[0] + rotation[1, i] * vector[1] + rotation[2, i] * vector[2]
+        )
+    return found
+
+
+@njit
+def composed(turn_a: Array, shift_a: Array, turn_b: Array, shift_b: Array) -> tuple[Array, Array]:
+    """Shift and turn of ``a_from_b @ b_from_c``, from those of both."""
+    turn, shift = np.empty((3, 3)), np.empty(3)
+    for i in range(3):
+        x, y, z = turn_a[i, 0], turn_a[i, 1], turn_a[i, 2]
+        for k in range(3):
+            turn[i, k] = x * turn_b[0, k] + y * turn_b[1, k] + z * turn_b[2, k]
+        shift[i] = x * shift_b[0] + y * shift_b[1] + z * shift_b[2] + shift_a[i]
+    return shift, turn
+
+
+@njit
+def placed(points: Array, rotation: Array, position: Array) -> Array:
+    """``points @ rotation.T + position`` for (n, 3)."""
+    found = np.empty((points.shape[0], 3))
+    for n in range(points.shape[0]):
+        x, y, z = points[n, 0], points[n, 1], points[n, 2]
+        for i in range(3):
+            found[n, i] = rotation[i, 0] * x + rotation[i, 1] * y + rotation[i, 2] * z + position[i]
+    return found
+
+
+@njit
+def _solved(a: Array, b: Array) -> tuple[Array, bool]:
+    """Eliminate with partial pivoting; overwrites both, returns the solution in ``b``."""
+    n, m = b.shape
+    for column in range(n):
+        pivot = column
+        for row in range(column + 1, n):
+            if abs(a[row, column]) > abs(a[pivot, column]):
+                pivot = row
+        if a[pivot, column] == 0.0:
+            return b, False
+        for k in range(n):
+            a[column, k], a[pivot, k] = a[pivot, k], a[column, k]
+        for k in range(m):
+            b[column, k], b[pivot, k] = b[pivot, k], b[column, k]
+        for row in range(column + 1, n):
+            factor = a[row, column] / a[column, column]
+            for k in range(column, n):
+                a[row, k] -= factor * a[column, k]
+            for k in range(m):
+                b[row, k] -= factor * b[column, k]
+    for column in range(n - 1, -1, -1):
+        for k in range(m):
+            for row in range(column + 1, n):
+                b[column, k] -= a[column, row] * b[row, k]
+            b[column, k] /= a[column, column]
+    return b, True
+
+
+@njit
+def _inverses(matrices: Array) -> tuple[Array, bool]:
+    """Of each of (n, k, k); overwrites them."""
+    found, are_regular = np.empty(matrices.shape), True
+    for i in range(matrices.shape[0]):
+        inverted, is_regular = _solved(matrices[i], np.eye(matrices.shape[1]))
+        found[i] = inverted
+        are_regular = are_regular and is_regular
+    return found, are_regular
+
+
+@njit
+def _turn_until_orthogonal(a: Array, turn: Array) -> None:
+    """Turn pairs of columns of ``a`` (m, n), and of ``turn`` (n, n) alike, until all are."""
+    m, n = a.shape
+    for _ in range(SWEEPS):
+        is_done = True
+        for i in range(n - 1):
+            for j in range(i + 1, n):
+                of_i, of_j, both = 0.0, 0.0, 0.0
+                for k in range(m):
+                    of_i += a[k, i] * a[k, i]
+                    of_j += a[k, j] * a[k, j]
+                    both += a[k, i] * a[k, j]
+                if abs(both) <= 1e-15 * math.sqrt(of_i * of_j):
+                    continue
+                is_done = False
+                zeta = (of_j - of_i) / (2.0 * both)
+                sign = 1.0 if zeta >= 0.0 else -1.0
+                tangent = sign / (abs(zeta) + math.sqrt(1.0 + zeta * zeta))
+                cosine = 1.0 / math.sqrt(1.0 + tangent * tangent)
+                sine = cosine * tangent
+                for k in range(m):
+                    first = a[k, i]
+                    a[k, i] = cosine * first - sine * a[k, j]
+                    a[k, j] = sine * first + cosine * a[k, j]
+                for k in range(n):
+                    first = turn[k, i]
+                    turn[k, i] = cosine * first - sine * turn[k, j]
+                    turn[k, j] = sine * first + cosine * turn[k, j]
+        if is_done:
+            return

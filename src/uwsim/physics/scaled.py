@@ -1,0 +1,58 @@
+r"""A vehicle's ``scaleFactor``: what a scale above the tree of links does to all below it.
+
+The original scales the vehicle as a whole, L_T_B = T R S, so that a point p of a link K stands at
+
+.. math:: W_T_B\; S\; B_T_K\; p
+
+The origins of links move by S, and so do what is mounted on them and their shapes; a mesh is
+stretched along the axes of the base, which shears it where S is uneven and the link lies askew. A
+frame has no stretch: it stands at the scaled place and turns as it did. Joints keep their values.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from ..geometry import Array, Pose, rotation_from_rpy
+from ..linear import length, product, turned, turned_back
+from ..scene.kinematics import joint_positions, link_poses
+from ..scene.urdf import RobotSpec
+from .compile import vehicle_body
+
+Triple = tuple[float, float, float]
+
+
+class ScaledLinks:
+    """The links of one scaled vehicle in the engine: they stand apart as its joints turn.
+
+    Args:
+        model: of the scene; where the links stand on each other is changed here.
+        robot: the vehicle's.
+        index: the vehicle's number.
+        scale: along the axes of its base [1].
+    """
+
+    def __init__(self, model: mujoco.MjModel, robot: RobotSpec, index: int, scale: Triple) -> None:
+        self._model, self._robot, self._scale = model, robot, np.array(scale)
+        self._bodies = {
+            link.name: model.body(vehicle_body(index, link.name)).id for link in robot.links
+        }
+
+    def follow(self, values: Array) -> None:
+        """Put every link where the scale puts it, for a joint vector (n,) [rad or m]."""
+        poses = link_poses(self._robot, values.tolist())
+        positions = joint_positions(self._robot, values.tolist())
+        for joint in self._robot.joints:
+            parent, child = poses[joint.parent], poses[joint.child]
+            apart = turned_back(parent.rotation, self._scale * (child.position - parent.position))
+            if joint.kind == "prismatic":  # the engine adds the slide
+                axis = np.array(joint.axis) / length(joint.axis)
+                apart -= turned(rotation_from_rpy(*joint.rpy), axis) * positions[joint.name]
+            self._model.body_pos[self._bodies[joint.child]] = apart
+
+
+def stretched_axes(world_from_base: Pose, world_from_link: Pose, scale: Triple) -> Array:
+    """Axes of a link in W with the vehicle's scale in them, as columns, (3, 3)."""
+    turn = world_from_base.rotation
+    return product(turn * np.array(scale), product(turn.T, world_from_link.rotation))

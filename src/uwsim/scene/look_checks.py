@@ -1,0 +1,88 @@
+"""Where cameras look, in words; and sensors that seem to be mounted as before July 2014."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+
+from ..dialect import Faults, uses_extensions
+from ..sensors.sensor import Mounted
+from ..sensors.virtual_camera import VirtualCameraSpec
+from ..sensors.virtual_range_image import VirtualRangeImageSpec
+from .mounts import Stand, in_words
+from .spec import SceneSpec
+from .urdf import RobotSpec
+from .vehicle import VehicleSpec
+
+STEEP = 0.5
+"""What looks higher looks up: sine of the angle above the horizon."""
+
+
+def check_looks(scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Faults) -> None:
+    """Say where the cameras of a scene look.
+
+    Args:
+        scene: the scene.
+        robots: the robot of each vehicle that has one, by its number in the scene.
+        faults: where to say it; it remembers the elements of the specs.
+    """
+    for index, robot in robots.items():
+        vehicle = scene.vehicles[index]
+        stand = Stand(vehicle, robot, scene.world_from_localized)
+        for spec in looking(vehicle):
+            if spec.look_at is not None and any(spec.orientation):
+                said = "its <orientation> is not used: <u:lookAt> says where it looks"
+                faults.notice(faults.node_of(spec), f"{_called(spec)}: {said}")
+            is_camera = isinstance(spec, VirtualCameraSpec | VirtualRangeImageSpec)
+            if is_camera and robot.link(spec.relative_to) is not None:
+                faults.notice(faults.node_of(spec), f"{_called(spec)} {_looks(spec, stand)}")
+        if not uses_extensions(scene):
+            _check_age(stand, faults)
+    cameras = [spec.name for vehicle in scene.vehicles for spec in vehicle.virtual_cameras]
+    for name, count in Counter(cameras).items():
+        if count > 1:
+            faults.notice(None, f"{count} cameras are called {name!r}; searches find the first")
+
+
+def looking(vehicle: VehicleSpec) -> Iterator[Mounted]:
+    """Everything on a vehicle that looks somewhere."""
+    yield from vehicle.virtual_cameras
+    yield from vehicle.virtual_range_images
+    yield from vehicle.structured_light_projectors
+    yield from vehicle.range_sensors
+    yield from vehicle.multibeam_sensors
+    yield from vehicle.profiling_sonars
+    yield from vehicle.object_pickers
+    yield from vehicle.lamps
+
+
+def _looks(spec: Mounted, stand: Stand) -> str:
+    ahead, top = stand.looks(spec)
+    words = stand.directions
+    return f"looks {in_words(ahead, words)}; the top of its picture is {in_words(top, words)}"
+
+
+def _called(spec: Mounted) -> str:
+    return repr(str(getattr(spec, "name", "")))
+
+
+def _check_age(stand: Stand, faults: Faults) -> None:
+    """Until July 2014 sensors hung on visual frames: those on turned ones may now look up."""
+    turned: list[Mounted] = []
+    n_right = 0
+    for spec in looking(stand.vehicle):
+        if spec in stand.vehicle.object_pickers or stand.robot.link(spec.relative_to) is None:
+            continue
+        is_up, was_up = (
+            float(stand.looks(spec, visual=visual)[0][2]) > STEEP for visual in (False, True)
+        )
+        if is_up and not was_up:
+            turned.append(spec)
+        n_right += was_up and not is_up
+    if len(turned) > n_right:
+        names = ", ".join(_called(spec) for spec in turned[:5])
+        faults.notice(
+            faults.node_of(turned[0]),
+            f"looking up from links whose visual frames are turned: {names}. Before July 2014 "
+            "sensors hung on visual frames; if this scene is that old, use --compat visual-frames",
+        )

@@ -1,0 +1,152 @@
+"""Where sensors and devices stand on their links, and where they look.
+
+A mount is fixed: ``<u:lookAt>`` is worked out once, for the vehicle where the file puts it and its
+joints as the file says, and then moves with its link as ``<orientation>`` would.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..devices.object_picker import ObjectPickerSpec
+from ..geometry import Array, Pose
+from ..linear import dot, length, product, turned, turned_back
+from ..sensors.range_sensor import RangeSensorSpec
+from ..sensors.sensor import LookAt, Mounted
+from .kinematics import link_poses
+from .urdf import RobotSpec
+from .vehicle import VehicleSpec
+
+ALONG_X = (RangeSensorSpec, ObjectPickerSpec)
+"""These look along +x, the others along -z."""
+STRAIGHT = 1e-3
+"""Sine of the angle to the vertical below which a camera looks straight up or down."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stand:
+    """A vehicle where its file puts it: what mounts are worked out from.
+
+    Args:
+        vehicle: what the file says.
+        robot: its links and joints.
+        world_from_localized: the scene's offset.
+    """
+
+    vehicle: VehicleSpec
+    robot: RobotSpec
+    world_from_localized: Pose
+
+    @property
+    def world_from_base(self) -> Pose:
+        """Where its base is, without its scale."""
+        return self.world_from_localized @ self.vehicle.localized_from_base
+
+    @property
+    def directions(self) -> dict[str, Array]:
+        """Unit vectors in W of what the words mean: each is one of the base's axes.
+
+        Forward is +x. Down is +z or -z, whichever of them points down as the vehicle stands, so
+        that the words hold for bases with z down and with z up.
+        """
+        axes = self.world_from_base.rotation
+        forward = axes[:, 0]
+        down = axes[:, 2] if axes[2, 2] < 0.0 else -axes[:, 2]
+        starboard = np.cross(down, forward)
+        return {
+            "forward": forward,
+            "aft": -forward,
+            "starboard": starboard,
+            "port": -starboard,
+            "down": down,
+            "up": -down,
+        }
+
+    def world_from_link(self, link: str, *, visual: bool = False) -> Pose:
+        """Where a link is, without any scale; its visual frame if asked for."""
+        poses = link_poses(self.robot, self.vehicle.joint_values)
+        return self.world_from_base @ poses[link] @ link_from_frame(self.robot, link, visual)
+
+    def frame_from_mounted(self, spec: Mounted, *, visual: bool = False) -> Pose:
+        """Where it stands in its link's frame, or in the link's visual frame.
+
+        Raises:
+            KeyError: there is no such link.
+        """
+        if spec.look_at is None:
+            return Pose.from_rpy(spec.position, spec.orientation)
+        world_from_frame = self.world_from_link(spec.relative_to, visual=visual)
+        eye = world_from_frame.transform(np.array([spec.position]))[0]  # W, without scale
+        base = self.world_from_base
+        scale = np.array(self.vehicle.scale_factor)
+        own = turned_back(base.rotation, eye - base.position)
+        placed = base.position + turned(base.rotation, scale * own)
+        ahead, top = self._view(placed, spec.look_at)
+        looks = axes_along_x(ahead, top) if isinstance(spec, ALONG_X) else camera_axes(ahead, top)
+        return Pose(np.array(spec.position), product(world_from_frame.rotation.T, looks))
+
+    def looks(self, spec: Mounted, *, visual: bool = False) -> tuple[Array, Array]:
+        """Unit vectors in W: where it looks, and the top of its picture, (3,) each."""
+        frame = self.world_from_link(spec.relative_to, visual=visual).rotation
+        axes = product(frame, self.frame_from_mounted(spec, visual=visual).rotation)
+        return (axes[:, 0], axes[:, 2]) if isinstance(spec, ALONG_X) else (-axes[:, 2], axes[:, 1])
+
+    def _view(self, eye: Array, look_at: LookAt) -> tuple[Array, Array]:
+        """Where to look and what is up there, in W, (3,) each."""
+        words = self.directions
+        if isinstance(look_at, str):
+            ahead = words[look_at]
+            return ahead, _top(look_at, words)
+        point = self.world_from_localized.transform(np.array([look_at]))[0]
+        apart = point - eye
+        distance = length(apart)
+        if distance == 0.0:
+            return words["forward"], words["up"]
+        ahead = apart / distance
+        if math.hypot(*ahead[:2].tolist()) < STRAIGHT:
+            return ahead, _top("up" if ahead[2] > 0.0 else "down", words)
+        return ahead, np.array([0.0, 0.0, 1.0])
+
+
+def link_from_frame(robot: RobotSpec, link: str, visual: bool) -> Pose:
+    """The frame in which something stands on a link: the link's own, or its visual one."""
+    found = robot.link(link)
+    if not visual or found is None or found.visual is None:
+        return Pose.identity()
+    return Pose.from_rpy(found.visual.position, found.visual.rpy)
+
+
+def camera_axes(ahead: Array, top: Array) -> Array:
+    """Axes of a camera, as columns, (3, 3): it looks along -z, up in its picture is ``top``."""
+    right = np.cross(ahead, top)
+    if length(right) < STRAIGHT:  # the top is where it looks: any other will do
+        right = np.cross(ahead, np.eye(3)[int(np.argmin(np.abs(ahead)))])
+    right /= length(right)
+    return np.column_stack([right, np.cross(right, ahead), -ahead])
+
+
+def axes_along_x(ahead: Array, top: Array) -> Array:
+    """Axes of what looks along +x, as columns, (3, 3); ``top`` is on the side of +z."""
+    right, up, _ = camera_axes(ahead, top).T
+    return np.column_stack([ahead, -right, up])
+
+
+def _top(word: str, words: dict[str, Array]) -> Array:
+    """The top of the picture of a camera that is nodded from forward to where it looks."""
+    return words[{"down": "forward", "up": "aft"}.get(word, "up")]
+
+
+def in_words(ahead: Array, directions: dict[str, Array]) -> str:
+    """Where a unit vector points: ``down``, ``down, 2 deg off`` or ``between down and port``."""
+    angles = {
+        word: math.degrees(math.acos(min(max(dot(ahead, axis), -1.0), 1.0)))
+        for word, axis in directions.items()
+    }
+    first, second = sorted(angles, key=lambda word: angles[word])[:2]
+    off = round(angles[first])
+    if off == 0:
+        return first
+    return f"{first}, {off} deg off" if off <= 30 else f"between {first} and {second}"

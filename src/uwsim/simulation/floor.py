@@ -1,0 +1,190 @@
+"""What says ``<u:onFloor>`` is set on the ground before anything else is done with a scene.
+
+The ground is every object that stands fixed and can be touched, and ``terrain`` in any case; what
+is set on the ground carries nothing itself. A vehicle touches it with the boxes of its links, its
+joints as the file says; an object with its collision shape, without ``<physics>`` with the hulls of
+its mesh's materials.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import Fault, SceneError
+from ..geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
+from ..linear import length, product
+from ..physics.compile import object_body
+from ..physics.ground import Ground, triangles_of
+from ..scene.kinematics import link_poses
+from ..scene.on_floor import OnFloorSpec
+from ..scene.spec import ObjectSpec, PhysicsSpec, SceneSpec
+from ..scene.urdf import RobotSpec
+from ..scene.vehicle import VehicleSpec
+from .collision_shapes import collision_shapes, standing_faces
+from .scene_lines import SceneLines
+
+HULL = PhysicsSpec(collision_shape_type="trimesh")
+"""What an object without ``<physics>`` stands on: the hulls of its materials."""
+
+
+def set_on_floor(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
+) -> SceneSpec:
+    """Return the scene with everything that says ``u:onFloor`` in its place.
+
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle, by its number.
+        data_path: folders in which files are looked for.
+
+    Raises:
+        SceneError: there is no ground under something; with every such place.
+    """
+    if not scene.stands_on_floor:
+        return scene
+    floor = Floor(scene, robots, data_path)
+    faults: list[Fault] = []
+    vehicles, objects = list(scene.vehicles), list(scene.objects)
+    for i, vehicle in enumerate(vehicles):
+        if vehicle.on_floor is not None and i in robots:
+            placed = floor.pose_of_vehicle(i, vehicle, vehicle.on_floor)
+            if placed is None:
+                faults.append(floor.nothing_under("vehicle", i, vehicle.name, vehicle.position))
+            else:
+                vehicles[i] = _moved_vehicle(vehicle, placed)
+    for i, thing in enumerate(objects):
+        if thing.on_floor is not None:
+            placed = floor.pose_of_object(i, thing, thing.on_floor)
+            if placed is None:
+                faults.append(floor.nothing_under("object", i, thing.name, thing.position))
+            else:
+                objects[i] = _moved_object(thing, placed)
+    if faults:
+        raise SceneError(faults)
+    return replace(scene, vehicles=tuple(vehicles), objects=tuple(objects))
+
+
+def ground_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> Ground:
+    """What carries in a scene."""
+    faces = [np.zeros((0, 3, 3))]
+    for i, thing in enumerate(scene.objects):
+        is_fixed = thing.is_touched(in_water=True) and not thing.solid.is_loose
+        if thing.on_floor is None and (is_fixed or thing.is_ground):
+            faces.append(standing_faces(scene, i, thing.solid, data_path))
+    return Ground(np.concatenate(faces))
+
+
+class Floor:
+    """The ground of a scene, and what stands on it.
+
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle, by its number.
+        data_path: folders in which files are looked for.
+    """
+
+    def __init__(
+        self, scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
+    ) -> None:
+        self._scene, self._robots, self._data_path = scene, robots, data_path
+        self._lines = SceneLines(scene)
+        self.ground = ground_of(scene, data_path)
+
+    def body_of_vehicle(self, index: int, world_from_base: Pose) -> Array:
+        """The boxes of a vehicle's links, (n, 3, 3) [m]; n is 0 where it has no shape."""
+        robot, vehicle = self._robots[index], self._scene.vehicles[index]
+        shapes = collision_shapes(self._scene, self._robots, [index], {}, self._data_path)
+        poses = link_poses(robot, vehicle.joint_values)
+        found = [np.zeros((0, 3, 3))]
+        for name, parts in shapes.items():
+            pose = poses[name.split("/", 2)[2]]
+            scaled = Pose(np.array(vehicle.scale_factor) * pose.position, pose.rotation)
+            found.append(triangles_of(parts, world_from_base @ scaled))
+        return np.concatenate(found)
+
+    def body_of_object(self, index: int, world_from_object: Pose) -> Array:
+        """The shape with which an object stands, (n, 3, 3) [m]."""
+        usual = PhysicsSpec() if self._scene.is_original_physics else HULL
+        given = self._scene.objects[index].physics or usual
+        physics = PhysicsSpec(
+            collision_shape_type=given.collision_shape_type, collision_shape=given.collision_shape
+        )  # loose, so that a trimesh is its hull
+        shapes = collision_shapes(self._scene, self._robots, [], {index: physics}, self._data_path)
+        return triangles_of(shapes[object_body(index)], world_from_object)
+
+    def pose_of_vehicle(self, index: int, vehicle: VehicleSpec, spec: OnFloorSpec) -> Pose | None:
+        """``localized_from_base`` on the ground; None where there is none."""
+        world_from_base = self._scene.world_from_localized @ vehicle.localized_from_base
+        body = self.body_of_vehicle(index, world_from_base)
+        return self._set_down(world_from_base, body, spec)
+
+    def pose_of_object(self, index: int, thing: ObjectSpec, spec: OnFloorSpec) -> Pose | None:
+        """``localized_from_object`` on the ground; None where there is none."""
+        world_from_object = self._scene.world_from_localized @ thing.localized_from_object
+        body = self.body_of_object(index, world_from_object)
+        return self._set_down(world_from_object, body, spec)
+
+    def _set_down(self, world_from_body: Pose, body: Array, spec: OnFloorSpec) -> Pose | None:
+        """The pose on the ground, in L.
+
+        Args:
+            world_from_body: where the file puts it.
+            body: its triangles there, (n, 3, 3) [m]; none: its origin alone.
+            spec: how it stands.
+        """
+        origin = world_from_body.position
+        if not len(body):
+            body = np.broadcast_to(origin, (1, 3, 3))
+        if spec.align_to_slope:
+            turn = _upright_to(self.ground.normal(body))
+            body = product(body - origin, turn.T) + origin
+            world_from_body = Pose(origin, product(turn, world_from_body.rotation))
+        rise = self.ground.rise(body)
+        if rise is None:
+            return None
+        lifted = origin + np.array([0.0, 0.0, rise + spec.clearance])
+        placed = Pose(lifted, world_from_body.rotation)
+        return self._scene.world_from_localized.inverse() @ placed
+
+    def nothing_under(
+        self, element: str, index: int, name: str, position: tuple[float, float, float]
+    ) -> Fault:
+        """Say that there is no ground."""
+        x, y, _ = position
+        have = "no ground in this scene" if not len(self.ground) else "none there"
+        return self._lines.fault(
+            f"<u:onFloor>: no ground under the {element} {name!r} at x {x:g}, y {y:g} of the "
+            f"file's frame; there is {have}: an object called 'terrain', or one with <u:solid> 1",
+            element,
+            index,
+            "u:onFloor",
+        )
+
+
+def _upright_to(normal: Array) -> Array:
+    """The smallest turn that takes z to a normal that points up, (3, 3)."""
+    axis = np.cross([0.0, 0.0, 1.0], normal)
+    sine = length(axis)
+    if sine < 1e-12:
+        return np.eye(3)
+    return rotation_about(axis, math.atan2(sine, normal[2]))
+
+
+def _moved_vehicle(vehicle: VehicleSpec, localized_from_base: Pose) -> VehicleSpec:
+    x, y, z = localized_from_base.position.tolist()
+    if vehicle.on_floor is not None and vehicle.on_floor.align_to_slope:
+        angles = xyz_from_rotation(localized_from_base.rotation)
+        vehicle = replace(vehicle, orientation=angles)
+    return replace(vehicle, position=(x, y, z), on_floor=None)
+
+
+def _moved_object(thing: ObjectSpec, localized_from_object: Pose) -> ObjectSpec:
+    x, y, z = localized_from_object.position.tolist()
+    if thing.on_floor is not None and thing.on_floor.align_to_slope:
+        thing = replace(thing, orientation=rpy_from_rotation(localized_from_object.rotation))
+    return replace(thing, position=(x, y, z), on_floor=None)

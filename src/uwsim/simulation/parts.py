@@ -1,0 +1,145 @@
+"""The models of a scene, each with whose it is and where it sits on that."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..assets import load_model, painted, primitive, unknown_model
+from ..assets.mesh import Model
+from ..assets.weathering import weathered
+from ..errors import AssetNotFound
+from ..geometry import Pose
+from ..linear import product
+from ..scene.spec import ObjectSpec, SceneSpec
+from ..scene.urdf import RobotSpec, VisualSpec
+
+THINNEST = 1e-4
+"""Least edge of a box, cylinder or sphere; robot files have some without any thickness [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One model of the scene and whose it is."""
+
+    id: int
+    """Number in segmentation pictures, from 1."""
+    name: str
+    """``vehicle/link`` or the object's name."""
+    model: Model
+    vehicle: int | None
+    """Number of the vehicle; None for an object."""
+    link: str
+    """Link of the vehicle; empty for an object."""
+    object: int | None
+    """Number of the object; None for a link."""
+    frame_from_mesh: npt.NDArray[np.float64]
+    """Mesh frame in the link's or object's frame, (4, 4) [m]; the scale of an object or of a mesh
+    is in it, that of a vehicle is not."""
+    is_hidden: bool
+    """Ghosts (``vr``) are seen in the viewer, not by virtual cameras."""
+
+
+def parts_of(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
+) -> list[Part]:
+    """All that is seen of a scene: what shows one link or object has one number and one name."""
+    parts: list[Part] = []
+    number = 0
+    for index, vehicle in enumerate(scene.vehicles):
+        robot = robots[index]
+        for link in robot.links:
+            number += bool(link.visuals)
+            for visual in link.visuals:
+                model, link_from_mesh = placed_visual(visual, Path(robot.path).parent, data_path)
+                parts.append(
+                    Part(
+                        id=number,
+                        name=f"{vehicle.name}/{link.name}",
+                        model=model,
+                        vehicle=index,
+                        link=link.name,
+                        object=None,
+                        frame_from_mesh=link_from_mesh,
+                        is_hidden=bool(vehicle.vr),
+                    )
+                )
+    beside = Path(scene.path).parent if scene.path else None
+    for index, thing in enumerate(scene.objects):
+        number += 1
+        parts.append(
+            Part(
+                id=number,
+                name=thing.name,
+                model=_worn(object_model(thing.file, scene, beside, data_path), thing),
+                vehicle=None,
+                link="",
+                object=index,
+                frame_from_mesh=product(
+                    np.diag([*thing.scale_factor, 1.0]), thing.object_from_mesh.matrix
+                ),
+                is_hidden=False,
+            )
+        )
+    return parts
+
+
+def _worn(model: Model, thing: ObjectSpec) -> Model:
+    """An object's model with the clouds that the scene wants on it."""
+    weathering = thing.weathering
+    if weathering is None:
+        return model
+    return weathered(model, weathering.pattern, weathering.strength)
+
+
+def placed_visual(
+    visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]
+) -> tuple[Model, npt.NDArray[np.float64]]:
+    """Return the model of a shape of a link and ``link_from_mesh`` with its scale, (4, 4) [m]."""
+    model, scale = visual_model(visual, beside, data_path)
+    link_from_visual = Pose.from_rpy(visual.position, visual.rpy).matrix
+    return model, product(link_from_visual, np.diag([*scale, 1.0]))
+
+
+def visual_model(
+    visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]
+) -> tuple[Model, tuple[float, float, float]]:
+    """Load or make what a shape of a link looks like, in its colour; and the scale of its mesh.
+
+    A mesh that is nowhere is a labelled box of a size of its own.
+    """
+    scale = visual.scale
+    if visual.kind == "mesh":
+        try:
+            model = load_model(visual.file, beside=beside, data_path=data_path)
+        except AssetNotFound:  # `uwsim check` says so
+            return unknown_model(visual.file), (1.0, 1.0, 1.0)
+    else:
+        wide, deep, tall = (max(edge, THINNEST) for edge in visual.size)
+        sizes = {"cylinder": (0.5 * wide, tall), "sphere": (0.5 * wide,)}
+        model = primitive(visual.kind, sizes.get(visual.kind, (wide, deep, tall)))
+    return (model if visual.colour is None else painted(model, visual.colour)), scale
+
+
+def object_model(
+    name: str,
+    scene: SceneSpec,
+    beside: Path | None,
+    data_path: tuple[Path, ...],
+    *,
+    max_triangles: int | None = None,
+) -> Model:
+    """Load what an object looks like; in a scene of the original a labelled box if need be.
+
+    A file of more than ``max_triangles`` is simplified to about as many.
+    """
+    try:
+        return load_model(name, beside=beside, data_path=data_path, max_triangles=max_triangles)
+    except AssetNotFound:
+        if not scene.is_original:
+            raise
+        return unknown_model(name)

@@ -1,0 +1,38 @@
+"""Everything wrong, or worth asking about, with what of a scene is simulated."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from pathlib import Path
+
+from ..errors import Fault, SceneError, UwsimError
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec
+from ..scene.urdf_reader import read_urdf
+from .bodies import find_robot
+from .dynamics import Search
+from .floor import set_on_floor
+from .thrust_warnings import thrust_warnings
+
+
+def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Fault]:
+    """Hold what of a scene is simulated against everything that is known about it.
+
+    Args:
+        scene: what the file says.
+        data_path: folders in which files are looked for.
+    """
+    robots: dict[int, RobotSpec] = {}
+    for index, vehicle in enumerate(scene.vehicles):
+        with suppress(UwsimError):  # said where robots are checked
+            if vehicle.dynamics is not None or vehicle.on_floor is not None:
+                robots[index] = read_urdf(find_robot(vehicle.file, scene.path, data_path))
+    search = Search(scene, robots, data_path, is_thorough=True)
+    found = [*search.found, *thrust_warnings(scene, robots, search.dynamics)]
+    try:
+        set_on_floor(scene, robots, data_path)
+    except SceneError as error:
+        found += error.faults
+    except UwsimError:  # said where robots and models are checked
+        pass
+    return found

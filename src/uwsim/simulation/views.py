@@ -1,0 +1,217 @@
+"""Views of a scene that no camera in it has: the viewer's, from above, round what matters."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..errors import BadSetting, UnknownName
+from ..geometry import Array, Intrinsics, Pose
+from ..linear import length, product
+from ..scene.mounts import camera_axes
+from ..scene.spec import TERRAIN, ViewerCameraSpec
+from .simulation import Simulation
+
+Size = tuple[int, int]
+FIELD = math.radians(50.0)
+"""Vertical field of view of the views that are made up here [rad]."""
+FILLED = 0.8
+"""What matters fills so much of a picture, in width or height [1]."""
+NEARBY = 6.0
+"""Objects within so many metres of the vehicles' middle matter, too, or 3 times their size [m]."""
+LARGEST = 10.0
+"""A larger object is a landscape, whatever it is called; half its diagonal [m]."""
+WELL_SEEN = 0.98
+"""Share of what matters that a good view is not hidden from [1]."""
+BEARINGS = (35.0, -35.0, 145.0, -145.0, 80.0, -80.0, 0.0, 180.0)
+"""Where to stand to look at a vehicle, from its bow to starboard; the best first [deg]."""
+ELEVATIONS = (25.0, 50.0, 10.0)
+"""How high above the horizon [deg]."""
+SKETCH: Size = (96, 72)
+"""Of the pictures that say how much of it is seen [px]."""
+NEAREST = 0.05
+"""Near plane [m]."""
+UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A place to look from."""
+
+    world_from_camera: Pose
+    """OpenGL axes."""
+    intrinsics: Intrinsics
+    """The pinhole."""
+    is_clear: bool = False
+    """Whether it is a view through water without fog."""
+
+
+@dataclass(frozen=True, eq=False)
+class Focus:
+    """What of a scene a view should show."""
+
+    ids: frozenset[int]
+    """Numbers of the parts."""
+    corners: Array
+    """Of their boxes in W, (n, 3) [m]."""
+    ahead: Array
+    """Where the first vehicle looks, level, in W, (3,)."""
+
+    @property
+    def middle(self) -> Array:
+        """Of the box around it all, in W, (3,) [m]."""
+        middle: Array = 0.5 * (self.corners.min(axis=0) + self.corners.max(axis=0))
+        return middle
+
+
+def viewer_view(simulation: Simulation, spec: ViewerCameraSpec, size: Size) -> View:
+    """The viewer's camera of a scene file: in W, or about what it tracks.
+
+    Raises:
+        BadSetting: it stands where it looks.
+    """
+    centre = np.zeros(3)
+    if not spec.free_motion and spec.object_to_track:
+        centre = _centre(simulation, spec.object_to_track)
+    lens = _lens(size, math.radians(spec.fov))
+    if spec.near > 0.0 and spec.far > spec.near:
+        lens = replace(lens, near=spec.near, far=spec.far)
+    eye, at = centre + spec.position, centre + spec.look_at
+    return View(_looking(eye, at - eye, "<camera>"), lens)
+
+
+def view_from(simulation: Simulation, eye: Array, at: Array, size: Size) -> View:
+    """From a point to a point, both in L, (3,) [m]; raises BadSetting where they are the same."""
+    points = simulation.world_from_localized.transform(np.stack([eye, at]))
+    return View(_looking(points[0], points[1] - points[0], "--from"), _lens(size, FIELD))
+
+
+def top_view(simulation: Simulation, size: Size) -> View:
+    """From above; L's x axis is up in the picture, if it lies level."""
+    focus, lens = focus_of(simulation), _lens(size, FIELD)
+    top = simulation.world_from_localized.rotation[:, 0] * [1.0, 1.0, 0.0]
+    if length(top) < 0.5:
+        top = np.array([0.0, 1.0, 0.0])
+    return View(_framing(focus, camera_axes(-UP, top), lens), lens, is_clear=True)
+
+
+def orbit_view(simulation: Simulation, size: Size) -> View:
+    """From where the most of what matters is seen: from ahead, to starboard and above, if it can.
+
+    Places round it are tried one after the other, each with a small picture of all there is and one
+    of what matters alone.
+    """
+    focus, lens = focus_of(simulation), _lens(size, FIELD)
+    best, best_share = None, -1.0
+    for elevation, bearing in itertools.product(ELEVATIONS, BEARINGS):
+        place = _framing(focus, _axes(focus.ahead, bearing, elevation), lens)
+        share = _share_seen(simulation, focus, place)
+        if share > best_share + 0.01:
+            best, best_share = place, share
+        if share >= WELL_SEEN:
+            break
+    assert best is not None
+    return View(best, lens, is_clear=True)
+
+
+def focus_of(simulation: Simulation) -> Focus:
+    """Find what matters: the vehicles and what is near them; else the objects; else the ground."""
+    shown = [(part, simulation.corners(part)) for part in simulation.parts]
+    vehicles = [(part.id, corners) for part, corners in shown if part.vehicle is not None]
+    things = [
+        (part.id, corners)
+        for part, corners in shown
+        if part.object is not None and part.name != TERRAIN and _radius(corners) <= LARGEST
+    ]
+    if vehicles:
+        own = np.concatenate([corners for _, corners in vehicles])
+        middle = 0.5 * (own.min(axis=0) + own.max(axis=0))
+        reach = max(NEARBY, 3.0 * _radius(own))
+        near = [each for each in things if _distance(each[1], middle) <= reach]
+        chosen = vehicles + near
+    else:
+        chosen = things or [(part.id, corners) for part, corners in shown]
+    if not chosen:  # nothing at all: the origin of the file's frame
+        chosen = [(0, simulation.world_from_localized.position + np.eye(3))]
+    ahead = simulation.world_from_localized.rotation[:, 0]
+    if simulation.vehicles:
+        ahead = simulation.body(simulation.vehicles[0]).world_from_body.rotation[:, 0]
+    level = ahead * [1.0, 1.0, 0.0]
+    size = length(level)
+    return Focus(
+        frozenset(id for id, _ in chosen),
+        np.concatenate([corners for _, corners in chosen]),
+        level / size if size > 0.1 else np.array([1.0, 0.0, 0.0]),
+    )
+
+
+def _share_seen(simulation: Simulation, focus: Focus, world_from_camera: Pose) -> float:
+    """How much of what matters is seen of what would be without the rest, 0..1."""
+    lens = _lens(SKETCH, FIELD)
+    rest = frozenset(part.id for part in simulation.parts) - focus.ids
+    shares = []
+    alone, all_there = (
+        simulation.look(world_from_camera, lens, targets={"ids"}, hidden=hidden).ids
+        for hidden in (rest, frozenset[int]())
+    )
+    assert alone is not None
+    assert all_there is not None
+    for id in focus.ids:
+        if expected := np.count_nonzero(alone == id):
+            shares.append(np.count_nonzero(all_there == id) / expected)
+    return float(np.mean(shares)) if shares else 0.0
+
+
+def _framing(focus: Focus, axes: Array, lens: Intrinsics) -> Pose:
+    """Stand so far off, with these axes in W, that all corners are in the picture."""
+    beside = product(focus.corners - focus.middle, axes)  # (n, 3): right, up, towards the eye [m]
+    halves = np.array([lens.width / lens.fx, lens.height / lens.fy]) * 0.5 * FILLED  # (2,) [1]
+    distance = float((np.abs(beside[:, :2]) / halves + beside[:, 2:]).max())
+    return Pose(focus.middle + axes[:, 2] * max(distance, 0.5), axes)
+
+
+def _axes(ahead: Array, bearing: float, elevation: float) -> Array:
+    """Axes of a camera that looks back at what it goes round, in W, (3, 3)."""
+    turn, tilt = math.radians(bearing), math.radians(elevation)
+    starboard = np.cross(ahead, UP)
+    outward = math.cos(turn) * ahead + math.sin(turn) * starboard
+    return camera_axes(-(math.cos(tilt) * outward + math.sin(tilt) * UP), UP)
+
+
+def _looking(eye: Array, ahead: Array, what: str) -> Pose:
+    distance = length(ahead)
+    if not distance > 0.0:
+        raise BadSetting(f"{what} stands where it looks: {', '.join(f'{x:g}' for x in eye)}.")
+    return Pose(eye, camera_axes(ahead / distance, UP))
+
+
+def _lens(size: Size, field: float) -> Intrinsics:
+    return Intrinsics.from_fovy(*size, field, near=NEAREST)
+
+
+def _centre(simulation: Simulation, route: str) -> Array:
+    """The middle of what a route names, in W, (3,) [m]; the origin where nothing is called so."""
+    for name in (f"{route}@visual", route):
+        try:
+            body = simulation.body(name)
+        except UnknownName:
+            continue
+        if body.box is None:
+            return body.world_from_body.position
+        middle = 0.5 * (np.array(body.box.lower) + np.array(body.box.upper))
+        centre: Array = body.world_from_body.transform(middle[None])[0]
+        return centre
+    return np.zeros(3)
+
+
+def _radius(corners: Array) -> float:
+    """Half the diagonal of the box around points [m]."""
+    return 0.5 * length(corners.max(axis=0) - corners.min(axis=0))
+
+
+def _distance(corners: Array, point: Array) -> float:
+    """From a point to the middle of the box around points [m]."""
+    return length(0.5 * (corners.max(axis=0) + corners.min(axis=0)) - point)

@@ -1,0 +1,79 @@
+"""Messages have ROS's defaults, and are rosbags' messages all the same."""
+
+from __future__ import annotations
+
+import dataclasses
+import typing
+
+import numpy as np
+import pytest
+from rosbags.typesys import Stores, get_typestore
+
+from uwsim import messages
+from uwsim.bus import Bus
+from uwsim.errors import BadMessage
+from uwsim.message_fields import unfit
+from uwsim.messages import types
+
+STORE = get_typestore(Stores.ROS2_JAZZY)
+ALL = [kind for kind in vars(types).values() if getattr(kind, "__module__", "") == types.__name__]
+CLASSES = [kind for kind in ALL if dataclasses.is_dataclass(kind)]
+
+
+@pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
+def test_a_message_is_made_without_an_argument_and_is_what_ros_reads_from_zeros(
+    kind: type,
+) -> None:
+    message = kind()
+    assert unfit(message) is None
+    name = kind.__msgtype__  # type: ignore[attr-defined]
+    back = STORE.deserialize_cdr(STORE.serialize_cdr(message, name), name)
+    assert back.__class__ is STORE.types[name]
+    assert isinstance(message, STORE.types[name])
+    assert same(message, back)
+
+
+def same(one: object, other: object) -> bool:
+    """Whether two messages hold the same, whatever their classes."""
+    if dataclasses.is_dataclass(one):
+        names = [field.name for field in dataclasses.fields(one)]
+        return all(same(getattr(one, name), getattr(other, name)) for name in names)
+    if isinstance(one, np.ndarray):
+        return one.dtype == np.asarray(other).dtype and np.array_equal(one, np.asarray(other))
+    return one == other
+
+
+@pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
+def test_every_number_is_zero_but_the_w_of_no_rotation(kind: type) -> None:
+    def numbers(message: object, path: str = "") -> typing.Iterator[tuple[str, object]]:
+        for field in dataclasses.fields(typing.cast("typing.Any", message)):
+            value = getattr(message, field.name)
+            if dataclasses.is_dataclass(value):
+                yield from numbers(value, f"{path}{field.name}.")
+            elif "ClassVar" not in str(field.type):
+                yield f"{path}{field.name}", value
+
+    for path, value in numbers(kind()):
+        expected = path == "w" or path.endswith("orientation.w")
+        assert np.all(value == expected) or value in ("", []), path
+
+
+def test_messages_share_nothing() -> None:
+    one, other = messages.Odometry(), messages.Odometry()
+    one.twist.twist.linear.x = 1.0
+    one.pose.covariance[0] = 1.0
+    assert other.twist.twist.linear.x == other.pose.covariance[0] == 0.0
+    assert one.pose.covariance.shape == (36,)
+
+
+def test_every_message_type_that_is_public_has_defaults() -> None:
+    public = {getattr(messages, name) for name in messages.__all__}
+    assert {kind for kind in public if "/msg/" in getattr(kind, "__msgtype__", "")} == set(CLASSES)
+
+
+def test_the_class_of_another_package_is_named_by_its_package() -> None:
+    foreign = STORE.types["std_msgs/msg/Bool"]
+    publish = Bus().publisher("on", messages.Bool)
+    said = r"carries std_msgs/msg/Bool, the class of uwsim\.messages\.types, not that of rosbags"
+    with pytest.raises(BadMessage, match=said):
+        publish(typing.cast("messages.Bool", foreign(data=True)))

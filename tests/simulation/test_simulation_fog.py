@@ -1,0 +1,34 @@
+"""Fog that a benchmark turns up: thicker, and still of the scene's colour."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uwsim.scene.reader import read_scene
+from uwsim.scene.spec import FogSpec
+from uwsim.simulation import Simulation
+
+SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-scene.xml"
+
+
+def test_a_fog_updater_changes_how_thick_the_fog_is_and_not_its_colour() -> None:
+    scene = read_scene(SCENE)
+    colour = (0.1, 0.5, 0.2)  # of a harbour
+    fog = FogSpec(density=0.1, color=colour)
+    murky = replace(scene, ocean_state=replace(scene.ocean_state, fog=fog))
+    simulation = Simulation(murky)
+    try:
+        simulation.set_fog(20.0)
+        camera = simulation.camera("bowtech1")
+        picture = simulation.picture(camera.world_from_camera, camera.intrinsics)
+    finally:
+        simulation.close()
+    assert simulation.fog_colour == colour
+    assert picture.colour is not None
+    middle = picture.colour[120, 160].astype(float) / 255.0
+    assert middle == pytest.approx(np.array(colour), abs=0.003)

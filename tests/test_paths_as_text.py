@@ -1,0 +1,61 @@
+"""A file is named by a Path or by text; what is handed over wrongly is told what was expected."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uwsim.benchmark.logs import load_log
+from uwsim.benchmark.reader import read_benchmark
+from uwsim.benchmark.result_file import load
+from uwsim.cli.files import benchmark_file, scene_file
+from uwsim.errors import BadSetting, FileError, UwsimError
+from uwsim.physics.vehicle_file import find_vehicle, read_vehicle
+from uwsim.scene.reader import read_scene
+from uwsim.scene.urdf_reader import read_urdf
+from uwsim.simulation import Simulation
+
+READERS: list[Callable[[str], object]] = [
+    read_scene, read_benchmark, read_urdf, read_vehicle, load, load_log,
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("read", READERS, ids=lambda read: read.__name__)
+def test_a_file_that_is_nowhere_is_said_to_be_whether_named_by_text_or_path(
+    read: Callable[..., object],
+) -> None:
+    said = []
+    for name in ("no/such/file.xml", Path("no/such/file.xml")):
+        with pytest.raises(UwsimError) as caught:
+            read(name)
+        said.append(str(caught.value))
+    assert said[0] == said[1]
+    assert "no/such/file.xml" in said[0]
+
+
+def test_files_named_by_text_are_read() -> None:
+    scene, benchmark = scene_file("currents-scene"), benchmark_file("currents")
+    assert read_scene(str(scene)) == read_scene(scene)
+    assert read_benchmark(str(benchmark)) == read_benchmark(benchmark)
+    assert read_vehicle(str(find_vehicle("g500_physical"))).bodies
+
+
+def test_a_file_of_the_wrong_kind_is_told_its_kind() -> None:
+    with pytest.raises(FileError, match="benchmark"):
+        read_scene(str(benchmark_file("currents")))
+    with pytest.raises(FileError, match="UWSimScene"):
+        read_benchmark(str(scene_file("currents-scene")))
+
+
+@pytest.mark.parametrize("scene", ["scene.xml", Path("scene.xml"), None, "x" * 10_000])
+def test_a_simulation_of_something_else_than_a_scene_says_what_it_takes(scene: object) -> None:
+    with pytest.raises(BadSetting, match="what read_scene returns, not of a ") as caught:
+        Simulation(scene)  # type: ignore[arg-type]
+    assert len(str(caught.value)) < 200
+
+
+def test_folders_of_data_may_be_text(tmp_path: Path) -> None:
+    scene = read_scene(scene_file("currents-scene"))
+    Simulation(scene, data_path=(str(tmp_path),), is_blind=True).close()  # type: ignore[arg-type]

@@ -1,0 +1,71 @@
+"""Play a little of everything and print what came out, as hashes; see `test_same_bytes`."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from importlib import resources
+from pathlib import Path
+
+from short_benchmark import fingerprint, run, write_benchmark
+from uwsim.assets.model_cache import _make
+from uwsim.assets.stand_ins import STAND_INS
+from uwsim.benchmark.score import parse
+
+TRACKERS = ("ecc", "esm", "orb")
+MODELS = (
+    "objects/amphora",
+    "objects/blackbox_uib",
+    "objects/ship",
+    "robot/ARM5E/ARM5E_part2",
+    "robot/GIRONA500/g500_March11",
+    "terrain/CIRS/cirs_trident",
+)
+
+
+def played(folder: Path, benchmark: Path, algorithm: str, level: str) -> str:
+    out = folder / f"{benchmark.stem}-{algorithm}"
+    run(benchmark, out, algorithm=algorithm, levels=[level])
+    return hashlib.sha256(json.dumps(fingerprint(out)).encode()).hexdigest()
+
+
+def models() -> Iterator[tuple[str, str]]:
+    for name in MODELS:
+        assert name in STAND_INS
+        yield name, _make(name).sha256
+
+
+def scores() -> str:
+    text = "exp(a)+ln(b)+a^b+atan2(a,b)+tanh(a)+tan(b)+acos(a)+sinh(b)+log2(b)+asinh(b)"
+    expression = parse(text, ["a", "b"])
+    values = [expression.evaluate({"a": n / 101.0, "b": 1.0 + n / 7.0}) for n in range(100)]
+    return hashlib.sha256(json.dumps(values).encode()).hexdigest()
+
+
+def witness(folder: Path) -> dict[str, str]:
+    found = {**dict(models()), "scores": scores()}
+    fog = write_benchmark(folder, "0.5")
+    for tracker in TRACKERS:
+        found[tracker] = played(folder, fog, tracker, "fog=0.4")
+    found["p"] = played(folder, short_currents(folder), "p", "current=0.2")
+    return found
+
+
+def short_currents(folder: Path) -> Path:
+    """The currents benchmark with a level of 6 s."""
+    whole = resources.files("uwsim").joinpath("data/benchmarks/currents-figures.xml").read_text()
+    short = re.sub(r"<interval>\s*[0-9.]+\s*</interval>", "<interval>6</interval>", whole)
+    assert short != whole
+    path = folder / "currents.xml"
+    path.write_text(short)
+    return path
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as home:
+        os.environ["XDG_CACHE_HOME"] = home
+        print(json.dumps(witness(Path(home))))
