@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.benchmark.directory import alone_in, prepared
+from uwsim.benchmark.directory import alone_in, check, prepared
 from uwsim.errors import BadSetting
 
 RESULT = (
@@ -13,16 +13,33 @@ RESULT = (
 )  # fmt: skip
 
 
+BEGUN = {
+    "provenance.json": '{"command": ["bench", "visibility"]}',
+    "units/00000.jsonl": '{"unit": {"run": {"seed": 1}}}\n',
+}
+"""What tells that a directory holds a run of ours: either of these."""
+
+
 def make(directory: Path, *names: str) -> Path:
     for name in names:
         path = directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text("x")
+        path.write_text(BEGUN.get(name, "x"))
     return directory
+
+
+def content(directory: Path) -> dict[str, str]:
+    files = (path for path in directory.rglob("*") if path.is_file())
+    return {str(path.relative_to(directory)): path.read_text() for path in files}
 
 
 def enter(directory: Path, *, resume: bool = False, overwrite: bool = False) -> None:
     with prepared(directory, resume=resume, overwrite=overwrite):
+        pass
+
+
+def enter_several(directory: Path, *results: str) -> None:
+    with prepared(directory, resume=True, overwrite=False, results=results):
         pass
 
 
@@ -90,3 +107,53 @@ def test_two_runs_at_once_do_not_share_a_directory(tmp_path: Path) -> None:
         pass
     with alone_in(tmp_path / "a"):
         assert (tmp_path / "a").is_dir()
+
+
+@pytest.mark.parametrize("marker", BEGUN)
+def test_to_go_on_clears_drafts_of_our_own_files_and_nothing_else(
+    tmp_path: Path, marker: str
+) -> None:
+    drafts = (".result.json.123.part", "plots/.total.png.7.part", "control/.result.dat.99.part")
+    others = (
+        "notes.txt", ".notes.txt.1.part", ".result.json.part", "mine/.result.json.1.part",
+        "plots/.holiday.7.part", "units/x/.00000.jsonl.2.part",
+    )  # fmt: skip
+    make(tmp_path, marker, *drafts, *others)
+    elsewhere = make(tmp_path.parent / f"{tmp_path.name}-elsewhere", ".00000-a.png.1.part")
+    (tmp_path / "pictures").symlink_to(elsewhere)
+    enter(tmp_path, resume=True)
+    assert set(content(tmp_path)) == {marker, *others}
+    assert set(content(elsewhere)) == {".00000-a.png.1.part"}
+
+
+@pytest.mark.parametrize("name", ["notes.txt", "report.html", "mine/a", "provenance.json.txt"])
+def test_to_go_on_where_no_run_was_begun_is_refused(tmp_path: Path, name: str) -> None:
+    before = content(make(tmp_path, name, ".result.json.123.part"))
+    with pytest.raises(BadSetting, match=r"no run of uwsim to go on with; nothing was changed"):
+        enter(tmp_path, resume=True)
+    assert content(tmp_path) == before
+
+
+def test_a_folder_with_a_result_in_it_is_not_one_itself(tmp_path: Path) -> None:
+    make(tmp_path / "visibility.result", *RESULT)
+    with pytest.raises(BadSetting, match=r"holds 'visibility.result', and no run"):
+        enter(tmp_path, resume=True)
+
+
+def test_several_results_are_gone_on_with_if_each_is_ours_or_not_there(tmp_path: Path) -> None:
+    make(tmp_path / "esm", *RESULT)
+    make(tmp_path, "notes.txt")
+    check(tmp_path, resume=True, overwrite=False, results=["esm", "orb"])
+    make(tmp_path / "orb", "notes.txt")
+    with pytest.raises(BadSetting, match=r"orb: holds 'notes.txt', and no run"):
+        check(tmp_path, resume=True, overwrite=False, results=["esm", "orb"])
+    with pytest.raises(BadSetting, match=r"holds 'esm', and no run"):
+        check(tmp_path, resume=True, overwrite=False, results=["p", "pi"])
+
+
+def test_what_a_run_leaves_that_was_killed_at_once_can_be_gone_on_with(tmp_path: Path) -> None:
+    (tmp_path / "esm" / "units").mkdir(parents=True)
+    make(tmp_path, "esm/.provenance.json.12.part")
+    enter_several(tmp_path, "esm", "orb")
+    assert content(tmp_path) == {}
+    enter(tmp_path / "new", resume=True)

@@ -11,7 +11,9 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from ..errors import BadSetting
-from .whole_file import discard_drafts
+from . import unit_file
+from .provenance import load_provenance
+from .whole_file import name_of_draft
 
 CONTROL = "control"
 """Folder of the control's own result."""
@@ -24,11 +26,11 @@ OURS = re.compile(
       | units/\d+\.(jsonl|part)
       | plots/[^/]+\.(png|pdf)
       | pictures/\d+-[^/]+\.png(\.part)?
-      | (plots/|units/|pictures/)?\.[^/]+\.part
     )"""
 )
-"""Files that uwsim writes into a result directory, or into folders of it for each algorithm."""
-FOLDERS = ("units", "plots", "pictures", CONTROL)
+"""Files that uwsim writes into a result directory, or into folders of it for each algorithm; each
+may have drafts beside it."""
+FOLDERS = (unit_file.FOLDER, "plots", "pictures", CONTROL)
 
 
 @contextmanager
@@ -37,7 +39,8 @@ def prepared(
 ) -> Iterator[None]:
     """Keep other runs out of ``directory``, and make room in it for a result, or several.
 
-    Nothing is removed before the directory is one's own.
+    Nothing is removed before the directory is one's own, and nothing is gone on with that uwsim
+    has not begun.
 
     Args:
         directory: need not be there.
@@ -47,7 +50,8 @@ def prepared(
 
     Raises:
         BadSetting: it is not empty and nothing was said; or it is to be overwritten and holds
-            anything that uwsim did not write; or another run is writing into it.
+            anything that uwsim did not write; or it is to be gone on with and holds no run; or
+            another run is writing into it.
     """
     with ExitStack() as stack:
         stack.enter_context(alone_in(directory))
@@ -58,7 +62,7 @@ def prepared(
             for name in results:
                 empty(directory / name)
             empty(directory, keep=results)
-        discard_drafts(directory)
+        discard_drafts(directory, OURS, (*FOLDERS, *results))
         yield
 
 
@@ -66,10 +70,57 @@ def check(directory: Path, *, resume: bool, overwrite: bool, results: Sequence[s
     """Refuse what `prepared` refuses but another run; nothing is changed."""
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
-    if not resume:
+    folders = (*FOLDERS, *results)
+    if resume:
+        check_begun(directory, ours=OURS, folders=folders, results=results)
+    else:
         hint = "Use --resume to go on, or --overwrite to start anew."
-        folders = (*FOLDERS, *results)
         check_room(directory, overwrite=overwrite, ours=OURS, folders=folders, hint=hint)
+
+
+def check_begun(
+    directory: Path,
+    *,
+    ours: re.Pattern[str],
+    folders: tuple[str, ...],
+    results: Sequence[str] = (),
+) -> None:
+    """Refuse to go on in a directory with other people's files; nothing is changed.
+
+    What a run leaves that was killed before it wrote anything is empty folders, and drafts.
+
+    Args:
+        directory: need not be there.
+        ours: names of the files that uwsim writes there, relative to it.
+        folders: names of the folders that it writes there.
+        results: names of the folders of several results; a result is the directory itself if
+            there are none.
+
+    Raises:
+        BadSetting: it is no directory; or one of those that are to be written into holds
+            something, but no run that uwsim has begun.
+    """
+    _refuse_file(directory)
+    places = [directory / name for name in results] or [directory]
+    if results and not any(map(is_begun, places)):
+        places = [directory]
+    for place in places:
+        if is_begun(place):
+            continue
+        held = next(_kept(place, ours, folders), None)
+        if held is not None:
+            raise BadSetting(
+                f"--out {place}: holds {held!r}, and no run of uwsim to go on with; "
+                "nothing was changed. Without --resume a new directory is begun."
+            )
+
+
+def is_begun(directory: Path) -> bool:
+    """Whether a run was begun here: it says how, or a unit says of which run it is."""
+    if isinstance(load_provenance(directory).get("command"), list):
+        return True
+    files = sorted((directory / unit_file.FOLDER).glob("*.jsonl"))
+    return any("run" in (unit_file.read_any(file)[0] or {}) for file in files)
 
 
 def make_room(
@@ -106,8 +157,7 @@ def check_room(
         BadSetting: it is no directory; it is not empty and nothing was said; or it holds anything
             that uwsim does not write there.
     """
-    if directory.exists() and not directory.is_dir():
-        raise BadSetting(f"--out {directory}: is a file, not a directory.")
+    _refuse_file(directory)
     if not directory.is_dir() or not any(directory.iterdir()):
         return
     if not overwrite:
@@ -129,18 +179,46 @@ def empty(directory: Path, keep: Sequence[str] = ()) -> None:
         shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
 
 
+def discard_drafts(directory: Path, ours: re.Pattern[str], folders: tuple[str, ...]) -> None:
+    """Remove what processes that were killed had not finished writing, of our own files only."""
+    for path, is_ours in _files(directory, ours, folders):
+        if is_ours and name_of_draft(path.name) is not None:
+            (directory / path).unlink(missing_ok=True)
+
+
 def _strange(directory: Path, ours: re.Pattern[str], known: tuple[str, ...]) -> Iterator[str]:
     """Names, relative to the directory, of what uwsim did not write."""
+    return (str(path) for path, is_ours in _files(directory, ours, known) if not is_ours)
+
+
+def _kept(directory: Path, ours: re.Pattern[str], known: tuple[str, ...]) -> Iterator[str]:
+    """Names, relative to the directory, of what is neither an empty folder nor a draft of ours."""
+    for path, is_ours in _files(directory, ours, known):
+        if not is_ours or name_of_draft(path.name) is None:
+            yield str(path)
+
+
+def _files(
+    directory: Path, ours: re.Pattern[str], known: tuple[str, ...]
+) -> Iterator[tuple[Path, bool]]:
+    """Files, relative to the directory, and whether uwsim wrote them.
+
+    A folder that is not known, and a link, is one that it did not write; no other is looked into.
+    """
     for folder, folders, files in os.walk(directory):
         here = Path(folder).relative_to(directory)
-        for name in sorted(folders):
-            path = here / name
-            if name not in known or (directory / path).is_symlink():
-                yield str(path)
+        strange = [n for n in folders if n not in known or (Path(folder) / n).is_symlink()]
+        folders[:] = sorted(set(folders) - set(strange))
+        yield from ((here / name, False) for name in sorted(strange))
         for name in sorted(files):
-            path = here / name
-            if not ours.fullmatch(path.as_posix()) or (directory / path).is_symlink():
-                yield str(path)
+            finished = here / (name_of_draft(name) or name)
+            is_link = (directory / here / name).is_symlink()
+            yield here / name, not is_link and ours.fullmatch(finished.as_posix()) is not None
+
+
+def _refuse_file(directory: Path) -> None:
+    if directory.exists() and not directory.is_dir():
+        raise BadSetting(f"--out {directory}: is a file, not a directory.")
 
 
 @contextmanager

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+DRAFT = re.compile(r"\.(.+)\.[0-9]+\.part")
+"""Name of a draft: the file's name and the process that writes it."""
 
 
 def write_whole(path: Path, text: str) -> None:
@@ -30,7 +34,7 @@ def drafted(path: Path) -> Iterator[Path]:
         draft.unlink(missing_ok=True)
 
 
-def discard_drafts(folder: Path) -> None:
-    """Remove what processes that were killed had not finished, in a folder and those in it."""
-    for draft in folder.rglob(".*.part"):
-        draft.unlink(missing_ok=True)
+def name_of_draft(name: str) -> str | None:
+    """Return the name of the file that a draft is of; None where it is no draft of ours."""
+    found = DRAFT.fullmatch(name)
+    return None if found is None else found[1]

@@ -197,11 +197,13 @@ def check_numbers(confidence: float, repeat: int) -> None:
 
 def check_out(directory: Path, *, resume: bool, overwrite: bool) -> None:
     """Refuse a directory that may not be written into; raises BadSetting."""
-    from ..benchmark.directory import check_room
+    from ..benchmark.directory import check_begun, check_room
 
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
-    if not resume:
+    if resume:
+        check_begun(directory, ours=OURS, folders=FOLDERS)
+    else:
         hint = "Use --resume to use its runs, or --overwrite to start anew."
         check_room(directory, overwrite=overwrite, ours=OURS, folders=FOLDERS, hint=hint)
 
@@ -221,7 +223,7 @@ def play(
 ) -> None:
     """Search, write and say what was found."""
     from ..benchmark.bench import Bench, open_once
-    from ..benchmark.directory import alone_in, empty
+    from ..benchmark.directory import alone_in, discard_drafts, empty
     from ..benchmark.envelope import Asked, Envelope, Evaluations, strategy
     from ..benchmark.envelope.plot import draw
     from ..benchmark.provenance import machine, save_beginning, save_provenance
@@ -236,6 +238,7 @@ def play(
         check_out(directory, resume=resume, overwrite=overwrite)
         if not resume:
             empty(directory)
+        discard_drafts(directory, OURS, FOLDERS)
         save_beginning(command, directory)
         bench = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
         most = 9 + len(seeds) * (where.most_cuts() + 1)
@@ -269,7 +272,7 @@ def play(
 OURS = re.compile(
     r"""(?x)
     envelope\.(json|png) | provenance\.json | units/\d+\.(jsonl|part)
-  | pictures/\d+-[^/]+\.png(\.part)? | (units/|pictures/)?\.[^/]+\.part
+  | pictures/\d+-[^/]+\.png(\.part)?
     """
 )
 """Files that this command writes."""

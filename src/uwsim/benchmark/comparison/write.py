@@ -11,9 +11,7 @@ from .findings import Comparison
 from .page import render
 from .plots import draw_comparison
 
-OURS = re.compile(
-    r"(comparison\.(json|csv|html)|plots/(curves|differences|success)\.(png|pdf)|(plots/)?\.[^/]+\.part)"
-)
+OURS = re.compile(r"(comparison\.(json|csv|html)|plots/(curves|differences|success)\.(png|pdf))")
 """Files that uwsim writes into the directory of a comparison."""
 FOLDERS = ("plots",)
 PAGE = "comparison.html"
