@@ -15,6 +15,7 @@ GROUND = {
     "chance",
     "compatibility",
     "environment",
+    "input_files",
     "jit",
     "linear",
     "elementwise",

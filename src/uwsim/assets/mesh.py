@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from ..input_files import InputFile
 from ..world import Box
 
 
@@ -55,6 +56,8 @@ class Model:
     """``"file"``, ``"stand-in"`` (ours, modelled) or ``"labelled box"`` (ours, a placeholder)."""
     sha256: str = ""
     """Hash of the file's bytes, or of the arrays when we made it."""
+    files: tuple[InputFile, ...] = ()
+    """The file and all that were read with it: materials, buffers, pictures."""
     box: Box = field(init=False)
     """Bounding box of all vertices."""
 

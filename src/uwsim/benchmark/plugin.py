@@ -34,7 +34,16 @@ from types import CodeType, ModuleType
 
 from ..bus import Algorithm
 from ..dialect import slots
-from ..errors import BadSetting, Fault, PluginError, RunFailed, UwsimError, did_you_mean
+from ..errors import (
+    AssetError,
+    BadSetting,
+    Fault,
+    PluginError,
+    RunFailed,
+    UwsimError,
+    did_you_mean,
+)
+from ..input_files import read_bytes
 from ..world import Stage
 from .answers import WrongAnswer
 from .measures import Measure, MeasureSpec
@@ -163,11 +172,11 @@ def read_plugin(path: Path) -> Plugin:
         PluginError: it cannot be read or imported.
     """
     try:
-        source = path.read_bytes()
+        source = read_bytes(path, at_most=MAX_BYTES)
+    except AssetError:
+        raise Plugin(str(path), b"").fault(f"more than {MAX_BYTES} bytes: not a plugin") from None
     except OSError as error:
         raise Plugin(str(path), b"").fault(f"cannot be read: {error.strerror}") from None
-    if len(source) > MAX_BYTES:
-        raise Plugin(str(path), b"").fault(f"more than {MAX_BYTES} bytes: not a plugin")
     return _imported(str(path), source)
 
 

@@ -14,6 +14,7 @@ be left out: the water then does not move along z, or does not change along that
 from __future__ import annotations
 
 import csv
+import io
 import itertools
 import math
 from collections.abc import Mapping, Sequence
@@ -26,6 +27,7 @@ import numpy.typing as npt
 
 from ..dialect import LARGEST, element, number
 from ..errors import AssetError
+from ..input_files import read_bytes
 from .current import FASTEST, Array, Current, CurrentSpec, Place
 from .units import unit
 
@@ -52,7 +54,8 @@ class FieldSpec(CurrentSpec):
         Raises:
             AssetError: it cannot be used; says what is wrong with it.
         """
-        return Field(read_grid(place.find(self.file)), start=self.start, outside=self.outside)
+        grid = read_grid(place.find(self.file), name=self.file)
+        return Field(grid, start=self.start, outside=self.outside)
 
     def files(self, place: Place) -> dict[str, Path]:
         """The file."""
@@ -69,8 +72,12 @@ class Grid:
     """In L, (t, x, y, z, 3) [m/s]."""
 
 
-def read_grid(path: Path) -> Grid:
+def read_grid(path: Path, *, name: str = "") -> Grid:
     """Read a ``.csv`` or ``.nc`` file.
+
+    Args:
+        path: where it is.
+        name: what the scene calls it; the name of the file unless it is said.
 
     Raises:
         AssetError: it cannot be used; says what is wrong with it.
@@ -80,7 +87,7 @@ def read_grid(path: Path) -> Grid:
     if reader is None:
         raise AssetError(f"{path}: a field is a .csv or a .nc file, not {path.suffix!r}.")
     try:
-        return reader(path)
+        return reader(path, read_bytes(path, name=name))
     except OSError as error:
         raise AssetError(f"{path}: {error.strerror or error}.") from error
     except csv.Error as error:
@@ -89,9 +96,9 @@ def read_grid(path: Path) -> Grid:
         raise AssetError(f"{path}: is larger than the memory.") from error
 
 
-def read_csv(path: Path) -> Grid:
+def read_csv(path: Path, data: bytes) -> Grid:
     """Read a table with a line for every node."""
-    with path.open(newline="", encoding="utf-8-sig", errors="replace") as file:
+    with io.StringIO(data.decode("utf-8-sig", errors="replace"), newline="") as file:
         lines = csv.reader(file)
         names = [name.strip() for name in next(lines, [])]
         _check_names(path, names)
@@ -122,20 +129,19 @@ def read_csv(path: Path) -> Grid:
     return Grid((axes[0], axes[1], axes[2], axes[3]), velocities)
 
 
-def read_netcdf(path: Path) -> Grid:
+def read_netcdf(path: Path, data: bytes) -> Grid:
     """Read a classic NetCDF file."""
     from scipy.io import netcdf_file
 
-    with path.open("rb") as file:
-        if file.read(4) == b"\x89HDF":
-            raise AssetError(
-                f"{path}: is NetCDF-4; expected classic NetCDF. `nccopy -k classic` converts it."
-            )
+    if data[:4] == b"\x89HDF":
+        raise AssetError(
+            f"{path}: is NetCDF-4; expected classic NetCDF. `nccopy -k classic` converts it."
+        )
     try:
-        with netcdf_file(path, mmap=False, maskandscale=True) as data:
+        with netcdf_file(io.BytesIO(data), mmap=False, maskandscale=True) as found:
             arrays: dict[str, tuple[tuple[str, ...], Array]] = {}
             units: dict[str, str] = {}
-            for called, variable in data.variables.items():
+            for called, variable in found.variables.items():
                 if called not in (*AXES, "time", *COMPONENTS):
                     continue
                 name = "t" if called == "time" else called

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from lxml import etree
 
-from ..errors import FileError
+from ..errors import AssetError, FileError
+from ..input_files import read_bytes
 from .faults import Faults
 from .names import NAMESPACE, shown_tag
 
@@ -104,13 +105,12 @@ def _bytes(path: Path, faults: Faults) -> bytes:
             what = "is a folder, not a file" if path.is_dir() else "there is no such file"
             faults.add(None, what)
             return b""
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
+        data = read_bytes(path, at_most=MAX_BYTES)
+    except AssetError:
+        faults.add(None, f"larger than {MAX_BYTES // 2**20} MB; no scene or benchmark is")
+        return b""
     except (OSError, ValueError) as problem:
         faults.add(None, f"cannot be read: {getattr(problem, 'strerror', None) or problem}")
-        return b""
-    if len(data) > MAX_BYTES:
-        faults.add(None, f"larger than {MAX_BYTES // 2**20} MB; no scene or benchmark is")
         return b""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", errors="replace").encode("utf-8")

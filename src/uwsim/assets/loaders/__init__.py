@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-import hashlib
-from functools import lru_cache
 from pathlib import Path
 
 from ...errors import AssetError
+from ...input_files import read_bytes, record, recorded
 from ..mesh import Model
 from .by_trimesh import READABLE, read_meshes
 from .openscenegraph import BY_OSGCONV, converted, has_osgconv, without_osgconv
 
 __all__ = ["BY_OSGCONV", "READABLE", "can_read", "read_model", "why_not_read"]
 
-LARGEST_FILE = 512 * 1024 * 1024
-"""Files above this size [bytes] are refused."""
+KEPT = 256
+"""So many models are kept in memory."""
+
+_Stamp = tuple[int, int]
+_kept: dict[tuple[Path, str, int | None], tuple[tuple[_Stamp, ...], Model]] = {}
 
 
 def can_read(path: Path) -> bool:
@@ -35,7 +37,7 @@ def why_not_read(path: Path) -> str:
 
 
 def read_model(path: Path, *, name: str, max_triangles: int | None = None) -> Model:
-    """The model in a file; read once as long as the file does not change.
+    """The model in a file; read once as long as no file that it is made of changes.
 
     Args:
         path: The file.
@@ -45,26 +47,36 @@ def read_model(path: Path, *, name: str, max_triangles: int | None = None) -> Mo
     Raises:
         AssetError: It cannot be read; says why, or what to install.
     """
+    kept = _kept.get((path, name, max_triangles))
+    if kept is not None and kept[0] == _stamps(kept[1]):
+        record(kept[1].files)
+        return kept[1]
     try:
-        facts = path.stat()
+        model = _read(path, name, max_triangles)
     except OSError as error:
         raise AssetError(f"{path}: cannot be read ({error.strerror}).") from error
-    if facts.st_size > LARGEST_FILE:
-        raise AssetError(
-            f"{path}: is {facts.st_size / 2**20:.0f} MiB; at most {LARGEST_FILE >> 20} are read."
-        )
-    return _read(path, name, max_triangles, (facts.st_mtime_ns, facts.st_size))
+    while len(_kept) >= KEPT:
+        del _kept[next(iter(_kept))]
+    _kept[path, name, max_triangles] = _stamps(model), model
+    return model
 
 
-@lru_cache(maxsize=256)
-def _read(path: Path, name: str, max_triangles: int | None, _: tuple[int, int]) -> Model:
+def _stamps(model: Model) -> tuple[_Stamp, ...]:
+    """Time and size of the files that a model is made of, as they are now."""
+    facts = [file.path.stat() if file.path.exists() else None for file in model.files]
+    return tuple((0, 0) if each is None else (each.st_mtime_ns, each.st_size) for each in facts)
+
+
+def _read(path: Path, name: str, max_triangles: int | None) -> Model:
     suffix = path.suffix.lower()
-    if suffix in READABLE:
-        meshes = read_meshes(path, max_triangles=max_triangles)
-    elif suffix in BY_OSGCONV:
-        with converted(path) as obj:
-            meshes = read_meshes(obj, max_triangles=max_triangles, beside=path.parent)
-    else:
-        raise AssetError(why_not_read(path))
-    digest = hashlib.sha256(path.read_bytes()).hexdigest()
-    return Model(name=name, meshes=meshes, source="file", sha256=digest)
+    with recorded() as files:
+        if suffix in READABLE:
+            meshes = read_meshes(path, name=name, max_triangles=max_triangles)
+        elif suffix in BY_OSGCONV:
+            read_bytes(path, name=name)
+            with converted(path) as obj:
+                meshes = read_meshes(obj, name=name, max_triangles=max_triangles, original=path)
+        else:
+            raise AssetError(why_not_read(path))
+    digest = files[0].sha256.removeprefix("sha256:")
+    return Model(name=name, meshes=meshes, source="file", sha256=digest, files=tuple(files))

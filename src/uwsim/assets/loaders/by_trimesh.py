@@ -5,13 +5,14 @@ from __future__ import annotations
 import io
 import logging
 import warnings
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ...errors import AssetError
+from ...input_files import read_bytes
 from ..mesh import Mesh, Texture
 from ..procedural.shapes import Shape, mesh
 
@@ -32,7 +33,11 @@ FARTHEST = 1e6
 
 
 def read_meshes(
-    path: Path, *, max_triangles: int | None = None, beside: Path | None = None
+    path: Path,
+    *,
+    name: str = "",
+    max_triangles: int | None = None,
+    original: Path | None = None,
 ) -> tuple[Mesh, ...]:
     """The meshes of a file, in its own frame and units; axes are left as they are.
 
@@ -40,17 +45,16 @@ def read_meshes(
 
     Args:
         path: The file.
+        name: What it was asked for by.
         max_triangles: Simplified to about this many in all when there are more.
-        beside: A further folder that pictures are looked for in.
+        original: What the file was converted from; pictures are looked for beside it, too.
 
     Raises:
         AssetError: Broken, empty or too large.
     """
-    if path.suffix.lower() == ".dae":
-        _refuse_entities(path)
     try:
-        parts = _geometries(path, beside)
-    except AssetError:
+        parts = _geometries(path, name or path.name, original)
+    except (AssetError, PermissionError):
         raise
     except (Exception, RecursionError) as error:  # trimesh raises whatever its parsers raise
         said = str(error).strip().splitlines()
@@ -72,34 +76,39 @@ def read_meshes(
     return meshes
 
 
-def _refuse_entities(path: Path) -> None:
-    """A Collada file needs no document type; one that has it may be a trap."""
-    with path.open("rb") as file:
-        while block := file.read(1 << 20):
-            if b"<!DOCTYPE" in block or b"<!ENTITY" in block:
-                raise AssetError(f"{path}: document types and entities are not read.")
+def _bytes(path: Path, name: str, original: Path | None) -> bytes:
+    """A file of a model; what was converted follows from its original and is not recorded."""
+    if original is not None and path.suffix.lower() in (".obj", ".mtl"):
+        return path.read_bytes()
+    data = read_bytes(path, name=name)
+    # a Collada file needs no document type; one that has it may be a trap
+    if path.suffix.lower() == ".dae" and (b"<!DOCTYPE" in data or b"<!ENTITY" in data):
+        raise AssetError(f"{path}: document types and entities are not read.")
+    return data
 
 
-def _geometries(path: Path, beside: Path | None) -> list[Any]:
+def _geometries(path: Path, name: str, original: Path | None) -> list[Any]:
     import trimesh
 
     class Folders(trimesh.resolvers.FilePathResolver):
         """Looks for a picture in the file's folder, then beside the original."""
 
-        def get(self, name: str) -> bytes:
-            wanted = Path(name.strip().replace("\\", "/"))
-            for folder in (path.parent, beside):
-                for place in (wanted, Path(wanted.name)):
+        def get(self, wanted: str) -> bytes:
+            asked = PurePosixPath(wanted.strip().replace("\\", "/"))
+            for folder in (path.parent, None if original is None else original.parent):
+                for place in (asked, PurePosixPath(asked.name)):
                     if folder is not None and (folder / place).is_file():
-                        return in_utf8((folder / place).read_bytes(), place.suffix.lower())
-            raise FileNotFoundError(name)
+                        called = str(PurePosixPath(name).parent / place)
+                        found = _bytes(folder / place, called, original)
+                        return in_utf8(found, place.suffix.lower())
+            raise FileNotFoundError(wanted)
 
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
     suffix = path.suffix.lower()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         scene = trimesh.load_scene(
-            io.BytesIO(in_utf8(path.read_bytes(), suffix)),
+            io.BytesIO(in_utf8(_bytes(path, name, original), suffix)),
             file_type=suffix.lstrip("."),
             resolver=Folders(str(path)),
             process=False,
