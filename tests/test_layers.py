@@ -16,6 +16,7 @@ GROUND = {
     "compatibility",
     "environment",
     "input_files",
+    "disk_cache",
     "jit",
     "linear",
     "elementwise",

@@ -1,10 +1,18 @@
-"""The one place where numba meets strict types: typed decorators with the cache on."""
+"""The one place where numba meets strict types: typed decorators with a cache on disk.
+
+numba's own cache hands whatever lies on the disk to pickle and the linker: a file that was cut off
+ends every command, one with a changed byte may compute something else. Here each signature has a
+file of its own, which begins with its hash.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import os
+import pickle
 from collections.abc import Callable
-from typing import ParamSpec, TypeVar, cast
+from pathlib import Path
+from typing import Any, ParamSpec, TypeVar, cast
 
 # Intel's functions, if they are installed, would be other code on other processors.
 os.environ.setdefault("NUMBA_DISABLE_INTEL_SVML", "1")
@@ -12,6 +20,10 @@ os.environ.setdefault("NUMBA_DISABLE_INTEL_SVML", "1")
 import numba
 import numpy as np
 import numpy.typing as npt
+from numba.core.caching import FunctionCache, NullCache
+from numba.core.serialize import dumps
+
+from . import disk_cache
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -20,9 +32,70 @@ Elementwise = Callable[..., npt.NDArray[np.float64]]
 
 def njit(function: Callable[P, R]) -> Callable[P, R]:
     """Compile with numba: cached on disk, GIL released, no fast-math, one thread."""
-    return cast("Callable[P, R]", numba.njit(cache=True, nogil=True)(function))
+    compiled: Any = numba.njit(nogil=True)(function)
+    if compiled is not function:  # as it is with NUMBA_DISABLE_JIT
+        compiled._cache = _cache(function)
+    return cast("Callable[P, R]", compiled)
 
 
 def elementwise(function: Callable[..., float]) -> Elementwise:
     """Compile a function of numbers as one of arrays, element by element, as numpy's own are."""
-    return cast("Elementwise", numba.vectorize(cache=True)(function))  # type: ignore[no-untyped-call]
+    compiled: Any = numba.vectorize(function)  # type: ignore[no-untyped-call]
+    compiled._dispatcher.cache = _cache(function)
+    return cast("Elementwise", compiled)
+
+
+class HashedCache(FunctionCache):
+    """numba's cache of a function, with files that are checked by their hash."""
+
+    def __init__(self, function: Callable[..., object]) -> None:
+        super().__init__(function)  # type: ignore[no-untyped-call]
+        locator = self._impl.locator
+        self._cache_file: Any = Signatures(
+            folder=Path(locator.get_cache_path()),
+            base=self._impl.filename_base,
+            stamp=locator.get_source_stamp(),
+        )
+
+    def save_overload(self, sig: object, data: object) -> None:
+        """Keep compiled code, if it can be: a full disk or a folder that is gone ends nothing."""
+        try:
+            super().save_overload(sig, data)  # type: ignore[no-untyped-call]
+        except OSError:
+            self.disable()  # type: ignore[no-untyped-call]
+
+
+class Signatures:
+    """The files of one function: one for each signature and kind of processor."""
+
+    def __init__(self, *, folder: Path, base: str, stamp: object) -> None:
+        self._folder, self._base, self._stamp = folder, base, stamp
+
+    def load(self, key: object) -> object | None:
+        """Return what was compiled from this source for this key; None without it."""
+        data = disk_cache.read(self._file(key))
+        if data is None:
+            return None
+        stamp, kept_key, compiled = pickle.loads(data)
+        return compiled if (stamp, kept_key) == (self._stamp, key) else None
+
+    def save(self, key: object, compiled: object) -> None:
+        """Keep what was compiled; it takes the place of what an older source was compiled to."""
+        disk_cache.write(self._file(key), dumps((self._stamp, key, compiled)))  # type: ignore[no-untyped-call]
+
+    def flush(self) -> None:
+        """Forget everything."""
+        for file in self._folder.glob(f"{self._base}.*.uwsim"):
+            file.unlink(missing_ok=True)
+
+    def _file(self, key: object) -> Path:
+        called = hashlib.sha256(repr((numba.__version__, key)).encode()).hexdigest()[:16]
+        return self._folder / f"{self._base}.{called}.uwsim"
+
+
+def _cache(function: Callable[..., object]) -> Any:
+    """A cache for a function, or none where there is no folder to keep it in."""
+    try:
+        return HashedCache(function)
+    except RuntimeError:
+        return NullCache()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from uwsim.assets.mesh import Model
 from uwsim.assets.stand_ins import STAND_INS
 
 TANK = "terrain/CIRS/cirs_trident"
+LABELLED = "robot/PA10/pa10link0"
 
 
 @pytest.fixture
@@ -44,7 +46,7 @@ def assert_equal(a: Model, b: Model) -> None:
             assert np.array_equal(one.texture.pixels, other.texture.pixels)
 
 
-@pytest.mark.parametrize("name", [TANK, "objects/blackbox_uib_trimesh", "robot/PA10/pa10link0"])
+@pytest.mark.parametrize("name", [TANK, "objects/blackbox_uib_trimesh", LABELLED])
 def test_read_back_as_made(cache: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     first = fresh(name)
     assert models(cache)
@@ -52,14 +54,56 @@ def test_read_back_as_made(cache: Path, name: str, monkeypatch: pytest.MonkeyPat
     assert_equal(fresh(name), first)
 
 
-@pytest.mark.parametrize("damage", [b"", b"PK", b"not a zip at all"])
-def test_damaged_file_is_replaced(cache: Path, damage: bytes) -> None:
+def cut(data: bytes) -> bytes:
+    return data[: len(data) // 2]
+
+
+def with_one_byte_changed(data: bytes) -> bytes:
+    at = len(data) // 2
+    return data[:at] + bytes([data[at] ^ 1]) + data[at + 1 :]
+
+
+DAMAGES = {
+    "empty": lambda _: b"",
+    "no archive": lambda _: b"PK",
+    "cut off": cut,
+    "another vertex": with_one_byte_changed,
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
+def test_a_damaged_file_is_made_anew_and_that_is_said_once(
+    cache: Path, damage: Callable[[bytes], bytes], caplog: pytest.LogCaptureFixture
+) -> None:
     first = fresh("objects/hook")
     (file,) = models(cache)
     whole = file.read_bytes()
-    file.write_bytes(damage or whole[: len(whole) // 2])
+    file.write_bytes(damage(whole))
     assert_equal(fresh("objects/hook"), first)
     assert file.read_bytes() == whole
+    assert_equal(fresh("objects/hook"), first)
+    assert [record.getMessage() for record in caplog.records] == [
+        f"uwsim: warning: {file} in the cache is damaged; what it held is made anew."
+    ]
+
+
+def test_a_damaged_texture_is_made_anew(cache: Path) -> None:
+    first = fresh(LABELLED)
+    (texture,) = cache.rglob("texture-*.npz")
+    whole = texture.read_bytes()
+    texture.write_bytes(with_one_byte_changed(whole))
+    room._texture.cache_clear()
+    assert_equal(fresh(LABELLED), first)
+    assert texture.read_bytes() == whole
+
+
+def test_a_file_under_the_name_of_another_is_not_it(cache: Path) -> None:
+    first = fresh("objects/hook")
+    (hook,) = models(cache)
+    fresh("objects/torus")
+    torus = next(file for file in models(cache) if file != hook)
+    hook.write_bytes(torus.read_bytes())
+    assert_equal(fresh("objects/hook"), first)
 
 
 def test_other_sources_are_another_model(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:

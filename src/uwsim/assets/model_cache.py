@@ -1,30 +1,35 @@
 """Models that uwsim makes itself, kept on disk between runs: making the tank takes half a second.
 
 A kept model is found by the hash of everything that makes it: this package's sources and the
-versions of numpy and OpenCV. Nothing that could have been made otherwise is ever read back. What
-cannot be read or written is made anew, in silence: the cache is a convenience, never a need.
+versions of numpy and OpenCV. Nothing that could have been made otherwise is ever read back, nor
+anything that is not as it was written: `disk_cache` sees to that.
 """
 
 from __future__ import annotations
 
 import hashlib
+import io
 import os
 import platform
-import zipfile
-from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from tempfile import NamedTemporaryFile
 from typing import Any
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 
+from .. import disk_cache
 from ..opencv import plain_opencv
 from .mesh import Mesh, Model, Texture
 from .stand_ins import STAND_INS
 
+Arrays = dict[str, npt.NDArray[Any]]
 _ARRAYS = ("vertices", "normals", "uvs", "triangles")
+
+
+class NotKept(Exception):
+    """There is no such file in the cache, or it was damaged."""
 
 
 @cache
@@ -33,10 +38,9 @@ def made(name: str) -> Model:
     file = _folder() / _key() / (name.replace("/", "-") + ".npz")
     try:
         return _read(name, file)
-    except (OSError, ValueError, KeyError, IndexError, zipfile.BadZipFile):
+    except NotKept:
         model = _make(name)
-        with suppress(OSError):
-            _keep(model, file)
+        _keep(model, file)
         return model
 
 
@@ -71,8 +75,7 @@ def _key() -> str:
 
 
 def _keep(model: Model, file: Path) -> None:
-    """Write a model and its textures; each file whole or not at all."""
-    file.parent.mkdir(parents=True, exist_ok=True)
+    """Write a model and its textures."""
     arrays: dict[str, Any] = {"sha256": np.array(model.sha256)}
     for i, mesh in enumerate(model.meshes):
         for name in _ARRAYS:
@@ -89,14 +92,9 @@ def _keep(model: Model, file: Path) -> None:
 
 
 def _write(file: Path, **arrays: Any) -> None:
-    with NamedTemporaryFile(dir=file.parent, suffix=".part", delete=False) as draft:
-        try:
-            np.savez(draft, **arrays)
-            draft.flush()
-            os.replace(draft.name, file)
-        except BaseException:
-            os.unlink(draft.name)
-            raise
+    packed = io.BytesIO()
+    np.savez(packed, **arrays)
+    disk_cache.write(file, packed.getvalue())
 
 
 def _picture(file: Path, texture: str) -> Path:
@@ -105,21 +103,22 @@ def _picture(file: Path, texture: str) -> Path:
 
 
 def _read(name: str, file: Path) -> Model:
-    with file.open("rb") as stream, np.load(stream, allow_pickle=False) as kept:
-        n = sum(key.endswith("/vertices") for key in kept.files)
-        meshes = tuple(_mesh(kept, i, file) for i in range(n))
-        sha256 = str(kept["sha256"])
-    return Model(name=name, meshes=meshes, source=STAND_INS[name].source, sha256=sha256)
+    kept = _arrays(file)
+    n = sum(key.endswith("/vertices") for key in kept)
+    meshes = tuple(_mesh(kept, i, file) for i in range(n))
+    source = STAND_INS[name].source
+    return Model(name=name, meshes=meshes, source=source, sha256=str(kept["sha256"]))
 
 
-def _mesh(kept: Any, i: int, file: Path) -> Mesh:
+def _mesh(kept: Arrays, i: int, file: Path) -> Mesh:
     red, green, blue = kept[f"{i}/colour"].tolist()
     texture = None
-    if f"{i}/texture" in kept.files:
+    if f"{i}/texture" in kept:
         called = str(kept[f"{i}/texture"])
         texture = _texture(called, _picture(file, called))
+    arrays: Any = {array: kept[f"{i}/{array}"] for array in _ARRAYS}
     return Mesh(
-        **{array: kept[f"{i}/{array}"] for array in _ARRAYS},
+        **arrays,
         colour=(red, green, blue),
         texture=texture,
         two_sided=bool(kept[f"{i}/two_sided"]),
@@ -129,5 +128,14 @@ def _mesh(kept: Any, i: int, file: Path) -> Mesh:
 @cache
 def _texture(name: str, file: Path) -> Texture:
     """One object a texture, however many meshes wear it: they are drawn together."""
-    with file.open("rb") as stream, np.load(stream, allow_pickle=False) as kept:
-        return Texture(name=name, pixels=kept["pixels"], repeats=bool(kept["repeats"]))
+    kept = _arrays(file)
+    return Texture(name=name, pixels=kept["pixels"], repeats=bool(kept["repeats"]))
+
+
+def _arrays(file: Path) -> Arrays:
+    """What `_write` wrote."""
+    data = disk_cache.read(file)
+    if data is None:
+        raise NotKept
+    with np.load(io.BytesIO(data), allow_pickle=False) as kept:
+        return dict(kept)

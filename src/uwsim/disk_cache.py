@@ -1,0 +1,55 @@
+"""Files of the caches on disk, which heal: each begins with the hash of what is in it.
+
+One that does not match is taken away, so that what it held is made anew. A cache is a convenience,
+never a need: what cannot be read is as if it were not there, what cannot be written is not kept.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import os
+from contextlib import suppress
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+
+DIGEST = 32
+"""Length of a hash, SHA-256 [bytes]."""
+
+
+def read(file: Path) -> bytes | None:
+    """What is kept in a file; None where there is none, or none that is as it was written.
+
+    A damaged file is taken away, which is logged: the next reader finds a new one.
+    """
+    try:
+        data = file.read_bytes()
+    except OSError:
+        return None
+    if data[:DIGEST] == _digest(file, data[DIGEST:]):
+        return data[DIGEST:]
+    logging.getLogger(__name__).warning(
+        "uwsim: warning: %s in the cache is damaged; what it held is made anew.", file
+    )
+    with suppress(OSError):
+        file.unlink()
+    return None
+
+
+def write(file: Path, data: bytes) -> None:
+    """Keep ``data`` in a file, whole or not at all; where that cannot be, nothing is kept."""
+    with suppress(OSError):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with NamedTemporaryFile(dir=file.parent, suffix=".part", delete=False) as draft:
+            try:
+                draft.write(_digest(file, data) + data)
+                draft.flush()
+                os.replace(draft.name, file)
+            except BaseException:
+                os.unlink(draft.name)
+                raise
+
+
+def _digest(file: Path, data: bytes) -> bytes:
+    """The hash of a file's name and what is in it: neither may change alone."""
+    return hashlib.sha256(file.name.encode() + b"\0" + data).digest()

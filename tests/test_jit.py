@@ -1,0 +1,96 @@
+"""Compiled functions in numba's cache: they heal, and what is read back was compiled from this."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+
+import numba
+import numpy as np
+import pytest
+
+SOURCE = """
+from uwsim import jit
+
+@jit.njit
+def twice(x: float) -> float:
+    return 2.0 * x
+
+@jit.elementwise
+def half(x: float) -> float:
+    return 0.5 * x
+"""
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    numba.config.reload_config()
+    (tmp_path / "doubles.py").write_text(SOURCE)
+    return tmp_path / "cache"
+
+
+def fresh(cache: Path) -> ModuleType:
+    """Load the module as a new process would."""
+    spec = importlib.util.spec_from_file_location("doubles", cache.parent / "doubles.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["doubles"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def files(cache: Path) -> list[Path]:
+    return sorted(path for path in cache.rglob("*") if path.is_file())
+
+
+def test_what_was_compiled_is_read_back(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    module = fresh(cache)
+    assert (module.twice(1.5), module.half(np.ones(2)).tolist()) == (3.0, [0.5, 0.5])
+    assert len(files(cache)) == 2
+    module = fresh(cache)
+    monkeypatch.setattr(
+        "numba.core.compiler.compile_extra", lambda *_, **__: pytest.fail("compiled")
+    )
+    assert (module.twice(1.5), module.half(np.ones(2)).tolist()) == (3.0, [0.5, 0.5])
+    assert sum(module.twice.stats.cache_hits.values()) == 1
+
+
+DAMAGES: dict[str, Callable[[bytes], bytes]] = {
+    "empty": lambda _: b"",
+    "cut off": lambda data: data[: len(data) // 2],
+    "one byte": lambda data: data[:-900] + bytes([data[-900] ^ 1]) + data[-899:],
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
+def test_a_damaged_file_is_compiled_anew_and_that_is_said_once(
+    cache: Path, damage: Callable[[bytes], bytes], caplog: pytest.LogCaptureFixture
+) -> None:
+    assert fresh(cache).twice(1.5) == 3.0
+    for file in files(cache):
+        file.write_bytes(damage(file.read_bytes()))
+    assert fresh(cache).twice(1.5) == 3.0
+    module = fresh(cache)
+    assert module.twice(1.5) == 3.0
+    assert sum(module.twice.stats.cache_hits.values()) == 1
+    assert [" is damaged; what it held" in entry.getMessage() for entry in caplog.records] == [True]
+
+
+def test_a_changed_source_is_compiled_anew(cache: Path) -> None:
+    assert fresh(cache).twice(1.5) == 3.0
+    (cache.parent / "doubles.py").write_text(SOURCE.replace("2.0", "7.0"))
+    assert fresh(cache).twice(1.0) == 7.0
+
+
+def test_without_a_place_to_keep(cache: Path) -> None:
+    module = fresh(cache)
+    for path in sorted(cache.rglob("*"), reverse=True):
+        path.rmdir()
+    cache.rmdir()
+    cache.touch()
+    assert module.twice(1.5) == 3.0
