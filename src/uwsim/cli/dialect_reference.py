@@ -12,6 +12,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from ..dialect import Slot, slots
 from ..dialect.names import local
@@ -60,7 +61,8 @@ def page() -> str:
     for parent, name, cls in _specs("", ROOT, SceneSpec):
         if cls not in done:
             done.add(cls)
-            parts.append(_section(name, cls, limit=limit_of(parent, clark(name))))
+            limit = limit_of(parent, clark(name))
+            parts.append(_section(name, cls, limit=limit, homes=_scene_homes()))
     return "\n".join([*parts, _old_names()])
 
 
@@ -97,7 +99,8 @@ def benchmark_page() -> str:
         ("Triggers", "<type> {} </type>", TRIGGERS),
         ("Scene updaters", "<{}>", UPDATERS),
     )
-    parts = [BENCHMARK_HEAD, _section("benchmark", BenchmarkSpec)]
+    homes = {cls: f"dialect.md{home}" for cls, home in _scene_homes().items()}
+    parts = [BENCHMARK_HEAD, _section("benchmark", BenchmarkSpec, homes=homes)]
     parts.append(_section("function", FunctionSpec))
     for title, form, table in families:
         parts.append(f"## {title}\n")
@@ -111,6 +114,17 @@ def benchmark_page() -> str:
     return "\n".join(parts)
 
 
+def _scene_homes() -> dict[type, str]:
+    """Where the section of each spec of a scene is: that of the first name it has in files."""
+    from ..scene.reader import ROOT
+    from ..scene.spec import SceneSpec
+
+    homes: dict[type, str] = {}
+    for _, name, cls in _specs("", ROOT, SceneSpec):
+        homes.setdefault(cls, f"#{_anchor(name)}")
+    return homes
+
+
 def _specs(parent: str, name: str, cls: type) -> Iterator[tuple[str, str, type]]:
     """Every spec below a spec with its parent and name, itself first, in the order of the files."""
     yield parent, name, cls
@@ -122,7 +136,14 @@ def _specs(parent: str, name: str, cls: type) -> Iterator[tuple[str, str, type]]
                 yield from _specs(slot.shown, local(child), spec)
 
 
-def _section(name: str, cls: type, *, title: str | None = None, limit: str = "") -> str:
+def _section(
+    name: str,
+    cls: type,
+    *,
+    title: str | None = None,
+    limit: str = "",
+    homes: Mapping[type, str] = MappingProxyType({}),
+) -> str:
     """One element: what it is, how it looks, what stands in it.
 
     Args:
@@ -130,6 +151,7 @@ def _section(name: str, cls: type, *, title: str | None = None, limit: str = "")
         cls: its spec.
         title: of a member of a family, whose file is about it alone.
         limit: how far it is simulated; empty: wholly.
+        homes: where the sections of specs are; of others under their own name on this page.
     """
     from ..scene.not_yet import limit_of
 
@@ -149,18 +171,20 @@ def _section(name: str, cls: type, *, title: str | None = None, limit: str = "")
         mark = " (attribute)" if slot.xml.attribute else ""
         part = "" if title is not None else limit_of(name, clark(slot.shown))
         meaning = _markdown(slot.doc) + (f" *({part})*" if part else "")
-        cells = (f"`{slot.shown}`{mark}", _kind(slot), _default(slot), meaning)
+        cells = (f"`{slot.shown}`{mark}", _kind(slot, homes), _default(slot), meaning)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"
 
 
-def _kind(slot: Slot) -> str:
+def _kind(slot: Slot, homes: Mapping[type, str]) -> str:
     what = slot.expected
     if slot.kind == "spec":
-        what = f"[`<{slot.shown}>`](#{_anchor(slot.shown)})"
+        what = f"[`<{slot.shown}>`]({homes.get(slot.type, f'#{_anchor(slot.shown)}')})"
     elif slot.kind == "choice":
-        names = [local(child) for child in slot.type]
-        what = "any of " + ", ".join(f"[`{name}`](#{_anchor(name)})" for name in names)
+        names = {local(child): cls for child, cls in slot.type.items()}
+        what = "any of " + ", ".join(
+            f"[`{name}`]({homes.get(cls, f'#{_anchor(name)}')})" for name, cls in names.items()
+        )
     elif slot.kind == "triple":
         unit = f" [{slot.unit}]" if slot.unit else ""
         what = " ".join(f"`<{part}>`" for part in slot.xml.parts) + unit

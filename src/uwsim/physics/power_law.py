@@ -30,7 +30,7 @@ Motors = tuple[float, Ints, Array, Array, Array, Array, Array, Array, Array]
 
 @njit
 def thruster_power(table: Array, thrust: float) -> float:
-    """Return what a thruster draws at a thrust [N] [W].
+    """Return what a thruster draws at a thrust [N], in watts.
 
     Args:
         table: forward and backward (2, 1 + n): scale of the law [W/N^1.5], coefficients of the
@@ -48,7 +48,7 @@ def thruster_power(table: Array, thrust: float) -> float:
 
 @njit
 def joint_power(efficiency: float, copper_loss: float, effort: float, speed: float) -> float:
-    """Return what a joint's motor draws at an effort [N m or N] and a speed [rad/s or m/s] [W]."""
+    """Return what a joint's motor draws at an effort [N m or N] and a speed [rad/s or m/s], in watts."""
     return max(0.0, effort * speed) / efficiency + copper_loss * effort**2
 
 

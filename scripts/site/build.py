@@ -1,0 +1,208 @@
+"""Build the documentation site: ``scripts/docs`` runs it, ``build/site/index.html`` is the result.
+
+The pages of ``docs/`` and those that they link to are copied; a page of the Python reference is
+added for each package, a picture for each bundled scene, a page for each notebook. Zensical makes
+HTML of them, TeX formulas become MathML, and the result is checked: every link and anchor leads
+somewhere, and nothing is loaded from the network, so that the site opens from disk.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+from formulas import with_mathml
+from links import broken_links, loaded_from_elsewhere
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+PACKAGE = ROOT / "src" / "uwsim"
+LINK = re.compile(r"(!?\[[^\]]*\])\(([^)#\s]+)(#[^)\s]*)?\)")
+"""A link or an image of Markdown: its text, its target, its anchor."""
+SHIM = "https://unpkg.com/iframe-worker/shim"
+"""What Zensical loads so that the search works from disk; a copy of it is in this folder."""
+
+
+def main() -> None:
+    """Build the site."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path, help="folder of the site; it is made anew")
+    parser.add_argument("--no-pictures", action="store_true", help="draw no scenes")
+    arguments = parser.parse_args()
+    work = arguments.out.resolve().with_suffix(".work")
+    shutil.rmtree(work, ignore_errors=True)
+    pages = work / "pages"
+    shutil.copytree(ROOT / "docs", pages)
+    for name in ("style.css", "iframe-worker.js", "iframe-worker.LICENSE"):
+        shutil.copy(HERE / name, pages)
+    nav = copy_pages(pages)
+    nav.append(("Scenes", scene_pages(pages, draw=not arguments.no_pictures)))
+    nav.append(("Notebooks", notebook_pages(pages)))
+    nav.append(("Python reference", reference_pages(pages)))
+    configure(work, nav)
+    run_zensical(work)
+    finish(work / "site")
+    shutil.rmtree(arguments.out, ignore_errors=True)
+    (work / "site").rename(arguments.out)
+    shutil.rmtree(work)
+
+
+def copy_pages(pages: Path) -> list[tuple[str, list[str]]]:
+    """Rewrite the links of the copied pages; return the navigation that ``index.md`` gives.
+
+    A linked Markdown file from outside ``docs/`` becomes a page of its own; a link to any other
+    file of the repository becomes its path.
+    """
+    outside: dict[Path, str] = {}
+    for page in sorted(pages.glob("*.md")):
+        page.write_text(rewritten(page.read_text(), ROOT / "docs", outside))
+    for path, name in list(outside.items()):
+        (pages / name).write_text(rewritten(path.read_text(), path.parent, outside))
+    nav: list[tuple[str, list[str]]] = []
+    for line in (pages / "index.md").read_text().splitlines():
+        if line.startswith("#"):
+            nav.append((line.lstrip("# "), ["index.md"] if not nav else []))
+        for _, target, _ in LINK.findall(line):
+            if target.endswith(".md") and all(target not in there for _, there in nav):
+                nav[-1][1].append(target)
+    listed = {name for _, there in nav for name in there}
+    rest = sorted(name for name in outside.values() if name not in listed)
+    return [(title, there) for title, there in nav if there] + [("More", rest)]
+
+
+def rewritten(text: str, folder: Path, outside: dict[Path, str]) -> str:
+    """Return the page with links that work in the site; note in ``outside`` what it needs."""
+
+    def replace(match: re.Match[str]) -> str:
+        label, target, anchor = match.groups()
+        if "://" in target or target.startswith("mailto:"):
+            return match.group()
+        path = (folder / target).resolve()
+        if path.is_relative_to(ROOT / "docs") and path.is_file():
+            name = path.relative_to(ROOT / "docs").as_posix()
+        elif path.suffix == ".md":
+            name = outside.setdefault(path, path.relative_to(ROOT).as_posix().replace("/", "-"))
+        else:
+            return f"{label.strip('![]')} (`{path.relative_to(ROOT)}`)"
+        return f"{label}({name}{anchor or ''})"
+
+    return LINK.sub(replace, text)
+
+
+def scene_pages(pages: Path, *, draw: bool) -> list[str]:
+    """Write the page of the bundled scenes, with a picture of each; return its name."""
+    lines = ["# Bundled scenes", "", "Each as `uwsim render SCENE` draws it.", ""]
+    (pages / "scenes").mkdir()
+    for path in sorted((PACKAGE / "data" / "scenes").glob("*.xml")):
+        lines += [f"## {path.stem}", "", first_comment(path), ""]
+        if draw:
+            picture = f"scenes/{path.stem}.png"
+            command = ["-m", "uwsim", "render", path.stem, "--view", "orbit", "--size", "960x600"]
+            run(sys.executable, *command, "-o", str(pages / picture))
+            lines += [f"![{path.stem}]({picture})", ""]
+        lines += ["```console", f"$ uwsim info {path.stem}", "```", ""]
+    (pages / "scenes.md").write_text("\n".join(lines))
+    return ["scenes.md"]
+
+
+def first_comment(path: Path) -> str:
+    """Return the first comment of an XML file, which says what it is."""
+    found = re.search(r"<!--(.*?)-->", path.read_text(), re.DOTALL)
+    return " ".join(found.group(1).split()) if found else ""
+
+
+def notebook_pages(pages: Path) -> list[str]:
+    """Execute each notebook and write what it shows as a page; an error in one is ours."""
+    sources = sorted((ROOT / "examples" / "notebooks").glob("*.py"))
+    if not sources:
+        return []
+    import jupytext
+    from nbclient import NotebookClient
+    from nbconvert import MarkdownExporter
+
+    names = []
+    for source in sources:
+        notebook = jupytext.read(source)
+        NotebookClient(notebook, timeout=300, resources={"metadata": {"path": pages}}).execute()
+        text, resources = MarkdownExporter().from_notebook_node(
+            notebook, resources={"output_files_dir": f"notebooks/{source.stem}"}
+        )
+        for name, data in resources["outputs"].items():
+            (pages / name).parent.mkdir(parents=True, exist_ok=True)
+            (pages / name).write_bytes(data)
+        (pages / f"{source.stem}.md").write_text(text)
+        names.append(f"{source.stem}.md")
+    return names
+
+
+def reference_pages(pages: Path) -> list[str]:
+    """Write a page for each package: what its ``__init__`` lists, else each of its modules."""
+    (pages / "reference").mkdir()
+    names = []
+    for init in sorted(PACKAGE.rglob("__init__.py"), key=lambda path: path.parent):
+        package = ".".join(("uwsim", *init.parent.relative_to(PACKAGE).parts))
+        modules = sorted(
+            path.stem for path in init.parent.glob("*.py") if not path.stem.startswith("_")
+        )
+        shown = [package]
+        if package != "uwsim" and not lists_names(init):
+            shown += [f"{package}.{module}" for module in modules]
+        lines = [f"# {package}", "", f"::: {shown[0]}", ""]
+        for module in shown[1:]:
+            lines += [f"## {module}", "", f"::: {module}", "    options:", "      heading_level: 3"]
+            lines += [""]
+        (pages / "reference" / f"{package}.md").write_text("\n".join(lines))
+        names.append(f"reference/{package}.md")
+    return names
+
+
+def lists_names(init: Path) -> bool:
+    """Whether the ``__init__`` of a package has an ``__all__`` with names in it."""
+    for node in ast.parse(init.read_text()).body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
+            return bool(ast.literal_eval(node.value))
+    return False
+
+
+def configure(work: Path, nav: list[tuple[str, list[str]]]) -> None:
+    """Write ``zensical.toml`` of this build: ours, with the navigation."""
+    text = (HERE / "zensical.toml").read_text().replace('paths = ["src"]', f'paths = ["{ROOT}/src"]')
+    entries = [f'  {{"{title}" = {there!r}}},'.replace("'", '"') for title, there in nav if there]
+    text = text.replace("\n[project.theme]", "\n".join(["", "nav = [", *entries, "]", "", "[project.theme]"]), 1)
+    tomllib.loads(text)
+    (work / "zensical.toml").write_text(text)
+
+
+def run_zensical(work: Path) -> None:
+    """Make HTML; a warning, such as an anchor that does not exist, is an error."""
+    run(str(Path(sys.executable).with_name("zensical")), "build", "--strict", folder=work)
+
+
+def run(*command: str, folder: Path = ROOT) -> None:
+    """Run a command; what it printed is shown where it fails."""
+    environment = os.environ | {"NO_COLOR": "1"}
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(f"{' '.join(command)} failed:\n{done.stdout}{done.stderr}")
+
+
+def finish(site: Path) -> None:
+    """Render the formulas, take the search's script from the site itself, and check the result."""
+    for page in sorted(site.rglob("*.html")):
+        up = "../" * len(page.relative_to(site).parts[1:])
+        text = page.read_text().replace(SHIM, f"{up}iframe-worker.js")
+        page.write_text(with_mathml(text))
+    faults = broken_links(site) + loaded_from_elsewhere(site)
+    if faults:
+        raise SystemExit("\n".join(faults))
+
+
+if __name__ == "__main__":
+    main()
