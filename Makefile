@@ -1,7 +1,7 @@
 # uwsim: three commands, each doing the set-up it needs first.
 #   make demo      play the visibility benchmark and show its table and where the report is
 #   make test      every check and every test, as CI runs them
-#   make install   set-up alone, into .venv, to use uwsim; the tests also get linters, pytest and Ray
+#   make install   set-up alone, into .venv, to use uwsim; the tests also get linters, pytest, Ray and the tools of the site
 
 .PHONY: install demo test
 
@@ -13,5 +13,5 @@ demo: install
 	@echo "The report: $(CURDIR)/demo.result/report.html"
 
 test:
-	@scripts/setup dev ray
+	@scripts/setup dev docs ray
 	scripts/check --all

@@ -173,9 +173,13 @@ def lists_names(init: Path) -> bool:
 
 def configure(work: Path, nav: list[tuple[str, list[str]]]) -> None:
     """Write ``zensical.toml`` of this build: ours, with the navigation."""
-    text = (HERE / "zensical.toml").read_text().replace('paths = ["src"]', f'paths = ["{ROOT}/src"]')
+    text = (
+        (HERE / "zensical.toml").read_text().replace('paths = ["src"]', f'paths = ["{ROOT}/src"]')
+    )
     entries = [f'  {{"{title}" = {there!r}}},'.replace("'", '"') for title, there in nav if there]
-    text = text.replace("\n[project.theme]", "\n".join(["", "nav = [", *entries, "]", "", "[project.theme]"]), 1)
+    text = text.replace(
+        "\n[project.theme]", "\n".join(["", "nav = [", *entries, "]", "", "[project.theme]"]), 1
+    )
     tomllib.loads(text)
     (work / "zensical.toml").write_text(text)
 

@@ -48,7 +48,7 @@ def thruster_power(table: Array, thrust: float) -> float:
 
 @njit
 def joint_power(efficiency: float, copper_loss: float, effort: float, speed: float) -> float:
-    """Return what a joint's motor draws at an effort [N m or N] and a speed [rad/s or m/s], in watts."""
+    """Return what a joint's motor draws, in watts, at [N m or N] and [rad/s or m/s]."""
     return max(0.0, effort * speed) / efficiency + copper_loss * effort**2
 
 
