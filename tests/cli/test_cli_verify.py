@@ -7,6 +7,7 @@ import re
 import shlex
 import shutil
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +15,11 @@ import pytest
 
 from uwsim.benchmark.bench import Bench, open_once
 from uwsim.benchmark.crew import play_all
+from uwsim.benchmark.derived import contradictions
 from uwsim.benchmark.differences import leaves, of_row, of_text
 from uwsim.benchmark.provenance import save_provenance
-from uwsim.benchmark.verify import choose
+from uwsim.benchmark.result_file import load
+from uwsim.benchmark.verify import Verification, choose
 from uwsim.cli import main
 from uwsim.cli.files import bundled
 from uwsim.cli.plan import make_plan
@@ -234,7 +237,8 @@ def test_result_json_alone_can_be_verified_by_its_rows(
     status, said = verify(capsys)
     assert status == 3
     assert "not compared: units/" in said
-    assert said.count("result.json: ") == 1
+    assert said.count("result.json: ") == 2
+    assert " there, None by 'corners' of the row's values" in said
     assert "result.json: row 0, column status: stored 'lost', replayed 'ok'" in said
 
 
@@ -290,6 +294,45 @@ def test_a_result_that_cannot_be_replayed_says_why(
     assert status == 2
     assert wrong in said
     assert len(said.splitlines()) == 1
+
+
+def test_which_units_are_replayed_is_drawn_anew_and_can_be_drawn_again(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = iter([7, 4_000_000_000])
+    monkeypatch.setattr("secrets.randbelow", lambda n: next(drawn))
+    monkeypatch.setattr("uwsim.benchmark.verify.verify", lambda *_, **__: Verification())
+    for number in (7, 4_000_000_000):
+        _, said = verify(capsys, "--sample", "1")
+        line = "sample: 1 of 2 units, by chance; the same again with --sample-seed "
+        assert f"{line}{number}\n" in said
+    assert "--sample-seed 12\n" in verify(capsys, "--sample", "1", "--sample-seed", "12")[1]
+    assert "sample" not in verify(capsys, "--all", "--sample-seed", "12")[1]
+
+
+@pytest.mark.parametrize(
+    ("column", "said"),
+    [
+        ("total", "row 1, column total: 9.5 there, {total!r} by 'corners' of the row's values"),
+        ("corners.mean", "row 1, column corners: {total!r} there, 9.5 by corners.mean, which it"),
+        ("status", "row 1, column total: {total!r} there, None by 'corners' of the"),
+    ],
+)
+def test_a_forged_total_or_value_is_found_though_units_and_result_agree(
+    folder: Path, column: str, said: str
+) -> None:
+    result = load(folder / "out")
+    plan = make_plan(
+        "b.xml", scene=None, algorithm=None, seed=3, repeat=1, mode=None, levels=[], settings=[],
+        compat=[], data_path=(),
+    )  # fmt: skip
+    assert list(contradictions(result, plan.benchmark)) == []
+    row = list(result.rows[1])
+    row[result.index(column)] = "lost" if column == "status" else 9.5
+    forged = replace(result, rows=(result.rows[0], tuple(row)))
+    found = [str(each) for each in contradictions(forged, plan.benchmark)]
+    total = result.values("total")[1]
+    assert [each.startswith(f"result.json: {said.format(total=total)}") for each in found] == [True]
 
 
 def test_a_sample_is_chosen_by_its_seed_and_keeps_the_order() -> None:

@@ -1,9 +1,10 @@
 """Verifying a result: what is stored is held against itself, and units are played again.
 
-First, without playing anything, every file of the result is made anew from what its units stored
-and compared. Then whole units are replayed from the recorded inputs and compared with what is
-stored: every cell, every sample, every picture, byte for byte; where they differ, the fingerprints
-on the way (`trace`) say from which step on and in which body or picture.
+First, without playing anything, every total is worked out from its row, and every file of the
+result is made anew from what its units stored and compared. Then whole units are replayed from the
+recorded inputs and compared with what is stored: every cell, every sample, every picture, byte for
+byte; where they differ, the fingerprints on the way (`trace`) say from which step on and in which
+body or picture.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from ..chance import stream
 from . import differences, unit_file
 from .bench import Bench
 from .crew import Crew, Here, Job, OnLevel, Roster
+from .derived import contradictions
 from .differences import Difference
 from .plan import Plan, Unit
 from .result import Result
@@ -94,6 +96,7 @@ def verify(
         UwsimError: a replay could not be played.
     """
     found = Verification(units=tuple(units))
+    found.differences += contradictions(result, bench.plan.benchmark)
     with tempfile.TemporaryDirectory(prefix="uwsim-verify-") as scratch:
         if _has_units(directory):
             _check_files(found, directory, result, replace(bench, out=Path(scratch) / "stored"))

@@ -108,7 +108,7 @@ COMMANDS: dict[str, Command] = {
         summary="Replay a sample of a result and compare it, byte for byte.",
         examples=(
             "uwsim verify visibility.result",
-            "uwsim verify currents.result --sample 5 --seed 1 --workers 2",
+            "uwsim verify currents.result --sample 5 --workers 2",
         ),
     ),
 }

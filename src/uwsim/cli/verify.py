@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from ..benchmark.result import Result
     from ..benchmark.verify import Verification
 
+SEEDS = 2**32
+"""How many samples there are to draw from."""
 SHOWN = 20
 """So many differences are said in full."""
 MEANS = {
@@ -56,13 +59,20 @@ def verify(
             "--sample",
             metavar="N",
             min=1,
-            help="How many units of work to replay, chosen by --seed.",
+            help="How many units of work to replay, chosen by chance.",
         ),
     ] = 3,
     whole: Annotated[bool, in_group(RUN, "--all", help="Replay every unit.")] = False,
-    seed: Annotated[
-        int, in_group(RUN, "--seed", metavar="N", min=0, help="Chooses the sample; not the run's.")
-    ] = 0,
+    sample_seed: Annotated[
+        int | None,
+        in_group(
+            RUN,
+            "--sample-seed",
+            metavar="N",
+            min=0,
+            help="Choose the units that an earlier call has chosen, which said this number.",
+        ),
+    ] = None,
     workers: WorkersOption = "1",
     benchmark: Annotated[
         Path | None,
@@ -90,7 +100,9 @@ def verify(
     A unit of work is what is played in one go: a seed's whole sweep, or one level of it where the
     benchmark is independent. Files are found by name (beside the result, here, bundled) and known
     by the hash that was recorded; others are refused. Before any replay, every file of the result
-    is made anew from its units and compared.
+    is made anew from its units and compared, every total is worked out from its row, and every
+    value held against the detail that it is. Nobody can know beforehand which units are replayed:
+    the sample is drawn from the system's own chance, and the number that draws it again is said.
 
     Exit status 0: the same. 3: something differs; says which unit, level, column and sample, and
     from the fingerprints that every unit keeps, from which step on and in which body or picture.
@@ -121,9 +133,13 @@ def verify(
         command = resuming(directory)
         how = f" Go on with: {command}" if command else ""
         raise ResultError(f"{directory}: no unit of it is finished: nothing to verify.{how}")
-    units = choose(whole_units, None if whole else sample, seed)
+    drawn = secrets.randbelow(SEEDS) if sample_seed is None else sample_seed
+    units = choose(whole_units, None if whole else sample, drawn)
     n_levels = sum(len(unit.levels) for unit in units)
     typer.echo(head(stored, directory, len(whole_units), len(plan.units())))
+    if len(units) < len(whole_units):
+        which = f"{len(units)} of {count(len(whole_units), 'unit')}"
+        typer.echo(f"sample: {which}, by chance; the same again with --sample-seed {drawn}")
     others = made_otherwise(stored, directory, bench.head(units[0])["run"])
     for line in others.values():
         typer.echo(printable(line))

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...errors import ResultError
+from ..journals import check_rows
 from ..plots import algorithm_of
 from ..result import Column, Result
 from ..result_file import file_of, load
@@ -29,13 +30,16 @@ class Entry:
     """What it found."""
     sha256: str
     """Hash of its ``result.json``."""
+    unchecked: str | None = None
+    """Which of its rows were not held against their units, and why; None: all were."""
 
 
 def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
-    """Read results and name them.
+    """Read results, hold their rows against their units, and name them.
 
     Raises:
-        ResultError: one cannot be read, or is given twice, or there are fewer than two.
+        ResultError: one cannot be read, says other than its units, or is given twice, or there
+            are fewer than two.
     """
     directories = [file_of(path).resolve().parent for path in paths]
     for i, path in enumerate(paths):
@@ -44,6 +48,9 @@ def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
     results = [load(path) for path in paths]
     if len(paths) < 2:
         raise ResultError("A comparison needs at least two results.")
+    checked = [
+        check_rows(result, place) for result, place in zip(results, directories, strict=True)
+    ]
     sources = _distinct(directories)
     algorithms = [algorithm_of(result) or "no algorithm" for result in results]
     return tuple(
@@ -52,8 +59,11 @@ def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
             source=source,
             result=result,
             sha256=hashlib.sha256(file_of(path).read_bytes()).hexdigest(),
+            unchecked=unchecked,
         )
-        for name, source, result, path in zip(algorithms, sources, results, paths, strict=True)
+        for name, source, result, path, unchecked in zip(
+            algorithms, sources, results, paths, checked, strict=True
+        )
     )
 
 
@@ -104,6 +114,9 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
         units = entry.result.run.get("units")
         if isinstance(units, tuple) and len(units) == 2 and units[0] != units[1]:
             found.append(f"{entry.name} is not finished: {units[0]} of {units[1]} units played")
+    for what in dict.fromkeys(entry.unchecked for entry in entries if entry.unchecked):
+        sources = [entry.source for entry in entries if entry.unchecked == what]
+        found.append(f"{' and '.join(sources)}: {what}")
     plugins = [_pairs(entry.result.inputs.get("plugins")) for entry in entries]
     if len(set(plugins)) > 1:
         found.append(f"plugins: {_who(entries, [p or 'none' for p in plugins])}")

@@ -54,12 +54,14 @@ def title(result: Result) -> str:
     return name.removesuffix(".xml")
 
 
-def remarks(result: Result) -> list[str]:
-    """Say what a reader must know first: what is unfinished, left out, changed."""
+def remarks(result: Result, unchecked: str | None = None) -> list[str]:
+    """Say what a reader must know first: what is unfinished, left out, changed, not checked."""
     run, said = result.run, []
     units = run.get("units")
     if isinstance(units, tuple) and len(units) == 2 and units[0] != units[1]:
         said.append(f"Not finished: {units[0]} of {units[1]} parts are played. --resume goes on.")
+    if unchecked is not None:
+        said.append(f"{unchecked[0].upper()}{unchecked[1:]}.")
     if chosen := pairs_of(run.get("levels")):
         said.append(f"Only these levels of the sweep were played: {', '.join(chosen)}.")
     if settings := pairs_of(run.get("settings")):

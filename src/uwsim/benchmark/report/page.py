@@ -17,6 +17,7 @@ from pathlib import Path
 from ...errors import ResultError
 from ..directory import CONTROL, REPORT
 from ..interval import LevelInterval, per_level, rows_by_level
+from ..journals import check_rows
 from ..logs import logs_of
 from ..pages import template
 from ..plots import (
@@ -76,21 +77,28 @@ def write_report(path: Path, *, pdf: bool = False) -> Path:
         pdf: also draw every plot as PDF.
 
     Raises:
-        ResultError: there is no result, or it cannot be read.
+        ResultError: there is no result, it cannot be read, or it says other than its units.
     """
     directory = file_of(path).parent
     result = load(path)
+    unchecked = check_rows(result, directory)
     control = _control(directory)
     plots = draw_plots(result, directory / "plots", control=control, pdf=pdf)
     target = directory / REPORT
-    write_whole(target, render(result, directory, plots=plots, control=control))
+    page = render(result, directory, plots=plots, control=control, unchecked=unchecked)
+    write_whole(target, page)
     return target
 
 
 def render(
-    result: Result, directory: Path, *, plots: Iterable[Path], control: Result | None = None
+    result: Result,
+    directory: Path,
+    *,
+    plots: Iterable[Path],
+    control: Result | None = None,
+    unchecked: str | None = None,
 ) -> str:
-    """Return the report's HTML."""
+    """Return the report's HTML; ``unchecked`` is what `check_rows` has said."""
     found = endings(result)
     provenance = load_provenance(directory)
     columns = result.of_kind("score") + result.of_kind("measure")
@@ -102,7 +110,7 @@ def render(
         title=title(result),
         algorithm=algorithm_of(result) or "no algorithm",
         lead=_lead(result),
-        remarks=remarks(result),
+        remarks=remarks(result, unchecked),
         command=command(result, provenance),
         cards=_cards(result, found),
         heads=heads(result),
@@ -225,6 +233,8 @@ def _space(unit: str | None) -> str:
 
 def _control(directory: Path) -> Result | None:
     try:
-        return load(directory / CONTROL)
+        control = load(directory / CONTROL)
     except ResultError:
         return None
+    check_rows(control, directory / CONTROL)
+    return control

@@ -1,0 +1,128 @@
+"""Rows held against the journals of their units, before a report or a comparison believes them.
+
+``result.json`` is put together from what each unit has stored (`unit_file`). Where its journals
+lie beside it, every row has to say what they say. A result without them can be read, but is not
+checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import ResultError
+from .differences import leaves
+from .result import Cell, Column, Result
+from .unit_file import FOLDER, Record, read_any
+
+Key = tuple[Cell, ...]
+"""The seed of a row, then its levels."""
+SHOWN = 3
+"""So many contradictions are said in full."""
+
+
+@dataclass(frozen=True)
+class Journals:
+    """What is stored of all units of a result."""
+
+    rows: dict[Key, Record]
+    """What is stored of each level; ``ended_at`` as the result counts it."""
+    n_ended: int
+    """How many units are finished."""
+
+
+def check_rows(result: Result, directory: Path) -> str | None:
+    """Hold every row of a result against the journal of its unit.
+
+    Args:
+        result: as it was read.
+        directory: where it was read.
+
+    Returns:
+        What was not checked, and why; None where every row agrees with its journal.
+
+    Raises:
+        ResultError: a row says other than its journal.
+    """
+    if not (directory / FOLDER).is_dir():
+        return f"rows are not checked: there is no {FOLDER}/ beside them" if result.rows else None
+    journals = read_journals(directory)
+    is_whole = journals.n_ended >= _n_ended(result)
+    said, without = [], []
+    for row, key in enumerate(_keys(result)):
+        record = journals.rows.get(key)
+        if record is not None:
+            counts_time = len(journals.rows) == len(result.rows)
+            said += [f"row {row}, {what}" for what in _apart(result, row, record, counts_time)]
+        elif is_whole:
+            said.append(f"row {row}: {FOLDER}/ has no such level")
+        else:
+            without.append(row)
+    if said:
+        more = f"; and {len(said) - SHOWN} more" if len(said) > SHOWN else ""
+        raise ResultError(
+            f"{directory / 'result.json'}: not what its units have stored: "
+            f"{'; '.join(said[:SHOWN])}{more}. uwsim verify says what else differs; "
+            "uwsim bench --resume writes it anew."
+        )
+    if without:
+        n = len(result.rows)
+        return f"{len(without)} of {n} rows are not checked: their units are not in {FOLDER}/"
+    return None
+
+
+def read_journals(directory: Path) -> Journals:
+    """Read what is stored of all units, in their order."""
+    rows: dict[Key, Record] = {}
+    elapsed: dict[Cell, float] = {}
+    n_ended = 0
+    for path in sorted((directory / FOLDER).glob("*.jsonl"), key=lambda p: (len(p.name), p.name)):
+        head, stored = read_any(path)
+        n_ended += stored.end is not None
+        seed = None if head is None else head.get("seed")
+        for record in stored.rows:
+            elapsed[seed] = elapsed.get(seed, 0.0) + record["duration"]
+            rows[(seed, *record["values"])] = {**record, "ended_at": elapsed[seed]}
+    return Journals(rows, n_ended)
+
+
+def _n_ended(result: Result) -> int:
+    """How many units a result says are finished."""
+    match result.run.get("units"):
+        case (int(ended), _):
+            return ended
+    return 0
+
+
+def _keys(result: Result) -> Iterator[Key]:
+    names = [column.name for column in result.columns]
+    levels = [i for i, column in enumerate(result.columns) if column.kind == "level"]
+    for row in result.rows:
+        seed = row[names.index("seed")] if "seed" in names else result.run.get("seed")
+        yield (seed if isinstance(seed, int) else None, *(row[i] for i in levels))
+
+
+def _apart(result: Result, row: int, record: Record, counts_time: bool) -> Iterator[str]:
+    """Say which cells of a row, and which reasons, are not those of its record."""
+    for column, cell in zip(result.columns, result.rows[row], strict=True):
+        if column.kind in ("run", "level") or (column.kind == "time" and not counts_time):
+            continue
+        stored = _stored(record, column)
+        if leaves(cell) != leaves(stored):
+            yield f"column {column.name}: {cell!r} there, {stored!r} by {FOLDER}/"
+    reasons = {note.column: note.why for note in result.missing if note.row == row}
+    for name in dict.fromkeys([*reasons, *record["missing"]]):
+        before, after = reasons.get(name), record["missing"].get(name)
+        if before != after:
+            yield f"why {name} is missing: {before!r} there, {after!r} by {FOLDER}/"
+
+
+def _stored(record: Record, column: Column) -> object:
+    match column.kind:
+        case "measure" | "detail":
+            value, _ = record[f"{column.kind}s"].get(column.name, (None, ""))
+            return value
+        case "score" | "status":
+            return record["total" if column.kind == "score" else "status"]
+    return record["ended_at"]
