@@ -125,6 +125,7 @@ class Bus:
         self._due_now: deque[tuple[str, object]] = deque()
         self._due_later: list[tuple[int, int, str, object]] = []
         self._posted = 0
+        self._withheld: set[str] = set()
         self.step = 0
         """The current step; set by whoever owns the clock."""
 
@@ -184,7 +185,7 @@ class Bus:
         entry.has_writers = True
 
         def publish(message: M) -> None:
-            if not isinstance(message, type):
+            if not _is_exactly(message, type):
                 wrong_class = _but_not(type, message.__class__)
                 raise BadMessage(f"Topic {topic!r} carries {_type_name(type)}, {wrong_class}.")
             if not entry.readers:
@@ -201,6 +202,14 @@ class Bus:
                 self._due_now.append((name, message))
 
         return publish
+
+    def withhold(self, topic: str) -> None:
+        """Keep a topic from algorithms under test; observers of the run may hear it."""
+        self._withheld.add(_plain(topic))
+
+    def is_withheld(self, topic: str) -> bool:
+        """Whether a topic is kept from algorithms under test."""
+        return _plain(topic) in self._withheld
 
     def message_type(self, topic: str) -> type | None:
         """What ``topic`` carries; None while nobody has said."""
@@ -261,7 +270,7 @@ class Bus:
         if _plain(name) not in self._services:
             raise UnknownName("service", name, self._services)
         type, handler = self._services[_plain(name)]
-        if not isinstance(request, type):
+        if not _is_exactly(request, type):
             raise BadMessage(
                 f"Service {name!r} takes {_type_name(type)}, not {_type_name(request.__class__)}."
             )
@@ -310,6 +319,11 @@ class Bus:
                 name=topic,
             )
         return entry
+
+
+def _is_exactly(message: object, expected: type) -> bool:
+    """Whether it is of a class, and of no other that has been derived from it."""
+    return type(message) is expected
 
 
 def _plain(name: str) -> str:

@@ -13,6 +13,7 @@
       AssetError           a file that was found and cannot be used
       BadSetting           a command-line setting or a parameter that cannot be used
       BadMessage           a message or request that its topic or service does not take
+      NotAllowed           what an algorithm under test may not do
       MissingExtra         an optional part that is not installed; says how to install it
       NoGraphics           no OpenGL context; says what to install
       RunFailed            a run that broke in the middle
@@ -117,6 +118,10 @@ class BadSetting(UwsimError):
 
 class BadMessage(UwsimError):
     """A message or request that its topic or service does not take: the sender's fault."""
+
+
+class NotAllowed(UwsimError):
+    """What an algorithm under test may not do: flood a topic, use a thread, hear the results."""
 
 
 class MissingExtra(UwsimError):

@@ -29,6 +29,16 @@ def raise_from_now_on() -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def hears() -> bool:
+    """Whether Ctrl-C reaches this process; else a KeyboardInterrupt is none of the user's."""
+    return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+
+def is_of_user(error: BaseException) -> bool:
+    """Whether what was raised may be the user's Ctrl-C."""
+    return isinstance(error, KeyboardInterrupt) and hears()
+
+
 @contextmanager
 def born_deaf() -> Iterator[None]:
     """Keep Ctrl-C from the processes that are started in this block, for as long as they live.

@@ -6,9 +6,11 @@ The definition is the message's dataclass, whose annotations are ROS's own: ``fl
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import functools
 import re
+import sys
 from collections.abc import Hashable
 from typing import Any, TypeVar, cast
 
@@ -55,10 +57,10 @@ def unfit(message: object, of: str = "") -> str | None:
                 if inner == "str":
                     is_fit = is_fit and isinstance(item, str)
                 elif wrong is None:
-                    wrong = unfit(item, f"{of}{name}[{i}].") if _is_message(item) else None
-                    is_fit = is_fit and _is_message(item)
+                    wrong = unfit(item, f"{of}{name}[{i}].") if _is_message(item, inner) else None
+                    is_fit = is_fit and _is_message(item, inner)
         elif kind == "message":
-            is_fit = _is_message(value)
+            is_fit = _is_message(value, inner)
             wrong = unfit(value, f"{of}{name}.") if is_fit else None
         else:
             is_fit = isinstance(value, _FITTING[kind])
@@ -88,6 +90,36 @@ def _freeze_value(value: object) -> None:
             _freeze_value(item)
 
 
+def copied(message: M) -> M:
+    """Return the same message with arrays, lists and messages of its own."""
+    own = copy.copy(message)
+    for name in _names(cast(Hashable, message.__class__)):
+        object.__setattr__(own, name, _copied_value(getattr(message, name)))  # of a frozen one, too
+    return own
+
+
+def _copied_value(value: object) -> object:
+    if isinstance(value, np.ndarray):
+        return np.array(value)
+    if isinstance(value, list | tuple):
+        return [_copied_value(item) for item in value]
+    return copied(value) if dataclasses.is_dataclass(value) else value
+
+
+def size_of(value: object) -> int:
+    """Return about how much memory a message takes [bytes]."""
+    if isinstance(value, np.ndarray):
+        return value.nbytes
+    if isinstance(value, str):
+        return len(value)
+    if isinstance(value, list | tuple):
+        return sum(map(size_of, value))
+    if dataclasses.is_dataclass(value):
+        names = _names(cast(Hashable, value.__class__))
+        return sum(size_of(getattr(value, name)) for name in names)
+    return sys.getsizeof(value)
+
+
 @functools.cache
 def _names(cls: Hashable) -> tuple[str, ...]:
     return tuple(field.name for field in dataclasses.fields(cast("Any", cls)))
@@ -95,7 +127,10 @@ def _names(cls: Hashable) -> tuple[str, ...]:
 
 @functools.cache
 def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
-    """Field, kind (a key of `_WORDS`), and of arrays the dtype, of lists what is in them."""
+    """Field, kind (a key of `_WORDS`), and what is in it.
+
+    That is the dtype of an array, ``str`` or the message type of a list, the type of a message.
+    """
     assert isinstance(cls, type)
     found = []
     for field in dataclasses.fields(cls):
@@ -103,12 +138,19 @@ def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
         if array := _ARRAY.fullmatch(said):
             found.append((field.name, "array", array[1]))
         elif inner := _LIST.fullmatch(said):
-            found.append((field.name, "list", inner[1]))
+            found.append((field.name, "list", _message_type(cls, inner[1])))
         elif said in _FITTING:
             found.append((field.name, said, ""))
         elif said.isidentifier():  # the name of another message
-            found.append((field.name, "message", ""))
+            found.append((field.name, "message", _message_type(cls, said)))
     return tuple(found)
+
+
+def _message_type(cls: type, said: str) -> str:
+    """ROS's name of a message that a definition mentions; ``str`` stays."""
+    name = said.rpartition(".")[2]
+    found = getattr(sys.modules[cls.__module__], name, None)
+    return str(getattr(found, "__msgtype__", name.replace("__", "/")))
 
 
 def _array(value: object, dtype: str) -> np.ndarray[Any, Any] | None:
@@ -120,5 +162,5 @@ def _array(value: object, dtype: str) -> np.ndarray[Any, Any] | None:
         return None
 
 
-def _is_message(value: object) -> bool:
-    return dataclasses.is_dataclass(value) and not isinstance(value, type)
+def _is_message(value: object, type: str) -> bool:
+    return dataclasses.is_dataclass(value) and getattr(value, "__msgtype__", None) == type

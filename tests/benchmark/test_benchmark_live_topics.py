@@ -1,16 +1,19 @@
-"""BenchmarkInfo and BenchmarkResults, as an algorithm that subscribes hears them."""
+"""BenchmarkInfo and BenchmarkResults, as an observer of the run hears them."""
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
 from played import make_plan, rows_of
+from uwsim.benchmark import play
 from uwsim.bus import Node
 from uwsim.messages import Float32MultiArray, String
+from uwsim.simulation import Simulation
 
 NESTED = """<repeat> <iterations>2</iterations> <interval>9</interval> <sceneUpdater>
 <sceneFogUpdater>
@@ -22,20 +25,28 @@ TIME_AND_WAY = """<distance> <name>way</name> <target>girona500</target> </dista
   <position> <x>2</x> <y>0</y> <z>2</z> </position> </positionError>"""
 
 
-class Listens:
-    """Writes down when it hears what."""
+class Listens(Simulation):
+    """A simulation with an observer, who writes down when it hears what."""
 
-    def start(self, node: Node) -> None:
-        type(self).info: list[tuple[float, str]] = []  # type: ignore[misc]
-        type(self).results: list[tuple[float, np.ndarray]] = []  # type: ignore[misc]
-        node.subscribe(
-            "/BenchmarkInfo", String, lambda said: self.info.append((node.now, said.data))
+    info: ClassVar[list[tuple[float, str]]]
+    results: ClassVar[list[tuple[float, np.ndarray]]]
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        Listens.info, Listens.results = [], []
+        self.bus.subscribe(
+            "/BenchmarkInfo", String, lambda said: self.info.append((self.time, said.data))
         )
-        node.subscribe(
+        self.bus.subscribe(
             "BenchmarkResults",
             Float32MultiArray,
-            lambda said: self.results.append((node.now, said.data.copy())),
+            lambda said: self.results.append((self.time, said.data.copy())),
         )
+
+
+@pytest.fixture
+def observed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(play, "Simulation", Listens)
 
 
 class Deaf:
@@ -45,31 +56,55 @@ class Deaf:
         pass
 
 
+class Spies:
+    """An algorithm that wants to hear how good it is, or to say so itself."""
+
+    wants = "hear"
+
+    def start(self, node: Node) -> None:
+        if self.wants == "hear":
+            node.subscribe("/BenchmarkResults", Float32MultiArray, print)
+        else:
+            node.publisher("BenchmarkResults", Float32MultiArray)
+
+
+@pytest.mark.parametrize("wants", ["hear", "say"])
+def test_results_are_kept_from_the_algorithm_under_test(
+    tmp_path: Path, wants: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Spies, "wants", wants)
+    function = '<function publishResult="true">t</function>'
+    row = rows_of(make_plan(tmp_path, Spies, NESTED, function=function))[0]
+    assert row.status == "algorithm error"
+    assert "BenchmarkResults' is for observers of the run" in row.missing["total"]
+
+
+@pytest.mark.usefixtures("observed")
 def test_info_comes_ten_times_a_second_and_names_the_outermost_updater_that_stepped(
     tmp_path: Path,
 ) -> None:
-    rows_of(make_plan(tmp_path, Listens, NESTED))
+    rows_of(make_plan(tmp_path, Deaf, NESTED))
     assert [time for time, _ in Listens.info] == pytest.approx([0.1 * i for i in range(41)])
     said = {round(time, 3): text for time, text in Listens.info if text}
     assert said == {1.1: "Updated scene 2", 2.1: "Updated scene 1", 3.1: "Updated scene 2"}
     assert Listens.results == []
 
 
+@pytest.mark.usefixtures("observed")
 def test_an_independent_level_hears_of_its_own_scene_once(tmp_path: Path) -> None:
-    plan = make_plan(tmp_path, Listens, NESTED, mode="independent")
+    plan = make_plan(tmp_path, Deaf, NESTED, mode="independent")
     for unit, expected in zip(
         plan.units(), ([], ["Updated scene 2"], ["Updated scene 1"], ["Updated scene 1"]),
         strict=True,
     ):  # fmt: skip
-        from uwsim.benchmark.play import play
-
-        list(play(plan, unit))
+        list(play.play(plan, unit))
         assert [text for _, text in Listens.info if text] == expected
 
 
+@pytest.mark.usefixtures("observed")
 def test_results_are_levels_time_details_and_total(tmp_path: Path) -> None:
     function = '<function publishResult="true">way+place</function>'
-    plan = make_plan(tmp_path, Listens, NESTED, measures=TIME_AND_WAY, function=function)
+    plan = make_plan(tmp_path, Deaf, NESTED, measures=TIME_AND_WAY, function=function)
     rows_of(plan)
     entries = [entry for _, entry in Listens.results if len(entry)]
     assert {len(entry) for entry in entries} == {2 + 1 + 1 + 8 + 1}
@@ -85,11 +120,12 @@ def test_results_are_levels_time_details_and_total(tmp_path: Path) -> None:
     assert last[12] == pytest.approx(error)
 
 
+@pytest.mark.usefixtures("observed")
 def test_publish_rate_is_the_shortest_time_between_entries_and_empty_messages_fill_it(
     tmp_path: Path,
 ) -> None:
     function = '<function publishResult="true" publishRate="0.5">t</function>'
-    rows_of(make_plan(tmp_path, Listens, NESTED, function=function))
+    rows_of(make_plan(tmp_path, Deaf, NESTED, function=function))
     filled = [time for time, entry in Listens.results if len(entry)]
     assert len(Listens.results) == 41
     assert np.diff(filled) == pytest.approx(0.5, abs=0.11)
@@ -97,34 +133,38 @@ def test_publish_rate_is_the_shortest_time_between_entries_and_empty_messages_fi
     assert {len(entry) for _, entry in Listens.results} == {0, 5}
 
 
+@pytest.mark.usefixtures("observed")
 def test_entries_that_come_quicker_than_messages_share_one(tmp_path: Path) -> None:
     function = '<function publishResult="true" publishRate="0.02">t</function>'
-    rows_of(make_plan(tmp_path, Listens, NESTED, function=function))
+    rows_of(make_plan(tmp_path, Deaf, NESTED, function=function))
     sizes = [len(entry) for _, entry in Listens.results[1:]]
     assert set(sizes) == {25}  # five entries of level, level, time, t, total
     entry = Listens.results[1][1].reshape(5, 5)
     assert np.diff(entry[:, 2]) == pytest.approx(0.02)
 
 
+@pytest.mark.usefixtures("observed")
 def test_without_a_value_there_is_no_entry(tmp_path: Path) -> None:
     waiting = """<euclideanNorm> <name>off</name>
       <groundTruth type="constant"> <value>1</value> </groundTruth>
       <target>nothing</target> </euclideanNorm>"""
     function = '<function publishResult="true">1</function>'
-    rows_of(make_plan(tmp_path, Listens, NESTED, measures=waiting, function=function))
+    rows_of(make_plan(tmp_path, Deaf, NESTED, measures=waiting, function=function))
     assert {len(entry) for _, entry in Listens.results} == {0}
     undefined = '<function publishResult="true">ln(t-t)</function>'
-    rows_of(make_plan(tmp_path, Listens, NESTED, function=undefined))
+    rows_of(make_plan(tmp_path, Deaf, NESTED, function=undefined))
     assert {len(entry) for _, entry in Listens.results} == {0}
 
 
-def test_listening_changes_nothing_in_the_result(tmp_path: Path) -> None:
+def test_listening_changes_nothing_in_the_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     function = '<function publishResult="true">way+place</function>'
-    rows = [
-        rows_of(make_plan(tmp_path, algorithm, NESTED, measures=TIME_AND_WAY, function=function))
-        for algorithm in (Listens, Deaf)
-    ]
-    assert rows[0] == rows[1]
+    plan = make_plan(tmp_path, Deaf, NESTED, measures=TIME_AND_WAY, function=function)
+    rows = rows_of(plan)
+    monkeypatch.setattr(play, "Simulation", Listens)
+    assert rows_of(plan) == rows
+    assert any(len(entry) for _, entry in Listens.results)
 
 
 def test_nothing_is_computed_for_topics_that_nobody_reads(

@@ -1,7 +1,7 @@
 """What a benchmark says of itself while it runs: the topics BenchmarkInfo and BenchmarkResults.
 
-As the original's, but in simulation time, so that an algorithm or a recorder may subscribe and
-every run says the same. Nothing is computed for a topic that nobody reads.
+As the original's, but in simulation time, so that an observer may subscribe and every run says the
+same. Nothing is computed for a topic that nobody reads.
 """
 
 from __future__ import annotations
@@ -32,7 +32,8 @@ class LiveTopics:
     except that every ``publishRate`` seconds (at least) one entry is added: the updaters' values,
     outermost first; the running time without pauses [s]; every measure's details, in the order of
     its original log; the score. An entry in which a measure or the score has no value is left out.
-    Several entries that fall into 0.1 s share a message.
+    Several entries that fall into 0.1 s share a message. They tell how far an estimate is off, and
+    so the truth: no algorithm under test hears them.
     """
 
     def __init__(
@@ -41,6 +42,7 @@ class LiveTopics:
         self._expression, self._simulation = expression, simulation
         self._say_info = simulation.publisher(INFO, String)
         self._say_results = simulation.publisher(RESULTS, Float32MultiArray)
+        simulation.bus.withhold(RESULTS)
         self._publishes_results = function.publish_result
         self._period = max(1, math.ceil(function.publish_rate / simulation.timestep - 1e-9))
         self._due = 0  # step from which on the next entry may be taken

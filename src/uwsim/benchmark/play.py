@@ -12,9 +12,10 @@ from contextlib import closing
 from dataclasses import dataclass
 
 from ..bus import Algorithm
-from ..errors import NeverStarted
+from ..errors import NeverStarted, RunFailed, UwsimError
+from ..interrupts import is_of_user
 from ..messages import String
-from ..simulation import Simulation, Studio, what_broke
+from ..simulation import Calls, Simulation, Studio, what_broke
 from .answers import check_answers, parameters_of
 from .facts import Fact, Shift, visibility_facts
 from .floor import Floor
@@ -96,13 +97,16 @@ class UnitEnd:
     """Fingerprints on the way."""
 
 
-def play(plan: Plan, unit: Unit, *, studio: Studio | None = None) -> Iterator[Row | UnitEnd]:
+def play(
+    plan: Plan, unit: Unit, *, studio: Studio | None = None, calls: Calls | None = None
+) -> Iterator[Row | UnitEnd]:
     """Play a unit; yields a Row as each level ends, and at last the UnitEnd.
 
     Args:
         plan: what is played.
         unit: one of its units.
         studio: lends the renderer; without one the unit has a renderer of its own.
+        calls: counts those into the algorithm.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
@@ -120,7 +124,7 @@ def play(plan: Plan, unit: Unit, *, studio: Studio | None = None) -> Iterator[Ro
     try:
         with (
             blamed(plan.plugins, is_running=True),
-            closing(_Playing(plan, unit, simulation)) as playing,
+            closing(_Playing(plan, unit, simulation, calls or Calls())) as playing,
         ):
             yield from playing.rows()
     finally:
@@ -143,7 +147,7 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
 class _Playing:
     """A unit while it is played."""
 
-    def __init__(self, plan: Plan, unit: Unit, simulation: Simulation) -> None:
+    def __init__(self, plan: Plan, unit: Unit, simulation: Simulation, calls: Calls) -> None:
         self._plan, self._unit, self._simulation = plan, unit, simulation
         benchmark = benchmark_of_seed(plan.benchmark, unit.seed)
         self._updater = benchmark.scene_updater
@@ -157,10 +161,15 @@ class _Playing:
         self._gate = Gate(benchmark, simulation)
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.inbox(STATUS_TOPIC, String)
-        self._algorithm = _make(plan)
+        self._calls = calls
+        self._algorithm = _make(plan, calls)
         self._parameters = {**known_corners(plan), **plan.parameters}
         self._node = simulation.attach(
-            self._algorithm, name=plan.algorithm_name, parameters=self._parameters, raises=False
+            self._algorithm,
+            name=plan.algorithm_name,
+            parameters=self._parameters,
+            raises=False,
+            calls=calls,
         )
         self._verdict = Verdict(self._node, status)
         self._notes: dict[str, None] = {}
@@ -173,7 +182,7 @@ class _Playing:
         facts: dict[str, Fact] = {}
         shift: Shift | None = None
         floor: Floor | None = None
-        parameters = parameters_of(self._algorithm, self._parameters)
+        parameters = self._parameters_said()
         if not plan.is_blind:
             facts = visibility_facts(simulation, plan, parameters)
         self._wait("The benchmark never started")
@@ -205,6 +214,26 @@ class _Playing:
             trace=self._tracer.trace(),
         )
 
+    def _parameters_said(self) -> dict[str, float | int | str]:
+        """Return the parameters that the algorithm says it runs with.
+
+        Raises:
+            RunFailed: it says none that a result can hold, or breaks.
+        """
+        try:
+            with self._calls:
+                return parameters_of(self._algorithm, self._parameters)
+        except UwsimError:
+            raise
+        except BaseException as error:
+            if is_of_user(error):
+                raise
+            plan = self._plan
+            said = legible(what_broke(error, plan.algorithm))
+            raise RunFailed(
+                f"Algorithm {plan.algorithm_name!r} cannot say its parameters: {said}"
+            ) from error
+
     def close(self) -> None:
         """Close what updaters hold open."""
         for updater in self._updaters:
@@ -229,7 +258,7 @@ class _Playing:
         while not self._gate.may_begin():
             if node.error is not None:
                 raise NeverStarted(
-                    f"{never}: algorithm {node.name!r} raised before: {legible(node.error)}"
+                    f"{never}: algorithm {node.name!r} {node.how} before: {legible(node.error)}"
                 )
             if simulation.time - began >= patience:
                 raise NeverStarted(
@@ -376,11 +405,14 @@ class _Playing:
         )
 
 
-def _make(plan: Plan) -> Algorithm:
+def _make(plan: Plan, calls: Calls) -> Algorithm:
     """Make the algorithm; what its constructor raises keeps the benchmark from starting."""
     try:
-        return plan.algorithm()
-    except (Exception, SystemExit) as error:
+        with calls:
+            return plan.algorithm()
+    except BaseException as error:
+        if is_of_user(error):
+            raise
         raise NeverStarted(
             f"Algorithm {plan.algorithm_name!r} cannot be made: "
             f"{legible(what_broke(error, plan.algorithm))}"

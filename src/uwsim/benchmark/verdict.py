@@ -51,7 +51,8 @@ class Verdict:
             elif state.strip() == "failed" and self.failed is None:
                 self.failed = said
         if self._node.error is not None and self.failed is None:
-            self.failed = legible(f"{self._node.name} raised at {time:g} s: {self._node.error}")
+            said = f"{self._node.name} {self._node.how} at {time:g} s: {self._node.error}"
+            self.failed = legible(said)
 
     def status(
         self, measures: Sequence[Gated], *, overran: float | None, ended: str | None
@@ -81,5 +82,5 @@ class Verdict:
 
 def legible(text: str) -> str:
     """Return what an algorithm says as one printable line of at most 300 characters."""
-    line = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+    line = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text[:301])
     return line if len(line) <= 300 else line[:297] + "..."

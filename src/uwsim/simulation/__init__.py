@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from .calls import BEFORE, Calls, Cut, open_call
 from .image_publisher import ImagePublisher, sample_step
 from .node import InProcessNode, latency_of, what_broke
 from .simulation import Simulation
 from .studio import Studio
 
 __all__ = [
+    "BEFORE",
+    "Calls",
+    "Cut",
     "ImagePublisher",
     "InProcessNode",
     "Simulation",
     "Studio",
     "latency_of",
+    "open_call",
     "sample_step",
     "what_broke",
 ]

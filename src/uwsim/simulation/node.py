@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import math
 import sys
+import threading
 import traceback
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TypeVar
+from typing import NoReturn, TypeVar
 
 import numpy as np
 
 from ..bus import Algorithm, Bus
-from ..errors import BadSetting
+from ..errors import BadSetting, NotAllowed
+from ..interrupts import is_of_user
+from ..message_fields import copied
+from .calls import Calls, Stopped
+from .outbox import Outbox
 
 M = TypeVar("M")
 
@@ -31,11 +36,22 @@ def what_broke(error: BaseException, algorithm: type) -> str:
     The file is the algorithm's, without its folders: results are the same wherever it lies. Where
     the error did not pass through it, the file is the one that raised.
     """
+    if isinstance(error, Stopped):
+        return str(error)
     frames = traceback.extract_tb(error.__traceback__)[1:]  # the first is that of who called it
     own = getattr(sys.modules.get(algorithm.__module__), "__file__", None)
     through = [frame for frame in frames if frame.filename == own] or frames
     place = f"{Path(through[-1].filename).name}:{through[-1].lineno}: " if through else ""
-    return f"{place}{type(error).__name__}: {error}"
+    return f"{place}{type(error).__name__}: {_said(error)}"
+
+
+def _said(error: BaseException) -> str:
+    try:
+        return str(error)
+    except BaseException as odd:  # a stranger's error may not even be shown
+        if is_of_user(odd):
+            raise
+        return "its text cannot be shown"
 
 
 class _Timer:
@@ -56,9 +72,9 @@ class _Timer:
 class InProcessNode:
     """A `uwsim.bus.Node` in lock-step: callbacks run inside the step, time waits for them.
 
-    An exception in a callback is the algorithm's failure, not the simulator's: it is kept in
-    `error`, and the algorithm is not called any more. With ``raises`` it goes on to who drives
-    the simulation.
+    An exception in a callback, of whatever kind, is the algorithm's failure, not the simulator's:
+    it is kept in `error`, and the algorithm is not called any more. With ``raises`` it goes on to
+    who drives the simulation. Messages are copied when they are published.
     """
 
     def __init__(
@@ -70,9 +86,14 @@ class InProcessNode:
         random: np.random.Generator,
         parameters: Mapping[str, float | str],
         raises: bool = False,
+        calls: Calls | None = None,
     ) -> None:
         self._bus = bus
         self._raises = raises
+        self._calls = calls or Calls()
+        self._outbox = Outbox()
+        self._thread = threading.get_ident()
+        self._is_open = True
         self._topics: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
         self._random = random
@@ -85,7 +106,9 @@ class InProcessNode:
         self.name = name
         """Name of the algorithm."""
         self.error: str | None = None
-        """What it raised, if it did, and where."""
+        """What it raised, if it did, and where; or why it was stopped."""
+        self.how = "raised"
+        """What came before `error`: it raised, or was stopped."""
 
     @property
     def now(self) -> float:
@@ -110,16 +133,16 @@ class InProcessNode:
         """
         self._algorithm = type(algorithm)
         try:
-            algorithm.start(self)
+            with self._calls:
+                algorithm.start(self)
         except BadSetting:
             raise
-        except (Exception, SystemExit) as error:  # a stranger's program fails on its own
-            self.error = what_broke(error, self._algorithm)
-            if self._raises:
-                raise
+        except BaseException as error:
+            self._broken_by(error)
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Have ``callback`` called with every message on ``topic``."""
+        self._check(topic)
 
         def receive(message: M) -> None:
             self._guard(callback, message)
@@ -129,8 +152,22 @@ class InProcessNode:
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``; delayed by the parameter ``latency_s``."""
+        self._check(topic)
         self._topics[f"it publishes on {topic!r}, but "] = lambda: self._bus.unheard(topic)
-        return self._bus.publisher(topic, type, delay_steps=self._delay_steps)
+        give = self._bus.publisher(topic, type, delay_steps=self._delay_steps)
+
+        def publish(message: M) -> None:
+            self._check(topic)
+            if not self._bus.has_readers(topic) or message.__class__ is not type:
+                give(message)
+                return
+            try:
+                self._outbox.add(message, step=self._bus.step, delay_steps=self._delay_steps)
+            except NotAllowed as refused:
+                self._break_rule(str(refused))
+            give(copied(message))
+
+        return publish
 
     def unconnected(self) -> list[str]:
         """A sentence for each of its topics that has no other end at present."""
@@ -139,6 +176,7 @@ class InProcessNode:
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service; ``type`` is the class of its request."""
+        self._check()
 
         def answer(request: M) -> object:
             return self._guard(handler, request)
@@ -148,10 +186,12 @@ class InProcessNode:
 
     def call(self, name: str, request: object) -> object:
         """Call a service; UnknownName when nobody serves it."""
+        self._check()
         return self._bus.call(name, request)
 
     def every(self, period_s: float, callback: Callable[[], None]) -> None:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
+        self._check()
         if not 0.0 < period_s < math.inf:
             raise BadSetting(f"A timer's period is {period_s!r}; expected a time > 0 [s].")
         self._timers.append(_Timer(self._bus.step, period_s / self._timestep, callback))
@@ -165,6 +205,7 @@ class InProcessNode:
 
     def close(self) -> None:
         """Take the algorithm off the bus."""
+        self._is_open = False
         for close in self._close:
             close()
         self._close.clear()
@@ -173,10 +214,33 @@ class InProcessNode:
     def _guard(self, callback: Callable[..., object], *arguments: object) -> object:
         if self.error is not None:
             return None
+        self._thread = threading.get_ident()
         try:
-            return callback(*arguments)
-        except (Exception, SystemExit) as error:  # a stranger's program fails on its own
-            self.error = what_broke(error, self._algorithm)
-            if self._raises:
-                raise
+            with self._calls:
+                return callback(*arguments)
+        except BaseException as error:
+            self._broken_by(error)
             return None
+
+    def _broken_by(self, error: BaseException) -> None:
+        """Keep what a stranger's program raised; called where it is handled."""
+        if is_of_user(error):
+            raise error
+        self.error = what_broke(error, self._algorithm)
+        if isinstance(error, Stopped):
+            self.how = "was stopped"
+        if self._raises:
+            raise error
+
+    def _check(self, topic: str | None = None) -> None:
+        """Refuse what no algorithm may do with its node; that ends it, caught or not."""
+        if threading.get_ident() != self._thread:
+            self._break_rule("it uses its node from a thread of its own")
+        if not self._is_open:
+            self._break_rule("it uses its node after the end")
+        if topic is not None and self._bus.is_withheld(topic):
+            self._break_rule(f"topic {topic!r} is for observers of the run")
+
+    def _break_rule(self, said: str) -> NoReturn:
+        self.error = self.error or f"NotAllowed: {said}"
+        raise NotAllowed(said)

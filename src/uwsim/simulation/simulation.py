@@ -45,6 +45,7 @@ from .bodies import (
     name_bodies,
     read_robots,
 )
+from .calls import Calls
 from .carriers import carriers_of
 from .collision_shapes import simulated_shapes
 from .commands import Commands
@@ -265,11 +266,12 @@ class Simulation:
         name: str,
         parameters: Mapping[str, float | str],
         raises: bool = True,
+        calls: Calls | None = None,
     ) -> InProcessNode:
         """Let an algorithm in through its door and start it.
 
         What it raises comes out here and out of `advance`; without ``raises`` it is kept in the
-        node's ``error``, and the algorithm is not called any more.
+        node's ``error``, and the algorithm is not called any more. ``calls`` counts those into it.
         """
         node = InProcessNode(
             self.bus,
@@ -278,6 +280,7 @@ class Simulation:
             random=self.stream("algorithm"),
             parameters=parameters,
             raises=raises,
+            calls=calls,
         )
         self._nodes.append(node)
         node.run(algorithm)

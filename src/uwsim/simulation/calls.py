@@ -1,0 +1,78 @@
+"""Calls into an algorithm, counted where whoever employs this process can see them.
+
+A process that dies takes with it what it knew. Its employer still sees the counter: an odd number
+says that the algorithm had been called and had not come back. Played again with that call cut out,
+everything before it is the same, and the algorithm is not called any more.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Protocol
+
+BEFORE = 0
+"""What a counter holds before the first call."""
+
+
+class Counter(Protocol):
+    """A number that outlives this process."""
+
+    value: int
+    """``2 n + 1`` within call number n, ``2 n + 2`` after it."""
+
+
+@dataclass(frozen=True)
+class Cut:
+    """The call that is not made, nor any after it."""
+
+    call: int
+    """Its number."""
+    why: str
+    """What became of it before."""
+
+
+class Stopped(Exception):
+    """An algorithm is not called any more."""
+
+
+class Calls:
+    """Each ``with`` block is a call into the algorithm; what is called within one is part of it.
+
+    Args:
+        counter: where calls are counted; without one nobody looks.
+        cut: the call that is not made.
+    """
+
+    def __init__(self, counter: Counter | None = None, cut: Cut | None = None) -> None:
+        self._counter, self._cut = counter, cut
+        self._n, self._depth = 0, 0
+        if counter is not None:
+            counter.value = BEFORE
+
+    def __enter__(self) -> None:
+        """Begin a call; raises Stopped if it is the one that is not made."""
+        if self._depth == 0:
+            if self._cut is not None and self._n >= self._cut.call:
+                raise Stopped(self._cut.why)
+            if self._counter is not None:
+                self._counter.value = 2 * self._n + 1
+        self._depth += 1
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End a call."""
+        self._depth -= 1
+        if self._depth == 0:
+            self._n += 1
+            if self._counter is not None:
+                self._counter.value = 2 * self._n
+
+
+def open_call(count: int) -> int | None:
+    """Return the number of the call that has not come back; None where none is open."""
+    return count // 2 if count % 2 else None

@@ -1,0 +1,38 @@
+"""How much of an algorithm's may wait to be delivered."""
+
+from __future__ import annotations
+
+from collections import deque
+
+from ..errors import NotAllowed
+from ..message_fields import size_of
+
+MOST_MESSAGES = 10_000
+"""So many of one algorithm may be on their way: published in this step, or delayed."""
+MOST_BYTES = 256 * 2**20
+"""So much they may hold together."""
+
+
+class Outbox:
+    """What an algorithm has published and nobody has had yet, by number and size."""
+
+    def __init__(self) -> None:
+        self._waiting: deque[tuple[int, int]] = deque()  # step of delivery, bytes
+        self._n_bytes = 0
+
+    def add(self, message: object, *, step: int, delay_steps: int) -> None:
+        """Take note of a message.
+
+        Raises:
+            NotAllowed: it is one too many.
+        """
+        while self._waiting and self._waiting[0][0] < step:
+            self._n_bytes -= self._waiting.popleft()[1]
+        size = size_of(message)
+        if len(self._waiting) >= MOST_MESSAGES:
+            raise NotAllowed(f"more than {MOST_MESSAGES} of its messages wait to be delivered")
+        if self._n_bytes + size > MOST_BYTES:
+            most = f"{MOST_BYTES // 2**20} MiB"
+            raise NotAllowed(f"messages of more than {most} wait to be delivered")
+        self._waiting.append((step + delay_steps, size))
+        self._n_bytes += size

@@ -1,0 +1,129 @@
+"""Algorithms that break, flood, hang or cheat; `ATTACKS` says what each row is to say of it.
+
+With limits of 100 messages and 1 MiB.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from uwsim.bus import Node
+from uwsim.messages import Float32MultiArray, PoseStamped, String, floats
+from uwsim.simulation import outbox
+
+TOPIC = "estimate"
+
+
+class Attacker:
+    """Does something bad half a second after the start."""
+
+    def start(self, node: Node) -> None:
+        self.node = node
+        self.publish = node.publisher(TOPIC, Float32MultiArray)
+        self.n = 0
+        node.every(0.1, self.tick)
+
+    def tick(self) -> None:
+        self.n += 1
+        if self.n == 5:
+            self.attack()
+
+    def attack(self) -> None:
+        raise NotImplementedError
+
+
+class Cancels(Attacker):
+    def attack(self) -> None:
+        raise asyncio.CancelledError
+
+
+class Leaves(Attacker):
+    def attack(self) -> None:
+        raise GeneratorExit
+
+
+class Exits(Attacker):
+    def attack(self) -> None:
+        raise SystemExit(0)
+
+
+class Unshowable(Exception):
+    def __str__(self) -> str:
+        raise ValueError("no text")
+
+
+class RaisesTheUnshowable(Attacker):
+    def attack(self) -> None:
+        raise Unshowable
+
+
+class Floods(Attacker):
+    """Goes on whatever it is told."""
+
+    def attack(self) -> None:
+        for _ in range(2 * outbox.MOST_MESSAGES):
+            with suppress(Exception):
+                self.publish(floats([1.0]))
+
+
+class Echoes(Attacker):
+    """Answers itself without end."""
+
+    def attack(self) -> None:
+        self.node.subscribe(TOPIC, Float32MultiArray, self.publish)
+        self.publish(floats([1.0]))
+
+
+class Swells(Attacker):
+    """Publishes more than is let through, in pieces that are."""
+
+    def attack(self) -> None:
+        piece = np.zeros(outbox.MOST_BYTES // 16, dtype=np.float32)  # a quarter
+        for _ in range(5):
+            self.publish(Float32MultiArray(data=piece))
+
+
+class UsesAThread(Attacker):
+    def attack(self) -> None:
+        def publish() -> None:
+            with suppress(Exception):
+                self.publish(floats([1.0]))
+
+        thread = threading.Thread(target=publish)
+        thread.start()
+        thread.join()
+
+
+class Derived(Float32MultiArray):
+    """A message that says something else each time it is looked at."""
+
+
+class PublishesTheDerived(Attacker):
+    def attack(self) -> None:
+        self.publish(Derived(data=np.ones(1, dtype=np.float32)))
+
+
+class PublishesTheWrongPart(Attacker):
+    def attack(self) -> None:
+        self.node.publisher("place", PoseStamped)(
+            PoseStamped(pose=String())  # type: ignore[arg-type]
+        )
+
+
+ATTACKS: dict[type[Any], str] = {
+    Cancels: "CancelledError",
+    Leaves: "GeneratorExit",
+    Exits: "SystemExit: 0",
+    RaisesTheUnshowable: "Unshowable: its text cannot be shown",
+    Floods: "more than 100 of its messages wait to be delivered",
+    Echoes: "more than 100 of its messages wait to be delivered",
+    Swells: "messages of more than 1 MiB wait to be delivered",
+    UsesAThread: "it uses its node from a thread of its own",
+    PublishesTheDerived: "carries std_msgs/msg/Float32MultiArray",
+    PublishesTheWrongPart: "pose is String(",
+}
