@@ -152,7 +152,7 @@ def faults_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fa
 
     if not (
         scene.ocean_state.currents
-        or any(vehicle.dynamics is not None or vehicle.faults for vehicle in scene.vehicles)
+        or scene.vehicles
         or scene.stands_on_floor
         or any(
             isinstance(interface, ROSThrustersToPATSpec | ROSWrenchToPATSpec)

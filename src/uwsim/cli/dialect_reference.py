@@ -63,7 +63,22 @@ def page() -> str:
             done.add(cls)
             limit = limit_of(parent, clark(name))
             parts.append(_section(name, cls, limit=limit, homes=_scene_homes()))
-    return "\n".join([*parts, _old_names()])
+    return "\n".join([*parts, _doubts(), _old_names()])
+
+
+def _doubts() -> str:
+    """What `uwsim check` asks about."""
+    from ..scene.doubts import DOUBTS
+
+    lines = [
+        "## Doubts", "",
+        "What `uwsim check` asks about, and `uwsim bench` and `uwsim render` before they begin, "
+        "though it may be meant. A vehicle with `<u:accept>NAME</u:accept>` is not asked about it "
+        "again, nor an object with `<u:accept>start</u:accept>`. All but `passable`, `size` and "
+        "`start` is asked about simulated vehicles only.", "",
+        "| name | asked about when |", "|---|---|",
+    ]  # fmt: skip
+    return "\n".join([*lines, *(f"| `{name}` | {when} |" for name, when in DOUBTS.items()), ""])
 
 
 def _old_names() -> str:

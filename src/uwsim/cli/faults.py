@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 import typer
 
 from .. import interrupts
-from ..errors import RUN_ERRORS, FileError, RunFailed, SeveralErrors, UwsimError
+from ..errors import RUN_ERRORS, Fault, FileError, RunFailed, SeveralErrors, UwsimError
 
 WRONG_INPUT = 2
 RUN_FAILED = 3
@@ -23,6 +23,12 @@ LONGEST_LINE = 4000
 def warn(message: str) -> None:
     """Tell the user what the command goes on in spite of."""
     typer.echo(printable(f"uwsim: warning: {message}"), err=True)
+
+
+def say_notices(notices: Iterable[Fault]) -> None:
+    """Tell the user what of a file seems not to be meant; the command goes on."""
+    for notice in notices:
+        typer.echo(printable(f"{notice} (notice)"), err=True)
 
 
 def exit_status(error: BaseException) -> int:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import AllErrors, AssetNotFound, BadSetting, did_you_mean
-from .faults import printable
+from .faults import say_notices
 from .files import benchmark_file, scene_file
 from .plugins import read_plugins
 from .stand_ins import warn_of_stand_ins
@@ -112,12 +112,11 @@ def make_plan(
 
 
 def say_warnings(plan: Plan) -> None:
-    """Say on standard error what stands for lost files, and what autopilots cannot do."""
-    from ..simulation.thrust_warnings import warnings_of
+    """Say on standard error what stands for lost files, and what seems not to be meant."""
+    from ..simulation.plausibility import warnings_of
 
     warn_of_stand_ins(plan.scene, plan.data_path)
-    for fault in warnings_of(plan.scene, plan.data_path):
-        print(printable(f"{fault} (notice)"), file=sys.stderr)
+    say_notices(warnings_of(plan.scene, plan.data_path))
 
 
 def benchmark_of(path: Path, own: Sequence[Plugin], tables: Tables) -> BenchmarkSpec:

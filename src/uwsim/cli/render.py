@@ -10,6 +10,7 @@ import numpy as np
 from PIL import Image
 
 from ..errors import AllErrors, BadSetting
+from .faults import say_notices
 from .files import scene_file
 from .options import CompatOption, DataPathOption, SceneArgument, SetOption
 from .plan import compatibility_of, pairs_of
@@ -131,6 +132,7 @@ def render(
     warn_of_stand_ins(spec, folders)
     simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=slips)
     try:
+        say_notices(simulation.warnings)
         shot = wanted.shoot(simulation, spec)
         written = [save(out, shot.pixels)]
         if depth:

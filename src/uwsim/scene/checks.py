@@ -5,6 +5,7 @@ A fault where the original, too, would stop or crash; a notice where it warns an
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import chain
@@ -12,6 +13,7 @@ from itertools import chain
 from ..devices.force_sensor import ForceSensorSpec
 from ..devices.lamp import MOST_LAMPS, LampSpec
 from ..dialect import Faults, slots
+from .angle_checks import MORE_THAN_A_TURN
 from .ros_interfaces import (
     INTERFACES,
     ContactSensorToROSSpec,
@@ -133,7 +135,10 @@ def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, faults: Faults) -> Non
     for joint, value in zip(robot.movable, vehicle.joint_values, strict=False):
         held = min(max(value, joint.lower), joint.upper)
         if held != value:
-            faults.notice(place, f"joint {joint.name!r} at {value:g} is held at its limit {held:g}")
+            said = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
+            if joint.kind != "prismatic" and abs(value) > MORE_THAN_A_TURN:
+                said += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
+            faults.notice(place, said)
 
 
 def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:

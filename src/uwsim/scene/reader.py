@@ -10,6 +10,7 @@ from typing import Protocol
 
 from ..dialect import Document, Faults, check_head, parse, read
 from ..errors import Fault, SceneError
+from .angle_checks import check_angles
 from .checks import check_names
 from .legacy import upgrade
 from .look_checks import check_looks
@@ -109,6 +110,7 @@ def check_scene(
         ]
         check_names(scene, robots, faults, stand_ins)
         check_looks(scene, robots, faults)
+        check_angles(scene, faults)
         if library is not None:
             _check_models(scene, document, library, faults)
         not_simulated(document.root, faults)

@@ -27,6 +27,7 @@ from ..devices.comms import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..dialect import FARTHEST, NAMESPACE, element
 from ..geometry import Pose, rotation_from_xyz
 from ..linear import product
+from .doubts import ObjectDoubt
 from .on_floor import OnFloorSpec
 from .ros_interfaces import INTERFACES, InterfaceSpec
 from .variation import DISTRIBUTIONS, VariationSpec
@@ -273,6 +274,9 @@ class ObjectSpec:
     """Whether it is set on the ground."""
     weathering: WeatheringSpec | None = element(namespaced=True, default=None)
     """Clouds of light and dark on its textures; None: as they are."""
+    accepts: tuple[ObjectDoubt, ...] = element("accept", namespaced=True, default=())
+    """What is meant as it is, though `uwsim check` would ask about it: see
+    [doubts](#doubts)."""
 
     @property
     def solid(self) -> PhysicsSpec:

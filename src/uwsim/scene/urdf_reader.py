@@ -23,6 +23,7 @@ from lxml import etree
 
 from ..dialect import FARTHEST, Faults, number, parse
 from ..errors import SceneError
+from .angle_checks import MORE_THAN_A_TURN, degrees_for_radians
 from .urdf import (
     ZERO,
     Colour,
@@ -272,6 +273,12 @@ def _limits(node: etree._Element, kind: str, faults: Faults) -> tuple[float, flo
             faults.notice(node, f"joint {_name(node)!r} is {kind} without <limit>; -pi to pi")
         return -math.pi, math.pi
     lower, upper = (_number(limit, end, faults, 0.0) for end in ("lower", "upper"))
+    if kind == "revolute" and _are_degrees(lower, upper):
+        faults.notice(
+            limit,
+            f"joint {_name(node)!r} turns from {lower:g} to {upper:g} rad; as degrees that would "
+            f"be {math.radians(lower):.5g} to {math.radians(upper):.5g}",
+        )
     if lower > upper:
         faults.notice(limit, f"joint {_name(node)!r}: lower {lower:g} is above upper {upper:g}")
     elif "lower" not in limit.attrib and "upper" not in limit.attrib:
@@ -279,6 +286,11 @@ def _limits(node: etree._Element, kind: str, faults: Faults) -> tuple[float, flo
             limit, f"joint {_name(node)!r} has a <limit> without lower and upper: it is held at 0"
         )
     return lower, upper
+
+
+def _are_degrees(lower: float, upper: float) -> bool:
+    """Whether limits look like degrees: whole numbers beyond a turn, up to 360."""
+    return MORE_THAN_A_TURN < max(abs(lower), abs(upper)) <= 360.0 and not (lower % 1 or upper % 1)
 
 
 def _most(node: etree._Element, what: str, faults: Faults) -> float:
@@ -344,7 +356,10 @@ def _origin(node: etree._Element, faults: Faults) -> tuple[Triple, Triple]:
     origin = node.find("origin")
     if origin is None:
         return ZERO, ZERO
-    return _triple(origin, "xyz", faults, ZERO), _triple(origin, "rpy", faults, ZERO)
+    rpy = _triple(origin, "rpy", faults, ZERO)
+    if said := degrees_for_radians(rpy):
+        faults.notice(origin, f"rpy of <origin> is {said}")
+    return _triple(origin, "xyz", faults, ZERO), rpy
 
 
 def _colour(node: etree._Element, faults: Faults) -> Colour | None:

@@ -38,16 +38,13 @@ from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.structured_light_projector import StructuredLightProjectorSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
+from .doubts import VehicleDoubt
 from .on_floor import OnFloorSpec
 
 Triple = tuple[float, float, float]
 
 ZERO: Triple = (0.0, 0.0, 0.0)
 ONE: Triple = (1.0, 1.0, 1.0)
-
-
-Doubt = Literal["passable", "thrust"]
-"""What `uwsim check` asks about, and a file may say that it is meant."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,8 +139,9 @@ class VehicleSpec:
     """Lamps that light what cameras see."""
     on_floor: OnFloorSpec | None = element(namespaced=True, default=None)
     """Whether it begins on the ground."""
-    accepts: tuple[Doubt, ...] = element("accept", namespaced=True, default=())
-    """What is meant as it is, though `uwsim check` would ask about it."""
+    accepts: tuple[VehicleDoubt, ...] = element("accept", namespaced=True, default=())
+    """What is meant as it is, though `uwsim check` would ask about it: see
+    [doubts](#doubts)."""
 
     @property
     def localized_from_base(self) -> Pose:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal
 
 from ..chance import stream
 from ..currents import Place, PythonFunctionSpec
@@ -51,8 +50,6 @@ from .scene_lines import SceneLines
 U = f"{{{NAMESPACE}}}"
 LIGHTEST = 100.0
 """Buoyancy per weight that no vehicle has: the lightest foam has 10 kg/m3 [1]."""
-LIGHT, HEAVY = 2.0, 25.0
-"""Buoyancy per weight, and weight per buoyancy (osmium has 23), that are worth a notice [1]."""
 MESSAGES: Mapping[type[InterfaceSpec], Mapping[str, type]] = {
     ROSPoseToPATSpec: {"topic": Pose},
     ROSTwistToPATSpec: {"topic": TwistStamped},
@@ -151,8 +148,6 @@ class Search:
             )
         elif displaced > LIGHTEST * mass:
             self._say(f"{said}; {LIGHTEST:g} times the mass is lighter than any foam", *place)
-        elif displaced > LIGHT * mass or mass > HEAVY * displaced > 0.0:
-            self._say(said, *place, severity="notice")
 
     def _refuse_scale(self, index: int, vehicle: VehicleSpec) -> None:
         """Masses, volumes and thrusts are those of the size that the files give."""
@@ -237,20 +232,9 @@ class Search:
             except UwsimError as error:
                 self._say(str(error), f"oceanState/{U}current", 0, "*", number)
 
-    def _say(
-        self,
-        message: str,
-        parent: str,
-        index: int,
-        child: str,
-        number: int,
-        *,
-        severity: Literal["fault", "notice"] = "fault",
-    ) -> None:
+    def _say(self, message: str, parent: str, index: int, child: str, number: int) -> None:
         """Keep a fault of the ``number``th ``child`` of the ``index``th ``parent``."""
-        self.found.append(
-            self._lines.fault(message, parent, index, child, number, severity=severity)
-        )
+        self.found.append(self._lines.fault(message, parent, index, child, number))
 
 
 def _plain(message: type) -> str:

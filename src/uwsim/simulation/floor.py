@@ -69,14 +69,14 @@ def set_on_floor(
     return replace(scene, vehicles=tuple(vehicles), objects=tuple(objects))
 
 
-def ground_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> Ground:
-    """What carries in a scene."""
-    faces = [np.zeros((0, 3, 3))]
+def ground_faces(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Array]:
+    """What carries in a scene: triangles in W, (n, 3, 3) [m], by the number of their object."""
+    faces = {}
     for i, thing in enumerate(scene.objects):
         is_fixed = thing.is_touched(in_water=True) and not thing.solid.is_loose
         if thing.on_floor is None and (is_fixed or thing.is_ground):
-            faces.append(standing_faces(scene, i, thing.solid, data_path))
-    return Ground(np.concatenate(faces))
+            faces[i] = standing_faces(scene, i, thing.solid, data_path)
+    return faces
 
 
 class Floor:
@@ -93,7 +93,8 @@ class Floor:
     ) -> None:
         self._scene, self._robots, self._data_path = scene, robots, data_path
         self._lines = SceneLines(scene)
-        self.ground = ground_of(scene, data_path)
+        self.faces = ground_faces(scene, data_path)
+        self.ground = Ground(np.concatenate([np.zeros((0, 3, 3)), *self.faces.values()]))
 
     def body_of_vehicle(self, index: int, world_from_base: Pose) -> Array:
         """The boxes of a vehicle's links, (n, 3, 3) [m]; n is 0 where it has no shape."""

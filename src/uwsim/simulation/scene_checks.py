@@ -12,7 +12,7 @@ from ..scene.urdf_reader import read_urdf
 from .bodies import find_robot
 from .dynamics import Search
 from .floor import set_on_floor
-from .thrust_warnings import thrust_warnings
+from .plausibility import doubts_about
 
 
 def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Fault]:
@@ -25,10 +25,11 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
     robots: dict[int, RobotSpec] = {}
     for index, vehicle in enumerate(scene.vehicles):
         with suppress(UwsimError):  # said where robots are checked
-            if vehicle.dynamics is not None or vehicle.on_floor is not None:
-                robots[index] = read_urdf(find_robot(vehicle.file, scene.path, data_path))
+            robots[index] = read_urdf(find_robot(vehicle.file, scene.path, data_path))
     search = Search(scene, robots, data_path, is_thorough=True)
-    found = [*search.found, *thrust_warnings(scene, robots, search.dynamics)]
+    found = search.found
+    if not any(fault.severity == "fault" for fault in found):
+        found += doubts_about(scene, robots, search.dynamics, data_path)
     try:
         set_on_floor(scene, robots, data_path)
     except SceneError as error:

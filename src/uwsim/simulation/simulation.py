@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from typing import TypeVar
 
@@ -23,7 +24,7 @@ import numpy.typing as npt
 from ..bus import Algorithm, Bus, Inbox
 from ..chance import stream
 from ..currents import Place, TotalCurrent, bind_currents
-from ..errors import BadSetting, UnknownName
+from ..errors import BadSetting, Fault, UnknownName
 from ..geometry import Array, Intrinsics, Pose
 from ..linear import product
 from ..physics.motion import Motion
@@ -54,10 +55,10 @@ from .floor import set_on_floor
 from .image_publisher import ImagePublisher, SampleTimer
 from .node import InProcessNode
 from .parts import Part
+from .plausibility import doubts_about
 from .scenery import Scenery
 from .state_publishers import state_publishers
 from .studio import Studio
-from .thrust_warnings import thrust_warnings
 from .thruster_faults import ThrusterFaults
 from .touch import Touch
 
@@ -99,6 +100,7 @@ class Simulation:
         scene = varied(scene, seed)
         self.robots = read_robots(scene, data_path)
         """The robot of each vehicle, by its number in the scene."""
+        self._as_written = scene
         self._scene = scene = set_on_floor(scene, self.robots, data_path)
         self._seed = seed
         self._prefix = stream_prefix
@@ -107,11 +109,9 @@ class Simulation:
         self._compatibility = compatibility
         self.bus = Bus()
         """Topics and services of this simulation."""
-        dynamics = read_dynamics(scene, self.robots, data_path)
+        self._dynamics = dynamics = read_dynamics(scene, self.robots, data_path)
         self.files = {path.name: path for one in dynamics.values() for path in one.files}
         """Side files of vehicles, and files of currents, by name."""
-        self.warnings = tuple(thrust_warnings(scene, self.robots, dynamics))
-        """What the autopilots of its vehicles cannot do, with the lines of the file."""
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
         self._state = State(scene, self.robots, dynamics, timestep, shapes)
         carriers = carriers_of(scene, self.robots, self._state)
@@ -174,6 +174,11 @@ class Simulation:
                     self.images[interface.image_topic] = ImagePublisher(
                         interface, camera, self.bus, timestep, is_blind=is_blind
                     )
+
+    @cached_property
+    def warnings(self) -> tuple[Fault, ...]:
+        """What of the scene seems not to be meant, with the lines of the file."""
+        return tuple(doubts_about(self._as_written, self.robots, self._dynamics, self._data_path))
 
     # -- the clock and the step ---------------------------------------------------------------
 

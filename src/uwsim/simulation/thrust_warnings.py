@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
-
 import numpy as np
 
-from ..errors import Fault
 from ..linear import length, product
 from ..physics.allocation import (
     AXES,
@@ -27,54 +23,17 @@ from ..physics.balance import Balance, balance_of
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
-from .bodies import read_robots
-from .dynamics import read_dynamics
-from .scene_lines import SceneLines
 
 WANTED = (SURGE, SWAY, HEAVE, YAW)
 """What an autopilot holds a place with."""
 HELD_BY = {SWAY: "sway", HEAVE: "depth (heave)", YAW: "heading (yaw)", SURGE: "surge"}
 
 
-def thrust_warnings(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    dynamics: Mapping[int, VehicleHydrodynamics],
-) -> list[Fault]:
-    """Say for each simulated vehicle which axes its thrusters cannot drive.
-
-    Args:
-        scene: what the file says.
-        robots: the robot of each vehicle, by its number.
-        dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
-    """
-    lines = SceneLines(scene)
-    found = []
-    for index, vehicle in dynamics.items():
-        spec = scene.vehicles[index]
-        if "thrust" in spec.accepts:
-            continue
-        said = limits_said(allocation_of(scene, index, robots[index], vehicle))
-        if said:
-            found.append(
-                lines.fault(
-                    f"the vehicle {spec.name!r}: {said}. If that is meant: "
-                    "<u:accept>thrust</u:accept>",
-                    "vehicle",
-                    index,
-                    "u:dynamics",
-                    severity="notice",
-                )
-            )
-    return found
-
-
-def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fault]:
-    """The same of a scene that nobody has opened yet."""
-    if not scene.is_dynamic:
-        return []
-    robots = read_robots(scene, data_path)
-    return thrust_warnings(scene, robots, read_dynamics(scene, robots, data_path))
+def thrust_said(
+    scene: SceneSpec, index: int, robot: RobotSpec, dynamics: VehicleHydrodynamics
+) -> str:
+    """Say which axes the thrusters of a simulated vehicle cannot drive; nothing without any."""
+    return limits_said(allocation_of(scene, index, robot, dynamics))
 
 
 def allocation_of(

@@ -1,0 +1,81 @@
+"""Degrees where radians belong: angles of more than a turn are asked about.
+
+An angle that is meant is the same within one turn, and can be written so.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Hashable, Iterator, Sequence
+
+from lxml import etree
+
+from ..dialect import Faults, slots
+from ..dialect.names import local
+
+MORE_THAN_A_TURN = 6.3
+"""Nobody writes a turn with more digits than are needed [rad]."""
+
+
+def degrees_for_radians(values: Sequence[float]) -> str:
+    """Say what angles would be if they were degrees; nothing where none is beyond a turn."""
+    if all(abs(value) <= MORE_THAN_A_TURN for value in values):
+        return ""
+    turned = _list([math.radians(value) for value in values])
+    within = _list([math.remainder(value, math.tau) for value in values])
+    return (
+        f"{_list(values)} in radians, more than a turn; as degrees it would be {turned}, "
+        f"else write {within}, which is the same"
+    )
+
+
+def check_angles(spec: object, faults: Faults) -> None:
+    """Ask about the angles of a spec and of all that stands in it.
+
+    Args:
+        spec: what a file says.
+        faults: where to ask; it remembers the elements of the specs.
+    """
+    kind: type = type(spec)
+    for field, shown in _angles(kind):
+        value = getattr(spec, field)
+        said = degrees_for_radians(value if isinstance(value, tuple) else (value,))
+        if said:
+            node = faults.node_of(spec)
+            place = None if node is None else _child(node, shown)
+            faults.notice(place, f"<{shown}> is {said}")
+    for part in _parts(spec):
+        check_angles(part, faults)
+
+
+@functools.cache
+def _angles(cls: Hashable) -> tuple[tuple[str, str], ...]:
+    """The angles of a spec, by field and element; a phase may have any number of turns."""
+    assert isinstance(cls, type)
+    return tuple(
+        (slot.field, slot.shown)
+        for slot in slots(cls)
+        if slot.unit == "rad" and not slot.repeated and "phase" not in slot.field
+    )
+
+
+def _parts(spec: object) -> Iterator[object]:
+    kind: type = type(spec)
+    for field in _nested(kind):
+        held = getattr(spec, field)
+        yield from held if isinstance(held, tuple) else () if held is None else (held,)
+
+
+@functools.cache
+def _nested(cls: Hashable) -> tuple[str, ...]:
+    assert isinstance(cls, type)
+    return tuple(slot.field for slot in slots(cls) if slot.kind in ("spec", "choice"))
+
+
+def _child(node: etree._Element, shown: str) -> etree._Element:
+    return next((each for each in node if local(str(each.tag)) == shown), node)
+
+
+def _list(values: Sequence[float]) -> str:
+    return " ".join(f"{value:.5g}" for value in values)

@@ -1,0 +1,38 @@
+"""What `uwsim check` asks about where a file may well mean it, and how a file says that it does.
+
+.. code-block:: xml
+
+    <vehicle> ... <u:accept>buoyancy</u:accept> <u:accept>thrust</u:accept> </vehicle>
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+VehicleDoubt = Literal[
+    "balance", "buoyancy", "drag", "inertia", "passable", "places", "size", "start", "strength",
+    "thrust",
+]  # fmt: skip
+"""What may be asked about a vehicle."""
+ObjectDoubt = Literal["start"]
+"""What may be asked about an object."""
+
+DOUBTS: Mapping[VehicleDoubt, str] = {
+    "balance": "Its centre of buoyancy lies below its centre of mass as it begins: it turns over.",
+    "buoyancy": "What it displaces is far from its mass, or more than its shape has room for.",
+    "drag": "A link has more drag than its mass bears in one step, or drag and no mass at all.",
+    "inertia": "The inertia of a link is missing, or far from that of its mass and size.",
+    "passable": "Simulated vehicles pass through it, or it through everything.",
+    "places": "A thruster or the centre of mass or buoyancy lies far off the hull.",
+    "size": "It is larger than 50 m or smaller than 5 cm: its meshes may be in millimetres.",
+    "start": "It begins in or under the ground, or above the water.",
+    "strength": "A thruster would accelerate it by more than 50 m/s2.",
+    "thrust": "Its thrusters cannot drive surge, sway, heave and yaw.",
+}
+"""Doubt -> when it is raised."""
+
+
+def unless_meant(doubt: VehicleDoubt) -> str:
+    """How a file says that it is meant."""
+    return f"If that is meant: <u:accept>{doubt}</u:accept>"

@@ -1,0 +1,93 @@
+"""How large a vehicle is: the boxes with which its links are touched, in the frame of its base."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..geometry import Array
+from ..linear import length
+from ..physics.ground import triangles_of
+from ..scene.kinematics import link_poses
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec
+from .collision_shapes import collision_shapes
+
+
+@dataclass(frozen=True, eq=False)
+class LinkBox:
+    """What a link takes up."""
+
+    low: Array
+    """Least corner in the base's frame, (3,) [m]."""
+    high: Array
+    """Greatest corner, (3,) [m]."""
+    volume: float
+    """Of its boxes, overlaps counted twice [m3]."""
+
+    @property
+    def extent(self) -> Array:
+        """Along x, y, z of the base, (3,) [m]."""
+        return self.high - self.low
+
+
+@dataclass(frozen=True, eq=False)
+class Hull:
+    """All links of a vehicle that have a shape; at least one."""
+
+    links: Mapping[str, LinkBox]
+    """By the name of the link."""
+
+    @property
+    def low(self) -> Array:
+        """Least corner in the base's frame, (3,) [m]."""
+        low: Array = np.min([box.low for box in self.links.values()], axis=0)
+        return low
+
+    @property
+    def high(self) -> Array:
+        """Greatest corner in the base's frame, (3,) [m]."""
+        high: Array = np.max([box.high for box in self.links.values()], axis=0)
+        return high
+
+    @property
+    def size(self) -> float:
+        """Its longest extent [m]."""
+        return float((self.high - self.low).max())
+
+    @property
+    def volume(self) -> float:
+        """Of all boxes [m3]."""
+        return sum(box.volume for box in self.links.values())
+
+    def distance(self, point: Array) -> float:
+        """How far a point of the base's frame, (3,), is from the box around all links [m]."""
+        beyond = np.maximum(np.maximum(self.low - point, point - self.high), 0.0)
+        return float(length(beyond))
+
+
+def hull_of(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], index: int, data_path: tuple[Path, ...]
+) -> Hull | None:
+    """Measure a vehicle, its joints as the file says; None where it has no shape.
+
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle, by its number.
+        index: number of the vehicle.
+        data_path: folders in which files are looked for.
+
+    Raises:
+        UwsimError: a mesh cannot be read.
+    """
+    poses = link_poses(robots[index], scene.vehicles[index].joint_values)
+    links: dict[str, LinkBox] = {}
+    for name, shapes in collision_shapes(scene, robots, [index], {}, data_path).items():
+        link = name.split("/", 2)[2]
+        corners = triangles_of(shapes, poses[link]).reshape(-1, 3)  # in the base's frame
+        volume = sum(8.0 * float(np.prod(shape.size)) for shape in shapes)
+        links[link] = LinkBox(corners.min(axis=0), corners.max(axis=0), volume)
+    return Hull(links) if links else None
