@@ -16,6 +16,7 @@ GROUND = {
     "compatibility",
     "environment",
     "input_files",
+    "python_sources",
     "disk_cache",
     "jit",
     "linear",

@@ -119,6 +119,34 @@ def test_what_makes_another_experiment_is_named(change: dict[str, object], said:
     assert differences(entries(first, second)) == ()
 
 
+def with_files(result: Result, **roles: object) -> Result:
+    return replace(result, inputs={**INPUTS, **roles})
+
+
+def test_another_plugin_of_the_same_name_makes_another_experiment() -> None:
+    first, second = made("esm", {0.0: [1.0]}), made("ic", {0.0: [1.0]})
+    one = with_files(first, plugins=(("parts.py", "sha256:aa"),))
+    assert differences(entries(one, with_files(second, plugins=(("parts.py", "sha256:bb"),)))) == (
+        "plugin parts.py: aa in esm.result, bb in ic.result",
+    )
+    assert remarks(entries(one, one)) == ()
+    assert differences(entries(one, second)) == ()
+    assert remarks(entries(one, second)) == (
+        "plugin parts.py: aa in esm.result, absent in ic.result",
+    )
+
+
+def test_another_source_of_one_algorithm_is_remarked() -> None:
+    first, second = made("own:Tracker", {0.0: [1.0]}), made("own:Tracker", {0.0: [2.0]})
+    found = entries(
+        with_files(first, algorithm={"own.py": "sha256:aa"}),
+        with_files(second, algorithm={"own.py": "sha256:bb"}),
+    )
+    assert differences(found) == ()
+    [said] = remarks(found)
+    assert said.startswith("source of own:Tracker, own.py: aa in ")
+
+
 def test_parameters_and_settings_of_an_algorithm_make_no_other_experiment() -> None:
     first, second = made("esm", {0.0: [1.0]}), made("esm2", {0.0: [1.0]})
     run = {**second.run, "parameters": {"levels": 1}, "settings": (("algorithm.levels", "1"),)}

@@ -6,7 +6,6 @@ in the order of the plan. Whoever played them (`crew`), killed and resumed or no
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,16 +16,17 @@ import numpy as np
 
 from .. import __version__
 from ..errors import BenchmarkError, UwsimError
+from ..input_files import recorded
 from ..simulation import Simulation, Studio
 from . import unit_file
-from .answers import files_of
 from .floor import largest
+from .inputs_read import inputs_of
 from .logs import TIME, Log, save_log
 from .names import unknown_names
 from .original_format import save_dat, save_data
 from .plan import Plan, Unit
 from .play import bind_all
-from .plugin import blamed, check_bound, hashes
+from .plugin import blamed, check_bound
 from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPicture, Variation
 from .result_file import save
 from .summary import save_summary
@@ -281,7 +281,7 @@ def _run(plan: Plan, renderer: str) -> dict[str, object]:
 
 
 def open_once(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, object], str]:
-    """Open the scene once: hash every file and model it needs, and name the renderer.
+    """Open the scene once: hash every file that is read, and name the renderer.
 
     Every name of the benchmark is looked up on the way, so that no name can fail later.
 
@@ -295,38 +295,21 @@ def open_once(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, objec
     Raises:
         UwsimError: a file, a body, a camera or a service that is not there.
     """
-    simulation = Simulation(
-        plan.scene,
-        timestep=plan.timestep,
-        data_path=plan.data_path,
-        compatibility=plan.compatibility,
-        studio=studio,
-    )
-    try:
-        with blamed(plan.plugins):
-            check_bound(plan.plugins, plan.benchmark.parts, simulation)
-            _bind_all(plan, simulation)
-        robots = {
-            vehicle.file: _file_hash(Path(simulation.robots[i].path))
-            for i, vehicle in enumerate(plan.scene.vehicles)
-        }
-        assets = {name: f"sha256:{digest}" for name, digest in simulation.asset_hashes.items()}
-        assets |= {name: _file_hash(path) for name, path in simulation.files.items()}
-        for updater in chain(plan.benchmark.scene_updater):
+    with recorded() as files:
+        simulation = Simulation(
+            plan.scene,
+            timestep=plan.timestep,
+            data_path=plan.data_path,
+            compatibility=plan.compatibility,
+            studio=studio,
+        )
+        try:
             with blamed(plan.plugins):
-                files = files_of(updater, simulation)
-            assets |= {name: _file_hash(path) for name, path in files.items()}
-        renderer = simulation.renderer_name
-    finally:
-        simulation.close()
-    benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
-    plugins = {"plugins": hashes(plan.plugins)} if plan.plugins else {}
-    return {
-        "benchmark": [benchmark.name, _file_hash(benchmark)],
-        "scene": [scene.name, _file_hash(scene)],
-        "assets": {**robots, **assets},
-        **plugins,
-    }, renderer
+                check_bound(plan.plugins, plan.benchmark.parts, simulation)
+                _bind_all(plan, simulation)
+            return inputs_of(plan, simulation, files), simulation.renderer_name
+        finally:
+            simulation.close()
 
 
 def _bind_all(plan: Plan, simulation: Simulation) -> None:
@@ -337,19 +320,6 @@ def _bind_all(plan: Plan, simulation: Simulation) -> None:
         if faults := unknown_names(plan.benchmark, simulation):
             raise BenchmarkError(faults) from None
         raise
-
-
-def _file_hash(path: Path) -> str:
-    """Hash a file; or a folder, by the names and the bytes of its files."""
-    digest = hashlib.sha256()
-    for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
-        if path.is_dir():
-            digest.update(f"{file.relative_to(path).as_posix()}\0".encode())
-        if file.is_file():
-            with file.open("rb") as stream:
-                while piece := stream.read(1 << 20):
-                    digest.update(piece)
-    return f"sha256:{digest.hexdigest()}"
 
 
 def _plain(value: object) -> object:

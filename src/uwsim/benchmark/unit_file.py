@@ -14,8 +14,13 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ReplayDiffers, ResultError
+from .inputs import differing
 
 FOLDER = "units"
+LONGEST_LINE = 200
+"""So many letters of one difference are said."""
+MOST_LINES = 6
+"""So many differences are said."""
 Record = dict[str, Any]
 
 
@@ -48,7 +53,7 @@ def read(directory: Path, index: int, head: Record) -> Stored:
     found, stored = read_any(path)
     if found is not None and found != head:
         raise ResultError(
-            f"{path}: belongs to another run (other files, seed, settings or version). "
+            f"{path}: belongs to another run: {_other_run(found, head)}. "
             "Start anew with --overwrite, or choose another --out."
         )
     return stored
@@ -125,6 +130,26 @@ class UnitFile:
 
     def _publish(self) -> None:
         self._path.with_suffix(".part").replace(self._path)
+
+
+def _other_run(found: Record, head: Record) -> str:
+    """Say what of a head is not that of this run."""
+    said = differing(_part(found, "inputs"), _part(head, "inputs"))
+    before, now = (
+        {**_part(each, "run"), **{k: v for k, v in each.items() if k not in ("inputs", "run")}}
+        for each in (found, head)
+    )
+    said += [
+        f"{name} is {now.get(name)!r} now, was {before.get(name)!r}"
+        for name in dict.fromkeys([*before, *now])
+        if before.get(name) != now.get(name)
+    ]
+    return "; ".join(line[:LONGEST_LINE] for line in said[:MOST_LINES])
+
+
+def _part(head: Record, name: str) -> Record:
+    part = head.get(name)
+    return part if isinstance(part, dict) else {}
 
 
 def _text(record: Record) -> str:

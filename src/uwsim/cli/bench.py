@@ -140,14 +140,22 @@ def bench(
     assert crew is not None
 
     from ..benchmark.bench import Bench, open_once
+    from ..benchmark.inputs import without_algorithm
+    from ..benchmark.inputs_read import of_algorithm
 
     watch = Stopwatch()
     inputs, renderer = open_once(plans[0])
+    shared = without_algorithm(inputs)
     say_warnings(plans[0])
     raise_from_now_on()
     signal.signal(signal.SIGTERM, interrupt)
     runs = [
-        Bench(plan=plan, out=directory / folder, inputs=inputs, renderer=renderer)
+        Bench(
+            plan=plan,
+            out=directory / folder,
+            inputs={**shared, **of_algorithm(plan)},
+            renderer=renderer,
+        )
         for plan, folder in zip(plans, folders or [""], strict=True)
     ]
     said = repeats_note(len(plans), len(plans[0].levels()), repeat)
@@ -264,6 +272,7 @@ def control_of(run: Bench) -> Bench:
     from ..algorithms import load_algorithm
     from ..benchmark.bench import Bench
     from ..benchmark.directory import CONTROL as FOLDER_OF_CONTROL
+    from ..benchmark.inputs import without_algorithm
 
     plan = replace(
         run.plan,
@@ -273,7 +282,8 @@ def control_of(run: Bench) -> Bench:
         is_blind=True,
     )
     out = run.out / FOLDER_OF_CONTROL
-    return Bench(plan=plan, out=out, inputs=run.inputs, renderer="none")
+    inputs = without_algorithm(run.inputs)
+    return Bench(plan=plan, out=out, inputs=inputs, renderer="none")
 
 
 def finish(run: Bench, result: Result, beside: Beside, took: Took) -> None:

@@ -67,25 +67,24 @@ def plan_of(result: Result, directory: Path, given: Given) -> Plan:
 
 
 def check_inputs(recorded: Mapping[str, Any], found: Mapping[str, Any]) -> None:
-    """Refuse to go on with other files than those that were played.
+    """Refuse to go on with other assets or another algorithm than those that were played.
+
+    Benchmark, scene and plugins are found by their hashes.
 
     Raises:
         ResultError: names each that differs.
     """
-    before, now = recorded.get("assets", {}), found.get("assets", {})
-    if not isinstance(before, Mapping):
-        raise ResultError(f'"assets" of the result is {before!r}; expected name -> hash.')
-    wrong = [
-        f"{name} is another file now"
-        for name in before
-        if now.get(name, before[name]) != before[name]
-    ]
-    wrong += [f"{name} is not used any more" for name in before if name not in now]
-    wrong += [f"{name} was not used then" for name in now if name not in before]
-    if wrong:
+    from ..benchmark.inputs import ALGORITHM, ASSETS, differing
+
+    before, now = (
+        {role: each[role] for role in (ASSETS, ALGORITHM) if role in each}
+        for each in (recorded, found)
+    )
+    if wrong := differing(before, now):
         raise ResultError(
             f"The result was made with other files: {'; '.join(wrong)}. "
-            "Give the folder with those files with --data-path."
+            "Give the folder with those files with --data-path, and that of an algorithm with "
+            "PYTHONPATH."
         )
 
 

@@ -25,6 +25,7 @@ import numpy as np
 
 from ..dialect import element
 from ..errors import BadSetting, did_you_mean
+from ..python_sources import sources_of
 from .current import FASTEST, Array, Current, CurrentSpec, Place
 
 Function = Callable[[Array, float, str], Sequence[float]]
@@ -81,10 +82,9 @@ class PythonFunctionSpec(CurrentSpec):
             path = found.submodule_search_locations
 
     def files(self, place: Place) -> dict[str, Path]:
-        """The file of the module, once it is imported."""
-        module = sys.modules.get(self._names()[0])
-        path = getattr(module, "__file__", None)
-        return {Path(path).name: Path(path)} if path else {}
+        """The file of the module and those that it imports, once it is imported."""
+        module = self._names()[0]
+        return sources_of(module) if module in sys.modules else {}
 
     def _lost(self, module: str | None) -> BadSetting:
         return BadSetting(

@@ -468,9 +468,10 @@ class Simulation:
         return {part.id: part.name for part in self._scenery.parts}
 
     @property
-    def asset_hashes(self) -> dict[str, str]:
-        """Name of each model -> sha256 of its bytes or arrays, sorted by name."""
-        models = {part.model.name: part.model.sha256 for part in self._scenery.parts}
+    def made_hashes(self) -> dict[str, str]:
+        """Name of each model that is of no file -> sha256 of its arrays, sorted by name."""
+        made = [part.model for part in self._scenery.parts if not part.model.files]
+        models = {model.name: model.sha256 for model in made}
         return {name: models[name] for name in sorted(models)}
 
     # -- what scene updaters may turn (uwsim.world.Stage) --------------------------------------

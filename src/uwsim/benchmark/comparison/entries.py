@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...errors import ResultError
+from ..inputs import ALGORITHM, files_by_role, short
 from ..journals import check_rows
 from ..plots import algorithm_of
 from ..result import Column, Result
 from ..result_file import file_of, load
 from ..table import unit_of
-
-SHORT = 12
-"""Digits of a hash that are shown to people."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,7 +97,8 @@ def differences(entries: Sequence[Entry]) -> tuple[str, ...]:
         said = [value(entry.result) for entry in entries]
         if len(set(said)) > 1:
             found.append(f"{what}: {_who(entries, said)}")
-    found += _assets(entries)
+    found += _few(_said_of_files(entries, "assets", "asset"), "assets")
+    found += [line for line in _said_of_files(entries, "plugins", "plugin") if "absent" not in line]
     return tuple(found)
 
 
@@ -117,9 +116,10 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
     for what in dict.fromkeys(entry.unchecked for entry in entries if entry.unchecked):
         sources = [entry.source for entry in entries if entry.unchecked == what]
         found.append(f"{' and '.join(sources)}: {what}")
-    plugins = [_pairs(entry.result.inputs.get("plugins")) for entry in entries]
-    if len(set(plugins)) > 1:
-        found.append(f"plugins: {_who(entries, [p or 'none' for p in plugins])}")
+    found += [line for line in _said_of_files(entries, "plugins", "plugin") if "absent" in line]
+    for name in dict.fromkeys(algorithm_of(entry.result) for entry in entries):
+        alike = [entry for entry in entries if algorithm_of(entry.result) == name]
+        found += _few(_said_of_files(alike, ALGORITHM, f"source of {name},"), "sources")
     return tuple(found)
 
 
@@ -143,7 +143,7 @@ def same_pictures(first: Result, second: Result) -> tuple[int, int] | None:
 def _file(result: Result, what: str) -> str:
     value = result.inputs.get(what)
     if isinstance(value, tuple) and len(value) == 2:
-        return f"{value[0]} {_short(value[1])}"
+        return f"{value[0]} {short(value[1])}"
     return "unknown"
 
 
@@ -174,16 +174,22 @@ _EXPERIMENT: dict[str, Callable[[Result], str]] = {
 """What must be equal -> how a result says it."""
 
 
-def _assets(entries: Sequence[Entry]) -> list[str]:
+def _said_of_files(entries: Sequence[Entry], role: str, what: str) -> list[str]:
+    """Name every file of a role that is not the same in all results."""
+    tables = [
+        {name: digest for of, name, digest in files_by_role(entry.result.inputs) if of == role}
+        for entry in entries
+    ]
     found = []
-    maps = [entry.result.inputs.get("assets") for entry in entries]
-    tables = [dict(table) if isinstance(table, Mapping) else {} for table in maps]
-    names = dict.fromkeys(name for table in tables for name in table)
-    for name in names:
-        said = [_short(table[name]) if name in table else "absent" for table in tables]
+    for name in dict.fromkeys(name for table in tables for name in table):
+        said = [short(table[name]) if name in table else "absent" for table in tables]
         if len(set(said)) > 1:
-            found.append(f"asset {name}: {_who(entries, said)}")
-    return [*found[:2], f"{len(found) - 2} more assets"] if len(found) > 3 else found
+            found.append(f"{what} {name}: {_who(entries, said)}")
+    return found
+
+
+def _few(found: list[str], what: str) -> list[str]:
+    return [*found[:2], f"{len(found) - 2} more {what}"] if len(found) > 3 else found
 
 
 # ---------------------------------------------------------------------------- how it is said
@@ -200,16 +206,6 @@ def _who(entries: Sequence[Entry], said: Sequence[str]) -> str:
 
 def _labels(columns: Sequence[Column]) -> str:
     return " and ".join(column.label for column in columns) or "nothing"
-
-
-def _short(digest: object) -> str:
-    return str(digest).removeprefix("sha256:")[:SHORT]
-
-
-def _pairs(value: object) -> str:
-    if not isinstance(value, Mapping):
-        return ""
-    return " ".join(f"{name} {_short(digest)}" for name, digest in sorted(value.items()))
 
 
 def _distinct(directories: Sequence[Path]) -> list[str]:

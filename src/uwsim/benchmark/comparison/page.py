@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ... import __version__
 from ...statistics import Interval
+from ..inputs import files_by_role
 from ..interval import rows_by_level, success_per_level
 from ..pages import template
 from ..plots import written_unit
@@ -62,7 +63,7 @@ def render(comparison: Comparison, plots: Sequence[Path]) -> str:
             }
             for entry in comparison.entries
         ],
-        inputs=_inputs(comparison.entries[0].result),
+        inputs=[*files_by_role(comparison.entries[0].result.inputs)],
         version=__version__,
     )
 
@@ -135,16 +136,6 @@ def _about(result: Result) -> list[tuple[str, str]]:
 
 def _word(value: object) -> str:
     return f"{value:.10g}" if isinstance(value, float) else str(value)
-
-
-def _inputs(result: Result) -> list[tuple[str, str, str]]:
-    found = []
-    for what, value in result.inputs.items():
-        if isinstance(value, Mapping):
-            found += [(what, str(name), str(digest)) for name, digest in value.items()]
-        elif isinstance(value, tuple) and len(value) == 2:
-            found.append((what, str(value[0]), str(value[1])))
-    return found
 
 
 def _data_url(data: bytes) -> str:

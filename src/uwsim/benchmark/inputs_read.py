@@ -1,0 +1,64 @@
+"""Gathering the ``inputs`` of a result: what was read, and the sources of an algorithm."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from ..input_files import InputFile, by_name, hash_of, portable
+from ..python_sources import sources_of
+from ..simulation import Simulation
+from .answers import files_of
+from .inputs import ALGORITHM
+from .plan import Plan
+from .plugin import blamed, hashes
+from .updaters import chain
+
+
+def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> dict[str, object]:
+    """Gather what a plan is made of.
+
+    Args:
+        plan: what is played.
+        simulation: its scene.
+        read: the input files that were read to make it (`uwsim.input_files.recorded`).
+    """
+    benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
+    robots = {
+        Path(simulation.robots[i].path): vehicle.file
+        for i, vehicle in enumerate(plan.scene.vehicles)
+    }
+    assets = [
+        InputFile(portable(robots[file.path]), file.sha256) if file.path in robots else file
+        for file in read
+        if file.path not in (benchmark, scene)
+    ]
+    known = {file.path for file in read}
+    others = dict(simulation.files)
+    for updater in chain(plan.benchmark.scene_updater):
+        with blamed(plan.plugins):
+            others |= files_of(updater, simulation)
+    assets += [
+        InputFile(portable(name), hash_of(path))
+        for name, path in others.items()
+        if path not in known
+    ]
+    assets += [
+        InputFile(name, f"sha256:{digest}") for name, digest in simulation.made_hashes.items()
+    ]
+    return {
+        "benchmark": [benchmark.name, hash_of(benchmark)],
+        "scene": [scene.name, hash_of(scene)],
+        "assets": by_name(assets),
+        **({"plugins": hashes(plan.plugins)} if plan.plugins else {}),
+        **of_algorithm(plan),
+    }
+
+
+def of_algorithm(plan: Plan) -> dict[str, object]:
+    """Hash the sources of a ``module:Class``; nothing of what is bundled, or a plugin's."""
+    module, colon, _ = plan.algorithm_name.partition(":")
+    if not colon:
+        return {}
+    sources = [InputFile(name, hash_of(path)) for name, path in sources_of(module).items()]
+    return {ALGORITHM: by_name(sources)}

@@ -1,0 +1,92 @@
+"""The source files of a module: its own, and those of everything of the user's that it imports.
+
+What is installed (Python's library, ``site-packages``) and this package do not count: a result says
+their versions. What a module opens or imports by other means than an ``import`` is not seen.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import site
+import sys
+import sysconfig
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from importlib.machinery import PathFinder
+from pathlib import Path
+
+OWN = "uwsim"
+INSTALLED = ("site-packages", "dist-packages")
+MOST = 2000
+"""So many modules are followed."""
+
+
+def sources_of(module: str) -> dict[str, Path]:
+    """Return name -> file of a module that is imported, and of what it imports, sorted by name.
+
+    A name is that of the module as a path, ``package/module.py``. Of what is installed only the
+    package that the module is in counts.
+    """
+    top = module.partition(".")[0]
+    found: dict[str, Path] = {}
+    todo, seen = [module], {""}
+    while todo and len(seen) < MOST:
+        name = todo.pop()
+        if name in seen:
+            continue
+        seen.add(name)
+        todo.append(name.rpartition(".")[0])
+        path = None if name.partition(".")[0] == OWN else _file_of(name)
+        if path is None or not (name.partition(".")[0] == top or _is_own(path)):
+            continue
+        stem = f"{name.replace('.', '/')}/__init__" if path.stem == "__init__" else name
+        found[stem.replace(".", "/") + path.suffix] = path
+        if path.suffix == ".py":
+            todo += _imported(path, name)
+    return dict(sorted(found.items()))
+
+
+def _file_of(module: str) -> Path | None:
+    """The file of a module; None of one that has none, or is not there."""
+    known = sys.modules.get(module)
+    file = getattr(known, "__file__", None)
+    if known is None:
+        parent, _, _ = module.rpartition(".")
+        places: Sequence[str] | None = getattr(sys.modules.get(parent), "__path__", None)
+        if parent and places is None:
+            return None
+        with suppress(Exception):  # a finder of somebody else's fails as it likes
+            spec = PathFinder.find_spec(module, places)
+            file = None if spec is None or not spec.has_location else spec.origin
+    path = Path(str(file)) if file else None
+    return path if path is not None and path.is_file() else None
+
+
+def _is_own(path: Path) -> bool:
+    """Whether a file is the user's: neither Python's nor installed."""
+    whole = path.resolve()
+    places = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib")}
+    places.add(site.getusersitepackages())
+    return not any(part in INSTALLED for part in whole.parts) and not any(
+        whole.is_relative_to(Path(place).resolve()) for place in places if place
+    )
+
+
+def _imported(path: Path, module: str) -> Iterator[str]:
+    """Names that may be modules which the file of a module imports, wherever in it."""
+    package = module if path.stem == "__init__" else module.rpartition(".")[0]
+    try:
+        tree = ast.parse(path.read_bytes())
+    except (OSError, SyntaxError, ValueError, RecursionError):
+        return
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = node.module or ""
+            if node.level:
+                with suppress(ImportError):
+                    base = importlib.util.resolve_name("." * node.level + base, package)
+            yield base
+            yield from (f"{base}.{alias.name}" for alias in node.names if alias.name != "*")
