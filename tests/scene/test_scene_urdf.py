@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import math
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -271,6 +272,20 @@ def test_joints_that_mimic_each_other_are_a_loop(tmp_path: Path) -> None:
         "joint 'j' mimics 'k' mimics 'j': a loop",
         "joint 'k' mimics 'j' mimics 'k': a loop",
     ]
+
+
+@pytest.mark.parametrize("last", ["", '<mimic joint="j0"/>'], ids=["a chain", "a loop"])
+def test_1200_joints_that_mimic_the_next_are_followed_once_each(last: str, tmp_path: Path) -> None:
+    n = 1200
+    links = '<link name="a"/>' + "".join(f'<link name="{i}"/>' for i in range(n))
+    mimics = [*(f'<mimic joint="j{i + 1}"/>' for i in range(n - 1)), last]
+    text = links + "".join(joint(f"j{i}", mimics[i], of=f"a {i}") for i in range(n))
+    start = time.process_time()
+    if last:
+        assert "and 1100 more faults" in refused(text, tmp_path)
+    else:
+        assert len(robot_of(text, tmp_path).joints) == n
+    assert time.process_time() - start < 2.0  # it took 4 s and 14 s
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from .checks import check_names
 from .legacy import upgrade
 from .look_checks import check_looks
 from .not_yet import not_simulated
+from .size_checks import check_sizes
 from .spec import ObjectSpec, SceneSpec
 from .urdf import RobotSpec
 from .urdf_reader import read_robot, read_urdf
@@ -75,6 +76,7 @@ def read_document(document: Document, faults: Faults) -> SceneSpec | None:
         given={"path": str(document.path), "is_original": document.has_doctype},
     )
     if scene is not None:
+        check_sizes(scene, faults)
         check_variations(scene, faults)
     return scene
 

@@ -77,8 +77,7 @@ def read_robot(path: Path, faults: Faults) -> RobotSpec | None:
                 joints[joint.name] = joint
                 faults.remember(joint, node)
     joints = {name: _with_leader(joint, joints, faults) for name, joint in joints.items()}
-    for joint in joints.values():
-        _check_mimic(joint, joints, faults)
+    _check_mimics(joints, faults)
     if not links:
         faults.add(root, "the robot has no <link>")
     if faults.any:
@@ -327,14 +326,21 @@ def _with_leader(joint: JointSpec, joints: dict[str, JointSpec], faults: Faults)
     return free
 
 
-def _check_mimic(joint: JointSpec, joints: dict[str, JointSpec], faults: Faults) -> None:
-    passed: list[str] = []
-    while joint.mimic is not None and joint.name not in passed and joint.mimic.joint in joints:
-        passed.append(joint.name)
-        joint = joints[joint.mimic.joint]
-    if passed and joint.name == passed[0]:
-        loop = " mimics ".join(repr(name) for name in (*passed, joint.name))
-        faults.add(faults.node_of(joint), f"joint {loop[:200]}: a loop")
+def _check_mimics(joints: dict[str, JointSpec], faults: Faults) -> None:
+    """Say which joints mimic each other in a loop; every joint is visited once."""
+    seen: set[str] = set()
+    for name in joints:
+        path: dict[str, int] = {}  # joint -> how many before it
+        while name in joints and name not in seen:
+            seen.add(name)
+            path[name] = len(path)
+            mimic = joints[name].mimic
+            name = "" if mimic is None else mimic.joint
+        loop = list(path)[path[name] :] if name in path else []
+        for i, member in enumerate(loop):
+            turned = (*loop[i:], *loop[:i], member)[:100]
+            said = " mimics ".join(repr(each) for each in turned)
+            faults.add(faults.node_of(joints[member]), f"joint {said[:200]}: a loop")
 
 
 def _end(node: etree._Element, end: str, links: dict[str, LinkSpec], faults: Faults) -> str | None:

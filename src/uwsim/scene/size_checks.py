@@ -1,0 +1,62 @@
+"""Pictures and fans of beams that are larger than anybody means: each costs memory and time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..dialect import Faults
+from ..sensors.multibeam_sensor import MultibeamSensorSpec
+from ..sensors.profiling_sonar import ProfilingSonarSpec
+from ..sensors.virtual_camera import VirtualCameraSpec
+from ..sensors.virtual_range_image import VirtualRangeImageSpec
+from .spec import SceneSpec, SimParamsSpec
+
+MOST_PIXELS = 7680 * 4320
+"""Largest picture of a camera [px]: 8K. Drawing it takes about 1 GB."""
+MOST_PIXELS_IN_ALL = 4 * MOST_PIXELS
+"""Of all cameras of a scene [px]."""
+MOST_BEAMS = 100_000
+"""Most beams of one sensor."""
+
+Picture = VirtualCameraSpec | VirtualRangeImageSpec | SimParamsSpec
+
+
+def check_sizes(scene: SceneSpec, faults: Faults) -> None:
+    """Say which cameras, windows and fans of beams are too large."""
+    n_all = 0
+    for picture in (scene.sim_params, *_cameras(scene)):
+        n = picture.resw * picture.resh
+        if n > MOST_PIXELS:
+            faults.add(
+                faults.node_of(picture),
+                f"a picture of {picture.resw} x {picture.resh} pixels; at most "
+                f"{MOST_PIXELS / 1e6:.0f} million are drawn",
+            )
+            continue
+        n_all += n
+        if n_all > MOST_PIXELS_IN_ALL:
+            faults.add(
+                faults.node_of(picture),
+                f"with this one, the pictures of the scene have {n_all / 1e6:.0f} million pixels; "
+                f"at most {MOST_PIXELS_IN_ALL / 1e6:.0f} are drawn",
+            )
+            break
+    for fan in _fans(scene):
+        if abs(fan.final_angle - fan.init_angle) >= MOST_BEAMS * fan.angle_incr:
+            faults.add(
+                faults.node_of(fan),
+                f"from {fan.init_angle:g} to {fan.final_angle:g} degrees in steps of "
+                f"{fan.angle_incr:g} are more than {MOST_BEAMS} beams",
+            )
+
+
+def _cameras(scene: SceneSpec) -> Iterator[VirtualCameraSpec | VirtualRangeImageSpec]:
+    for vehicle in scene.vehicles:
+        yield from vehicle.virtual_cameras
+        yield from vehicle.virtual_range_images
+
+
+def _fans(scene: SceneSpec) -> Iterator[MultibeamSensorSpec | ProfilingSonarSpec]:
+    for vehicle in scene.vehicles:
+        yield from vehicle.multibeam_sensors
+        yield from vehicle.profiling_sonars

@@ -1,0 +1,68 @@
+"""Pictures and fans of beams have a largest size, which a scene file is held to when it is read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from uwsim.errors import SceneError
+from uwsim.scene.reader import read_scene
+
+
+def faults(cameras: str, folder: Path) -> list[str]:
+    path = folder / "scene.xml"
+    path.write_text(
+        "<UWSimScene>\n<vehicle><name>v</name><file>g500ARM5.urdf</file>"
+        f"{cameras}</vehicle></UWSimScene>"
+    )
+    try:
+        read_scene(path)
+    except SceneError as error:
+        return [fault.message for fault in error.faults]
+    return []
+
+
+def camera(wide: int, high: int, kind: str = "virtualCamera") -> str:
+    return (
+        f"<{kind}><name>c</name><relativeTo>part0</relativeTo><resw>{wide}</resw>"
+        f"<resh>{high}</resh></{kind}>"
+    )
+
+
+def sonar(step: str, kind: str) -> str:
+    return (
+        f"<{kind}><name>s</name><relativeTo>part0</relativeTo><initAngle>-60</initAngle>"
+        f"<finalAngle>60</finalAngle><angleIncr>{step}</angleIncr><range>9</range>"
+        f"{'<fov>3</fov>' if kind == 'ProfilingSonar' else ''}</{kind}>"
+    )
+
+
+@pytest.mark.parametrize("kind", ["virtualCamera", "virtualRangeImage"])
+def test_a_picture_may_have_8k_and_no_more(kind: str, tmp_path: Path) -> None:
+    assert faults(camera(7680, 4320, kind), tmp_path) == []
+    assert faults(camera(16384, 16384, kind), tmp_path) == [
+        "a picture of 16384 x 16384 pixels; at most 33 million are drawn"
+    ]
+
+
+def test_so_has_the_window(tmp_path: Path) -> None:
+    path = tmp_path / "scene.xml"
+    path.write_text("<UWSimScene><simParams><resw>99999</resw></simParams></UWSimScene>")
+    with pytest.raises(SceneError, match=r"a picture of 99999 x 600 pixels"):
+        read_scene(path)
+
+
+def test_all_pictures_together_have_a_largest_size(tmp_path: Path) -> None:
+    assert faults(camera(7680, 4320) * 3, tmp_path) == []
+    assert faults(camera(7680, 4320) * 5, tmp_path) == [
+        "with this one, the pictures of the scene have 133 million pixels; at most 133 are drawn"
+    ]
+
+
+@pytest.mark.parametrize("kind", ["multibeamSensor", "ProfilingSonar"])
+def test_a_fan_of_beams_has_a_largest_number(kind: str, tmp_path: Path) -> None:
+    assert faults(sonar("0.1", kind), tmp_path) == []
+    for step in ("1e-9", "5e-324"):
+        (said,) = faults(sonar(step, kind), tmp_path)
+        assert said.endswith("are more than 100000 beams")
