@@ -18,6 +18,7 @@ GROUND = {
     "input_files",
     "python_sources",
     "disk_cache",
+    "modules",
     "jit",
     "linear",
     "elementwise",

@@ -18,6 +18,7 @@ from ..interrupts import raise_from_now_on
 from .completion import algorithm_names
 from .crew import WorkersOption, crew_of, n_at_once
 from .faults import running
+from .foreign_code import NoCodeOption, announce_code
 from .options import (
     BenchmarkArgument,
     CompatOption,
@@ -100,6 +101,7 @@ def bench(
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier result in --out.")
     ] = False,
     plugin: PluginOption = None,
+    no_code: NoCodeOption = False,
     data_path: DataPathOption = None,
 ) -> None:
     """Play a benchmark: every level, scored; a table, logs, plots and a report come out.
@@ -129,6 +131,7 @@ def bench(
                     compat=compat or [],
                     data_path=tuple(data_path or ()),
                     plugins=plugin or [],
+                    no_code=no_code,
                 )
             )
     with wrong.kept():
@@ -144,6 +147,7 @@ def bench(
     from ..benchmark.inputs_read import of_algorithm
 
     watch = Stopwatch()
+    announce_code(plans[0].scene)
     inputs, renderer = open_once(plans[0])
     shared = without_algorithm(inputs)
     say_warnings(plans[0])

@@ -53,6 +53,8 @@ def check(
 ) -> None:
     """Say everything that is wrong with scene, robot, hydrodynamics and benchmark files.
 
+    Code that these files name is looked for and never run; that of a --plugin, which you name, is.
+
     Exit status 0 without faults, else 2; what is read and not simulated yet is a notice. With
     --json: {"files": [{"file", "faults": [{"file", "line", "severity", "message"}]}], "n_faults"}.
     """
@@ -219,7 +221,8 @@ def unknown_names(
         return faults.all()
     try:
         path = scene_file(str(wanted), (file.parent, *data_path))
-        simulation = Simulation(read_scene(path), data_path=data_path, is_blind=True)
+        spec = read_scene(path)
+        simulation = Simulation(spec, data_path=data_path, is_blind=True, runs_code=False)
     except FileError:
         if scene is None:
             said = f"the scene {str(wanted)!r} has faults: uwsim check {wanted}"

@@ -16,6 +16,7 @@ from .bench import interrupt
 from .completion import algorithm_names
 from .crew import WorkersOption, crew_of, n_at_once
 from .faults import printable, running
+from .foreign_code import NoCodeOption, announce_code
 from .options import BenchmarkArgument, CompatOption, DataPathOption, SceneOption, SetOption
 from .plan import chosen_level, make_plan, say_warnings
 from .plugins import PluginOption
@@ -129,6 +130,7 @@ def envelope(
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier envelope in --out.")
     ] = False,
     plugin: PluginOption = None,
+    no_code: NoCodeOption = False,
     data_path: DataPathOption = None,
 ) -> None:
     """Find the level at which a benchmark breaks: one number, its unit, and its bound.
@@ -164,6 +166,7 @@ def envelope(
             compat=compat or [],
             data_path=tuple(data_path or ()),
             plugins=plugin or [],
+            no_code=no_code,
         )
     chosen = []
     for text in level or []:
@@ -228,6 +231,7 @@ def play(
     from ..benchmark.envelope.plot import draw
     from ..benchmark.provenance import machine, save_beginning, save_provenance
 
+    announce_code(plan.scene)
     inputs, renderer = open_once(plan)
     say_warnings(plan)
     raise_from_now_on()

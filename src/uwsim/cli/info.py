@@ -48,7 +48,7 @@ def info(
         with wrong.kept():
             spec = apply_setting(spec, name, value)
     wrong.check()
-    simulation = Simulation(spec.nominal, data_path=folders, is_blind=True)
+    simulation = Simulation(spec.nominal, data_path=folders, is_blind=True, runs_code=False)
     try:
         found = inventory(spec, simulation, check_scene(path))
     finally:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ..errors import AllErrors, AssetNotFound, BadSetting, did_you_mean
 from .faults import say_notices
 from .files import benchmark_file, scene_file
+from .foreign_code import announce, refuse_code, refused
 from .plugins import read_plugins
 from .stand_ins import warn_of_stand_ins
 
@@ -40,8 +41,13 @@ def make_plan(
     compat: list[str],
     data_path: tuple[Path, ...],
     plugins: Sequence[Path] = (),
+    no_code: bool = False,
+    algorithm_is_from: str = "",
 ) -> Plan:
     """Read the files and put together what is to be played.
+
+    Code that they name is announced before it runs, or refused (``no_code``). An ``algorithm`` that
+    the user did not type is from a file: ``algorithm_is_from`` is its name.
 
     Raises:
         UwsimError: a file, a name or a setting that is wrong; or SeveralErrors, with all of them.
@@ -80,6 +86,14 @@ def make_plan(
     kind: type[Algorithm] | None = None
     wanted = algorithm or (None if spec is None else spec.algorithm) or ""
     with wrong.kept():
+        if scene_spec is not None and no_code:
+            refuse_code(scene_spec)
+    with wrong.kept():
+        file = algorithm_is_from or ("" if algorithm or spec is None else spec.path)
+        if file and ":" in wanted:
+            if no_code:
+                raise refused(wanted, file)
+            announce(wanted, file)
         kind = algorithm_of(wanted, spec, tables)
     check_parameters(kind, parameters, wrong)
     chosen_mode: Mode = "sequential"

@@ -32,6 +32,8 @@ class Given:
     """Plugins, in any order."""
     data_path: tuple[Path, ...] = ()
     """Folders in which files are looked for."""
+    no_code: bool = False
+    """Whether code that the files name is refused."""
 
 
 def plan_of(result: Result, directory: Path, given: Given) -> Plan:
@@ -62,6 +64,8 @@ def plan_of(result: Result, directory: Path, given: Given) -> Plan:
         compat=list(run.names("compatibility")),
         data_path=given.data_path,
         plugins=_plugins(result, given.plugins),
+        no_code=given.no_code,
+        algorithm_is_from=str(directory),
     )
     return replace(plan, is_blind=is_blind)
 

@@ -12,6 +12,7 @@ from PIL import Image
 from ..errors import AllErrors, BadSetting
 from .faults import say_notices
 from .files import scene_file
+from .foreign_code import NoCodeOption, announce_code, refuse_code
 from .options import CompatOption, DataPathOption, SceneArgument, SetOption
 from .plan import compatibility_of, pairs_of
 from .stand_ins import warn_of_stand_ins
@@ -100,6 +101,7 @@ def render(
             "each number in it.",
         ),
     ] = False,
+    no_code: NoCodeOption = False,
     data_path: DataPathOption = None,
 ) -> None:
     """Draw a scene at time 0: what a camera of it sees, or a view of it.
@@ -125,10 +127,14 @@ def render(
             spec = None if spec is None else apply_setting(spec, name, value)
     with wrong.kept():
         wanted = Wanted.of(camera, view, eye, at, size, settings or ())
+    with wrong.kept():
+        if spec is not None and no_code:
+            refuse_code(spec)
     slips = compatibility_of(compat or [], wrong)
     wrong.check()
     assert spec is not None
     assert wanted is not None
+    announce_code(spec)
     warn_of_stand_ins(spec, folders)
     simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=slips)
     try:

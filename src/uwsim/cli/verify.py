@@ -13,6 +13,7 @@ from ..errors import ResultError
 from ..interrupts import raise_from_now_on
 from .crew import WorkersOption, crew_of, n_at_once
 from .faults import RUN_FAILED, printable, running
+from .foreign_code import NoCodeOption, announce_code
 from .options import DataPathOption, ResultArgument
 from .plugins import PluginOption
 from .progress import progress
@@ -93,6 +94,7 @@ def verify(
         ),
     ] = None,
     plugin: PluginOption = None,
+    no_code: NoCodeOption = False,
     data_path: DataPathOption = None,
 ) -> None:
     """Replay a sample of a stored result and compare it with what is stored, byte for byte.
@@ -122,8 +124,10 @@ def verify(
         scene=scene,
         plugins=tuple(plugin or ()),
         data_path=tuple(data_path or ()),
+        no_code=no_code,
     )
     plan = plan_of(stored, directory, given)
+    announce_code(plan.scene)
     inputs, renderer = open_once(plan)
     check_inputs(stored.inputs, inputs)
     renderer = NOT_DRAWN if plan.is_blind else renderer

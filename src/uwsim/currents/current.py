@@ -31,6 +31,8 @@ class Place:
     """Where a file that the scene names is."""
     world_from_localized: Pose = field(default_factory=Pose.identity)
     """W from L."""
+    runs_code: bool = True
+    """Whether code that the scene names may run; what it would say is else as good as nothing."""
     surface_height: float = 0.0
     """Of the still water, in W [m]."""
 
@@ -48,6 +50,11 @@ class CurrentSpec(abc.ABC):
     @abc.abstractmethod
     def bind(self, place: Place) -> Current:
         """Find what it needs; raises UwsimError when that is not there."""
+
+    @property
+    def code(self) -> str:
+        """Python code of the user's own that it runs, ``module:function``; empty if none."""
+        return ""
 
     def files(self, place: Place) -> Mapping[str, Path]:
         """Return the files that it reads or runs, by the names that the scene has for them."""

@@ -18,13 +18,13 @@ import math
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from importlib.machinery import PathFinder
 from pathlib import Path
 
 import numpy as np
 
 from ..dialect import element
 from ..errors import BadSetting, did_you_mean
+from ..modules import located
 from ..python_sources import sources_of
 from .current import FASTEST, Array, Current, CurrentSpec, Place
 
@@ -39,11 +39,16 @@ class PythonFunctionSpec(CurrentSpec):
     """``module:function``."""
 
     def bind(self, place: Place) -> PythonFunction:
-        """Import the module: its code runs here, and not when a file is only read or checked.
+        """Import the module: its code runs here.
+
+        Where no code may run it is only looked for, and the water of it is still.
 
         Raises:
             BadSetting: there is no such module, or no such function in it.
         """
+        if not place.runs_code:
+            self.look()
+            return PythonFunction(self.function, still)
         module_name, name = self._names()
         try:
             module = importlib.import_module(module_name)
@@ -62,24 +67,21 @@ class PythonFunctionSpec(CurrentSpec):
             )
         return PythonFunction(self.function, function)
 
-    def look(self) -> None:
-        """Look whether the module is there, running none of it.
+    def look(self) -> str:
+        """Look where the module is, running none of it.
 
         Raises:
             BadSetting: it is not on Python's path.
         """
-        parts = self._names()[0].split(".")
-        path: Sequence[str] | None = None
-        for i, part in enumerate(parts):
-            name = ".".join(parts[: i + 1])
-            if name in sys.modules or (i == 0 and part in sys.builtin_module_names):
-                path = getattr(sys.modules.get(name), "__path__", None)
-                continue
-            is_in_none = i > 0 and path is None  # what it should be in is no package
-            found = None if is_in_none else PathFinder.find_spec(name, path)
-            if found is None:
-                raise self._lost(name)
-            path = found.submodule_search_locations
+        try:
+            return located(self._names()[0])
+        except ModuleNotFoundError as error:
+            raise self._lost(error.name) from error
+
+    @property
+    def code(self) -> str:
+        """The module and function that it runs."""
+        return self.function
 
     def files(self, place: Place) -> dict[str, Path]:
         """The file of the module and those that it imports, once it is imported."""
@@ -98,6 +100,11 @@ class PythonFunctionSpec(CurrentSpec):
         if not name.isidentifier() or not all(part.isidentifier() for part in module.split(".")):
             raise BadSetting(f"<u:function> is {self.function!r}; expected 'module:function'.")
         return module, name
+
+
+def still(point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
+    """Water that does not move, in the place of a function that may not run."""
+    return 0.0, 0.0, 0.0
 
 
 class PythonFunction(Current):

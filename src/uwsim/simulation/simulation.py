@@ -77,6 +77,7 @@ class Simulation:
         data_path: folders in which files are looked for.
         compatibility: the original's slips asked for.
         is_blind: publish black images, drawing nothing.
+        runs_code: let Python code that the scene names run; without it that water is still.
         studio: lends the renderer; without one the simulation has a renderer of its own.
     """
 
@@ -90,6 +91,7 @@ class Simulation:
         data_path: tuple[Path, ...] = (),
         compatibility: frozenset[str] = frozenset(),
         is_blind: bool = False,
+        runs_code: bool = True,
         studio: Studio | None = None,
     ) -> None:
         if not isinstance(scene, SceneSpec):
@@ -132,6 +134,7 @@ class Simulation:
             stream=self.stream,
             find=lambda name: find_file(name, scene.path, data_path),
             world_from_localized=scene.world_from_localized,
+            runs_code=runs_code,
             surface_height=scene.ocean_state.ocean_surface_height,
         )
         self._scene_current = bind_currents(scene.ocean_state.currents, place)

@@ -1,0 +1,32 @@
+"""Where the code of a Python module lies, found without running any of it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib.machinery import PathFinder
+
+
+def located(module: str) -> str:
+    """The file of a module on Python's path; empty for one that has none, as a package without.
+
+    Raises:
+        ModuleNotFoundError: it is not there; its ``name`` says which part.
+    """
+    parts = module.split(".")
+    path: Sequence[str] | None = None
+    origin = ""
+    for i, part in enumerate(parts):
+        name = ".".join(parts[: i + 1])
+        known = sys.modules.get(name)
+        if known is not None or (i == 0 and part in sys.builtin_module_names):
+            path = getattr(known, "__path__", None)
+            origin = getattr(known, "__file__", None) or ""
+            continue
+        is_in_none = i > 0 and path is None  # what it should be in is no package
+        found = None if is_in_none else PathFinder.find_spec(name, path)
+        if found is None:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+        path = found.submodule_search_locations
+        origin = found.origin or ""
+    return origin
