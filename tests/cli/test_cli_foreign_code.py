@@ -28,10 +28,14 @@ LOOKING = ["--scene", "visibility-scene", "--over", "fog", "--until", "t"]
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Lay out a scene and benchmarks whose code leaves a mark when it runs."""
-    code = f"open({str(tmp_path / 'ran')!r}, 'w').close()\ndef eddy(point, time, vehicle): return 0, 0, 0\n"
-    (tmp_path / f"{MODULE}.py").write_text(
-        code + "class Tracker:\n    def start(self, node): ...\n"
-    )
+    mark = str(tmp_path / "ran")
+    code = f"""open({mark!r}, "w").close()
+def eddy(point, time, vehicle):
+    return 0, 0, 0
+class Tracker:
+    def start(self, node): ...
+"""
+    (tmp_path / f"{MODULE}.py").write_text(code)
     (tmp_path / "scene.xml").write_text(SCENE)
     (tmp_path / "still.xml").write_text(SCENE.replace("u:pythonFunction", "u:none"))
     (tmp_path / "benchmark.xml").write_text(BENCHMARK.format(""))
