@@ -15,6 +15,7 @@ GROUND = {
     "chance",
     "compatibility",
     "environment",
+    "file_names",
     "input_files",
     "python_sources",
     "disk_cache",

@@ -25,7 +25,7 @@ def test_a_log_reads_back_exactly(tmp_path: Path) -> None:
 
 def test_a_name_with_a_slash_stays_in_the_directory(tmp_path: Path) -> None:
     log = Log(measure="../x/y", header=("time [s]",))
-    assert save_log(log, tmp_path) == tmp_path / "measure-.._x_y.csv"
+    assert save_log(log, tmp_path) == tmp_path / "measure-_x_y.csv"
 
 
 def test_what_could_not_be_measured_is_an_empty_field() -> None:

@@ -16,6 +16,7 @@ import numpy as np
 
 from .. import __version__
 from ..errors import BenchmarkError, UwsimError
+from ..file_names import file_names
 from ..input_files import recorded
 from ..simulation import Simulation, Studio
 from . import unit_file
@@ -92,9 +93,10 @@ class Bench:
         if self.plan.repeats > 1:
             save_summary(result, self.out)
         measures = {spec.name: spec for spec in self.plan.benchmark.measures}
+        files = file_names(measures)
         for log in logs:
-            save_log(log, self.out)
-            save_data(log, measures[log.measure], self.out)
+            save_log(log, self.out, files[log.measure])
+            save_data(log, measures[log.measure], self.out, files[log.measure])
         return result
 
     def stored(self, unit: Unit) -> unit_file.Stored:

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultError
+from ..file_names import file_name
 from .result import MOST
 from .whole_file import write_whole
 
@@ -41,19 +42,9 @@ class Log:
     """In the order taken; time is that since the benchmark began."""
 
 
-def file_of(directory: Path, measure: str) -> Path:
-    """Return where the log of a measure lies."""
-    return directory / f"measure-{file_name(measure)}.csv"
-
-
-def file_name(measure: str) -> str:
-    """Return the name of a measure in a file's; what is no letter, digit, . or - becomes _."""
-    return re.sub(r"[^A-Za-z0-9_.-]", "_", measure)
-
-
-def save_log(log: Log, directory: Path) -> Path:
-    """Write ``measure-<name>.csv``, whole or not at all."""
-    path = file_of(directory, log.measure)
+def save_log(log: Log, directory: Path, file: str = "") -> Path:
+    """Write ``measure-<file>.csv``, whole or not at all; the file is called after the measure."""
+    path = directory / f"measure-{file or file_name(log.measure)}.csv"
     write_whole(path, log_text(log))
     return path
 

@@ -29,9 +29,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from ..file_names import file_name
 from .answers import sample_of
 from .gated import Gated, finite
-from .logs import TIME, Log, file_name
+from .logs import TIME, Log
 from .measures import (
     CollisionSpec,
     DistanceSpec,
@@ -189,9 +190,9 @@ def data_text(log: Log, spec: MeasureSpec) -> str:
     return "\n".join(lines) + "\n\n"
 
 
-def save_data(log: Log, spec: MeasureSpec, directory: Path) -> Path:
-    """Write ``benchmark-<name>.data`` into the result directory, whole or not at all."""
-    path = directory / f"benchmark-{file_name(spec.name)}.data"
+def save_data(log: Log, spec: MeasureSpec, directory: Path, file: str = "") -> Path:
+    """Write ``benchmark-<file>.data``, called after the measure, whole or not at all."""
+    path = directory / f"benchmark-{file or file_name(spec.name)}.data"
     write_whole(path, data_text(log, spec))
     return path
 

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import RunFailed
+from ..file_names import file_names
 from ..simulation import Studio
 from . import unit_file
 from .bench import Bench
@@ -70,8 +71,9 @@ def perform(plan: Plan, unit: Unit, studio: Studio) -> Iterator[Event]:
             yield UnitEnded(record=_end(played))
         else:
             row = unit.index * len(unit.levels) + n
+            files = file_names(shot.camera for shot in played.shots)
             pictures = {
-                shot.camera: f"{PICTURES}/{row:05d}-{shot.camera}.png" for shot in played.shots
+                camera: f"{PICTURES}/{row:05d}-{file}.png" for camera, file in files.items()
             }
             yield LevelEnded(
                 record=_record(played, pictures),

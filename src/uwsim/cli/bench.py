@@ -14,6 +14,7 @@ import typer
 from rich.console import Console
 
 from ..errors import AllErrors, BadSetting, RunFailed
+from ..file_names import file_names
 from ..interrupts import raise_from_now_on
 from .completion import algorithm_names
 from .crew import WorkersOption, crew_of, n_at_once
@@ -227,11 +228,12 @@ def folders_of(algorithms: Sequence[str]) -> list[str]:
     """
     if len(algorithms) < 2:
         return []
-    names = [name.replace(":", ".") for name in algorithms]
-    for i, name in enumerate(names):
-        if name in names[:i]:
-            raise BadSetting(f"--algorithm {algorithms[i]}: is given twice.")
-    return names
+    for i, name in enumerate(algorithms):
+        if name in algorithms[:i]:
+            raise BadSetting(f"--algorithm {name}: is given twice.")
+    from ..benchmark.directory import FOLDERS
+
+    return list(file_names(algorithms, taken=FOLDERS).values())
 
 
 def wants_control(run: Bench) -> bool:

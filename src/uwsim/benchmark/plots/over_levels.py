@@ -11,7 +11,6 @@ for the reader to say.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,6 +19,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ...errors import ResultError
+from ...file_names import file_names
 from ..result import Result
 from ..whole_file import drafted
 from .curves import algorithm_of, curves_of, repeats_of
@@ -144,8 +144,9 @@ def draw_plots(
         if pdf:
             save_pdf(figure, files[-1].with_suffix(".pdf"))
 
-    for column in result.of_kind("score") + result.of_kind("measure"):
-        save(value_plot(result, column.name, control=control), _slug(column.name))
+    names = [column.name for column in result.of_kind("score") + result.of_kind("measure")]
+    for name, file in file_names(names, taken=[OVERVIEW]).items():
+        save(value_plot(result, name, control=control), file)
     if len(files) > 1:
         save(small_multiples(result, control=control), OVERVIEW)
     return tuple(files)
@@ -213,7 +214,3 @@ def _origin(result: Result, *, with_algorithm: bool = True) -> tuple[str, str]:
     ]
     bands = "bands: 95 % intervals of the mean over repeats; hollow: not every repeat has a value"
     return " · ".join(part for part in parts if part), bands if n_repeats > 1 else ""
-
-
-def _slug(name: str) -> str:
-    return re.sub(r"[^A-Za-z0-9_.-]", "_", name).lstrip(".")[:80] or "column"

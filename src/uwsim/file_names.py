@@ -1,0 +1,64 @@
+"""Names of files made of names that a user gave: of cameras, measures, algorithms.
+
+Such a name may hold anything. Every file of a result that is called after one gets its name here,
+so that two names are two files on every system, also where upper and lower case are the same.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections import Counter
+from collections.abc import Iterable
+
+LONGEST = 80
+"""So many letters of a name stand in that of a file."""
+RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+"""Names that no file on Windows may have."""
+DIGESTS = (8, 16, 32, 64)
+"""Digits of a hash that tell two names apart: the first of these that is enough."""
+
+
+def file_names(names: Iterable[str], *, taken: Iterable[str] = ()) -> dict[str, str]:
+    """Return name -> name of its file, without suffix; different names have different files.
+
+    A name that is fit for a file is its own. Of others, what is no letter of ASCII, digit, ``_``,
+    ``.`` or ``-`` becomes ``_``, and ``:`` a ``.``; what is then not told apart, or was cut, ends
+    in digits of its hash. The order of the names makes no difference.
+
+    Args:
+        names: All that are to be files of one folder.
+        taken: Names of files that are there already.
+    """
+    wanted = {name: _plain(name) for name in names}
+    others = {name.casefold() for name in taken}
+    seen = Counter(plain.casefold() for plain in wanted.values())
+    alike = {
+        name
+        for name, plain in wanted.items()
+        if len(name) > LONGEST or seen[plain.casefold()] > 1 or plain.casefold() in others
+    }
+    for digits in DIGESTS:
+        found = {
+            name: _with_hash(plain, name, digits) if name in alike else plain
+            for name, plain in wanted.items()
+        }
+        if len({file.casefold() for file in found.values()} - others) == len(found):
+            return found
+    raise AssertionError("equal SHA-256 of different names")
+
+
+def file_name(name: str) -> str:
+    """Return the name of the file of a name that stands alone in its folder."""
+    return file_names([name])[name]
+
+
+def _plain(name: str) -> str:
+    plain = re.sub(r"[^A-Za-z0-9_.-]", "_", name.replace(":", "."))[:LONGEST]
+    plain = plain.lstrip(".-").rstrip(".") or "_"
+    return f"_{plain}"[:LONGEST] if RESERVED.fullmatch(plain) else plain
+
+
+def _with_hash(plain: str, name: str, digits: int) -> str:
+    digest = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()
+    return f"{plain[: LONGEST - digits - 1]}-{digest[:digits]}"
