@@ -1,4 +1,5 @@
 import ast
+import os
 from pathlib import Path
 
 import pytest
@@ -32,6 +33,13 @@ def test_a_file_above_the_limit_is_refused(tmp_path: Path) -> None:
     assert read_bytes(file, at_most=5) == b"12345"
     with pytest.raises(AssetError, match="is larger than"):
         read_bytes(file, at_most=4)
+
+
+def test_only_regular_files_are_read(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    for path in (Path("/dev/zero"), tmp_path / "pipe", tmp_path):
+        with pytest.raises(AssetError, match="is not a regular file"):
+            read_bytes(path)
 
 
 @pytest.mark.parametrize(

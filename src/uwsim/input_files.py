@@ -13,6 +13,7 @@ read without its hash:
 from __future__ import annotations
 
 import hashlib
+import stat
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -70,12 +71,17 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = LARGEST) -> 
 
     Raises:
         OSError: It cannot be read.
-        AssetError: It is larger.
+        AssetError: It is larger, or no regular file: a folder, a pipe, a device.
     """
-    with path.open("rb") as stream:
-        data = stream.read(at_most + 1)
-    if len(data) > at_most:
+    facts = path.stat()
+    if not stat.S_ISREG(facts.st_mode):
+        raise AssetError(f"{path}: is not a regular file.", name=str(name))
+    if facts.st_size > at_most:
         raise AssetError(f"{path}: is larger than {at_most / 2**20:.3g} MiB.", name=str(name))
+    with path.open("rb") as stream:
+        data = stream.read(facts.st_size + 1)
+    if len(data) != facts.st_size:
+        raise AssetError(f"{path}: changed while it was read.", name=str(name))
     digest = f"sha256:{hashlib.sha256(data).hexdigest()}"
     record([InputFile(portable(name or path.name), digest, path)])
     return data

@@ -98,12 +98,18 @@ def _said(entry: etree._LogEntry, data: bytes) -> str:
     return textwrap.shorten(message, 200, placeholder=" ...")
 
 
+def _not_there(path: Path) -> str:
+    """Why a path is not a file that can be read."""
+    if path.is_dir():
+        return "is a folder, not a file"
+    return "is not a regular file" if path.exists() else "there is no such file"
+
+
 def _bytes(path: Path, faults: Faults) -> bytes:
     """The bytes of a file that may be handed to the parser, or faults."""
     try:
         if not path.is_file():
-            what = "is a folder, not a file" if path.is_dir() else "there is no such file"
-            faults.add(None, what)
+            faults.add(None, _not_there(path))
             return b""
         data = read_bytes(path, at_most=MAX_BYTES)
     except AssetError:
