@@ -1,8 +1,9 @@
-"""Ctrl-C in a command: until there is something to keep it ends the process at once.
+"""Ctrl-C in a command, and what else ends it: until there is something to keep, at once.
 
 Python answers Ctrl-C by raising KeyboardInterrupt wherever it happens to be, and while libraries
 are loaded that is inside them: some turn it into another error, some print it and go on. So a
 command begins with `end_at_once`, and says `raise_from_now_on` before it writes its first file.
+From then on the system's SIGTERM, and the SIGHUP of a terminal that is closed, are as Ctrl-C.
 """
 
 from __future__ import annotations
@@ -24,9 +25,12 @@ def end_at_once() -> None:
 
 
 def raise_from_now_on() -> None:
-    """From now on Ctrl-C raises KeyboardInterrupt, if it ended the process before."""
+    """From now on whatever ended the process at once raises KeyboardInterrupt."""
     if signal.getsignal(signal.SIGINT) is _end:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, signal.default_int_handler)
 
 
 def hears() -> bool:

@@ -83,3 +83,18 @@ def test_from_a_point_on_ctrl_c_is_an_error_that_can_be_handled() -> None:
             os.kill(os.getpid(), signal.SIGINT)
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_what_else_ends_a_run_is_as_ctrl_c_unless_it_is_ignored(number: int) -> None:
+    before = signal.getsignal(number)
+    try:
+        signal.signal(number, signal.SIG_IGN)  # nohup
+        interrupts.raise_from_now_on()
+        assert signal.getsignal(number) is signal.SIG_IGN
+        signal.signal(number, signal.SIG_DFL)
+        interrupts.raise_from_now_on()
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), number)
+    finally:
+        signal.signal(number, before)

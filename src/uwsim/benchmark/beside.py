@@ -80,12 +80,9 @@ def _serve(there: Connection, leash: Connection) -> None:
     put_on(leash)
     with suppress(Exception):  # heavy, and loaded while the levels are played; below it is told
         from . import report  # noqa: F401
-    while True:
-        try:
-            job = there.recv()
-        except EOFError:
-            return
-        there.send(_done(job))
+    with suppress(EOFError, OSError):  # the parent has gone
+        while True:
+            there.send(_done(there.recv()))
 
 
 def _done(job: Job) -> str | None:

@@ -167,7 +167,7 @@ def work(pipe: Connection, leash: Connection) -> None:
                 pipe.send(UnitFailed(portable(error)))
             else:
                 pipe.send(UnitDone())
-    except (EOFError, BrokenPipeError):
+    except (EOFError, OSError):
         pass  # the employer has gone
     finally:
         studio.close()

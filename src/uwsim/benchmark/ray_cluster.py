@@ -13,15 +13,14 @@ import io
 import os
 import platform
 import secrets
-import shutil
 import signal
 import socket
 import sys
-import tempfile
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from ..environment import environment, not_chosen
@@ -31,6 +30,7 @@ from . import unit_file
 from .bench import Bench, open_once
 from .crew import ENVIRONMENT, Job, Roster
 from .plan import Unit
+from .scratch import scratch_folder
 from .unit_work import Event, Keeper, UnitEnded, UnitFailed, perform, portable
 
 ADDRESS = "RAY_ADDRESS"
@@ -129,14 +129,13 @@ class RayCluster:
         if self._ray.is_initialized():
             yield
             return
-        folder = tempfile.mkdtemp(prefix="uwsim-ray-", dir=_short_folder())
-        try:
-            with environment(QUIET), _signals_kept():
-                self._connect(folder)
-            yield
-        finally:
-            self._ray.shutdown()
-            shutil.rmtree(folder, ignore_errors=True)
+        with scratch_folder("uwsim-ray-", _short_folder()) as folder:
+            try:
+                with environment(QUIET), _signals_kept():
+                    self._connect(str(folder))
+                yield
+            finally:
+                self._ray.shutdown()
 
     def _connect(self, folder: str) -> None:
         quiet = {"logging_level": "ERROR", "log_to_driver": False}
@@ -253,9 +252,9 @@ def _differences(here: object, there: object, name: str = "") -> Iterator[str]:
         yield f"{name} is {here!r}, not {there!r}"
 
 
-def _short_folder() -> str | None:
+def _short_folder() -> Path | None:
     """Where a folder with sockets in it can be: their paths may have 107 characters."""
-    return "/tmp" if os.path.isdir("/tmp") else None
+    return short if (short := Path("/tmp")).is_dir() else None
 
 
 @contextmanager

@@ -14,7 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ReplayDiffers, ResultError
+from .chosen_code import other_code
 from .inputs import differing
+from .provenance import codes_of, load_provenance
 
 FOLDER = "units"
 LONGEST_LINE = 200
@@ -106,8 +108,8 @@ class UnitFile:
             if _text(before) != _text(row):
                 raise ReplayDiffers(
                     f"{self._path}: row {self._n_rows}, played again, differs from the stored one "
-                    f"in {_difference(before, row)}. The run is not repeatable here: was it made "
-                    "on another machine or with other versions? Start anew with --overwrite."
+                    f"in {_difference(before, row)}. The run is not repeatable here: "
+                    f"{self._why_not()} Start anew with --overwrite."
                 )
         else:
             self._write({"row": row})
@@ -127,6 +129,13 @@ class UnitFile:
         self._stream.write(_text(record) + "\n")
         self._stream.flush()
         os.fsync(self._stream.fileno())
+
+    def _why_not(self) -> str:
+        """Say what may be the reason that a row differs."""
+        codes = codes_of(load_provenance(self._path.parents[1]))
+        if said := [text for code in codes if (text := other_code(code))]:
+            return f"libraries have chosen other code for the processor ({'; '.join(said)})."
+        return "was it made with other versions, or does the algorithm have chance of its own?"
 
     def _publish(self) -> None:
         self._path.with_suffix(".part").replace(self._path)

@@ -10,7 +10,6 @@ body or picture.
 from __future__ import annotations
 
 import json
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -24,6 +23,7 @@ from .differences import Difference
 from .plan import Plan, Unit
 from .result import Result
 from .result_file import dumps
+from .scratch import scratch_folder
 from .unit_work import PICTURES
 
 ENVIRONMENT = ("version", "physics", "renderer", "numpy")
@@ -97,12 +97,12 @@ def verify(
     """
     found = Verification(units=tuple(units))
     found.differences += contradictions(result, bench.plan.benchmark)
-    with tempfile.TemporaryDirectory(prefix="uwsim-verify-") as scratch:
+    with scratch_folder("uwsim-verify-") as scratch:
         if _has_units(directory):
-            _check_files(found, directory, result, replace(bench, out=Path(scratch) / "stored"))
+            _check_files(found, directory, result, replace(bench, out=scratch / "stored"))
         else:
             found.not_compared.append("units/: rows are compared with result.json alone")
-        again = replace(bench, out=Path(scratch) / "replayed")
+        again = replace(bench, out=scratch / "replayed")
         again.out.mkdir()
         roster = Roster([Job(again, unit) for unit in units], on_level)
         (crew or Here()).play(roster)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import signal
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,7 +17,7 @@ from ..file_names import file_names
 from ..interrupts import raise_from_now_on
 from .completion import algorithm_names
 from .crew import WorkersOption, crew_of, n_at_once
-from .faults import running
+from .faults import running, warn
 from .foreign_code import NoCodeOption, announce_code
 from .options import (
     BenchmarkArgument,
@@ -44,6 +43,11 @@ if TYPE_CHECKING:
 
 CONTROL = "frozen"
 ALGORITHM_ERROR = "algorithm error"
+OTHER_CODE = (
+    "the run was begun where libraries chose other code for the processor: {}. What is bundled "
+    "gives the same bytes all the same; an algorithm or a measure of one's own may not."
+)
+"""What is said where a run is gone on with."""
 UNWRAPPED = 1000
 """Columns for a reader that is a program: wide enough to leave every line whole."""
 
@@ -153,7 +157,6 @@ def bench(
     shared = without_algorithm(inputs)
     say_warnings(plans[0])
     raise_from_now_on()
-    signal.signal(signal.SIGTERM, interrupt)
     runs = [
         Bench(
             plan=plan,
@@ -194,7 +197,8 @@ def play_and_finish(
     from ..benchmark.provenance import save_beginning
 
     for run in runs:
-        save_beginning(command, run.out)
+        if said := save_beginning(command, run.out):
+            warn(OTHER_CODE.format(said))
     with Beside() as beside:
         controls = [control_of(run) for run in runs if wants_control(run)]
         if controls:
@@ -256,11 +260,6 @@ def refuse_if_all_broke(runs: Sequence[Bench], results: Sequence[Result]) -> Non
         raise RunFailed(f"Every row ended in {ALGORITHM_ERROR!r}: {'; '.join(broke)}.")
 
 
-def interrupt(number: int, frame: object) -> None:
-    """Stop as for Ctrl-C: what is finished is kept, and workers are told."""
-    raise KeyboardInterrupt
-
-
 def play_with_progress(runs: Sequence[Bench], crew: Crew, at_once: int) -> Outcome:
     """Play one benchmark, with an algorithm each, and show how far it is."""
     from ..benchmark.crew import play_each
@@ -295,10 +294,10 @@ def control_of(run: Bench) -> Bench:
 def finish(run: Bench, result: Result, beside: Beside, took: Took) -> None:
     """Write provenance, plots and report, and print the table."""
     from ..benchmark.directory import REPORT
-    from ..benchmark.provenance import save_provenance
+    from ..benchmark.provenance import carried, save_provenance
     from ..benchmark.table import table
 
-    save_provenance(took.provenance(run), run.out)
+    save_provenance({**took.provenance(run), **carried(run.out)}, run.out)
     beside.ask(run.out)
     console = Console(width=None if sys.stdout.isatty() else UNWRAPPED)
     console.print(table(result, width=console.width))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import signal
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -12,10 +11,10 @@ import typer
 
 from ..errors import AllErrors, BadSetting
 from ..interrupts import raise_from_now_on
-from .bench import interrupt
+from .bench import OTHER_CODE
 from .completion import algorithm_names
 from .crew import WorkersOption, crew_of, n_at_once
-from .faults import printable, running
+from .faults import printable, running, warn
 from .foreign_code import NoCodeOption, announce_code
 from .options import BenchmarkArgument, CompatOption, DataPathOption, SceneOption, SetOption
 from .plan import chosen_level, make_plan, say_warnings
@@ -229,13 +228,12 @@ def play(
     from ..benchmark.directory import alone_in, discard_drafts, empty
     from ..benchmark.envelope import Asked, Envelope, Evaluations, strategy
     from ..benchmark.envelope.plot import draw
-    from ..benchmark.provenance import machine, save_beginning, save_provenance
+    from ..benchmark.provenance import carried, machine, save_beginning, save_provenance
 
     announce_code(plan.scene)
     inputs, renderer = open_once(plan)
     say_warnings(plan)
     raise_from_now_on()
-    signal.signal(signal.SIGTERM, interrupt)
     over, where, at = question.over, question.where, question.at
     watch = Stopwatch()
     with running(), alone_in(directory):
@@ -243,7 +241,8 @@ def play(
         if not resume:
             empty(directory)
         discard_drafts(directory, OURS, FOLDERS)
-        save_beginning(command, directory)
+        if said := save_beginning(command, directory):
+            warn(OTHER_CODE.format(said))
         bench = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
         most = 9 + len(seeds) * (where.most_cuts() + 1)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
@@ -268,7 +267,13 @@ def play(
         envelope.save(directory)
         draw(envelope, directory)
         save_provenance(
-            {**machine(), "wall_s": watch.passed(), "command": list(command)}, directory
+            {
+                **machine(),
+                "wall_s": watch.passed(),
+                "command": list(command),
+                **carried(directory),
+            },
+            directory,
         )
     tell(envelope, directory)
 

@@ -34,6 +34,7 @@ MEANS = {
     "renderer": "renderer",
     "numpy": "numpy",
     "cpu": "processor",
+    "code": "code for the processor",
     "system": "system",
     "python": "Python",
 }
@@ -45,6 +46,8 @@ PROMISES = {
     "whatever no picture steers, not pictures nor what is found in them",
     "numpy": "between versions of numpy random numbers and sums may differ",
     "cpu": "another processor may round otherwise: its kernels are compiled for it",
+    "code": "what is bundled gives the same bytes all the same; an algorithm or a measure of one's "
+    "own may not",
     "system": "another system has other libraries of mathematics",
     "python": "between versions of Python nothing is expected to differ",
 }
@@ -175,19 +178,23 @@ def head(stored: Result, directory: Path, n_whole: int, n_units: int) -> str:
 
 def made_otherwise(stored: Result, directory: Path, run: Mapping[str, object]) -> dict[str, str]:
     """Say what differs between how the result was made and how it is replayed, and what holds."""
-    from ..benchmark.provenance import load_provenance, machine
+    from ..benchmark.chosen_code import other_code
+    from ..benchmark.provenance import codes_of, load_provenance, machine
     from ..benchmark.verify import ENVIRONMENT
 
     pairs = {name: (stored.run.get(name), run.get(name)) for name in ENVIRONMENT}
     recorded, here = load_provenance(directory), machine()
-    for name in ("cpu", "system", "python"):
+    for name in ("system", "python", *(["cpu"] if "code" not in recorded else [])):
         if name in recorded:
             pairs[name] = (recorded[name], here[name])
-    return {
+    said = {
         name: f"{MEANS[name]}: made with {before}, replayed with {now}; {PROMISES[name]}"
         for name, (before, now) in pairs.items()
         if before != now
     }
+    if codes := [text for code in codes_of(recorded) if (text := other_code(code))]:
+        said["code"] = f"{MEANS['code']}: {'; '.join(codes)}; {PROMISES['code']}"
+    return said
 
 
 def tell(found: Verification, n_whole: int, others: Mapping[str, str]) -> list[str]:
@@ -214,10 +221,10 @@ def blame(found: Verification, others: Mapping[str, str]) -> str:
     bodies = [part for part in found.parts if not part.startswith("/")]
     if bodies:
         where = f"It begins in the physics: {', '.join(bodies)} moved otherwise."
-        return where + _because(others, ("version", "physics", "numpy", "cpu", "system"))
+        return where + _because(others, ("version", "physics", "numpy", "cpu", "code", "system"))
     if found.parts:
         where = f"Every body moved the same; the pictures on {', '.join(found.parts)} are others."
-        return where + _because(others, ("version", "renderer", "numpy", "cpu", "system"))
+        return where + _because(others, ("version", "renderer", "numpy", "cpu", "code", "system"))
     if found.is_replayed:
         return "Every replayed unit gave what it stored; other parts of the result were changed."
     if not found.is_steady:

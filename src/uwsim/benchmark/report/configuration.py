@@ -6,6 +6,7 @@ import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from ..chosen_code import names_text
 from ..plots import algorithm_of, repeats_of, written_unit
 from ..result import FLOOR, Result
 
@@ -22,6 +23,8 @@ FACTS = {
 """Constant of a scene -> what it is (`uwsim.benchmark.facts`)."""
 SAID_ELSEWHERE = ("notes", "levels", "settings", "compatibility", "units")
 """Parts of ``run`` that stand in sentences above the table."""
+CODE = ("code", "code_before")
+"""Parts of the provenance: what libraries chose for the processor."""
 NOT_OF_THE_RESULT = {"--out": 1, "--workers": 1, "--resume": 0, "--overwrite": 0}
 """Options of ``bench`` that change nothing of what is found, and how many words each takes."""
 
@@ -103,8 +106,11 @@ def flat(mapping: Mapping[str, object], prefix: str = "") -> list[tuple[str, str
 
 
 def machine(provenance: Mapping[str, object]) -> list[tuple[str, str]]:
-    """Return where and when it was played, numbers short."""
-    return flat({name: _rounded(value) for name, value in provenance.items()})
+    """Return where and when it was played, numbers and lists of code short."""
+    code = provenance.get("code")
+    shown = {library: names_text(names) for library, names in _lists(code)}
+    others = {name: _rounded(value) for name, value in provenance.items() if name not in CODE}
+    return flat({**others, "code": shown})
 
 
 def hashes(inputs: Mapping[str, object]) -> list[tuple[str, str, str]]:
@@ -170,6 +176,11 @@ def _of_the_result(words: Sequence[str]) -> list[str]:
         else:
             kept.append(word)
     return kept
+
+
+def _lists(value: object) -> list[tuple[str, list[object]]]:
+    pairs = value.items() if isinstance(value, Mapping) else ()
+    return [(str(name), each) for name, each in pairs if isinstance(each, list)]
 
 
 def _setting(name: str) -> str:
