@@ -1,0 +1,139 @@
+"""Draw the pictures of README.md and docs/ again.
+
+    python examples/docs_images.py docs/images                          about a minute
+    python examples/docs_images.py docs/images --trackers DIR           also the comparison of
+                                     trackers, from the directory that this command writes
+
+    uwsim bench visibility-moving --algorithm esm --algorithm frozen --algorithm ecc --algorithm ic
+        --algorithm orb --algorithm ssd-esm --seed 1 --repeat 6 --workers 2 --out DIR
+
+tank.png: the scene of ``visibility-moving`` in slightly turbid water, and what its camera sees at
+three fogs, with the truth and the tracker's estimate. wreck.png, wreck-offset.png: what the
+commands of docs/first-benchmark.md make. trackers.png: the score over fog.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import re
+import shlex
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from uwsim.assets.find import find
+from uwsim.benchmark.overlay import overlay
+from uwsim.benchmark.plots import compare_plot, save_plot
+from uwsim.benchmark.result import Result
+from uwsim.benchmark.result_file import load
+from uwsim.cli import main as uwsim
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
+from uwsim.simulation.views import view_from
+
+PAGE = Path(__file__).parent.parent / "docs" / "first-benchmark.md"
+FILE = re.compile(r"^`([\w.-]+)`:\n\n```\w+\n(.*?)^```", re.MULTILINE | re.DOTALL)
+COMMAND = re.compile(r"^\$ uwsim (.*)$", re.MULTILINE)
+SCENE, BENCHMARK, SEED = "visibility-moving-scene.xml", "visibility-moving", 1
+EYE, TARGET = (4.25, -1.3, 2.4), (2.15, 0.4, 3.5)  # of the view, in L [m]
+HAZE = 0.05  # fog of the view [1/m]
+FOGS = (0.0, 0.6, 1.2)  # of the camera's pictures [1/m]
+SIZE, SMALL, GAP = (960, 500), (316, 237), 6  # view, camera's pictures, between them [px]
+FINER = 2  # the view is drawn so many times larger, then averaged
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Draw the pictures of the documentation.")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--trackers", type=Path, metavar="DIR", help="of several results")
+    asked = parser.parse_args()
+    folder: Path = asked.folder
+    folder.mkdir(parents=True, exist_ok=True)
+    save(stacked(view(), camera_pictures()), folder / "tank.png")
+    tutorial(folder)
+    if asked.trackers is not None:
+        results = [load(path.parent) for path in sorted(asked.trackers.glob("*/result.json"))]
+        save_plot(compare_plot(results, "total"), folder / "trackers.png")
+
+
+def view() -> Image.Image:
+    """The tank, the vehicle and the box from beside the vehicle's bow."""
+    path = find(SCENE)
+    assert path is not None
+    simulation = Simulation(read_scene(path), seed=SEED)
+    try:
+        width, height = SIZE
+        eye, target = np.array(EYE), np.array(TARGET)
+        shown = view_from(simulation, eye, target, (FINER * width, FINER * height))
+        colour = simulation.look(shown.world_from_camera, shown.intrinsics, fog=HAZE).colour
+    finally:
+        simulation.close()
+    assert colour is not None
+    return Image.fromarray(colour.astype(np.uint8)[..., :3]).resize(SIZE, Image.Resampling.LANCZOS)
+
+
+def camera_pictures() -> list[Image.Image]:
+    """The camera's last picture of a level at each fog, with the truth and ESM's estimate."""
+    levels = [word for fog in FOGS for word in ("--level", f"fog={fog}")]
+    with TemporaryDirectory() as folder:
+        out = Path(folder) / "esm.result"
+        status = uwsim(["bench", BENCHMARK, "--seed", str(SEED), *levels, "--out", str(out)])
+        if status != 0:
+            raise SystemExit(status)
+        result = load(out)
+        return [drawn(result, out, fog) for fog in FOGS]
+
+
+def drawn(result: Result, directory: Path, fog: float) -> Image.Image:
+    """One camera picture with its quadrangles and its fog."""
+    row = next(i for i, level in enumerate(result.numbers("fog")) if math.isclose(level or 0, fog))
+    picture = next(each for each in result.pictures if each.row == row)
+    pixels = np.asarray(Image.open(directory / picture.file).convert("RGB"))
+    framed = overlay(pixels, truth=picture.truth, estimate=picture.estimate, scale=3)
+    image = Image.fromarray(framed).resize(SMALL, Image.Resampling.LANCZOS)
+    font = ImageFont.load_default(size=17)
+    text = f"fog {fog:g} 1/m"
+    ImageDraw.Draw(image).text((8, 5), text, "white", font, stroke_width=2, stroke_fill="#0a141e")
+    return image
+
+
+def stacked(above: Image.Image, below: Sequence[Image.Image]) -> Image.Image:
+    """One wide picture over a row of small ones."""
+    whole = Image.new("RGB", (SIZE[0], SIZE[1] + GAP + SMALL[1]), "white")
+    whole.paste(above, (0, 0))
+    for i, small in enumerate(below):
+        whole.paste(small, (i * (SMALL[0] + GAP), SIZE[1] + GAP))
+    return whole
+
+
+def tutorial(folder: Path) -> None:
+    """Write the files of the page, run its commands, keep two of the pictures that they make."""
+    page = PAGE.read_text()
+    here = Path.cwd()
+    with TemporaryDirectory() as scratch:
+        for name, text in FILE.findall(page):
+            (Path(scratch) / name).write_text(text)
+        os.chdir(scratch)
+        try:
+            for words in map(shlex.split, COMMAND.findall(page)):
+                if words[0] in ("render", "bench") and uwsim(words) != 0:
+                    raise SystemExit(words)
+        finally:
+            os.chdir(here)
+        save(Image.open(Path(scratch) / "wreck.png"), folder / "wreck.png")
+        shutil.copy(Path(scratch) / "hover.result/plots/offset.png", folder / "wreck-offset.png")
+
+
+def save(image: Image.Image, path: Path) -> None:
+    """Write a true-colour PNG, as small as it gets."""
+    image.save(path, optimize=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,38 @@
+"""docs/first-benchmark.md does what it says: its files are written, its commands run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from documented import commands, is_said, write_files
+from uwsim.cli import main
+from uwsim.scene.reader import read_scene
+
+PAGE = (Path(__file__).parent.parent / "docs" / "first-benchmark.md").read_text()
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    names = write_files(PAGE, tmp_path)
+    assert names == ["scout.urdf", "scout.xml", "wreck.xml", "hover.py", "hover.xml"]
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_the_scene_of_the_page_can_be_read(folder: Path) -> None:
+    scene = read_scene(folder / "wreck.xml")
+    assert [vehicle.dynamics for vehicle in scene.vehicles] == ["scout"]
+
+
+@pytest.mark.slow
+def test_every_command_of_the_page_prints_what_the_page_shows(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for command in commands(PAGE):
+        assert main(command.words[1:]) == 0, command.words
+        printed = "".join(capsys.readouterr())
+        missing = [line for line in command.output if not is_said(line, printed, within=0.05)]
+        assert missing == [], printed
+    assert (folder / "hover.result" / "report.html").exists()
