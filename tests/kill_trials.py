@@ -35,7 +35,7 @@ MARK = "UWSIM_TRIAL"
 """Environment variable by which all processes of a trial are known, whatever their parents."""
 PATIENCE = 120.0
 """How long a disturbed command may take to end [s]."""
-LINGER = 8.0
+LINGER = 15.0
 """How long what it has started may take to end after it [s]."""
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL)
 TO_ALL = (signal.SIGINT, signal.SIGHUP)
@@ -151,7 +151,7 @@ def run(
             "UWSIM_TRIAL_LOG": str(place.folder / "changes"),
             "PYTHONPATH": f"{place.folder / 'hook'}:{os.environ.get('PYTHONPATH', '')}",
         }
-    ours = set(Path("/tmp").glob("uwsim-*"))
+    ours = set(Path("/tmp").glob("uwsim-ray-*"))
     began = time.monotonic()
     with (place.folder / "said").open("w+b") as said:
         process = subprocess.Popen(
@@ -180,7 +180,7 @@ def run(
         said.seek(0)
         text = said.read().decode(errors="replace")
     faults += [f"it said {word!r}: {text}" for word in ("Traceback", "ignored in") if word in text]
-    left = [*scratch.iterdir(), *(set(Path("/tmp").glob("uwsim-*")) - ours)]
+    left = [*scratch.iterdir(), *(set(Path("/tmp").glob("uwsim-ray-*")) - ours)]
     faults += [f"left in the temporary folder: {path.name}" for path in left]
     shutil.rmtree(scratch)
     return Ended(process.returncode, text, seconds, faults)
@@ -252,7 +252,7 @@ def _signalled(
     told, faults = [f"--workers {workers}"], []
     for _ in range(int(chance.integers(1, 4))):
         number = signal.Signals(int(chance.choice([int(s) for s in SIGNALS])))
-        after = float(chance.uniform(0.3, 1.1)) * place.seconds
+        after = float(chance.uniform(0.02, 1.1)) * place.seconds
         told.append(f"{number.name} after {after:.2f} s")
         words = [*place.bench(out, workers), *(["--resume"] if out.exists() else [])]
         ended = run(place, words, number=number, after=after)
@@ -315,7 +315,7 @@ def of_verify(place: Workplace, chance: np.random.Generator, out: Path) -> tuple
     """A ``verify`` that is killed leaves nothing behind, and the result as it was."""
     workers = str(chance.integers(1, 3))
     number = signal.Signals(int(chance.choice([int(s) for s in SIGNALS])))
-    after = float(chance.uniform(0.2, 1.0)) * place.seconds
+    after = float(chance.uniform(0.02, 1.0)) * place.seconds
     call = ["verify", str(place.undisturbed), "--all", "--workers", workers]
     ended = run(place, call, number=number, after=after)
     place.counts["signals"] += 1

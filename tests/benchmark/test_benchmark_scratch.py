@@ -15,13 +15,23 @@ from uwsim.benchmark.scratch import scratch_folder
 from uwsim.errors import RunFailed
 
 PROGRAM = """
-import os, sys, time
-from uwsim.benchmark.scratch import scratch_folder
+import os, subprocess, sys, time
+from uwsim.benchmark.scratch import OWNER, scratch_folder
 with scratch_folder("uwsim-test-") as folder:
     (folder / "a").write_text("x")
+    os.environ[OWNER] = str(folder)
+    sleeper = subprocess.Popen(["sleep", "60"], start_new_session=True)
+    (folder / "b").write_text(str(sleeper.pid))
     print(folder, flush=True)
     time.sleep(60)
 """
+
+
+def is_alive(process: Path) -> bool:
+    try:
+        return (process / "cmdline").read_bytes() != b""  # of a zombie it is empty
+    except FileNotFoundError:
+        return False
 
 
 def test_it_is_there_while_it_is_used_and_gone_afterwards(tmp_path: Path) -> None:
@@ -55,8 +65,10 @@ def test_it_is_gone_soon_after_its_process_was_killed(tmp_path: Path, number: in
         assert process.stdout is not None
         folder = Path(process.stdout.readline().strip())
         assert (folder / "a").exists()
+        started = Path("/proc", (folder / "b").read_text())
         os.killpg(process.pid, number)
     until = time.monotonic() + 20
-    while folder.exists() and time.monotonic() < until:
+    while (folder.exists() or is_alive(started)) and time.monotonic() < until:
         time.sleep(0.02)
     assert list(tmp_path.iterdir()) == []
+    assert not is_alive(started)

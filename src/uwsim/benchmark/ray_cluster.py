@@ -30,7 +30,7 @@ from . import unit_file
 from .bench import Bench, open_once
 from .crew import ENVIRONMENT, Job, Roster
 from .plan import Unit
-from .scratch import scratch_folder
+from .scratch import OWNER, scratch_folder
 from .unit_work import Event, Keeper, UnitEnded, UnitFailed, perform, portable
 
 ADDRESS = "RAY_ADDRESS"
@@ -131,7 +131,7 @@ class RayCluster:
             return
         with scratch_folder("uwsim-ray-", _short_folder()) as folder:
             try:
-                with environment(QUIET), _signals_kept():
+                with environment({**QUIET, OWNER: str(folder)}), _signals_kept():
                     self._connect(str(folder))
                 yield
             finally:
@@ -152,6 +152,8 @@ class RayCluster:
                     _temp_dir=folder,
                     **quiet,
                 )
+        except SystemExit:  # what Ray makes of SIGTERM while it starts
+            raise KeyboardInterrupt from None
         except Exception as error:  # of many kinds
             where = "a cluster here" if self._address is None else f"{ADDRESS}={self._address}"
             said = " ".join(str(error).split())

@@ -15,24 +15,32 @@ from pathlib import Path
 
 from ..errors import RunFailed
 
+OWNER = "UWSIM_SCRATCH"
+"""Environment variable with a folder's name: who has it is ended with the folder's process."""
 REMOVER = """
-import shutil, sys, tempfile, time
+import contextlib, os, shutil, sys, tempfile, time
 folder = tempfile.mkdtemp(prefix=sys.argv[1], dir=sys.argv[2] or None)
+mark = f"{sys.argv[3]}={folder}".encode()
 try:
     print(folder, flush=True)
     is_over = sys.stdin.read()
 except (OSError, KeyboardInterrupt):
     is_over = ""
-shutil.rmtree(folder, ignore_errors=True)
-if not is_over:
-    time.sleep(2)  # workers of who was killed may have been writing
+for _ in range(1 if is_over else 30):  # what a killed process has started may still be starting
+    for process in [] if is_over else filter(str.isdigit, os.listdir("/proc")):
+        with contextlib.suppress(OSError), open(f"/proc/{process}/environ", "rb") as variables:
+            if mark in variables.read().split(b"\\0"):
+                os.kill(int(process), 9)
     shutil.rmtree(folder, ignore_errors=True)
+    time.sleep(0 if is_over else 0.1)
 """
 
 
 @contextmanager
 def scratch_folder(prefix: str, where: Path | None = None) -> Iterator[Path]:
     """Lend an empty folder, and remove it with all that is in it.
+
+    Should this process be killed, those that have `OWNER` in their environment are killed, too.
 
     Args:
         prefix: how its name begins.
@@ -41,7 +49,7 @@ def scratch_folder(prefix: str, where: Path | None = None) -> Iterator[Path]:
     Raises:
         RunFailed: it cannot be made.
     """
-    command = [sys.executable, "-I", "-S", "-c", REMOVER, prefix, str(where or "")]
+    command = [sys.executable, "-I", "-S", "-c", REMOVER, prefix, str(where or ""), OWNER]
     with subprocess.Popen(
         command,
         stdin=subprocess.PIPE,
