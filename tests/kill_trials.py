@@ -33,7 +33,7 @@ from short_benchmark import fingerprint, write_benchmark
 
 MARK = "UWSIM_TRIAL"
 """Environment variable by which all processes of a trial are known, whatever their parents."""
-PATIENCE = 120.0
+PATIENCE = 300.0
 """How long a disturbed command may take to end [s]."""
 LINGER = 15.0
 """How long what it has started may take to end after it [s]."""
@@ -90,6 +90,8 @@ class Workplace:
     """How long the undisturbed run took."""
     n_changes: int = 0
     """How often it changed its directory."""
+    changes: list[int] = field(default_factory=list)
+    """Those at which no run was killed yet, in the order in which they are taken."""
     counts: Counter[str] = field(default_factory=Counter)
     """What was done so far."""
 
@@ -270,8 +272,9 @@ def _wrong_status(ended: Ended, number: signal.Signals) -> list[str]:
 
 
 def of_changes(place: Workplace, chance: np.random.Generator, out: Path) -> tuple[str, list[str]]:
-    """SIGKILL right before one of the changes of its directory."""
-    change = int(chance.integers(1, place.n_changes + 1))
+    """SIGKILL right before one of the changes of its directory; each is taken once."""
+    place.changes = place.changes or (chance.permutation(place.n_changes) + 1).tolist()
+    change = place.changes.pop()
     ended = run(place, place.bench(out, "1"), change=change)
     place.counts["changes"] += 1
     told = f"killed at change {change} of {place.n_changes}"

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from rich.console import Console
 
+from .faults import warn
 from .options import ResultArgument
 from .taught import OUTPUT, in_group
 
@@ -13,8 +14,16 @@ Pdf = Annotated[bool, in_group(OUTPUT, "--pdf", help="Draw every plot as PDF, to
 
 
 def report(result: ResultArgument, pdf: Pdf = False) -> None:
-    """Draw report.html and the plots of RESULT again, from what lies in it alone."""
-    from ..benchmark.report import write_report
+    """Draw report.html and the plots of RESULT again, from what lies in it alone.
 
+    Its rows are held against what its units have stored; where that is not there, it is said.
+    """
+    from ..benchmark.journals import check_rows
+    from ..benchmark.report import write_report
+    from ..benchmark.result_file import file_of, load
+
+    unchecked = check_rows(load(result), file_of(result).parent)
+    if unchecked is not None:
+        warn(unchecked)
     written = write_report(result, pdf=pdf)
     Console().print(f"written: {written}", soft_wrap=True, highlight=False, markup=False)
