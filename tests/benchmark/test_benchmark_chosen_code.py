@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from compared_results import made
+from stored_rows import stored_row
 from uwsim.benchmark import unit_file
 from uwsim.benchmark.chosen_code import chosen_code, names_text, other_code
 from uwsim.benchmark.provenance import (
@@ -90,7 +91,7 @@ def test_a_row_that_cannot_be_played_again_names_the_other_code(tmp_path: Path) 
     def play(total: float) -> None:
         file = unit_file.UnitFile(tmp_path, 0, {})
         try:
-            file.add({"total": total})
+            file.add(stored_row(total=total))
         finally:
             file.close()
 

@@ -276,9 +276,9 @@ def test_a_benchmark_that_is_nowhere_is_asked_for(
 @pytest.mark.parametrize(
     ("was", "now", "wrong"),
     [
-        ('"seed": 3', '"seed": "x"', "cannot be replayed: \"run\" has 'x' for seed"),
+        ('"seed": 3', '"seed": "x"', "run.seed is 'x'; expected a whole number from 0"),
         ('"algorithm": "esm"', '"algorithm": "esn"', "No algorithm is called 'esn'"),
-        ('"benchmark": [', '"benchmark": ["b", ', "does not name its benchmark"),
+        ('"benchmark": [', '"benchmark": ["b", ', "inputs.benchmark is ["),
         ('"ARM5E_part0": "sha256:', '"ARM5E_part0": "sha256:0', "made with other files: robot"),
     ],
 )

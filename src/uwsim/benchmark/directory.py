@@ -120,7 +120,7 @@ def is_begun(directory: Path) -> bool:
     if isinstance(load_provenance(directory).get("command"), list):
         return True
     files = sorted((directory / unit_file.FOLDER).glob("*.jsonl"))
-    return any("run" in (unit_file.read_any(file)[0] or {}) for file in files)
+    return any("run" in unit_file.head_of(file) for file in files)
 
 
 def make_room(

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from .directory import CONTROL
 from .provenance import load_provenance
-from .unit_file import FOLDER, Record, read_any
+from .unit_file import FOLDER, Record, head_of
 
 ENVELOPE = "envelope.json"
 """What `uwsim envelope` writes in its own directory."""
@@ -78,8 +78,8 @@ def _heads_below(directory: Path) -> dict[str, Record]:
 def _head(directory: Path) -> Record | None:
     """What the first unit that can be read says of its run."""
     for file in sorted((directory / FOLDER).glob("*.jsonl")):
-        head = read_any(file)[0]
-        if head and isinstance(head.get("run"), dict):
+        head = head_of(file)
+        if isinstance(head.get("run"), dict):
             return head
     return None
 

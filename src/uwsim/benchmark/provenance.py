@@ -13,7 +13,9 @@ import platform
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from ..errors import ResultError
 from .chosen_code import chosen_code, other_code
+from .stored_shapes import PROVENANCE
 from .whole_file import write_whole
 
 BEFORE = "code_before"
@@ -84,9 +86,10 @@ def _cpu_name() -> str:
 
 
 def load_provenance(directory: Path) -> dict[str, object]:
-    """Read ``provenance.json``; empty when it is not there or not whole."""
+    """Read ``provenance.json``; empty when it is not there, not whole, or of another shape."""
     try:
         provenance = json.loads((directory / "provenance.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        PROVENANCE(provenance, "")
+    except (OSError, ValueError, RecursionError, ResultError):
         return {}
-    return provenance if isinstance(provenance, dict) else {}
+    return dict(provenance)

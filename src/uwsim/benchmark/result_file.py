@@ -19,6 +19,7 @@ from typing import TypeVar, cast
 from ..errors import ResultError, did_you_mean
 from .interrupted import instead_of_a_result
 from .result import Column, ImageStream, Missing, Result, TakenPicture, Variation
+from .stored_shapes import RESULT
 from .whole_file import write_whole
 
 FORMAT = "uwsim-result/1"
@@ -93,7 +94,8 @@ def loads(text: str) -> Result:
         raise ResultError(f"not a result: expected an object, found {repr(document)[:60]}.")
     found = document.pop("format", None)
     if found != FORMAT:
-        raise ResultError(f"its format is {found!r}; this uwsim reads {FORMAT!r}.")
+        raise ResultError(f"its format is {repr(found)[:60]}; this uwsim reads {FORMAT!r}.")
+    RESULT({name: part for name, part in document.items() if part is not None}, "")
     result = Result(
         inputs=_take(document, "inputs", dict),
         run=_take(document, "run", dict),

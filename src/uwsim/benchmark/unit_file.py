@@ -17,8 +17,11 @@ from ..errors import ReplayDiffers, ResultError
 from .chosen_code import other_code
 from .inputs import differing
 from .provenance import codes_of, load_provenance
+from .stored_shapes import END, HEAD, ROW
 
 FOLDER = "units"
+KINDS = {"unit": HEAD, "row": ROW, "end": END}
+"""What a line may say -> the shape of that."""
 LONGEST_LINE = 200
 """So many letters of one difference are said."""
 MOST_LINES = 6
@@ -62,23 +65,55 @@ def read(directory: Path, index: int, head: Record) -> Stored:
 
 
 def read_any(path: Path) -> tuple[Record | None, Stored]:
-    """Read a unit's file, whatever run it is of: its head, and what it holds."""
+    """Read a unit's file, whatever run it is of: its head, and what it holds.
+
+    Raises:
+        ResultError: a line is not what is stored of a unit; says which, and what was expected.
+    """
     if not path.exists():
         return None, NOTHING
     lines = path.read_bytes().split(b"\n")[:-1]  # what follows the last newline was cut off
-    records: list[Record] = []
-    for line in lines:
+    found: dict[str, list[Record]] = {kind: [] for kind in KINDS}
+    for number, line in enumerate(lines, start=1):
         try:
-            record = json.loads(line)
+            record = json.loads(line, parse_constant=_refuse_constant)
+            kind = _kind(record, is_first=number == 1)
+            KINDS[kind](record[kind], kind)
         except (ValueError, RecursionError):
-            break
-        records.append(record if isinstance(record, dict) else {})
-    if not records:
+            break  # the disk was full, or the machine went down
+        except ResultError as error:
+            raise ResultError(f"{path}:{number}: {error}") from None
+        found[kind].append(record[kind])
+    if not found["unit"]:
         return None, NOTHING
-    rows = tuple(r["row"] for r in records[1:] if isinstance(r.get("row"), dict))
-    ends = [r["end"] for r in records[1:] if isinstance(r.get("end"), dict)]
-    head = records[0].get("unit")
-    return head if isinstance(head, dict) else {}, Stored(rows, ends[0] if ends else None)
+    ends = found["end"]
+    return found["unit"][0], Stored(tuple(found["row"]), ends[0] if ends else None)
+
+
+def head_of(path: Path) -> Record:
+    """Read what a unit's file says of its run, however damaged the rest; empty if it does not."""
+    try:
+        with path.open("rb") as stream:
+            record = json.loads(stream.readline())
+    except (OSError, ValueError, RecursionError):
+        return {}
+    head = record.get("unit") if isinstance(record, dict) else None
+    return head if isinstance(head, dict) else {}
+
+
+def _kind(record: object, *, is_first: bool) -> str:
+    """Tell what a line is; raises ResultError."""
+    wanted = ("unit",) if is_first else ("row", "end")
+    if isinstance(record, dict):
+        for kind in wanted:
+            if kind in record:
+                return kind
+    shown = repr(record)[:60]
+    raise ResultError(f"found {shown}; expected an object with {' or '.join(map(repr, wanted))}.")
+
+
+def _refuse_constant(text: str) -> object:
+    raise ResultError(f"it contains {text}; a missing value is null.")
 
 
 class UnitFile:

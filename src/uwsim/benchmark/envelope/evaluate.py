@@ -62,7 +62,7 @@ class Evaluations:
         self.made: dict[tuple[int, float], Evaluation] = {}
         """Every run that was asked for."""
         for path in sorted((bench.out / unit_file.FOLDER).glob("*.jsonl")):
-            self._remember(int(path.stem), unit_file.read_any(path)[0])
+            self._remember(int(path.stem), unit_file.head_of(path))
 
     def run(self, strategy: Strategy, crew: Crew, on_run: OnLevel = lambda: None) -> Search:
         """Follow a strategy to its end, playing what is not on disk.
