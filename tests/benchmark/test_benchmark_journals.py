@@ -111,6 +111,17 @@ def test_what_cannot_be_checked_is_said(tmp_path: Path, capsys: pytest.CaptureFi
     assert capsys.readouterr().err == f"uwsim: warning: {some}\n"
 
 
+def test_a_row_that_was_left_out_is_missed(tmp_path: Path) -> None:
+    file = altered(written(tmp_path), '"timestep"', '"units": [2, 2], "timestep"') / "result.json"
+    assert checked(tmp_path) is None
+    lines = [
+        line for line in file.read_text().splitlines() if not line.startswith("    [1, 1, 0.0")
+    ]
+    file.write_text("\n".join(lines).replace('"row": 3', '"row": 2'))
+    with pytest.raises(ResultError, match=r"stored: it has no row of seed 1, level 0\.0\. uwsim"):
+        checked(tmp_path)
+
+
 def test_a_result_older_than_its_units_is_believed(tmp_path: Path) -> None:
     path = written(tmp_path) / "result.json"
     rows = [line for line in path.read_text().splitlines() if line.startswith("    [1, 1, 0.5")]

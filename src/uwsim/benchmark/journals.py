@@ -28,6 +28,8 @@ class Journals:
 
     rows: dict[Key, Record]
     """What is stored of each level; ``ended_at`` as the result counts it."""
+    ended: tuple[Key, ...]
+    """Those of finished units."""
     n_ended: int
     """How many units are finished."""
 
@@ -47,18 +49,7 @@ def check_rows(result: Result, directory: Path) -> str | None:
     """
     if not (directory / FOLDER).is_dir():
         return f"rows are not checked: there is no {FOLDER}/ beside them" if result.rows else None
-    journals = read_journals(directory)
-    is_whole = journals.n_ended >= _n_ended(result)
-    said, without = [], []
-    for row, key in enumerate(_keys(result)):
-        record = journals.rows.get(key)
-        if record is not None:
-            counts_time = len(journals.rows) == len(result.rows)
-            said += [f"row {row}, {what}" for what in _apart(result, row, record, counts_time)]
-        elif is_whole:
-            said.append(f"row {row}: {FOLDER}/ has no such level")
-        else:
-            without.append(row)
+    said, without = _compare(result, read_journals(directory))
     if said:
         more = f"; and {len(said) - SHOWN} more" if len(said) > SHOWN else ""
         raise ResultError(
@@ -68,13 +59,35 @@ def check_rows(result: Result, directory: Path) -> str | None:
         )
     if without:
         n = len(result.rows)
-        return f"{len(without)} of {n} rows are not checked: their units are not in {FOLDER}/"
+        return f"{without} of {n} rows are not checked: their units are not in {FOLDER}/"
     return None
+
+
+def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
+    """Return what contradicts the journals, and how many rows they do not have."""
+    told = _n_ended(result)
+    keys = tuple(_keys(result))
+    said, without = [], 0
+    for row, key in enumerate(keys):
+        record = journals.rows.get(key)
+        if record is not None:
+            counts_time = len(journals.rows) == len(result.rows)
+            said += [f"row {row}, {what}" for what in _apart(result, row, record, counts_time)]
+        elif journals.n_ended >= told:
+            said.append(f"row {row}: {FOLDER}/ has no such level")
+        else:
+            without += 1
+    if journals.n_ended == told:
+        there = set(keys)
+        for seed, *level in (key for key in journals.ended if key not in there):
+            said.append(f"it has no row of seed {seed}, level {', '.join(map(str, level))}")
+    return said, without
 
 
 def read_journals(directory: Path) -> Journals:
     """Read what is stored of all units, in their order."""
     rows: dict[Key, Record] = {}
+    ended: list[Key] = []
     elapsed: dict[Cell, float] = {}
     n_ended = 0
     for path in sorted((directory / FOLDER).glob("*.jsonl"), key=lambda p: (len(p.name), p.name)):
@@ -83,8 +96,11 @@ def read_journals(directory: Path) -> Journals:
         seed = None if head is None else head.get("seed")
         for record in stored.rows:
             elapsed[seed] = elapsed.get(seed, 0.0) + record["duration"]
-            rows[(seed, *record["values"])] = {**record, "ended_at": elapsed[seed]}
-    return Journals(rows, n_ended)
+            key = (seed, *record["values"])
+            rows[key] = {**record, "ended_at": elapsed[seed]}
+            if stored.end is not None:
+                ended.append(key)
+    return Journals(rows, tuple(ended), n_ended)
 
 
 def _n_ended(result: Result) -> int:
