@@ -33,7 +33,8 @@ def commands(page: str) -> list[Command]:
     """Every command of a page's consoles, in order."""
     found = []
     for block in CONSOLE.findall(page):
-        for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+        joined = block.replace("\\\n", " ")
+        for part in re.split(r"^\$ ", joined, flags=re.MULTILINE)[1:]:
             line, *output = part.splitlines()
             words = tuple(shlex.split(line, comments=True))
             found.append(Command(words, tuple(each for each in output if each.strip())))

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
-import shlex
 from pathlib import Path
 
 import pytest
+from typer.main import get_command
 
+from documented import commands
 from uwsim.cli import COMMANDS, reference
+from uwsim.cli.app import build
+from uwsim.cli.files import bundled
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted(
@@ -16,7 +19,8 @@ PAGES = sorted(
     for path in [*ROOT.glob("*.md"), *ROOT.glob("*/*.md")]
     if not any(part.startswith(".") or part.endswith(".result") for part in path.parts)
 )
-CALL = re.compile(r"^\$ (?:\.venv/bin/)?(uwsim .*?)(?:\s+#.*)?$", re.MULTILINE)
+FILES_OF_THE_USER = ("my-scene.xml", "simpleBenchmark.xml")
+INLINE = re.compile(r"`(uwsim [a-z]+ [^`]*)`")
 LINK = re.compile(r"(?<!`)\[[^\]]*\]\(([^)#\s]+)(?:#[^)]*)?\)")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 
@@ -25,23 +29,60 @@ def ids(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
 
-def calls(path: Path) -> list[list[str]]:
-    return [shlex.split(line) for line in CALL.findall(path.read_text())]
+def typed(page: Path) -> list[tuple[str, ...]]:
+    """Every command of a page's consoles, without what is set for it (``PYTHONPATH=.``)."""
+    found = []
+    for command in commands(page.read_text()):
+        words = command.words
+        while "=" in words[0]:
+            words = words[1:]
+        found.append(words)
+    return found
 
 
 def test_the_pages_show_calls_and_links_to_test() -> None:
-    assert sum(len(calls(page)) for page in PAGES) >= 5
+    assert sum(len(typed(page)) for page in PAGES) >= 40
     assert sum(len(LINK.findall(page.read_text())) for page in PAGES) >= 10
 
 
 @pytest.mark.parametrize("page", PAGES, ids=ids)
-def test_every_call_in_a_page_names_a_command_that_has_those_options(page: Path) -> None:
-    for words in calls(page):
-        if words[1].startswith("-"):
-            continue
-        assert words[1] in COMMANDS, words
-        known = set(OPTION.findall(reference.section("", words[1], "--help")))
-        assert {word.split("=")[0] for word in words if word.startswith("--")} <= known, words
+def test_every_call_of_uwsim_is_one_that_the_program_takes(page: Path) -> None:
+    for words in typed(page):
+        if words[0] == "uwsim" and not words[1].startswith("-"):
+            command = get_command(build(words[1:])).commands[words[1]]
+            command.make_context(words[1], list(words[2:]))  # raises where it is wrong
+
+
+@pytest.mark.parametrize("page", PAGES, ids=ids)
+def test_every_call_within_a_sentence_names_a_command_that_has_those_options(page: Path) -> None:
+    for call in INLINE.findall(page.read_text()):
+        words = call.split()
+        if words[1] in COMMANDS:
+            known = set(OPTION.findall(reference.section("", words[1], "--help")))
+            assert set(OPTION.findall(call)) <= known, call
+
+
+@pytest.mark.parametrize("page", PAGES, ids=ids)
+def test_every_other_command_is_there(page: Path) -> None:
+    targets = re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(), re.MULTILINE)
+    for first, *rest in typed(page):
+        if first in ("python", ".venv/bin/python"):
+            assert (ROOT / rest[0]).is_file() or rest[0] == "-m", rest
+        elif first == "make":
+            assert set(rest) <= set(targets), rest
+        elif first.startswith("scripts/"):
+            assert (ROOT / first).is_file(), first
+        else:
+            assert first in ("uwsim", "pip", "source", "git", "cd", "mkdir"), first
+
+
+@pytest.mark.parametrize("page", PAGES, ids=ids)
+def test_scenes_and_benchmarks_have_names_that_are_there(page: Path) -> None:
+    text = page.read_text()
+    names = bundled("scenes").keys() | bundled("benchmarks").keys()
+    for words in typed(page):
+        if words[:1] == ("uwsim",) and words[1] in ("bench", "envelope", "info", "render"):
+            assert words[2] in names or f"`{words[2]}`" in text or words[2] in FILES_OF_THE_USER
 
 
 @pytest.mark.parametrize("page", PAGES, ids=ids)
@@ -59,3 +100,15 @@ def test_every_document_is_reached_from_the_index() -> None:
     linked = LINK.findall((ROOT / "docs" / "index.md").read_text())
     pages = [path.name for path in sorted((ROOT / "docs").glob("*.md"))]
     assert [page for page in pages if page not in [*linked, "index.md"]] == []
+
+
+def test_no_document_of_the_repository_is_left_out_of_the_index() -> None:
+    linked = LINK.findall((ROOT / "docs" / "index.md").read_text())
+    assert {"../CHANGELOG.md", "../CONTRIBUTING.md", "../benchmarks/README.md"} <= {*linked}
+
+
+def test_the_readme_is_short_and_names_each_command_one_way() -> None:
+    readme = ROOT / "README.md"
+    assert len(readme.read_text().splitlines()) <= 120
+    shown = {words[1] for words in typed(readme) if words[0] == "uwsim"}
+    assert shown == COMMANDS.keys() - {"report"}

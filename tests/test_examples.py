@@ -30,3 +30,9 @@ def test_an_example_prints_what_the_file_beside_it_says(example: Path, tmp_path:
 @pytest.mark.parametrize("example", NUMBERED, ids=lambda path: path.stem)
 def test_an_example_fits_on_a_page(example: Path) -> None:
     assert len(example.read_text().splitlines()) <= 60
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/index.md"])
+def test_every_numbered_example_is_linked(page: str) -> None:
+    text = (EXAMPLES.parent / page).read_text()
+    assert [path.name for path in NUMBERED if f"examples/{path.name})" not in text] == []
