@@ -9,9 +9,9 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path, PurePosixPath
 
-from ..errors import AssetNotFound, did_you_mean
+from ..errors import AssetError, AssetNotFound, did_you_mean
 from .find import UNDER, bundled_robot, candidates, find, folders_searched, plain_name, roots
-from .loaders import BY_OSGCONV, READABLE, can_read, read_model, why_not_read
+from .loaders import BY_OSGCONV, READABLE, can_read, read_model
 from .mesh import Mesh, Model, Texture
 from .model_cache import made
 from .paint import painted
@@ -82,12 +82,14 @@ def has_model(name: str, *, beside: Path | None = None, data_path: tuple[Path, .
 def why_unreadable(
     name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Why the file that `load_model` finds is of a type that cannot be read; empty if it can be.
-
-    What is in the file is not looked at.
-    """
-    path = _path_of(name, beside, data_path)
-    return "" if path is None else why_not_read(path)
+    """Why the file that `load_model` finds cannot be read; empty if it can, or is not there."""
+    try:
+        load_model(name, beside=beside, data_path=data_path)
+    except AssetNotFound:
+        return ""
+    except AssetError as error:
+        return str(error).removesuffix(".")
+    return ""
 
 
 def _path_of(name: str, beside: Path | None, data_path: tuple[Path, ...]) -> Path | None:

@@ -15,6 +15,7 @@ from ...errors import AssetError
 from ...input_files import read_bytes
 from ..mesh import Mesh, Texture
 from ..procedural.shapes import Shape, mesh
+from .obj_lines import wrong_line
 
 READABLE = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae")
 """Formats that are read without help from outside."""
@@ -59,6 +60,8 @@ def read_meshes(
     except (Exception, RecursionError) as error:  # trimesh raises whatever its parsers raise
         said = str(error).strip().splitlines()
         why = said[0][:200] if said else ""
+        if path.suffix.lower() == ".obj" and (place := wrong_line(path.read_bytes())):
+            raise AssetError(f"{path}:{place}.") from error
         raise AssetError(
             f"{path}: not a {path.suffix.lower()} file that can be read "
             f"({type(error).__name__}{': ' + why if why else ''})."
@@ -149,6 +152,10 @@ def _mesh(part: Any, path: Path, keep: float) -> Mesh | None:
     """One trimesh mesh as ours; None when it has no area."""
     vertices = np.asarray(part.vertices, dtype=np.float64)
     faces = np.asarray(part.faces, dtype=np.int64)
+    if vertices.ndim != 2 or vertices.shape[1] != 3:
+        place = wrong_line(path.read_bytes()) if path.suffix.lower() == ".obj" else ""
+        where = f":{place}" if place else ": vertices of other than 3 numbers"
+        raise AssetError(f"{path}{where}.")
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise AssetError(f"{path}: a triangle names a vertex that is not there.")
     if not np.isfinite(vertices).all() or np.abs(vertices).max() > FARTHEST:
