@@ -20,6 +20,7 @@ GROUND = {
     "python_sources",
     "disk_cache",
     "modules",
+    "scratch",
     "jit",
     "linear",
     "elementwise",

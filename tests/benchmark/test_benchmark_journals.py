@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from compared_results import made
+from stored_rows import stored_end, stored_row
 from uwsim.benchmark.comparison import read_entries, remarks
 from uwsim.benchmark.journals import check_rows
 from uwsim.benchmark.report import write_report
@@ -29,17 +30,16 @@ def written(directory: Path, algorithm: str = "esm") -> Path:
         lines: list[dict[str, Any]] = [{"unit": {"run": {"seed": 0}, "seed": seed}}]
         for fog, values in FOUND.items():
             value = values[seed]
-            row = {
-                "values": [fog],
-                "measures": {"corners": [value, "px"]},
-                "details": {},
-                "total": value,
-                "status": "lost" if value is None else "ok",
-                "missing": {} if value is not None else {"total": WHY},
-                "duration": 2.0,
-            }
+            row = stored_row(
+                values=[fog],
+                measures={"corners": [value, "px"]},
+                total=value,
+                status="lost" if value is None else "ok",
+                missing={} if value is not None else {"total": WHY},
+                duration=2.0,
+            )
             lines.append({"row": row})
-        lines.append({"end": {}})
+        lines.append({"end": stored_end()})
         file = directory / "units" / f"{seed:05d}.jsonl"
         file.parent.mkdir(exist_ok=True)
         file.write_text("".join(json.dumps(line) + "\n" for line in lines))

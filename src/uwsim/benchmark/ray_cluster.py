@@ -25,12 +25,12 @@ from typing import Any
 
 from ..environment import environment, not_chosen
 from ..errors import BadSetting, MissingExtra, RunFailed, UwsimError
+from ..scratch import OWNER, scratch_folder
 from ..simulation import Studio
 from . import unit_file
 from .bench import Bench, open_once
 from .crew import ENVIRONMENT, Job, Roster
 from .plan import Unit
-from .scratch import OWNER, scratch_folder
 from .unit_work import Event, Keeper, UnitEnded, UnitFailed, perform, portable
 
 ADDRESS = "RAY_ADDRESS"

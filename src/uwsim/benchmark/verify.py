@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..chance import stream
+from ..scratch import scratch_folder
 from . import differences, unit_file
 from .bench import Bench
 from .crew import Crew, Here, Job, OnLevel, Roster
@@ -23,7 +24,6 @@ from .differences import Difference
 from .plan import Plan, Unit
 from .result import Result
 from .result_file import dumps
-from .scratch import scratch_folder
 from .unit_work import PICTURES
 
 ENVIRONMENT = ("version", "physics", "renderer", "numpy")

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from ...errors import AssetError
+from ...scratch import scratch_folder
 
 BY_OSGCONV = (".osg", ".osgt", ".osgb", ".ive", ".wrl", ".3ds")
 """Formats that need `osgconv`."""
@@ -44,8 +44,8 @@ def converted(path: Path) -> Iterator[Path]:
     program = shutil.which("osgconv")
     if program is None:
         raise AssetError(without_osgconv(path))
-    with tempfile.TemporaryDirectory(prefix="uwsim-") as folder:
-        unpacked, obj = Path(folder) / "model.osgt", Path(folder) / "model.obj"
+    with scratch_folder("uwsim-osg-") as folder:
+        unpacked, obj = folder / "model.osgt", folder / "model.obj"
         _run(
             [program, "-O", "OutputTextureFiles", str(path.absolute()), str(unpacked)], path, folder
         )
@@ -55,7 +55,7 @@ def converted(path: Path) -> Iterator[Path]:
         yield obj
 
 
-def _run(command: list[str], path: Path, folder: str) -> None:
+def _run(command: list[str], path: Path, folder: Path) -> None:
     environment = dict(os.environ, OSG_FILE_PATH=str(path.absolute().parent))
     try:
         done = subprocess.run(

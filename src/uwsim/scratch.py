@@ -1,8 +1,8 @@
 """A temporary folder that is gone with its process, however that comes to its end.
 
 A process that is killed cannot clear up after itself. So another one, which does nothing else,
-makes the folder and holds a leash (`leash`): when nobody holds the other end any more, it removes
-the folder.
+makes the folder and reads from a pipe: when nobody holds the other end any more, it removes the
+folder.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import RunFailed
+from .errors import RunFailed
 
 OWNER = "UWSIM_SCRATCH"
 """Environment variable with a folder's name: who has it is ended with the folder's process."""
