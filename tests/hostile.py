@@ -6,12 +6,16 @@ With limits of 100 messages and 1 MiB.
 from __future__ import annotations
 
 import asyncio
+import os
 import threading
+import time
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node
 from uwsim.messages import Float32MultiArray, PoseStamped, String, floats
 from uwsim.simulation import outbox
@@ -113,6 +117,38 @@ class PublishesTheWrongPart(Attacker):
         self.node.publisher("place", PoseStamped)(
             PoseStamped(pose=String())  # type: ignore[arg-type]
         )
+
+
+class Dies(Attacker):
+    """Leaves as though all was well, unless a file is there."""
+
+    def attack(self) -> None:
+        if not Path(str(self.node.parameters["immortal"])).exists():
+            os._exit(0)
+
+
+class Hangs(Attacker):
+    """Does not come back, whatever is raised."""
+
+    def attack(self) -> None:
+        while True:
+            with suppress(BaseException):
+                time.sleep(10.0)
+
+
+class Patches(Attacker):
+    """Makes every estimate a perfect one."""
+
+    def attack(self) -> None:
+        EuclideanNorm.value = 0.0  # type: ignore[method-assign, assignment]
+        self.publish(floats([7.0]))
+
+
+class Honest(Attacker):
+    """Is off by 1."""
+
+    def tick(self) -> None:
+        self.publish(floats([2.0]))
 
 
 ATTACKS: dict[type[Any], str] = {

@@ -19,6 +19,7 @@ from uwsim.benchmark.result_file import load
 from uwsim.bus import Node
 from uwsim.errors import NeverStarted, RunFailed
 from uwsim.messages import Empty, Image
+from uwsim.simulation import Cut
 
 HERE = "test_benchmark_crew"
 
@@ -74,16 +75,20 @@ def test_a_worker_that_is_killed_leaves_the_same_bytes(benchmark: Path, tmp_path
 
 
 @pytest.mark.slow
-def test_a_unit_that_kills_every_worker_is_named_and_the_others_are_kept(
-    benchmark: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_what_kills_every_worker_is_said_in_its_row_and_tried_again_when_resumed(
+    benchmark: Path, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(crew, "MOST_RETRIES", 1)
     deadly = bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))
     good = bench_of(benchmark, tmp_path / "good", repeat=2)
-    with pytest.raises(RunFailed, match=r"unit 0 \(.*Mortal, seed 1, 3 levels\).*2 times.*SIGKILL"):
-        play_all([deadly, good], Processes(2))
-    assert load(tmp_path / "deadly").values("fog") == (0.0,)
+    result, _ = play_all([deadly, good], Processes(2))
+    assert result.values("status") == ("ok", "algorithm error", "algorithm error")
+    said = f"{HERE}:Mortal was stopped at 0.3 s: its process ended (killed by SIGKILL)"
+    assert result.why(1, "total") == result.why(2, "total") == said
     assert load(tmp_path / "good").values("status") == ("ok",) * 6
+    (tmp_path / "immortal").touch()
+    play_all([bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))])
+    run(benchmark, tmp_path / "b", **mortal(tmp_path, "always"))
+    assert fingerprint(tmp_path / "deadly") == fingerprint(tmp_path / "b")
 
 
 class Absent:
@@ -133,6 +138,20 @@ def test_a_lost_unit_is_the_next_to_be_played_and_three_times_at_most(tmp_path: 
     )
     assert roster.take() is None
     assert first.bench.n_lost == 4
+
+
+def test_a_unit_that_is_lost_twice_in_one_call_is_played_without_it(tmp_path: Path) -> None:
+    roster = Roster(jobs(tmp_path, 1))
+    first = roster.take()
+    assert first is not None
+    for call in (7, None, 8):
+        roster.lost(first, "with exit status 0", call)
+        assert roster.take() is first
+        assert first.cut is None
+    roster.lost(first, "with exit status 0", 7)
+    assert roster.take() is first
+    assert first.cut == Cut(7, "its process ended (with exit status 0)")
+    assert roster.failure is None
 
 
 def test_every_level_is_told_once(tmp_path: Path) -> None:

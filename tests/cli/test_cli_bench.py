@@ -74,7 +74,9 @@ def test_all_that_is_wrong_with_a_call_is_said_at_once_a_line_each(
     out = tmp_path / "out"
     out.mkdir()
     (out / "notes.txt").touch()
-    options = "--workers 0 --algorithm esm --algorithm orbb --set oceanState.fog.densty=1 --set x "
+    options = (
+        "--workers two --algorithm esm --algorithm orbb --set oceanState.fog.densty=1 --set x "
+    )
     options += (
         "--set algorithm.kp=1 --set algorithm.latency_s=-1 --level fogg=1 --level fog=7.0000001 "
     )
@@ -82,7 +84,7 @@ def test_all_that_is_wrong_with_a_call_is_said_at_once_a_line_each(
     assert main(["bench", benchmark, *options.split(), str(out)]) == 2
     said = capsys.readouterr().err.splitlines()
     expected = [
-        "--workers 0: expected", "--set 'x': expected", "there is no <densty>. Did you mean",
+        "--workers two: expected", "--set 'x': expected", "there is no <densty>. Did you mean",
         "no parameter 'kp'", "latency_s is -1.0", "--mode is 'paralel'", "Did you mean 'thresholds",
         "--level fogg: this benchmark sweeps fog. Did", "--level fog=7.0000001 is not a level",
         "--repeat 100000: at most", "No algorithm is called 'orbb'. Did", f"--out {out}: not empty",
@@ -157,13 +159,20 @@ def test_a_run_that_a_plugin_ended_keeps_its_rows_and_goes_on(
 
 
 def test_workers_are_a_number_or_ray() -> None:
-    assert isinstance(crew_of("1"), Here)
-    assert isinstance(crew_of("2"), Processes)
-    for wrong in ("0", "-1", "two", "1.5", "1000000", ""):
-        with pytest.raises(BadSetting, match="expected a number from 1 to"):
-            crew_of(wrong)
+    assert isinstance(crew_of("0", 0.0), Here)
+    assert isinstance(crew_of("1", 0.0), Processes)
+    assert isinstance(crew_of("2", 600.0), Processes)
+    for wrong in ("-1", "two", "1.5", "1000000", ""):
+        with pytest.raises(BadSetting, match="expected a number from 0 to"):
+            crew_of(wrong, 0.0)
     with pytest.raises(BadSetting, match="Did you mean 'ray'"):
-        crew_of("Ray")
+        crew_of("Ray", 0.0)
+
+
+@pytest.mark.parametrize("limit", ["-1", "inf", "nan"])
+def test_a_callback_limit_is_a_time(limit: str) -> None:
+    with pytest.raises(BadSetting, match=r"--callback-limit .*expected a time"):
+        crew_of("1", float(limit))
 
 
 def test_a_clock_that_is_set_back_does_not_change_how_long_a_run_took(

@@ -231,7 +231,18 @@ def test_each_slip_is_one_clean_fault_and_nothing_is_written(
 
 def test_all_slips_are_said_at_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     call = ["envelope", "b.xml", "--plugin", "own.py", "--over", "load", "--until", "stran > 5"]
-    slips = ["--to", "-1", "--confidence", "95", "--level", "fog=1", "--set", "x", "--workers", "0"]
+    slips = [
+        "--to",
+        "-1",
+        "--confidence",
+        "95",
+        "--level",
+        "fog=1",
+        "--set",
+        "x",
+        "--workers",
+        "two",
+    ]
     assert main([*call, *slips]) == 2
     said = capsys.readouterr().err
     assert sum(line.startswith("uwsim: ") for line in said.splitlines()) == 3

@@ -32,6 +32,7 @@ from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPictu
 from .result_file import save
 from .summary import save_summary
 from .updaters import chain, references
+from .verdict import was_stopped
 
 
 @dataclass(kw_only=True)
@@ -56,8 +57,21 @@ class Bench:
     def begin(self) -> list[Unit]:
         """Make the directory, and return the units that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
+        self._forget_what_was_stopped()
         self.n_resumed = self.n_finished()
         return self.unfinished()
+
+    def _forget_what_was_stopped(self) -> None:
+        """Have units played again whose algorithm took its process with it, or did not come back.
+
+        The levels before stay, and are held against those that are played again.
+        """
+        name = self.plan.algorithm_name
+        for unit in self.plan.units():
+            for n, row in enumerate(self.stored(unit).rows):
+                if was_stopped(name, row["missing"].get("total")):
+                    unit_file.cut_back(self.out, unit.index, n)
+                    break
 
     def unfinished(self) -> list[Unit]:
         """Return the units whose end is not on disk."""

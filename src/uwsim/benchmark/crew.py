@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ..errors import RUN_ERRORS, RunFailed, UwsimError
-from ..simulation import Studio
+from ..interrupts import is_of_user
+from ..simulation import Calls, Cut, Studio
 from .bench import Bench
-from .plan import Unit
+from .plan import Plan, Unit
 from .result import Result
 from .unit_file import path_of
-from .unit_work import Event, Keeper, perform
+from .unit_work import Event, Keeper, perform, portable
 
 OnLevel = Callable[[], None]
 MOST_RETRIES = 3
@@ -27,7 +28,11 @@ ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
 worker a core."""
 
 
-@dataclass(frozen=True, eq=False)
+PROCESS_ENDED = "its process ended"
+"""How the reason begins of an algorithm that took its process with it."""
+
+
+@dataclass(eq=False)
 class Job:
     """A unit of one of the benchmarks that are played together."""
 
@@ -35,6 +40,8 @@ class Job:
     """Whose unit it is."""
     unit: Unit
     """What is to be played."""
+    cut: Cut | None = None
+    """The call into the algorithm that it did not survive, or did not come back from."""
 
     def __str__(self) -> str:
         levels = self.unit.levels
@@ -68,6 +75,7 @@ class Roster:
         self._waiting = deque(jobs)
         self._on_level = on_level
         self._losses: Counter[Job] = Counter()
+        self._calls_lost: set[tuple[Job, int]] = set()
         self._to_come = {job: len(job.unit.levels) - job.bench.n_rows(job.unit) for job in jobs}
 
     @property
@@ -84,6 +92,10 @@ class Roster:
         """How many jobs are waiting."""
         return len(self._waiting)
 
+    def plans(self) -> tuple[Plan, ...]:
+        """Whose jobs are waiting."""
+        return tuple({id(job.bench): job.bench.plan for job in self._waiting}.values())
+
     def take(self) -> Job | None:
         """Take the next job; None when there is none now."""
         return self._waiting.popleft() if self._waiting else None
@@ -99,8 +111,17 @@ class Roster:
         while self._to_come[job] > 0:
             self.level(job)
 
-    def lost(self, job: Job, why: str) -> None:
-        """Its worker is gone: it is played again, and next, unless that has happened too often."""
+    def lost(self, job: Job, why: str, call: int | None = None) -> None:
+        """Its worker is gone: it is played again, and next, unless that has happened too often.
+
+        Where it goes in the same ``call`` once more that is the algorithm's doing: from then on the
+        unit is played without that call.
+        """
+        if call is not None and (job, call) in self._calls_lost:
+            self.stopped(job, Cut(call, f"{PROCESS_ENDED} ({why})"))
+            return
+        if call is not None:
+            self._calls_lost.add((job, call))
         job.bench.n_lost += 1
         self._losses[job] += 1
         if self._losses[job] <= MOST_RETRIES:
@@ -114,6 +135,12 @@ class Roster:
                 "Finished rows are kept; go on with --resume."
             ),
         )
+
+    def stopped(self, job: Job, cut: Cut) -> None:
+        """A call into the algorithm cannot be made: the unit is played again without it."""
+        job.bench.n_lost += 1
+        job.cut = cut
+        self._waiting.appendleft(job)
 
     def failed(self, job: Job, error: Exception) -> None:
         """It cannot be played."""
@@ -147,21 +174,25 @@ class Here:
         try:
             while (job := roster.take()) is not None:
                 try:
-                    for _ in play_and_keep(job.bench, job.unit, studio):
+                    for _ in play_and_keep(job, studio, Calls()):
                         roster.level(job)
                 except Exception as error:
                     roster.failed(job, error)
+                except BaseException as error:
+                    if is_of_user(error):
+                        raise
+                    roster.failed(job, portable(error))
                 else:
                     roster.done(job)
         finally:
             studio.close()
 
 
-def play_and_keep(bench: Bench, unit: Unit, studio: Studio) -> Iterator[Event]:
+def play_and_keep(job: Job, studio: Studio, calls: Calls) -> Iterator[Event]:
     """Play a unit where its result is; yields the levels that were not on disk before."""
-    keeper = Keeper(bench, unit)
+    keeper = Keeper(job.bench, job.unit)
     try:
-        for event in perform(bench.plan, unit, studio):
+        for event in perform(job.bench.plan, job.unit, studio, calls):
             if keeper.keep(event):
                 yield event
     finally:

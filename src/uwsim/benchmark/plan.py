@@ -93,6 +93,11 @@ class Plan:
         return _unpacked, (self.plugins, others)
 
     @property
+    def is_bundled(self) -> bool:
+        """Whether the algorithm is uwsim's own, and nothing runs beside it that is not."""
+        return self.algorithm.__module__.startswith("uwsim.") and not self.plugins
+
+    @property
     def wants_control(self) -> bool:
         """Whether `frozen` is worth playing beside it: a tracker is told where its target is.
 

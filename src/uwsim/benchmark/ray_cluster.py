@@ -76,14 +76,17 @@ class RayCluster:
             n_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
             remote = ray.remote(num_cpus=1, max_restarts=0)(Worker)
             remote = remote.options(runtime_env={"env_vars": not_chosen(ENVIRONMENT)})
-            idle: list[Any] = []
+            idle: list[tuple[Any, str]] = []  # and the only algorithm that it plays
             tasks: dict[Any, Task] = {}
             try:
                 while True:
                     while len(tasks) < n_workers and (job := roster.take()) is not None:
-                        task = Task(job, idle.pop() if idle else remote.remote())
+                        name = job.bench.plan.algorithm_name
+                        while idle and idle[-1][1] != name:  # no process sees two algorithms
+                            ray.kill(idle.pop()[0])
+                        task = Task(job, idle.pop()[0] if idle else remote.remote())
                         tasks[task.begin(ray)] = task
-                    for worker in idle:  # there is nothing left for them
+                    for worker, _ in idle:  # there is nothing left for them
                         ray.kill(worker)
                     idle.clear()
                     if not tasks:
@@ -93,7 +96,8 @@ class RayCluster:
                         if self._is_over(events, tasks[events], roster):
                             task = tasks.pop(events)
                             task.keeper.close()
-                            idle += [task.worker] if task.is_alive else []
+                            if task.is_alive:
+                                idle.append((task.worker, task.job.bench.plan.algorithm_name))
             finally:
                 for task in tasks.values():
                     task.keeper.close()

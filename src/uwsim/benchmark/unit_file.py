@@ -116,6 +116,15 @@ def _refuse_constant(text: str) -> object:
     raise ResultError(f"it contains {text}; a missing value is null.")
 
 
+def cut_back(directory: Path, index: int, n_rows: int) -> None:
+    """Forget what is stored of a unit but its first rows."""
+    path = path_of(directory, index)
+    lines = path.read_bytes().split(b"\n")[: 1 + n_rows]
+    draft = path.with_suffix(".part")
+    draft.write_bytes(b"".join(line + b"\n" for line in lines))
+    draft.replace(path)
+
+
 class UnitFile:
     """Writes a unit, checking what is already there row by row.
 

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from ..errors import RunFailed
 from ..file_names import file_names
-from ..simulation import Studio
+from ..simulation import Calls, Studio
 from . import unit_file
 from .bench import Bench
 from .plan import Plan, Unit
@@ -55,18 +55,19 @@ class UnitFailed:
 Event = LevelEnded | UnitEnded
 
 
-def perform(plan: Plan, unit: Unit, studio: Studio) -> Iterator[Event]:
+def perform(plan: Plan, unit: Unit, studio: Studio, calls: Calls | None = None) -> Iterator[Event]:
     """Play a unit; yields each level as it ends, and at last the end of the unit.
 
     Args:
         plan: what is played.
         unit: one of its units.
         studio: lends the renderer.
+        calls: counts those into the algorithm.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    for n, played in enumerate(play(plan, unit, studio=studio)):
+    for n, played in enumerate(play(plan, unit, studio=studio, calls=calls)):
         if isinstance(played, UnitEnd):
             yield UnitEnded(record=_end(played))
         else:
@@ -109,12 +110,13 @@ class Keeper:
         self._file.close()
 
 
-def portable(error: Exception) -> Exception:
+def portable(error: BaseException) -> Exception:
     """Return the error with its traceback as a note, or one that says the same and travels."""
     error.add_note("".join(traceback.format_exception(error)).rstrip())
     try:
         back = pickle.loads(pickle.dumps(error))
-        if type(back) is type(error) and str(back) == str(error):
+        same = type(back) is type(error) and str(back) == str(error)
+        if same and isinstance(error, Exception):
             return error
     except Exception:
         pass

@@ -6,11 +6,16 @@ from collections.abc import Sequence
 
 from ..bus import Inbox
 from ..messages import String
-from ..simulation import InProcessNode
+from ..simulation import STOPPED, InProcessNode
 from .gated import Gated
 
 SILENCE = 1.0
 """A measure that waits longer than this for an estimate ends in ``timeout`` [s]."""
+
+
+def was_stopped(name: str, why: str | None) -> bool:
+    """Whether a row's reason is that its algorithm could not be called any more."""
+    return why is not None and why.startswith(f"{name} {STOPPED} at ")
 
 
 class Verdict:

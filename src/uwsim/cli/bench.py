@@ -16,7 +16,7 @@ from ..errors import AllErrors, BadSetting, RunFailed
 from ..file_names import file_names
 from ..interrupts import raise_from_now_on
 from .completion import algorithm_names
-from .crew import WorkersOption, crew_of, n_at_once
+from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import running, warn
 from .foreign_code import NoCodeOption, announce_code
 from .options import (
@@ -95,6 +95,7 @@ def bench(
         ),
     ] = 1,
     workers: WorkersOption = "1",
+    callback_limit: CallbackLimitOption = CALLBACK_LIMIT,
     out: Annotated[
         Path | None,
         in_group(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
@@ -119,7 +120,7 @@ def bench(
 
     wrong, crew, folders = AllErrors(), None, []
     with wrong.kept():
-        crew = crew_of(workers)
+        crew = crew_of(workers, callback_limit)
     plans: list[Plan] = []
     for name in algorithm or (None,):
         with wrong.kept():
@@ -221,6 +222,7 @@ def play_and_finish(
         print("compare: uwsim compare " + " ".join(str(run.out) for run in runs))
     for _, error in outcome.failures:
         raise error
+    refuse_if_a_process_ended(runs, outcome.results)
     refuse_if_all_broke(runs, outcome.results)
 
 
@@ -258,6 +260,24 @@ def refuse_if_all_broke(runs: Sequence[Bench], results: Sequence[Result]) -> Non
     ]
     if broke:
         raise RunFailed(f"Every row ended in {ALGORITHM_ERROR!r}: {'; '.join(broke)}.")
+
+
+def refuse_if_a_process_ended(runs: Sequence[Bench], results: Sequence[Result]) -> None:
+    """Fail if an algorithm took its process with it.
+
+    Raises:
+        RunFailed: names the algorithms, and why the first such row of each is as it is.
+    """
+    from ..benchmark.crew import PROCESS_ENDED
+    from ..benchmark.verdict import was_stopped
+
+    ended = []
+    for run, result in zip(runs, results, strict=True):
+        reasons = [result.why(row, "total") or "" for row in range(len(result.rows))]
+        name = run.plan.algorithm_name
+        ended += [why for why in reasons if was_stopped(name, why) and PROCESS_ENDED in why][:1]
+    if ended:
+        raise RunFailed(f"{'; '.join(ended)}. Rows are kept; --resume tries those again.")
 
 
 def play_with_progress(runs: Sequence[Bench], crew: Crew, at_once: int) -> Outcome:

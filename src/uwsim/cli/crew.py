@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,44 +16,64 @@ RAY = "ray"
 MOST_WORKERS = 1024
 """More processes than this on one machine are a slip of the pen."""
 
+CALLBACK_LIMIT = 600.0
+"""How long a call into an algorithm may take, unless the user says otherwise [s]."""
+
 WorkersOption = Annotated[
     str,
     in_group(
         RUN,
         "--workers",
         metavar="N|ray",
-        help="Processes to use on this machine; or ray, for the cluster that RAY_ADDRESS names, "
-        "else all cores here.",
+        help="Processes to use on this machine; ray: the cluster that RAY_ADDRESS names, else all "
+        "cores here; 0: this very process, as a debugger wants it, where an algorithm can do more "
+        "harm.",
+    ),
+]
+CallbackLimitOption = Annotated[
+    float,
+    in_group(
+        RUN,
+        "--callback-limit",
+        metavar="SECONDS",
+        help="How long the algorithm may take to return from one callback, in wall time; a row in "
+        "which it takes longer ends in 'algorithm error'. 0: for ever. Not for ray.",
     ),
 ]
 
 
 def n_at_once(workers: str) -> int:
     """Return how many levels are played at one time; of a cluster nobody knows: those of here."""
-    return int(workers) if workers.isdigit() else os.cpu_count() or 1
+    return max(1, int(workers)) if workers.isdigit() else os.cpu_count() or 1
 
 
-def crew_of(workers: str) -> Crew:
+def crew_of(workers: str, callback_limit: float) -> Crew:
     """Return who plays.
 
+    Args:
+        workers: how many, or ``ray``.
+        callback_limit: how long a call into an algorithm may take [s]; 0 for ever.
+
     Raises:
-        BadSetting: neither a number nor ``ray``.
+        BadSetting: neither a number nor ``ray``, or no time.
         MissingExtra: Ray is not installed.
     """
     from ..benchmark.crew import Here
 
+    if not 0.0 <= callback_limit < math.inf:
+        raise BadSetting(f"--callback-limit {callback_limit:g}: expected a time >= 0 [s].")
     if workers == RAY:
         from ..benchmark.ray_cluster import RayCluster
 
         return RayCluster()
-    number = int(workers) if workers.isascii() and workers.isdigit() else 0
-    if not 1 <= number <= MOST_WORKERS:
+    number = int(workers) if workers.isascii() and workers.isdigit() else -1
+    if not 0 <= number <= MOST_WORKERS:
         raise BadSetting(
-            f"--workers {workers}: expected a number from 1 to {MOST_WORKERS}, or {RAY!r}."
+            f"--workers {workers}: expected a number from 0 to {MOST_WORKERS}, or {RAY!r}."
             f"{did_you_mean(workers, [RAY])}"
         )
-    if number == 1:
+    if number == 0:
         return Here()
     from ..benchmark.processes import Processes
 
-    return Processes(number)
+    return Processes(number, callback_limit=callback_limit or None)

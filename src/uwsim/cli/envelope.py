@@ -13,7 +13,7 @@ from ..errors import AllErrors, BadSetting
 from ..interrupts import raise_from_now_on
 from .bench import OTHER_CODE
 from .completion import algorithm_names
-from .crew import WorkersOption, crew_of, n_at_once
+from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import printable, running, warn
 from .foreign_code import NoCodeOption, announce_code
 from .options import BenchmarkArgument, CompatOption, DataPathOption, SceneOption, SetOption
@@ -118,6 +118,7 @@ def envelope(
         ),
     ] = 10,
     workers: WorkersOption = "1",
+    callback_limit: CallbackLimitOption = CALLBACK_LIMIT,
     out: Annotated[
         Path | None,
         in_group(OUTPUT, "--out", metavar="DIR", help="Where it goes [./NAME.envelope]."),
@@ -149,7 +150,7 @@ def envelope(
 
     wrong, crew, plan = AllErrors(), None, None
     with wrong.kept():
-        crew = crew_of(workers)
+        crew = crew_of(workers, callback_limit)
     with wrong.kept():
         check_numbers(confidence, repeat)
     with wrong.kept():

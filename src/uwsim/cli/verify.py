@@ -11,7 +11,7 @@ import typer
 
 from ..errors import ResultError
 from ..interrupts import raise_from_now_on
-from .crew import WorkersOption, crew_of, n_at_once
+from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import RUN_FAILED, printable, running
 from .foreign_code import NoCodeOption, announce_code
 from .options import DataPathOption, ResultArgument
@@ -78,6 +78,7 @@ def verify(
         ),
     ] = None,
     workers: WorkersOption = "1",
+    callback_limit: CallbackLimitOption = CALLBACK_LIMIT,
     benchmark: Annotated[
         Path | None,
         in_group(
@@ -119,7 +120,7 @@ def verify(
     from ..benchmark.verify import choose, finished
     from ..benchmark.verify import verify as compare
 
-    crew = crew_of(workers)
+    crew = crew_of(workers, callback_limit)
     stored = load(result)
     directory = file_of(result).parent
     given = Given(

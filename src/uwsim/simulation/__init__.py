@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from .calls import BEFORE, Calls, Cut, open_call
+from .calls import BEFORE, Calls, Counter, Cut, open_call
 from .image_publisher import ImagePublisher, sample_step
-from .node import InProcessNode, latency_of, what_broke
+from .node import STOPPED, InProcessNode, latency_of, what_broke
 from .simulation import Simulation
 from .studio import Studio
 
 __all__ = [
     "BEFORE",
+    "STOPPED",
     "Calls",
+    "Counter",
     "Cut",
     "ImagePublisher",
     "InProcessNode",

@@ -20,6 +20,8 @@ from .calls import Calls, Stopped
 from .outbox import Outbox
 
 M = TypeVar("M")
+STOPPED = "was stopped"
+"""What befell an algorithm that is not called any more though it raised nothing."""
 
 
 def latency_of(parameters: Mapping[str, float | str]) -> float:
@@ -228,7 +230,7 @@ class InProcessNode:
             raise error
         self.error = what_broke(error, self._algorithm)
         if isinstance(error, Stopped):
-            self.how = "was stopped"
+            self.how = STOPPED
         if self._raises:
             raise error
 
