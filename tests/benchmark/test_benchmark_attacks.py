@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import signal
 from dataclasses import replace
 from pathlib import Path
@@ -12,13 +11,12 @@ import numpy as np
 import pytest
 
 from hostile import ATTACKS, TOPIC, Attacker, Dies, Hangs, Honest, Patches
-from played import DATA, INIT, TIME, make_plan, rows_of
+from played import INIT, TIME, make_plan, rows_of
 from uwsim.benchmark.bench import Bench
 from uwsim.benchmark.crew import play_all
 from uwsim.benchmark.processes import Processes
 from uwsim.benchmark.result import Result
 from uwsim.bus import Node
-from uwsim.cli import main
 from uwsim.errors import NotAllowed
 from uwsim.messages import Float32MultiArray, floats
 from uwsim.simulation import outbox
@@ -141,21 +139,3 @@ def test_an_algorithm_that_dies_or_hangs_or_falsifies_does_so_to_itself_alone(
     (tmp_path / "immortal").touch()
     again = play_all([bench_of(tmp_path, Dies)], Processes(1))[0]
     assert reasons(again) == ["no value for e"] * 2
-
-
-@pytest.mark.slow
-def test_a_process_that_left_as_if_all_was_well_is_exit_status_3(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    plan = make_plan(tmp_path, Dies, LEVELS)
-    scene = tmp_path / "scene.xml"
-    text = (DATA / "scenes" / "visibility-scene.xml").read_text()
-    scene.write_text(re.sub("<rosInterfaces>.*</rosInterfaces>", "", text, flags=re.DOTALL))
-    monkeypatch.chdir(tmp_path)
-    words = ["bench", plan.benchmark.path, "--scene", str(scene), "--algorithm", "hostile:Dies"]
-    words += ["--set", f"algorithm.immortal={tmp_path / 'immortal'}", "--out", "out"]
-    assert main(words) == 3
-    said = capsys.readouterr().err
-    assert "hostile:Dies was stopped at 0.4 s: its process ended (with exit status 0)" in said
-    (tmp_path / "immortal").touch()
-    assert main([*words, "--resume"]) == 0
