@@ -109,6 +109,24 @@ def test_a_closed_inbox_costs_the_publisher_nothing() -> None:
     assert np.array_equal(floats([1.0]).data, [1.0])
 
 
+def test_an_inbox_that_nobody_looks_into_keeps_the_newest(monkeypatch: pytest.MonkeyPatch) -> None:
+    bus = Bus()
+    inbox, publish = bus.inbox("a", String), bus.publisher("a", String)
+
+    def kept(*words: str) -> list[str]:
+        for word in words:
+            publish(String(data=word))
+        bus.deliver()
+        return [message.data for message in inbox.take()]
+
+    monkeypatch.setattr("uwsim.bus.MAX_KEPT", 2)
+    assert kept("a", "b", "c") == ["b", "c"]
+    monkeypatch.setattr("uwsim.bus.MAX_BYTES_KEPT", 200)
+    assert kept("a", "b" * 150, "c" * 150) == ["c" * 150]
+    assert kept("d" * 300) == ["d" * 300]
+    assert kept("e", "f") == ["e", "f"]
+
+
 def test_a_latched_inbox_begins_with_the_newest_message() -> None:
     bus = Bus()
     publish = bus.publisher("path", String)

@@ -16,10 +16,13 @@ from typing import Any, Generic, Protocol, TypeVar, runtime_checkable
 import numpy as np
 
 from .errors import BadMessage, BadSetting, UnknownName, UwsimError, did_you_mean
-from .message_fields import freeze, unfit
+from .message_fields import freeze, size_of, unfit
 
 M = TypeVar("M")
 MAX_MESSAGES_PER_STEP = 100_000
+MAX_KEPT = 10_000
+MAX_BYTES_KEPT = 256 * 2**20
+"""What an inbox keeps that nobody looks into."""
 
 
 @runtime_checkable
@@ -62,10 +65,15 @@ class Algorithm(Protocol):
 
 
 class Inbox(Generic[M]):
-    """The messages of one topic that one reader has not looked at yet, and the last one."""
+    """The messages of one topic that one reader has not looked at yet, and the last one.
+
+    One that is not looked into keeps the newest, at most `MAX_KEPT` of `MAX_BYTES_KEPT` together.
+    """
 
     def __init__(self) -> None:
         self._new: deque[M] = deque()
+        self._sizes: deque[int] = deque()
+        self._n_bytes = 0
         self._stop: Callable[[], None] | None = None
         self.last: M | None = None
         """The newest message ever received."""
@@ -75,6 +83,11 @@ class Inbox(Generic[M]):
     def receive(self, message: M, step: int) -> None:
         """Put a message in; called by the bus."""
         self._new.append(message)
+        self._sizes.append(size_of(message))
+        self._n_bytes += self._sizes[-1]
+        while len(self._new) > MAX_KEPT or (self._n_bytes > MAX_BYTES_KEPT and len(self._new) > 1):
+            self._new.popleft()
+            self._n_bytes -= self._sizes.popleft()
         self.last, self.last_step = message, step
 
     def take(self) -> list[M]:
@@ -82,12 +95,12 @@ class Inbox(Generic[M]):
         if not self._new:
             return []
         messages = list(self._new)
-        self._new.clear()
+        self._empty()
         return messages
 
     def clear(self) -> None:
         """Forget everything."""
-        self._new.clear()
+        self._empty()
         self.last, self.last_step = None, None
 
     def close(self) -> None:
@@ -95,6 +108,11 @@ class Inbox(Generic[M]):
         if self._stop is not None:
             self._stop()
             self._stop = None
+
+    def _empty(self) -> None:
+        self._new.clear()
+        self._sizes.clear()
+        self._n_bytes = 0
 
     def stop_with(self, stop: Callable[[], None]) -> None:
         """Have ``stop`` called by `close`; used by the bus."""

@@ -18,7 +18,7 @@ from uwsim.benchmark.processes import Processes
 from uwsim.benchmark.result import Result
 from uwsim.bus import Node
 from uwsim.errors import NotAllowed
-from uwsim.messages import Float32MultiArray, floats
+from uwsim.messages import Float32MultiArray, PoseStamped, floats, header
 from uwsim.simulation import outbox
 
 LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
@@ -90,6 +90,22 @@ def test_what_is_published_cannot_be_changed_any_more(tmp_path: Path) -> None:
     measures = MEASURES.split("<positionError>")[0]
     rows = rows_of(make_plan(tmp_path, Changes, LEVELS, measures=measures))
     assert [row.measures["e"][0] for row in rows] == [1.0, 1.0]
+
+
+class FromTheFuture(Attacker):
+    """Says where the vehicle will be at a time to come: at the origin."""
+
+    def start(self, node: Node) -> None:
+        publish = node.publisher("place", PoseStamped)
+        ahead = float(node.parameters["ahead"])
+        node.every(0.1, lambda: publish(PoseStamped(header=header(node.now + ahead))))
+
+
+def test_a_stamp_in_the_future_changes_nothing(tmp_path: Path) -> None:
+    plan = make_plan(tmp_path, FromTheFuture, LEVELS, measures=MEASURES)
+    rows = [rows_of(replace(plan, parameters={"ahead": ahead})) for ahead in (0.0, 1e6)]
+    assert rows[0][0].measures["p"][0] is not None
+    assert rows[0] == rows[1]
 
 
 class Lingers(Attacker):

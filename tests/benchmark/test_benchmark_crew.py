@@ -82,7 +82,7 @@ def test_what_kills_every_worker_is_said_in_its_row_and_tried_again_when_resumed
     good = bench_of(benchmark, tmp_path / "good", repeat=2)
     result, _ = play_all([deadly, good], Processes(2))
     assert result.values("status") == ("ok", "algorithm error", "algorithm error")
-    said = f"{HERE}:Mortal was stopped at 0.3 s: its process ended (killed by SIGKILL)"
+    said = f"{HERE}:Mortal was stopped at 0.268 s: its process ended (killed by SIGKILL)"
     assert result.why(1, "total") == result.why(2, "total") == said
     assert load(tmp_path / "good").values("status") == ("ok",) * 6
     (tmp_path / "immortal").touch()
