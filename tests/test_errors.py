@@ -48,3 +48,12 @@ def test_errors_are_kept_in_order_each_once_and_a_single_one_as_it_is() -> None:
     assert list(map(str, caught.value.errors)) == ["b", "c"]
     with pytest.raises(KeyError), many.kept():
         raise KeyError
+
+
+def test_of_many_names_the_nearest_are_listed() -> None:
+    known = [f"corners.{part}{number}" for part in ("mean", "max") for number in range(30)]
+    assert str(UnknownName("column", "corners.men7", known)) == (
+        "No column is called 'corners.men7'. Did you mean 'corners.mean7'? Nearest of 60: "
+        "corners.mean7, corners.mean27, corners.mean17."
+    )
+    assert str(UnknownName("column", "b", ["a"])) == "No column is called 'b'. Known: a."

@@ -247,7 +247,14 @@ class Bus:
     def unsaid(self, topic: str) -> str | None:
         """Say that nobody publishes on a topic, with the nearest that is; None where one does."""
         told = [name for name, entry in self._topics.items() if entry.has_writers]
-        return None if _plain(topic) in told else f"nobody publishes it.{did_you_mean(topic, told)}"
+        if _plain(topic) in told:
+            return None
+        near = did_you_mean(topic, told)
+        read = self._topics.get(_plain(topic))
+        alike = [name for name in told if read and self._topics[name].type is read.type]
+        if not near and alike:
+            near = f" Of its type there is {' and '.join(map(repr, alike[:3]))}."
+        return f"nobody publishes it.{near}"
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service whose request class is ``type``; a later offer takes its place."""

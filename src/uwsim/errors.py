@@ -30,6 +30,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Literal
 
+MOST_LISTED = 16
+"""So many names are listed; of more the nearest `N_NEAREST`."""
+N_NEAREST = 3
+
 
 class UwsimError(Exception):
     """Anything uwsim refuses to do, with a message for the user.
@@ -97,11 +101,7 @@ class UnknownName(UwsimError):
 
     def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
         self.kind, self.known = kind, tuple(sorted(known))
-        super().__init__(
-            f"No {kind} is called {name!r}.{did_you_mean(name, self.known)} "
-            f"Known: {', '.join(self.known) or 'none'}.",
-            name=name,
-        )
+        super().__init__(f"No {kind} is called {name!r}.{choices(name, self.known)}.", name=name)
 
 
 class AssetNotFound(UwsimError):
@@ -176,6 +176,16 @@ class AllErrors:
         found = list(first.values())
         if found:
             raise found[0] if len(found) == 1 else SeveralErrors(found)
+
+
+def choices(name: str, known: Iterable[str], *, called: str = "Known") -> str:
+    """Return " Did you mean 'x'? Known: x, y"; of more than `MOST_LISTED` the nearest alone."""
+    names = list(known)
+    meant = did_you_mean(name, names)
+    if len(names) <= MOST_LISTED:
+        return f"{meant} {called}: {', '.join(names) or 'none'}"
+    near = difflib.get_close_matches(name, names, n=N_NEAREST, cutoff=0.0)
+    return f"{meant} Nearest of {len(names)}: {', '.join(near)}"
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

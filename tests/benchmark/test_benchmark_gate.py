@@ -10,7 +10,7 @@ from played import NEVER, make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.compatibility import COMPATIBILITY
 from uwsim.errors import NeverStarted
-from uwsim.messages import Bool, Empty, String
+from uwsim.messages import Bool, Empty, Image, String
 
 REPEAT = "<repeat> <iterations>3</iterations> <interval>1</interval> </repeat>"
 FOG = """<sceneFogUpdater>
@@ -177,3 +177,16 @@ def test_any_message_starts_a_benchmark_that_waits_for_a_topic(tmp_path: Path) -
 def test_a_benchmark_that_cannot_begin_says_which_trigger_it_waits_for(tmp_path: Path) -> None:
     with pytest.raises(NeverStarted, match=r"The benchmark never started: its startOn \(never\)"):
         rows_of(make_plan(tmp_path, Idle, REPEAT, start=NEVER))
+
+
+def test_a_benchmark_that_cannot_begin_says_what_the_algorithm_waits_for(tmp_path: Path) -> None:
+    class Waits(Idle):
+        def start(self, node: Node) -> None:
+            node.publisher("estimate", String)
+            node.subscribe("/front/image", Image, lambda _: None)
+
+    said = (
+        r"'Waits' see to it\? \w+: it subscribes to '/front/image', but nobody publishes it\.[^;]*$"
+    )
+    with pytest.raises(NeverStarted, match=said):
+        rows_of(make_plan(tmp_path, Waits, REPEAT, start=NEVER))

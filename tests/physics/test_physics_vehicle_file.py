@@ -219,6 +219,7 @@ THRUST = "<forward>0 40</forward>"
         ("<forward>40 -30</forward>", "forward falls from 13.33 N to 10 N at the command 1;"),
         ("<forward>-10 30</forward>", "forward falls from 0 N to -0.8333 N at the command 0.167;"),
         (f"{THRUST} <backward>0 -30</backward>", "backward gives -30 N at the limit 1"),
+        ("<forward>0 1e8</forward>", "forward gives 1e+08 N; expected at most 1e+07 N"),
         (f"{THRUST} <backward>40 -30</backward>", "backward falls from 13.33 N to 10 N"),
         (f"{THRUST} <deadZone>1</deadZone>", "dead zone is 1; expected below 1"),
         (

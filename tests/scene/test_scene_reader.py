@@ -534,6 +534,31 @@ def test_what_is_not_simulated_yet_is_one_line_a_kind(tmp_path: Path) -> None:
     ]
 
 
+def test_contacts_and_solid_objects_are_simulated_where_no_vehicle_is(tmp_path: Path) -> None:
+    contact = (
+        "<contactSensorToROS><name>g</name><topic>/t</topic><rate>9</rate></contactSensorToROS>"
+    )
+    thing = "<object><name>o</name><file>a.obj</file><physics><mass>1</mass></physics></object>"
+    scene = VEHICLE.format("") + thing + f"<rosInterfaces>{contact}</rosInterfaces>"
+    file = written(f"<UWSimScene>{scene}</UWSimScene>", tmp_path)
+    assert check_scene(file) == []
+
+
+def test_objects_that_a_search_never_finds_and_topics_of_two_are_named(tmp_path: Path) -> None:
+    thing = "<object><name>{}</name><file>a.obj</file></object>\n"
+    odom = "<PATToROSOdom><topic>/o</topic><vehicleName>g</vehicleName></PATToROSOdom>"
+    file = written(
+        "<UWSimScene>\n" + VEHICLE.format("") + "\n" + thing.format("a") * 3 + thing.format("g")
+        + f"<rosInterfaces>{odom}\n{odom}</rosInterfaces></UWSimScene>",
+        tmp_path,
+    )  # fmt: skip
+    assert [str(fault) for fault in check_scene(file)] == [
+        f"{file}:4: the object 'a' is called as an object before it; searches find the first",
+        f"{file}:6: the object 'g' is called as a vehicle before it; searches find the first",
+        f"{file}:8: the topic '/o' carries 'g' and 'g': who reads it gets both",
+    ]
+
+
 SEEDS = [EVERY.read_bytes(), *(path.read_bytes() for path in BUNDLED)]
 PIECES = [b"<", b">", b"/", b"&", b"nan", b"inf", b"1e999", b"-1", b"\0", b"\xff", b"]]>", b"<!--",
           b"<vehicle>", b"</vehicle>", b"<x>", b"M_PI/2", b"99999999999999999999"]  # fmt: skip

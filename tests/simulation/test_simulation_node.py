@@ -5,7 +5,7 @@ import pytest
 
 from uwsim.bus import Bus
 from uwsim.errors import BadSetting, UnknownName
-from uwsim.messages import Empty, EmptyResponse, String
+from uwsim.messages import Empty, EmptyResponse, Float32MultiArray, String
 from uwsim.simulation import InProcessNode
 
 
@@ -106,6 +106,18 @@ def test_topics_that_have_no_other_end_are_said_with_the_nearest_that_has() -> N
     node.publisher("/twst", String)
     node.subscribe("odm", String, lambda _: None)
     assert node.unconnected() == [
-        "me: it publishes on '/twst', but nobody reads it. Did you mean 'twist'?",
         "me: it subscribes to 'odm', but nobody publishes it. Did you mean 'odom'?",
+        "me: it publishes on '/twst', but nobody reads it. Did you mean 'twist'?",
+    ]
+    assert node.unfed() == node.unconnected()[:1]
+
+
+def test_a_topic_like_none_that_there_is_is_said_with_those_of_its_type() -> None:
+    bus = Bus()
+    node = make_node(bus)
+    bus.publisher("/front", String)
+    bus.publisher("/other", Float32MultiArray)
+    node.subscribe("camera1", String, lambda _: None)
+    assert node.unfed() == [
+        "me: it subscribes to 'camera1', but nobody publishes it. Of its type there is 'front'."
     ]

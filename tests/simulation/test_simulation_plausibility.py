@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from importlib import resources
 from pathlib import Path
@@ -171,8 +172,8 @@ WRONG = {
         "robot",
         'ixx="0.5" iyy="0.6" izz="0.7"',
         'ixx="0" iyy="0" izz="0"',
-        "link 'base_link' has 20 kg and the inertia 0 0 0; it is simulated with 0.0001, a "
-        "box of its size has 0.68 kg m2",
+        "link 'base_link' has 20 kg and the inertia 0 0 0 (it is simulated with 0.0001); a box of "
+        "its size, 0.5 0.4 0.3 m, has 0.68 kg m2 at most",
     ),
     "negative inertia": ("inertia", "robot", 'ixx="0.5"', 'ixx="-0.5"', "the inertia -0.5 0.6 0.7"),
     "inertia in kg mm2": (
@@ -258,6 +259,27 @@ def test_a_vehicle_smaller_than_a_hand_is_asked_about() -> None:
     assert size_said(hull, robot).startswith(
         "it is 0.002 m long, its link 'hull' 0.002 m; expected"
     )
+
+
+def test_a_light_link_without_inertia_is_not_asked_about(tmp_path: Path) -> None:
+    water = WATER.replace('<body link="jaw"> </body>', '<body link="jaw"> <mass>0.1</mass> </body>')
+    assert asked(written(tmp_path, water=water)) == []
+
+
+def test_info_shows_what_is_asked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = written(tmp_path, water=WATER.replace("0.0201", "0.03"))
+    assert main(["info", str(path), "--json"]) == 0
+    (notice,) = json.loads(capsys.readouterr().out)["notices"]
+    assert "it rises with 98.1 N" in notice
+
+
+def test_where_a_camera_looks_is_said_of_the_vehicle_on_the_floor(tmp_path: Path) -> None:
+    camera = """<u:dynamics>rov</u:dynamics> <u:onFloor/>
+    <virtualCamera> <name>eye</name> <relativeTo>base_link</relativeTo>
+      <u:lookAt> <x>0</x> <y>0</y> <z>4</z> </u:lookAt> </virtualCamera>"""
+    scene = SCENE.replace("<u:dynamics>rov</u:dynamics>", camera)
+    (fault,) = faults_of(written(tmp_path, scene=scene))
+    assert fault.message.startswith("'eye' looks up; ")
 
 
 def test_a_loose_object_that_begins_in_the_floor_is_asked_about(tmp_path: Path) -> None:

@@ -262,8 +262,13 @@ class _Playing:
                 )
             if simulation.time - began >= patience:
                 raise NeverStarted(
-                    f"{never}: {self._gate.why_not(patience)}. Does algorithm {node.name!r} see "
-                    "to it?"
+                    " ".join(
+                        [
+                            f"{never}: {self._gate.why_not(patience)}. Does algorithm "
+                            f"{node.name!r} see to it?",
+                            *node.unfed(),
+                        ]
+                    )
                 )
             simulation.advance()
         return simulation.time > began

@@ -127,8 +127,13 @@ def faults_of(
         plugins, tables = own or read_plugins(())
         return faults_of_benchmark(file, strict, scene, data_path, plugins, tables)
     if root == ROOT:
-        further = partial(faults_of_dynamics, data_path=data_path)
-        return check_scene(file, strict=strict, library=library, further=further)
+        return check_scene(
+            file,
+            strict=strict,
+            library=library,
+            further=partial(faults_of_dynamics, data_path=data_path),
+            settled=partial(settled, data_path=data_path),
+        )
     if root == "hydrodynamics":
         return faults_of_side_file(file)
     said = (
@@ -165,6 +170,19 @@ def faults_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fa
     from ..simulation.scene_checks import check_simulated
 
     return check_simulated(scene, data_path)
+
+
+def settled(scene: SceneSpec, data_path: tuple[Path, ...]) -> SceneSpec:
+    """Return the scene with what stands on the floor in its place; as it is where that fails."""
+    if not scene.stands_on_floor:
+        return scene
+    from ..simulation.bodies import read_robots
+    from ..simulation.floor import set_on_floor
+
+    try:
+        return set_on_floor(scene, read_robots(scene, data_path), data_path)
+    except UwsimError:  # said where floors and robots are checked
+        return scene
 
 
 def faults_of_benchmark(

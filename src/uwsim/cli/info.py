@@ -13,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..errors import AllErrors
+from .check import faults_of
 from .faults import printable
 from .files import scene_file
 from .options import DataPathOption, JsonOption, SceneArgument, SetOption
@@ -35,7 +36,7 @@ def info(
     looked for straight below each vehicle's origin. What the file says and uwsim does not simulate
     is listed last.
     """
-    from ..scene.reader import check_scene, read_scene
+    from ..scene.reader import read_scene
     from ..scene.settings import apply_setting
     from ..simulation import Simulation
     from .inventory import inventory
@@ -50,7 +51,7 @@ def info(
     wrong.check()
     simulation = Simulation(spec.nominal, data_path=folders, is_blind=True, runs_code=False)
     try:
-        found = inventory(spec, simulation, check_scene(path))
+        found = inventory(spec, simulation, faults_of(path, data_path=folders))
     finally:
         simulation.close()
     if as_json:

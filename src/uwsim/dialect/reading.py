@@ -290,5 +290,5 @@ def _misplaced(child: etree._Element, after: str, faults: Faults) -> None:
 
 def _purpose(slot: Slot) -> str:
     """What a missing element would say: the first sentence of its documentation."""
-    said = slot.doc.split(". ")[0].replace("\n", " ").rstrip(".")
+    said = slot.doc.split(". ")[0].replace("\n", " ").replace("``", "`").rstrip(".")
     return said[:1].lower() + said[1:] or slot.expected

@@ -38,7 +38,7 @@ from pathlib import Path
 from lxml import etree
 
 from ..dialect import LARGEST, Faults, cut, number, parse, read
-from ..errors import FileError, UnknownName, did_you_mean
+from ..errors import FileError, UnknownName, choices
 from .hydrodynamics.faults import body_faults, thruster_faults
 from .hydrodynamics.spec import (
     SIZES,
@@ -245,8 +245,8 @@ def _check_name(
     if known is not None and name not in known:
         faults.add(
             node,
-            f"the robot has no {what} {name!r}.{did_you_mean(name, known)} "
-            f"{what.split()[-1].capitalize()}s: {', '.join(known) or 'none'}",
+            f"the robot has no {what} {name!r}."
+            + choices(name, known, called=f"{what.split()[-1].capitalize()}s"),
         )
 
 

@@ -16,8 +16,9 @@ from ..dialect import Faults, slots
 from .angle_checks import MORE_THAN_A_TURN
 from .ros_interfaces import (
     INTERFACES,
-    ContactSensorToROSSpec,
+    ArmToROSJointStateSpec,
     InterfaceSpec,
+    PATToROSOdomSpec,
     SimulatedDeviceROSSpec,
     VirtualCameraToROSImageSpec,
 )
@@ -73,7 +74,7 @@ def check_names(
             _check_joints(vehicle, robots[index], faults)
     known = _names(scene)
     for interface in _interfaces(scene):
-        _check_interface(interface, known, scene, faults)
+        _check_interface(interface, known, faults)
     _check_sources(scene, faults)
     lamps = [lamp for vehicle in scene.vehicles if not vehicle.vr for lamp in vehicle.lamps]
     for lamp in lamps[MOST_LAMPS:]:
@@ -166,7 +167,6 @@ def _interfaces(scene: SceneSpec) -> Iterator[InterfaceSpec]:
 def _check_interface(
     interface: InterfaceSpec,
     known: Mapping[str, Mapping[str, None]],
-    scene: SceneSpec,
     faults: Faults,
 ) -> None:
     node = faults.node_of(interface)
@@ -189,19 +189,12 @@ def _check_interface(
             f"<{element}>: no {_or(kinds)} is called {wanted!r}.{near} "
             "The interface is left out, as in the original",
         )
-    elif isinstance(interface, VirtualCameraToROSImageSpec) and interface.depth:
-        if wanted not in known.get("virtualRangeImage", {}):
-            faults.add(
-                node, f"<{element}>: <depth> 1 wants a virtualRangeImage; {wanted!r} is none"
-            )
     elif (
-        isinstance(interface, ContactSensorToROSSpec)
-        and not scene.sim_params.enable_physics
-        and all(vehicle.dynamics is None for vehicle in scene.vehicles)
+        isinstance(interface, VirtualCameraToROSImageSpec)
+        and interface.depth
+        and wanted not in known.get("virtualRangeImage", {})
     ):
-        faults.notice(
-            node, f"<{element}> says nothing without <enablePhysics> 1 or a vehicle's <u:dynamics>"
-        )
+        faults.add(node, f"<{element}>: <depth> 1 wants a virtualRangeImage; {wanted!r} is none")
 
 
 def _check_sources(scene: SceneSpec, faults: Faults) -> None:
@@ -220,6 +213,34 @@ def _check_sources(scene: SceneSpec, faults: Faults) -> None:
         )
     for name in _repeated(vehicle.name for vehicle in scene.vehicles):
         faults.notice(None, f"several vehicles are called {name!r}; searches find the first")
+    _check_shared_names(scene, faults)
+
+
+def _check_shared_names(scene: SceneSpec, faults: Faults) -> None:
+    """Name the objects that a search never finds, and topics on which two interfaces speak."""
+    first: dict[str, str] = {vehicle.name: "a vehicle" for vehicle in scene.vehicles}
+    shared: set[str] = set()
+    for thing in scene.objects:
+        if thing.name in first and thing.name not in shared:
+            shared.add(thing.name)
+            faults.notice(
+                faults.node_of(thing),
+                f"the object {thing.name!r} is called as {first[thing.name]} before it; searches "
+                "find the first",
+            )
+        first.setdefault(thing.name, "an object")
+    said: dict[str, str] = {}
+    for interface in scene.ros_interfaces:
+        if not isinstance(interface, PATToROSOdomSpec | ArmToROSJointStateSpec):
+            continue
+        topic = interface.topic.strip("/")
+        if topic in said:
+            faults.notice(
+                faults.node_of(interface),
+                f"the topic {interface.topic!r} carries {interface.vehicle_name!r} and "
+                f"{said[topic]!r}: who reads it gets both",
+            )
+        said.setdefault(topic, interface.vehicle_name)
 
 
 def _check_physics(thing: ObjectSpec, faults: Faults) -> None:

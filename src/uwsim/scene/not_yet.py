@@ -27,6 +27,7 @@ SIMULATED = (
     "ROSPoseToPAT",
     "ROSTwistToPAT",
     "VirtualCameraToROSImage",
+    "contactSensorToROS",
     f"{{{NAMESPACE}}}ROSThrustersToPAT",
     f"{{{NAMESPACE}}}ROSWrenchToPAT",
 )
@@ -40,7 +41,6 @@ NOT_YET: dict[tuple[str, str], str] = {
     ("simParams", "physicsFrequency"): "physics of contacts",
     ("simParams", "physicsSubSteps"): "physics of contacts",
     ("simParams", "physicsSolver"): "physics of contacts",
-    ("object", "physics"): "physics of contacts",
     ("simParams", "showTrajectory"): "trajectories",
     ("UWSimScene", "nedOrigin"): "nedOrigin",
     ("UWSimScene", "netTracingScript"): "communication",
@@ -80,8 +80,6 @@ NOT_YET: dict[tuple[str, str], str] = {
 }
 """(parent, element) -> what it belongs to."""
 
-CONTACTS = (("object", "physics"), ("rosInterfaces", "contactSensorToROS"))
-"""Simulated where a vehicle has ``u:dynamics``, or ``enablePhysics`` is 1."""
 FALL = (("simParams", "enablePhysics"), ("simParams", "gravity"))
 """Simulated where ``enablePhysics`` is 1 and no vehicle has ``u:dynamics``."""
 LIMITS = ("minLinearLimit", "maxLinearLimit", "minAngularLimit", "maxAngularLimit")
@@ -99,8 +97,6 @@ def limit_of(parent: str, name: str) -> str:
     """Say how far an element below ``parent`` is simulated; an empty text: wholly."""
     if (parent, name) in FALL:
         return FALLS_ALONE
-    if (parent, name) in CONTACTS:
-        return ""
     return READ_ONLY if (parent, name) in NOT_YET else ""
 
 
@@ -115,7 +111,7 @@ def not_simulated(root: etree._Element, faults: Faults) -> None:
             continue
         place = (str(parent.tag), str(node.tag))
         kind = NOT_YET.get(place)
-        if (place in CONTACTS and (is_dynamic or falls)) or (place in FALL and falls):
+        if place in FALL and falls:
             kind = None
         elif (is_dynamic or falls) and parent.tag == "physics" and node.tag in LIMITS:
             kind = "limits of objects"

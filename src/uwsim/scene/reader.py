@@ -87,6 +87,7 @@ def check_scene(
     strict: bool = False,
     library: Library | None = None,
     further: Callable[[SceneSpec], list[Fault]] | None = None,
+    settled: Callable[[SceneSpec], SceneSpec] | None = None,
 ) -> list[Fault]:
     """Everything wrong or worth knowing about a scene file and the robots it names.
 
@@ -95,6 +96,7 @@ def check_scene(
         strict: also hold it against the order of the original grammar.
         library: finds robots and models; without it they are not looked at.
         further: finds what only other rooms can know, in a scene without faults.
+        settled: puts what stands on the floor there, as far as that can be done.
     """
     faults = Faults(path, strict=strict)
     try:
@@ -111,7 +113,7 @@ def check_scene(
             if library and library.find(scene.vehicles[index].file, document.path) is None
         ]
         check_names(scene, robots, faults, stand_ins)
-        check_looks(scene, robots, faults)
+        check_looks(scene if settled is None else settled(scene), robots, faults)
         check_angles(scene, faults)
         if library is not None:
             _check_models(scene, document, library, faults)

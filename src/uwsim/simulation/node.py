@@ -96,7 +96,8 @@ class InProcessNode:
         self._outbox = Outbox()
         self._thread = threading.get_ident()
         self._is_open = True
-        self._topics: dict[str, Callable[[], str | None]] = {}
+        self._heard: dict[str, Callable[[], str | None]] = {}
+        self._said: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
         self._random = random
         self._parameters = dict(parameters)
@@ -150,12 +151,12 @@ class InProcessNode:
             self._guard(callback, message)
 
         self._close.append(self._bus.subscribe(topic, type, receive))
-        self._topics[f"it subscribes to {topic!r}, but "] = lambda: self._bus.unsaid(topic)
+        self._heard[f"it subscribes to {topic!r}, but "] = lambda: self._bus.unsaid(topic)
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``; delayed by the parameter ``latency_s``."""
         self._check(topic)
-        self._topics[f"it publishes on {topic!r}, but "] = lambda: self._bus.unheard(topic)
+        self._said[f"it publishes on {topic!r}, but "] = lambda: self._bus.unheard(topic)
         give = self._bus.publisher(topic, type, delay_steps=self._delay_steps)
 
         def publish(message: M) -> None:
@@ -173,7 +174,14 @@ class InProcessNode:
 
     def unconnected(self) -> list[str]:
         """A sentence for each of its topics that has no other end at present."""
-        found = {said: missing() for said, missing in self._topics.items()}
+        return self._ends({**self._heard, **self._said})
+
+    def unfed(self) -> list[str]:
+        """A sentence for each topic that it subscribes to and nobody publishes at present."""
+        return self._ends(self._heard)
+
+    def _ends(self, topics: Mapping[str, Callable[[], str | None]]) -> list[str]:
+        found = {said: missing() for said, missing in topics.items()}
         return [f"{self.name}: {said}{why}" for said, why in found.items() if why is not None]
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:

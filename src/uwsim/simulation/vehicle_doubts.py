@@ -6,6 +6,7 @@ Nothing here is wrong for certain: a lander sinks, a spar buoy is 60 m long. Wha
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
@@ -178,21 +179,18 @@ def inertia_said(one: Candidate) -> str:
             continue
         given = link.inertia if body is None or body.inertia is None else body.inertia
         moments = given[:3]
+        is_said = min(moments) > 0.0
+        used = max(moments) if is_said else LEAST_INERTIA
         edges = np.sort(box.extent)
-        usual = mass / 12.0 * float(edges[1] ** 2 + edges[2] ** 2)  # the greatest of its box
-        if min(moments) <= 0.0:
-            said.append(
-                f"its link {link.name!r} has {mass:.4g} kg and the inertia {_list(moments)}; it is "
-                f"simulated with {LEAST_INERTIA:g}, a box of its size has {usual:.2g} kg m2"
-            )
-            continue
         least, greatest = (share * edges[2] for share in GYRATION)
-        radius = float(np.sqrt(max(moments) / mass))
-        if not least <= radius <= greatest:
-            said.append(
-                f"its link {link.name!r} has {mass:.4g} kg and the inertia {_list(moments)}; a box "
-                f"of its size, {_list(box.extent)} m, has {usual:.2g} kg m2 at most"
-            )
+        if least <= math.sqrt(used / mass) <= greatest and min(moments) >= 0.0:
+            continue
+        usual = mass / 12.0 * float(edges[1] ** 2 + edges[2] ** 2)  # the greatest of its box
+        said.append(
+            f"its link {link.name!r} has {mass:.4g} kg and the inertia {_list(moments)}"
+            + ("" if is_said else f" (it is simulated with {LEAST_INERTIA:g})")
+            + f"; a box of its size, {_list(box.extent)} m, has {usual:.2g} kg m2 at most"
+        )
     return "; ".join(said[:3])
 
 

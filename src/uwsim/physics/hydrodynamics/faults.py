@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ...errors import did_you_mean
+from ...errors import choices, did_you_mean
 from ...geometry import Array
 from .passivity import Kind, bearable_share, driving_motion
 from .spec import (
@@ -37,6 +37,8 @@ LIQUIDS = (100.0, 20000.0)
 SAG = 0.02
 """A measured thrust curve, or the polynomial through it, may fall by this share of its greatest
 thrust."""
+STRONGEST = 1e7
+"""Of a propeller [N]."""
 LENGTHS = ("reference", "centre_of_buoyancy", "size", "centre_of_mass", "position", "radius")
 DRAG: dict[str, Kind] = {"linear_damping": "linear", "quadratic_damping": "quadratic"}
 
@@ -168,8 +170,7 @@ def vehicle_faults(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[
     for who, link in places:
         if link not in known:
             faults.append(
-                f"{who}the robot has no link {link!r}.{did_you_mean(link, known)} "
-                f"Links: {', '.join(known) or 'none'}"
+                f"{who}the robot has no link {link!r}.{choices(link, known, called='Links')}"
             )
     return faults + density_faults(vehicle.density)
 
@@ -249,6 +250,11 @@ def _thrust_faults(who: str, thruster: ThrusterSpec) -> list[str]:
         sizes = np.linspace(0.0, end - thruster.dead_zone, 1001)
         thrusts = np.polynomial.polynomial.polyval(sizes, (0.0, *curve))  # (1001,) [N]
         before = np.maximum.accumulate(thrusts)
+        if thrusts.max() > STRONGEST:
+            faults.append(
+                f"{who}: {side} gives {thrusts.max():.3g} N; expected at most {STRONGEST:g} N, "
+                "twice the thrust of the largest ships"
+            )
         worst = int(np.argmax(before - thrusts))
         if not thrusts[-1] > 0.0:
             faults.append(
