@@ -164,17 +164,14 @@ def run(
             start_new_session=True,
             preexec_fn=None if file_size is None else lambda: _limit(file_size),
         )
-        if number is not None:
-            with suppress(subprocess.TimeoutExpired):
-                process.wait(after)
-            if process.poll() is None:
-                to_all = number in TO_ALL
-                (os.killpg if to_all else os.kill)(process.pid, number)
         faults = []
         try:
+            if number is not None:
+                _disturb(process, number, after)
             process.wait(PATIENCE)
         except subprocess.TimeoutExpired:
             faults.append(f"it did not end within {PATIENCE:g} s")
+        finally:  # Ctrl-C ends a trial with what it has started
             process.kill()
             process.wait()
         seconds = time.monotonic() - began
@@ -186,6 +183,14 @@ def run(
     faults += [f"left in the temporary folder: {path.name}" for path in left]
     shutil.rmtree(scratch)
     return Ended(process.returncode, text, seconds, faults)
+
+
+def _disturb(process: subprocess.Popen[bytes], number: int, after: float) -> None:
+    """Send a signal after a while, unless it is over by then."""
+    with suppress(subprocess.TimeoutExpired):
+        process.wait(after)
+    if process.poll() is None:
+        (os.killpg if number in TO_ALL else os.kill)(process.pid, number)
 
 
 def _limit(file_size: int) -> None:
