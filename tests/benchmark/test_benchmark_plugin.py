@@ -272,7 +272,7 @@ def test_each_slip_of_a_plugin_is_one_clean_fault(tmp_path: Path, text: str, wro
 
 def test_a_file_that_is_not_there_or_no_file_is_said(tmp_path: Path) -> None:
     assert "none.py: cannot be read: No such file or directory" in said(tmp_path / "none.py")
-    assert "cannot be read: Is a directory" in said(tmp_path)
+    assert "is not a regular file: not a plugin" in said(tmp_path)
     (tmp_path / "bytes.py").write_bytes(b"\xff\xfe\x00")
     assert "bytes.py" in said(tmp_path / "bytes.py")
 

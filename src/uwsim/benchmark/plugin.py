@@ -173,8 +173,9 @@ def read_plugin(path: Path) -> Plugin:
     """
     try:
         source = read_bytes(path, at_most=MAX_BYTES)
-    except AssetError:
-        raise Plugin(str(path), b"").fault(f"more than {MAX_BYTES} bytes: not a plugin") from None
+    except AssetError as error:
+        said = str(error).removeprefix(f"{path}: ").removesuffix(".")
+        raise Plugin(str(path), b"").fault(f"{said}: not a plugin") from None
     except OSError as error:
         raise Plugin(str(path), b"").fault(f"cannot be read: {error.strerror}") from None
     return _imported(str(path), source)
