@@ -162,7 +162,7 @@ def run(
             stderr=said,
             env=environment,
             start_new_session=True,
-            preexec_fn=None if file_size is None else lambda: _limit(file_size),
+            preexec_fn=lambda: _as_from_a_terminal(file_size),
         )
         faults = []
         try:
@@ -193,8 +193,13 @@ def _disturb(process: subprocess.Popen[bytes], number: int, after: float) -> Non
         (os.killpg if number in TO_ALL else os.kill)(process.pid, number)
 
 
-def _limit(file_size: int) -> None:
-    resource.setrlimit(resource.RLIMIT_FSIZE, (file_size, file_size))
+def _as_from_a_terminal(file_size: int | None) -> None:
+    """Hear all signals, whoever has started the trials, and write no larger files than that."""
+    for number in SIGNALS:
+        if number != signal.SIGKILL:
+            signal.signal(number, signal.SIG_DFL)
+    if file_size is not None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (file_size, file_size))
 
 
 def _left_behind(mark: str) -> list[str]:
