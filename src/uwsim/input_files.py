@@ -87,6 +87,12 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = LARGEST) -> 
     return data
 
 
+def is_inside(path: Path, folders: Iterable[Path]) -> bool:
+    """Whether a file lies under one of the folders, links followed."""
+    whole = path.resolve()
+    return any(whole.is_relative_to(folder.resolve()) for folder in folders)
+
+
 def hash_of(path: Path) -> str:
     """Hash a file; or a folder, by the names and the bytes of its files."""
     digest = hashlib.sha256()

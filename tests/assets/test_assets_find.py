@@ -1,8 +1,10 @@
+import os
 from pathlib import Path
 
 import pytest
 
-from uwsim.assets import find, folders_searched
+from uwsim.assets import find, folders_searched, has_model, load_model, why_unreadable
+from uwsim.errors import AssetError
 
 
 def touch(path: Path) -> Path:
@@ -72,8 +74,47 @@ def test_blanks_and_url_prefixes_do_not_belong_to_a_name(tmp_path: Path) -> None
 
 
 def test_folders_are_listed_once_each_in_order(tmp_path: Path) -> None:
-    folders = folders_searched(beside=tmp_path / "a.xml", data_path=(tmp_path,))
+    scene = tmp_path / "deep" / "a.xml"
+    folders = folders_searched(beside=scene, data_path=(tmp_path,))
     assert len(folders) == len(set(folders))
     assert folders[0] == Path()
-    assert folders.index(tmp_path) < folders.index(tmp_path.parent)
+    assert folders.index(scene.parent) < folders.index(tmp_path)
     assert (tmp_path / "data/scenes") in folders
+
+
+def test_neither_the_home_folder_nor_what_is_above_it_is_searched(home: Path) -> None:
+    touch(home / "secret.stl")
+    scene = touch(home / "projects" / "sea" / "scene.xml")
+    assert find("secret.stl", beside=scene) is None
+    assert find("secret.stl", beside=home / "scene.xml") == home / "secret.stl"
+
+
+OUTSIDE = "is outside the folders that are searched, so that it is not read; --data-path adds"
+
+
+@pytest.mark.parametrize("by", ["absolute", "up", "link", "url"])
+def test_what_a_file_names_lies_under_the_folders_searched(tmp_path: Path, by: str) -> None:
+    secret = touch(tmp_path / "other" / "secret.stl")
+    scene = touch(tmp_path / "home" / "sea" / "scene.xml")
+    link = scene.parent / "link.stl"
+    link.symlink_to(secret)
+    names = {"absolute": str(secret), "up": "../../other/secret.stl", "link": "link.stl"}
+    name = names.get(by, f"file://{secret}")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HOME", str(tmp_path / "home"))
+        for ask in (find, load_model, has_model):
+            with pytest.raises(AssetError, match=OUTSIDE):
+                ask(name, beside=scene)
+        assert OUTSIDE in why_unreadable(name, beside=scene)
+        assert find(name, beside=scene, data_path=(secret.parent,)) is not None
+
+
+def test_what_a_program_names_may_lie_anywhere(tmp_path: Path) -> None:
+    mesh = touch(tmp_path / "other" / "x.stl")
+    assert find(str(mesh), data_path=(tmp_path / "data",)) == mesh
+
+
+@pytest.mark.parametrize("name", ["/dev/zero", "pipe.stl"])
+def test_a_device_or_a_pipe_is_no_file(tmp_path: Path, name: str) -> None:
+    os.mkfifo(tmp_path / "pipe.stl")
+    assert find(name, beside=tmp_path / "scene.xml") is None

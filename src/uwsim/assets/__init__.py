@@ -10,6 +10,7 @@ import hashlib
 from pathlib import Path, PurePosixPath
 
 from ..errors import AssetError, AssetNotFound, did_you_mean
+from ..input_files import is_inside
 from .find import UNDER, bundled_robot, candidates, find, folders_searched, plain_name, roots
 from .loaders import BY_OSGCONV, READABLE, can_read, read_model
 from .mesh import Mesh, Model, Texture
@@ -61,7 +62,10 @@ def load_model(
     name = plain_name(name)
     stem = _stem(name)
     if path is not None:
-        return read_model(path, name=name, max_triangles=max_triangles)
+        above = roots(beside=beside or path, data_path=data_path)
+        own = max(above, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1)
+        within = (own.absolute(), *data_path)
+        return read_model(path, name=name, max_triangles=max_triangles, within=within)
     stand_in = _stand_in_name(stem)
     if stand_in is not None:
         return made(stand_in)

@@ -1,15 +1,21 @@
 """Where files are: the folders that a name is looked for in, in order.
 
 A name is looked for as given; beside the file that names it and in each of that file's parent
-folders; in every data path; in ``~/.uwsim/data`` and ``~/.uwsim``; in the package. Each of these
-also under ``data``, ``data/scenes``, ``data/vehicles``, ``objects``, ``terrain``, ``robot`` and
-``textures``.
+folders, but the home folder and what is above it; in every data path; in ``~/.uwsim/data`` and
+``~/.uwsim``; in the package. Each of these also under ``data``, ``data/scenes``, ``data/vehicles``,
+``objects``, ``terrain``, ``robot`` and ``textures``.
+
+What a file names lies under one of these folders, links followed: a path that leads elsewhere is an
+error, wherever it leads.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+
+from ..errors import AssetError
+from ..input_files import is_inside
 
 UNDER = ("", "data", "data/scenes", "data/vehicles", "objects", "terrain", "robot", "textures")
 """Sub-folders that every folder is searched under."""
@@ -42,7 +48,7 @@ def roots(*, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> li
     if beside is not None:
         start = beside.absolute()
         start = start if start.is_dir() else start.parent
-        folders += [start, *start.parents]
+        folders += [start, *(above for above in start.parents if not _holds_homes(above))]
     home = Path("~/.uwsim").expanduser()
     folders += [*data_path, home / "data", home, PACKAGE]
     return list(dict.fromkeys(folders))
@@ -54,8 +60,17 @@ def folders_searched(*, beside: Path | None = None, data_path: tuple[Path, ...] 
     return list(dict.fromkeys(root / under for root in found for under in UNDER))
 
 
+def _holds_homes(folder: Path) -> bool:
+    """Whether a folder is the user's home or above it: nobody means all of it."""
+    return folder == folder.parent or Path.home().is_relative_to(folder)
+
+
 def find(name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> Path | None:
-    """The file called ``name``, or None when it is in none of the folders searched."""
+    """The file called ``name``, or None when it is in none of the folders searched.
+
+    Raises:
+        AssetError: it lies elsewhere, and a file (``beside``) names it.
+    """
     return next(candidates([name], beside=beside, data_path=data_path), None)
 
 
@@ -69,20 +84,41 @@ def bundled_robot(name: str) -> Path | None:
 def candidates(
     names: Sequence[str], *, beside: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> Iterator[Path]:
-    """Every file that has one of the names: those of the first name in the order of search, ..."""
-    searched = folders_searched(beside=beside, data_path=data_path)
+    """Every file that has one of the names: those of the first name in the order of search, ...
+
+    Raises:
+        AssetError: the only ones lie elsewhere, and a file (``beside``) names them.
+    """
+    allowed = roots(beside=beside, data_path=data_path)
+    elsewhere, found = "", False
+    for name, path in _paths(names, folders_searched(beside=beside, data_path=data_path)):
+        if beside is None or is_inside(path, allowed):
+            found = True
+            yield path
+        else:
+            elsewhere = elsewhere or name
+    if elsewhere and not found:
+        raise AssetError(
+            f"{elsewhere[:200]!r} is outside the folders that are searched, so that it is not "
+            "read; --data-path adds a folder.",
+            name=elsewhere,
+        )
+
+
+def _paths(names: Sequence[str], searched: Sequence[Path]) -> Iterator[tuple[str, Path]]:
+    """Name and path of every file there is."""
     present: dict[Path, list[Path]] = {}  # by the folder within the name: where there is one
     for name in names:
         wanted = Path(plain_name(name)).expanduser()
         if wanted.is_absolute():
-            yield from (path for path in [wanted] if _is(path, Path.is_file))
+            yield from ((name, path) for path in [wanted] if _is(path, Path.is_file))
             continue
         if wanted.parent not in present:
             places = (folder / wanted.parent for folder in searched)
             present[wanted.parent] = [place for place in places if _is(place, Path.is_dir)]
         for place in present[wanted.parent]:
             if _is(place / wanted.name, Path.is_file):
-                yield place / wanted.name
+                yield name, place / wanted.name
 
 
 def _is(path: Path, kind: Callable[[Path], bool]) -> bool:

@@ -238,7 +238,8 @@ def unknown_names(
     if wanted is None:
         return faults.all()
     try:
-        path = scene_file(str(wanted), (file.parent, *data_path))
+        named_by = file if scene is None else None
+        path = scene_file(str(wanted), (file.parent, *data_path), named_by=named_by)
         spec = read_scene(path)
         simulation = Simulation(spec, data_path=data_path, is_blind=True, runs_code=False)
     except FileError:

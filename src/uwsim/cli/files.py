@@ -16,13 +16,17 @@ def bundled(kind: str, suffix: str = ".xml") -> dict[str, Path]:
     }
 
 
-def scene_file(name: str, data_path: tuple[Path, ...] = ()) -> Path:
+def scene_file(
+    name: str, data_path: tuple[Path, ...] = (), *, named_by: Path | None = None
+) -> Path:
     """Find a scene: a file as given, in the search folders, or a bundled one by its bare name.
+
+    One that a file names (``named_by``) lies in a folder that is searched.
 
     Raises:
         AssetNotFound: there is none; names the folders searched and the nearest bundled name.
     """
-    return _file(name, "scenes", data_path)
+    return _file(name, "scenes", data_path, named_by)
 
 
 def benchmark_file(name: str, data_path: tuple[Path, ...] = ()) -> Path:
@@ -30,16 +34,16 @@ def benchmark_file(name: str, data_path: tuple[Path, ...] = ()) -> Path:
     return _file(name, "benchmarks", data_path)
 
 
-def _file(name: str, kind: str, data_path: tuple[Path, ...]) -> Path:
+def _file(name: str, kind: str, data_path: tuple[Path, ...], named_by: Path | None = None) -> Path:
     from ..assets.find import find, folders_searched
 
     known = bundled(kind)
     if name in known and not Path(name).is_file():
         return known[name]
-    found = find(name, beside=None, data_path=data_path)
+    found = find(name, beside=named_by, data_path=data_path)
     if found is not None:
         return found
-    folders = folders_searched(beside=None, data_path=data_path)
+    folders = folders_searched(beside=named_by, data_path=data_path)
     raise AssetNotFound(
         f"{name!r} is neither a file nor one of the bundled {kind} ({', '.join(known)})."
         f"{did_you_mean(name, known)} "

@@ -168,7 +168,7 @@ def scene_of(
         )
     beside = data_path if benchmark is None else (benchmark.parent, *data_path)
     try:
-        return read_scene(scene_file(named, beside))
+        return read_scene(scene_file(named, beside, named_by=None if scene else benchmark))
     except AssetNotFound:
         if benchmark is None:
             return None  # it may lie beside the benchmark, wherever that is

@@ -121,7 +121,8 @@ def find_input(
         files = [bundled(f"{kind}s").get(str(chosen), chosen)] if not chosen.is_file() else [chosen]
     else:
         names = [*(word for word in typed if Path(word).name == name), name]
-        files = list(candidates(names, beside=directory.absolute(), data_path=given.data_path))
+        above = (directory.absolute(), *directory.absolute().parents)
+        files = list(candidates(names, data_path=(*above, *given.data_path)))
         files += [path for path in bundled(f"{kind}s").values() if path.name == name]
     others = []
     for file in dict.fromkeys(path.resolve() if path.exists() else path for path in files):

@@ -37,8 +37,10 @@ from pathlib import Path
 
 from lxml import etree
 
+from ..assets.find import roots
 from ..dialect import LARGEST, Faults, cut, number, parse, read
 from ..errors import FileError, UnknownName, choices
+from ..input_files import is_inside
 from .hydrodynamics.faults import body_faults, thruster_faults
 from .hydrodynamics.spec import (
     SIZES,
@@ -104,7 +106,8 @@ def _own_sets(beside: Path | None) -> list[str]:
     """Names of the side files that lie beside a scene."""
     found = []
     with suppress(OSError):
-        for path in [] if beside is None else sorted(beside.parent.glob("*.xml")):
+        found_here = [] if beside is None else sorted(beside.parent.glob("*.xml"))
+        for path in filter(Path.is_file, found_here):
             with path.open("rb") as file:
                 if b"<hydrodynamics" in file.read(HEAD):
                     found.append(path.stem)
@@ -220,6 +223,9 @@ def _include(
         )
         inner = Faults(other)
         whole = other.resolve()
+        if not is_inside(other, [*roots(beside=path), _bundled()]):
+            faults.add(node, f"<include> {cut(name)} is outside the folders of its file")
+            return
         if whole in (one.resolve() for one in (*above, path)):
             faults.add(node, f"<include> {cut(name)} includes itself")
             return

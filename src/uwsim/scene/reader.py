@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Protocol
 
 from ..dialect import Document, Faults, check_head, parse, read
-from ..errors import Fault, SceneError
+from ..errors import AssetError, Fault, SceneError
 from .angle_checks import check_angles
 from .checks import check_names
 from .legacy import upgrade
@@ -151,7 +151,11 @@ def _robots(
     for index, vehicle in enumerate(scene.vehicles):
         if vehicle.file not in by_file and len(by_file) < MOST_FILES:
             by_file[vehicle.file] = None
-            path = library.find_robot(vehicle.file, document.path)
+            try:
+                path = library.find_robot(vehicle.file, document.path)
+            except AssetError as error:
+                faults.add(faults.node_of(vehicle), str(error))
+                continue
             if path is None:
                 searched = library.searched(document.path)
                 faults.add(

@@ -16,7 +16,8 @@ KEPT = 256
 """So many models are kept in memory."""
 
 _Stamp = tuple[int, int]
-_kept: dict[tuple[Path, str, int | None], tuple[tuple[_Stamp, ...], Model]] = {}
+_Key = tuple[Path, str, tuple[Path, ...], int | None]
+_kept: dict[_Key, tuple[tuple[_Stamp, ...], Model]] = {}
 
 
 def can_read(path: Path) -> bool:
@@ -36,28 +37,33 @@ def why_not_read(path: Path) -> str:
     return f"{path}: files of type {suffix or 'none'} are not read; expected one of {known}"
 
 
-def read_model(path: Path, *, name: str, max_triangles: int | None = None) -> Model:
+def read_model(
+    path: Path, *, name: str, within: tuple[Path, ...] = (), max_triangles: int | None = None
+) -> Model:
     """The model in a file; read once as long as no file that it is made of changes.
 
     Args:
         path: The file.
         name: What it was asked for by.
+        within: Folders that its materials and pictures may lie in; its own unless it is said.
         max_triangles: Simplified to about this many when it has more.
 
     Raises:
         AssetError: It cannot be read; says why, or what to install.
     """
-    kept = _kept.get((path, name, max_triangles))
+    within = within or (path.absolute().parent,)
+    key = (path, name, within, max_triangles)
+    kept = _kept.get(key)
     if kept is not None and kept[0] == _stamps(kept[1]):
         record(kept[1].files)
         return kept[1]
     try:
-        model = _read(path, name, max_triangles)
+        model = _read(path, name, within, max_triangles)
     except OSError as error:
         raise AssetError(f"{path}: cannot be read ({error.strerror}).") from error
     while len(_kept) >= KEPT:
         del _kept[next(iter(_kept))]
-    _kept[path, name, max_triangles] = _stamps(model), model
+    _kept[key] = _stamps(model), model
     return model
 
 
@@ -67,15 +73,17 @@ def _stamps(model: Model) -> tuple[_Stamp, ...]:
     return tuple((0, 0) if each is None else (each.st_mtime_ns, each.st_size) for each in facts)
 
 
-def _read(path: Path, name: str, max_triangles: int | None) -> Model:
+def _read(path: Path, name: str, within: tuple[Path, ...], max_triangles: int | None) -> Model:
     suffix = path.suffix.lower()
     with recorded() as files:
         if suffix in READABLE:
-            meshes = read_meshes(path, name=name, max_triangles=max_triangles)
+            meshes = read_meshes(path, name=name, within=within, max_triangles=max_triangles)
         elif suffix in BY_OSGCONV:
             read_bytes(path, name=name)
             with converted(path) as obj:
-                meshes = read_meshes(obj, name=name, max_triangles=max_triangles, original=path)
+                meshes = read_meshes(
+                    obj, name=name, within=within, max_triangles=max_triangles, original=path
+                )
         else:
             raise AssetError(why_not_read(path))
     digest = files[0].sha256.removeprefix("sha256:")

@@ -13,9 +13,12 @@ import numpy.typing as npt
 
 from ...errors import AssetError
 from ...input_files import read_bytes
-from ..mesh import Mesh, Texture
+from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
+from .gltf_limits import too_much
+from .looks import Looks
 from .obj_lines import wrong_line
+from .references import References
 
 READABLE = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae")
 """Formats that are read without help from outside."""
@@ -23,8 +26,10 @@ READABLE = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae")
 LARGEST_MODEL = 4_000_000
 """Models with more triangles are refused."""
 
-LARGEST_PICTURE = 2048
-"""Textures are reduced to this many pixels a side."""
+LARGEST_FILE = 256 * 2**20
+"""Largest file [bytes]."""
+LARGEST_TEXT = 64 * 2**20
+"""Largest file of a format that is text [bytes]: reading it takes some twenty times as much."""
 
 STL_HEADER = 80
 """Length [bytes] of what a binary STL file says of itself."""
@@ -37,6 +42,7 @@ def read_meshes(
     path: Path,
     *,
     name: str = "",
+    within: tuple[Path, ...] = (),
     max_triangles: int | None = None,
     original: Path | None = None,
 ) -> tuple[Mesh, ...]:
@@ -47,15 +53,20 @@ def read_meshes(
     Args:
         path: The file.
         name: What it was asked for by.
+        within: Folders that its materials and pictures may lie in; its own unless it is said.
         max_triangles: Simplified to about this many in all when there are more.
         original: What the file was converted from; pictures are looked for beside it, too.
 
     Raises:
         AssetError: Broken, empty or too large.
     """
+    within = within or (path.absolute().parent,)
     try:
-        parts = _geometries(path, name or path.name, original)
-    except (AssetError, PermissionError):
+        parts = _parts(path, name or path.name, within, original)
+    except AssetError as error:
+        message = str(error)
+        raise AssetError(message if f"{path}:" in message else f"{path}: {message}.") from error
+    except PermissionError:
         raise
     except (Exception, RecursionError) as error:  # trimesh raises whatever its parsers raise
         said = str(error).strip().splitlines()
@@ -66,13 +77,10 @@ def read_meshes(
             f"{path}: not a {path.suffix.lower()} file that can be read "
             f"({type(error).__name__}{': ' + why if why else ''})."
         ) from error
-    total = sum(len(part.faces) for part in parts)
-    if total == 0:
-        raise AssetError(f"{path}: holds no triangles.")
-    if total > LARGEST_MODEL:
-        raise AssetError(f"{path}: {total} triangles; at most {LARGEST_MODEL} are read.")
+    looks = Looks(path)
+    total = sum(len(part.faces) for part, _ in parts)
     keep = 1.0 if max_triangles is None else min(1.0, max_triangles / total)
-    made = [_mesh(part, path, keep) for part in parts if len(part.faces)]
+    made = [_mesh(part, looks, visual, path, keep) for part, visual in parts if len(part.faces)]
     meshes = tuple(found for found in made if found is not None)
     if not meshes:
         raise AssetError(f"{path}: all of its triangles are without area.")
@@ -81,43 +89,76 @@ def read_meshes(
 
 def _bytes(path: Path, name: str, original: Path | None) -> bytes:
     """A file of a model; what was converted follows from its original and is not recorded."""
-    if original is not None and path.suffix.lower() in (".obj", ".mtl"):
+    suffix = path.suffix.lower()
+    if original is not None and suffix in (".obj", ".mtl"):
         return path.read_bytes()
-    data = read_bytes(path, name=name)
+    data = read_bytes(path, name=name, at_most=LARGEST_FILE)
+    if len(data) > LARGEST_TEXT and _is_text(data, suffix):
+        most = LARGEST_TEXT >> 20
+        raise AssetError(f"{path}: is text of more than {most} MiB; write it as .glb or .stl.")
     # a Collada file needs no document type; one that has it may be a trap
-    if path.suffix.lower() == ".dae" and (b"<!DOCTYPE" in data or b"<!ENTITY" in data):
+    if suffix == ".dae" and (b"<!DOCTYPE" in data or b"<!ENTITY" in data):
         raise AssetError(f"{path}: document types and entities are not read.")
+    if suffix in (".gltf", ".glb") and (why := too_much(data, suffix)):
+        raise AssetError(f"{path}: {why}.")
     return data
 
 
-def _geometries(path: Path, name: str, original: Path | None) -> list[Any]:
+def _is_text(data: bytes, suffix: str) -> bool:
+    """Whether it is a format that takes far more memory to read than to keep."""
+    if suffix == ".stl":
+        return not _is_binary_stl(data)
+    return suffix in (".obj", ".dae", ".gltf", ".mtl") or b"format ascii" in data[:200]
+
+
+def _parts(
+    path: Path, name: str, within: tuple[Path, ...], original: Path | None
+) -> list[tuple[Any, Any]]:
+    """The meshes of a file where its nodes put them, and what each looks like."""
     import trimesh
 
-    class Folders(trimesh.resolvers.FilePathResolver):
-        """Looks for a picture in the file's folder, then beside the original."""
-
-        def get(self, wanted: str) -> bytes:
-            asked = PurePosixPath(wanted.strip().replace("\\", "/"))
-            for folder in (path.parent, None if original is None else original.parent):
-                for place in (asked, PurePosixPath(asked.name)):
-                    if folder is not None and (folder / place).is_file():
-                        called = str(PurePosixPath(name).parent / place)
-                        found = _bytes(folder / place, called, original)
-                        return in_utf8(found, place.suffix.lower())
-            raise FileNotFoundError(wanted)
-
+    beside = [path.parent, *([] if original is None else [original.parent])]
+    references: Any = References(
+        beside,
+        [path.parent, *within] if original is not None else within,
+        lambda found, place: in_utf8(
+            _bytes(found, str(PurePosixPath(name).parent / place), original), place.suffix.lower()
+        ),
+    )
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
     suffix = path.suffix.lower()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        scene = trimesh.load_scene(
-            io.BytesIO(in_utf8(_bytes(path, name, original), suffix)),
-            file_type=suffix.lstrip("."),
-            resolver=Folders(str(path)),
-            process=False,
-        )
-        dumped = scene.dump(concatenate=False)
-    return [part for part in dumped if isinstance(part, trimesh.Trimesh)]
+        try:
+            scene = trimesh.load_scene(
+                io.BytesIO(in_utf8(_bytes(path, name, original), suffix)),
+                file_type=suffix.lstrip("."),
+                resolver=references,
+                process=False,
+            )
+        finally:
+            references.check()
+        placed = [scene.graph[node] for node in scene.graph.nodes_geometry]
+        found = [(transform, scene.geometry[geometry]) for transform, geometry in placed]
+        meshes = [each for each in found if isinstance(each[1], trimesh.Trimesh)]
+        _check_number(path, sum(len(part.faces) for _, part in meshes))
+        return [(_moved(part, transform), part.visual) for transform, part in meshes]
+
+
+def _check_number(path: Path, n_triangles: int) -> None:
+    if n_triangles == 0:
+        raise AssetError(f"{path}: holds no triangles.")
+    if n_triangles > LARGEST_MODEL:
+        raise AssetError(f"{path}: {n_triangles} triangles; at most {LARGEST_MODEL} are read.")
+
+
+def _moved(part: Any, transform: npt.NDArray[np.float64]) -> Any:
+    """A copy without its looks: those are not moved, and pictures not copied."""
+    import trimesh
+
+    moved = trimesh.Trimesh(vertices=part.vertices, faces=part.faces, process=False)
+    moved.apply_transform(transform)
+    return moved
 
 
 def in_utf8(data: bytes, suffix: str) -> bytes:
@@ -148,7 +189,7 @@ def _is_binary_stl(data: bytes) -> bool:
     return len(data) == STL_HEADER + 4 + 50 * count
 
 
-def _mesh(part: Any, path: Path, keep: float) -> Mesh | None:
+def _mesh(part: Any, looks: Looks, visual: Any, path: Path, keep: float) -> Mesh | None:
     """One trimesh mesh as ours; None when it has no area."""
     vertices = np.asarray(part.vertices, dtype=np.float64)
     faces = np.asarray(part.faces, dtype=np.int64)
@@ -161,8 +202,8 @@ def _mesh(part: Any, path: Path, keep: float) -> Mesh | None:
     if not np.isfinite(vertices).all() or np.abs(vertices).max() > FARTHEST:
         raise AssetError(f"{path}: vertices that are not finite or beyond {FARTHEST:g} m.")
     uvs = np.zeros((len(vertices), 2))
-    colour, texture = _look(part, path)
-    given = getattr(part.visual, "uv", None)
+    colour, texture = looks.of(visual)
+    given = getattr(visual, "uv", None)
     if given is not None and np.shape(given) == (len(vertices), 2):
         uvs = np.nan_to_num(np.asarray(given, dtype=np.float64))
     if keep < 1.0:
@@ -193,31 +234,3 @@ def _simplified(
     points = np.asarray(points, dtype=np.float64)
     _, nearest = cKDTree(vertices).query(points)
     return points, np.asarray(triangles, dtype=np.int64), uvs[nearest]
-
-
-def _look(part: Any, path: Path) -> tuple[tuple[float, float, float], Texture | None]:
-    """Colour and picture of a trimesh mesh."""
-    material = getattr(part.visual, "material", None)
-    if material is None:
-        if getattr(part.visual, "kind", None) not in ("face", "vertex"):
-            return (0.7, 0.7, 0.7), None
-        colours = np.asarray(part.visual.face_colors, dtype=np.float64)
-        red, green, blue = (colours[:, :3].mean(axis=0) / 255.0).tolist()
-        return (red, green, blue), None
-    image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
-    factor = getattr(material, "baseColorFactor", None)
-    if factor is None and hasattr(material, "diffuse"):
-        factor = material.diffuse
-    numbers = np.asarray(factor if factor is not None else (255, 255, 255), dtype=np.float64)
-    numbers = numbers[:3] / (255.0 if numbers.max() > 1.0 else 1.0)
-    if image is None:
-        red, green, blue = np.clip(numbers, 0.0, 1.0).tolist()
-        return (red, green, blue), None
-    try:
-        picture = image.convert("RGB")
-        picture.thumbnail((LARGEST_PICTURE, LARGEST_PICTURE))
-        pixels = np.array(picture, dtype=np.uint8)
-    except Exception as error:
-        raise AssetError(f"{path}: its picture cannot be read ({type(error).__name__}).") from error
-    # A file's diffuse factor beside a picture is usually an exporter's default: not used.
-    return (1.0, 1.0, 1.0), Texture(name=f"{path}#{id(part)}", pixels=pixels)

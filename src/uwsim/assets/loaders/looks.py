@@ -1,0 +1,87 @@
+"""What parts of a mesh file look like: their colours and pictures."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...errors import AssetError
+from ..mesh import Texture
+
+LARGEST_PICTURE = 2048
+"""Textures are reduced to this many pixels a side."""
+MOST_PIXELS = 8192 * 8192
+"""Largest picture [px]: it is decoded whole."""
+MOST_PIXELS_IN_ALL = 4 * MOST_PIXELS
+"""Of all pictures of a model [px]."""
+FORMATS = ("BMP", "DDS", "GIF", "JPEG", "MPO", "PNG", "PPM", "SGI", "TGA", "TIFF", "WEBP")
+"""Pictures that are decoded; Pillow knows others, some of them programs."""
+
+Look = tuple[tuple[float, float, float], Texture | None]
+
+
+class Looks:
+    """The looks of the parts of one file; parts of one material share its picture."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._n_pixels = 0
+        self._of_material: dict[int, tuple[Any, Look]] = {}
+
+    def of(self, visual: Any) -> Look:
+        """Colour and picture of what trimesh calls a visual.
+
+        Raises:
+            AssetError: its picture cannot be read, or is too large.
+        """
+        material = getattr(visual, "material", None)
+        if material is None:
+            if getattr(visual, "kind", None) not in ("face", "vertex"):
+                return (0.7, 0.7, 0.7), None
+            colours = np.asarray(visual.face_colors, dtype=np.float64)
+            red, green, blue = (colours[:, :3].mean(axis=0) / 255.0).tolist()
+            return (red, green, blue), None
+        if id(material) not in self._of_material:
+            self._of_material[id(material)] = material, self._look(material)
+        return self._of_material[id(material)][1]
+
+    def _look(self, material: Any) -> Look:
+        image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
+        if image is not None:
+            # A file's diffuse factor beside a picture is usually an exporter's default: not used.
+            return (1.0, 1.0, 1.0), self._texture(image)
+        factor = getattr(material, "baseColorFactor", None)
+        if factor is None and hasattr(material, "diffuse"):
+            factor = material.diffuse
+        numbers = np.asarray(factor if factor is not None else (255, 255, 255), dtype=np.float64)
+        numbers = numbers[:3] / (255.0 if numbers.max() > 1.0 else 1.0)
+        red, green, blue = np.clip(numbers, 0.0, 1.0).tolist()
+        return (red, green, blue), None
+
+    def _texture(self, image: Any) -> Texture:
+        """Decode a picture, which trimesh has only opened."""
+        n = image.width * image.height
+        self._n_pixels += n
+        if n > MOST_PIXELS or self._n_pixels > MOST_PIXELS_IN_ALL:
+            raise AssetError(
+                f"{self._path}: a picture of {image.width} x {image.height} pixels; at most "
+                f"{MOST_PIXELS / 1e6:.0f} million are read, and {MOST_PIXELS_IN_ALL / 1e6:.0f} "
+                "in a model."
+            )
+        if image.format not in (None, *FORMATS):
+            raise AssetError(
+                f"{self._path}: a picture is {image.format}; expected {', '.join(FORMATS)}."
+            )
+        try:
+            picture = image.convert("RGB")
+            picture.thumbnail((LARGEST_PICTURE, LARGEST_PICTURE))
+            pixels = np.array(picture, dtype=np.uint8)
+        except Exception as error:  # Pillow raises whatever its decoders raise
+            raise AssetError(
+                f"{self._path}: its picture cannot be read ({type(error).__name__})."
+            ) from error
+        digest = hashlib.sha256(pixels.tobytes()).hexdigest()[:16]
+        return Texture(name=f"{self._path}#{digest}", pixels=pixels)

@@ -1,0 +1,63 @@
+"""Files that a mesh file names: materials, pictures, buffers; they stay where the mesh is.
+
+A name is looked for beside the mesh, as it stands and by its last part alone: exporters write paths
+of their author's machine. What leads out of the folders that were named is an error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path, PurePosixPath
+
+from ...errors import AssetError
+from ...input_files import is_inside
+
+
+class References:
+    """What trimesh asks for the files that a mesh file names.
+
+    Its readers of formats swallow errors: what was refused is kept, and raised by `check`.
+
+    Args:
+        beside: The folders that a name is looked for in.
+        within: The folders that it may lie in.
+        read: Reads a file that was found, by its path and its name.
+    """
+
+    def __init__(
+        self,
+        beside: Iterable[Path],
+        within: Iterable[Path],
+        read: Callable[[Path, PurePosixPath], bytes],
+    ) -> None:
+        self._beside, self._within, self._read = tuple(beside), tuple(within), read
+        self._refused: list[AssetError] = []
+
+    def get(self, name: str) -> bytes:
+        """Return the bytes of a file."""
+        try:
+            return self._found(name)
+        except AssetError as error:
+            self._refused.append(error)
+            raise
+
+    __getitem__ = get
+
+    def check(self) -> None:
+        """Raise what was refused first, if anything."""
+        for error in self._refused:
+            raise error
+
+    def _found(self, name: str) -> bytes:
+        asked = PurePosixPath(name.strip().replace("\\", "/"))
+        for place in (asked, PurePosixPath(asked.name)):
+            for folder in self._beside:
+                path = folder / place
+                if not place.is_absolute() and path.exists() and is_inside(path, self._within):
+                    return self._read(path, place)
+        leads_out = any((folder / asked).exists() for folder in self._beside)
+        if asked.is_absolute() or ".." in asked.parts or leads_out:
+            raise AssetError(
+                f"names the file {name[:200]!r}, which is outside its folder; --data-path adds one"
+            )
+        raise FileNotFoundError(name)
