@@ -246,9 +246,8 @@ def faults(results: dict[str, Result]) -> list[str]:
     if before.values("total") != after.values("total") or None in before.values("total"):
         found.append(f"Holds: {before.values('total')} before, {after.values('total')} behind")
     for cheat in set(results) - {"Holds", "HoldsAfterwards"} - {g.__name__ for g in GAINS}:
-        for row, (total, honest) in enumerate(
-            zip(results[cheat].values("total"), before.values("total"), strict=True)
-        ):
+        totals = results[cheat].values("total")  # none, where it never started
+        for row, (total, honest) in enumerate(zip(totals, before.values("total"), strict=False)):
             if total is not None and float(total) < WORTH * float(honest or 0.0):
                 found.append(f"{cheat}: row {row} has {total}, Holds {honest}")
     return sorted(found)

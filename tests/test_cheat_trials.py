@@ -6,7 +6,18 @@ from pathlib import Path
 
 import pytest
 
-from cheat_trials import CHEATS, GAINS, by_name, faults, trial
+from cheat_trials import CHEATS, GAINS, Bursts, Holds, bench_of, by_name, faults, trial
+from played import rows_of
+
+
+@pytest.mark.slow
+def test_guesses_that_nobody_looks_at_gain_nothing(tmp_path: Path) -> None:
+    scores = []
+    for cheat in (Holds, Bursts):
+        plan = bench_of(tmp_path, cheat, seed=2, length=0.3).plan
+        scores.append([row.total for row in rows_of(plan)])
+    assert scores[0] == scores[1]
+    assert None not in scores[0]
 
 
 @pytest.mark.slow

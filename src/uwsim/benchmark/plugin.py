@@ -44,6 +44,7 @@ from ..errors import (
     did_you_mean,
 )
 from ..input_files import read_bytes
+from ..interrupts import is_of_user
 from ..world import Stage
 from .answers import WrongAnswer
 from .measures import Measure, MeasureSpec
@@ -127,8 +128,10 @@ class Plugin:
             del sys.modules[name]
             line = error.lineno if error.filename == self.path else None
             raise self.fault(f"not Python: {error.msg}", line) from error
-        except (Exception, SystemExit) as error:
+        except BaseException as error:
             del sys.modules[name]
+            if is_of_user(error):
+                raise
             said = f"cannot be imported: {raised(error)}"
             if isinstance(error, ModuleNotFoundError):
                 said += " (a plugin is one file; what it imports must be installed)"
@@ -326,7 +329,9 @@ def blamed(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[N
         yield
     except UwsimError:
         raise
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
+        if is_of_user(error):
+            raise
         for plugin in plugins:
             line = plugin.line_of(error)
             if line is None and isinstance(error, WrongAnswer):

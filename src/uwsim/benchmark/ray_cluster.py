@@ -207,6 +207,7 @@ class Worker:
     """A process somewhere in the cluster, with a renderer that lasts."""
 
     def __init__(self) -> None:
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # for its employer alone
         self._studio = Studio()
         self._known: list[unit_file.Record] = []
 
