@@ -275,8 +275,9 @@ def _signalled(
 
 def _wrong_status(ended: Ended, number: signal.Signals) -> list[str]:
     by_signal = -int(number)
-    fits = {signal.SIGINT: (0, 130), signal.SIGTERM: (0, 130, by_signal)}
-    if ended.status in fits.get(number, (0, by_signal)):
+    until_there_is_something_to_keep = () if number == signal.SIGINT else (by_signal,)
+    by_itself = () if number == signal.SIGKILL else (130,)
+    if ended.status in (0, *by_itself, *until_there_is_something_to_keep):
         return []
     return [f"exit status {ended.status} after {number.name}: {ended.said}"]
 
