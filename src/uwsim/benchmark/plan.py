@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean
+from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
 from ..scene.variation import Draw, draw
 from ..world import TIMESTEP
@@ -108,6 +109,21 @@ class Plan:
             isinstance(spec, EuclideanNormSpec) and spec.ground_truth.publish_on is not None
             for spec in self.benchmark.measures
         )
+
+    @property
+    def told_topic(self) -> str | None:
+        """Topic of the pictures of the camera by which a tracker is told where its target is."""
+        told = [
+            spec.ground_truth.camera
+            for spec in self.benchmark.measures
+            if isinstance(spec, EuclideanNormSpec) and spec.ground_truth.publish_on is not None
+        ]
+        topics = {
+            interface.camera_name: interface.image_topic
+            for interface in self.scene.ros_interfaces
+            if isinstance(interface, VirtualCameraToROSImageSpec)
+        }
+        return next((topics[camera] for camera in told if camera in topics), None)
 
     @property
     def patience(self) -> float:

@@ -295,15 +295,18 @@ def play_with_progress(runs: Sequence[Bench], crew: Crew, at_once: int) -> Outco
 def control_of(run: Bench) -> Bench:
     """Return the same with `frozen`, which looks at no image, into ``control/``."""
     from ..algorithms import load_algorithm
+    from ..algorithms.tracker_node import INPUT
     from ..benchmark.bench import Bench
     from ..benchmark.directory import CONTROL as FOLDER_OF_CONTROL
     from ..benchmark.inputs import without_algorithm
 
+    topic, usual = run.plan.told_topic, str(INPUT["image_topic"])
+    is_usual = topic is None or topic.strip("/") == usual.strip("/")
     plan = replace(
         run.plan,
         algorithm=load_algorithm(CONTROL),
         algorithm_name=CONTROL,
-        parameters={},
+        parameters={} if topic is None or is_usual else {"image_topic": topic},
         is_blind=True,
     )
     out = run.out / FOLDER_OF_CONTROL
