@@ -138,3 +138,23 @@ def test_a_field_is_read_by_a_check_but_the_users_function_only_looked_for(
 def test_the_bundled_scenes_have_no_such_fault() -> None:
     for path in sorted(SCENE.parent.glob("*scene.xml")):
         assert [fault for fault in faults_of(path) if fault.severity == "fault"] == []
+
+
+def test_a_mesh_of_too_many_faces_is_said_before_a_run_refuses_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("uwsim.physics.shapes.MOST_PIECES", 3)
+    (tmp_path / "tent.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
+    )
+    rock = (
+        "<object> <name>rock</name> <file>tent.obj</file> <position><x>50</x></position>\n"
+        "<physics> <mass>0</mass> <collisionShapeType>trimesh</collisionShapeType> </physics>"
+        "</object></UWSimScene>"
+    )
+    scene = tmp_path / "scene.xml"
+    scene.write_text(SCENE.read_text().replace("</UWSimScene>", rock))
+    line = scene.read_text().partition("<object> <name>rock")[0].count("\n") + 1
+    said = [fault for fault in faults_of(scene, strict=False) if fault.severity == "fault"]
+    assert [fault.line for fault in said] == [line]
+    assert "'tent.obj' as a fixed trimesh would be 4 plates; at most 3" in said[0].message

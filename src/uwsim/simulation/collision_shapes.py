@@ -49,10 +49,17 @@ def simulated_shapes(
     """
     if scene.things_fall:
         return collision_shapes(scene, robots, robots, scene.solid_objects, data_path)
-    solid = scene.simulated_solids
-    if not dynamics or (not solid and len(dynamics) == 1):
+    solid = simulated_solids(scene, dynamics)
+    if not solid and len(dynamics) < 2:
         return {}
     return collision_shapes(scene, robots, dynamics, solid, data_path)
+
+
+def simulated_solids(scene: SceneSpec, dynamics: Collection[int]) -> Mapping[int, PhysicsSpec]:
+    """Objects that the engine knows, by their numbers: none where it has nothing to simulate."""
+    if scene.things_fall:
+        return scene.solid_objects
+    return scene.simulated_solids if dynamics else {}
 
 
 def collision_shapes(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from contextlib import suppress
 from pathlib import Path
 
@@ -10,9 +11,11 @@ from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.urdf_reader import read_urdf
 from .bodies import find_robot
+from .collision_shapes import collision_shapes, simulated_solids
 from .dynamics import Search
 from .floor import set_on_floor
 from .plausibility import doubts_about
+from .scene_lines import SceneLines
 
 
 def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Fault]:
@@ -36,4 +39,17 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
         found += error.faults
     except UwsimError:  # said where robots and models are checked
         pass
+    return found + _untouchable(scene, search.dynamics, data_path)
+
+
+def _untouchable(
+    scene: SceneSpec, dynamics: Collection[int], data_path: tuple[Path, ...]
+) -> list[Fault]:
+    """Say of which objects the engine can make no shape that is touched."""
+    lines, found = SceneLines(scene), []
+    for index, physics in simulated_solids(scene, dynamics).items():
+        try:
+            collision_shapes(scene, {}, (), {index: physics}, data_path)
+        except UwsimError as error:
+            found.append(lines.fault(str(error).removesuffix("."), "object", index, "name"))
     return found
