@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from importlib import resources
 from pathlib import Path
@@ -22,6 +23,7 @@ from uwsim.simulation.hull import Hull, LinkBox
 from uwsim.simulation.plausibility import warnings_of
 from uwsim.simulation.vehicle_doubts import size_said
 
+ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 DATA = Path(str(resources.files("uwsim"))) / "data"
 ROBOT = """<robot name="rov">
   <link name="base_link">
@@ -312,6 +314,13 @@ def test_render_says_it_before_it_draws(tmp_path: Path, capsys: pytest.CaptureFi
 @pytest.mark.parametrize("name", sorted(path.stem for path in (DATA / "scenes").glob("*.xml")))
 def test_nothing_is_asked_about_a_bundled_scene(name: str) -> None:
     assert warnings_of(read_scene(DATA / "scenes" / f"{name}.xml"), ()) == []
+
+
+@pytest.mark.skipif(ORIGINALS is None, reason="UWSIM_ORIGINALS is not set")
+def test_nothing_is_asked_about_the_originals_scenes() -> None:
+    scenes = sorted(Path(ORIGINALS or "").rglob("scenes/*.xml"))
+    assert scenes
+    assert [warnings_of(read_scene(path), ()) for path in scenes] == [[]] * len(scenes)
 
 
 @pytest.mark.parametrize(
