@@ -102,7 +102,8 @@ def _copied_value(value: object) -> object:
     if isinstance(value, np.ndarray):
         return np.array(value)
     if isinstance(value, list | tuple):
-        return [_copied_value(item) for item in value]
+        items = [_copied_value(item) for item in value]
+        return items if isinstance(value, list) else tuple(items)
     return copied(value) if dataclasses.is_dataclass(value) else value
 
 

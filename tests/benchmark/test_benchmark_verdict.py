@@ -101,7 +101,8 @@ def test_the_first_status_that_applies_counts(
     status: str,
 ) -> None:  # fmt: skip
     inbox: Inbox[String] = Inbox()
-    verdict = Verdict(SimpleNamespace(name="esm", error=error), inbox)  # type: ignore[arg-type]
+    node = SimpleNamespace(name="esm", error=error, how="raised")
+    verdict = Verdict(node, inbox)  # type: ignore[arg-type]
     if said:
         inbox.receive(String(data=said), 0)
     verdict.listen(1.0)
