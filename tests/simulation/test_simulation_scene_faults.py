@@ -148,13 +148,14 @@ def test_a_mesh_of_too_many_faces_is_said_before_a_run_refuses_it(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
     )
     rock = (
-        "<object> <name>rock</name> <file>tent.obj</file> <position><x>50</x></position>\n"
+        "<object> <name>rock</name> <file>tent.obj</file> <position><x>50</x><y>0</y>"
+        "<z>0</z></position>\n"
         "<physics> <mass>0</mass> <collisionShapeType>trimesh</collisionShapeType> </physics>"
         "</object></UWSimScene>"
     )
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.read_text().replace("</UWSimScene>", rock))
-    line = scene.read_text().partition("<object> <name>rock")[0].count("\n") + 1
+    line = scene.read_text().partition("<physics> <mass>0</mass>")[0].count("\n") + 1
     said = [fault for fault in faults_of(scene, strict=False) if fault.severity == "fault"]
     assert [fault.line for fault in said] == [line]
     assert "'tent.obj' as a fixed trimesh would be 4 plates; at most 3" in said[0].message

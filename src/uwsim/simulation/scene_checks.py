@@ -51,5 +51,5 @@ def _untouchable(
         try:
             collision_shapes(scene, {}, (), {index: physics}, data_path)
         except UwsimError as error:
-            found.append(lines.fault(str(error).removesuffix("."), "object", index, "name"))
+            found.append(lines.fault(str(error).removesuffix("."), "object", index, "physics"))
     return found
