@@ -34,6 +34,8 @@ from .units import unit
 Ints = npt.NDArray[np.int64]
 AXES = ("t", "x", "y", "z")
 COMPONENTS = ("u", "v", "w")
+LARGEST_FILES = {".csv": 64 * 2**20, ".nc": 256 * 2**20, ".cdf": 256 * 2**20}
+"""Largest files [bytes]: a table takes ten times as much memory as it is long."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,7 +89,7 @@ def read_grid(path: Path, *, name: str = "") -> Grid:
     if reader is None:
         raise AssetError(f"{path}: a field is a .csv or a .nc file, not {path.suffix!r}.")
     try:
-        return reader(path, read_bytes(path, name=name))
+        return reader(path, read_bytes(path, name=name, at_most=LARGEST_FILES[path.suffix.lower()]))
     except OSError as error:
         raise AssetError(f"{path}: {error.strerror or error}.") from error
     except csv.Error as error:
