@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
 from ..errors import AllErrors, BadSetting, RunFailed
 from ..file_names import file_names
 from ..interrupts import raise_from_now_on
 from .completion import algorithm_names
+from .console import Console
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import running, warn
 from .foreign_code import NoCodeOption, announce_code

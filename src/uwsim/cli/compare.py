@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from ..errors import ResultError
+from .console import Console
 from .faults import printable
 from .options import JsonOption
 from .taught import COMPARED, OUTPUT, in_group

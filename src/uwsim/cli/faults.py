@@ -94,7 +94,15 @@ def _legible(line: str) -> str:
     shown = LONG.sub(_shortened, line[: 10 * LONGEST_LINE])
     if len(shown) > LONGEST_LINE or len(line) > 10 * LONGEST_LINE:
         shown = f"{shown[:LONGEST_LINE]}…"
-    return "".join(letter if letter.isprintable() else f"\\x{ord(letter):02x}" for letter in shown)
+    return legible(shown)
+
+
+def legible(text: str) -> str:
+    """Show control characters but ends of lines instead of letting a terminal obey them."""
+    return "".join(
+        letter if letter.isprintable() or letter == "\n" else f"\\x{ord(letter):02x}"
+        for letter in text
+    )
 
 
 LONG = re.compile(rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{LONGEST_QUOTE + 1},}}""")

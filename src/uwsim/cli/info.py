@@ -7,13 +7,14 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from rich.console import Console, RenderableType
+from rich.console import RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
 from ..errors import AllErrors
 from .check import faults_of
+from .console import Console
 from .faults import printable
 from .files import scene_file
 from .options import DataPathOption, JsonOption, SceneArgument, SetOption

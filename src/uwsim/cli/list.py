@@ -11,12 +11,12 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from ..errors import UnknownName
 from .completion import one_of
+from .console import Console
 from .files import bundled
 from .options import JsonOption
 from .plugins import PluginOption, read_plugins

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from rich.console import Console
-
+from .console import Console
 from .faults import warn
 from .options import ResultArgument
 from .taught import OUTPUT, in_group
