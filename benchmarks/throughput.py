@@ -64,9 +64,9 @@ def begin_and_end(scene: SceneSpec, studio: Studio | None) -> None:
     """Do what every unit does once: make the scene live, draw with noise and without, close."""
     simulation = Simulation(scene, studio=studio)
     simulation.open()
-    camera = simulation.camera(CAMERA)
+    camera = simulation.world.camera(CAMERA)
     camera.shoot()
-    simulation.picture(camera.world_from_camera, camera.intrinsics, fog=0.0)
+    simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics, fog=0.0)
     simulation.close()
 
 

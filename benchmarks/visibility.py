@@ -32,8 +32,8 @@ simulation = Simulation(dataclasses.replace(scene, vehicles=(vehicle,)))
 simulation.open()
 for _ in range(500):
     simulation.advance()
-    simulation.camera(first.name).shoot()
-    simulation.camera("second").shoot()
+    simulation.world.camera(first.name).shoot()
+    simulation.world.camera("second").shoot()
 """
 
 

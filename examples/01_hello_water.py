@@ -25,11 +25,11 @@ def main() -> None:
     # Attenuation is a law of its own; without it the fog stands alone.
     scene = apply_setting(read_scene(path), "oceanState.attenuation", "0 0 0")
     simulation = Simulation(scene)
-    camera = simulation.camera(CAMERA)
+    camera = simulation.world.camera(CAMERA)
     clear = None
     for fog in FOGS:
-        simulation.set_fog(fog)
-        picture = simulation.picture(camera.world_from_camera, camera.intrinsics)
+        simulation.world.set_fog(fog)
+        picture = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics)
         row, column = PIXEL
         # The fog's colour has no red: what red there is comes from the floor.
         red = picture.colour[row - 8 : row + 9, column - 8 : column + 9, 0].mean()

@@ -77,15 +77,17 @@ def scene_figure(folder: Path) -> None:
     viewer = Intrinsics.from_fovy(1320, 990, math.radians(60.0), near=0.1)
     eye = looking(EYE, TARGET)
     try:
-        camera = simulation.camera(CAMERA)
-        outside = simulation.picture(eye, viewer).colour[..., :3]
-        inside = simulation.picture(camera.world_from_camera, camera.intrinsics).colour[..., :3]
+        camera = simulation.world.camera(CAMERA)
+        outside = simulation.world.scenery.picture(eye, viewer).colour[..., :3]
+        inside = simulation.world.scenery.picture(
+            camera.world_from_camera, camera.intrinsics
+        ).colour[..., :3]
         # the mean current flows along y of the scene's frame, from stern to bow
-        base = simulation.world_from_localized.inverse().transform(
-            simulation.body("girona500").world_from_body.position[None]
+        base = simulation.world.world_from_localized.inverse().transform(
+            simulation.world.body("girona500").world_from_body.position[None]
         )[0]
         ends = base + np.array([[0.0, -0.9, -0.75], [0.0, 0.9, -0.75]])  # above the vehicle
-        world = simulation.world_from_localized.transform(ends)
+        world = simulation.world.world_from_localized.transform(ends)
     finally:
         simulation.close()
     figure = picture_with_inset(outside, inside, share=0.30)

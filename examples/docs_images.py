@@ -71,7 +71,9 @@ def view() -> Image.Image:
         width, height = SIZE
         eye, target = np.array(EYE), np.array(TARGET)
         shown = view_from(simulation, eye, target, (FINER * width, FINER * height))
-        colour = simulation.look(shown.world_from_camera, shown.intrinsics, fog=HAZE).colour
+        colour = simulation.world.scenery.look(
+            shown.world_from_camera, shown.intrinsics, fog=HAZE
+        ).colour
     finally:
         simulation.close()
     assert colour is not None

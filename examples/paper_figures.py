@@ -76,12 +76,14 @@ def scene_figures(folder: Path) -> None:
     simulation = Simulation(read_scene(path), seed=SEED)
     viewer = Intrinsics.from_fovy(1320, 990, math.radians(60.0), near=0.1)
     try:
-        camera = simulation.camera(CAMERA)
+        camera = simulation.world.camera(CAMERA)
         views = {}
         for fog in (0.0, PAPER_FOG):
-            simulation.set_fog(fog)
-            outside = simulation.picture(looking(EYE, TARGET), viewer).colour
-            inside = simulation.picture(camera.world_from_camera, camera.intrinsics).colour
+            simulation.world.set_fog(fog)
+            outside = simulation.world.scenery.picture(looking(EYE, TARGET), viewer).colour
+            inside = simulation.world.scenery.picture(
+                camera.world_from_camera, camera.intrinsics
+            ).colour
             views[fog] = outside[..., :3], inside[..., :3]
     finally:
         simulation.close()

@@ -5,17 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 
 from uwsim import chance
-from uwsim.bus import Bus, Inbox
+from uwsim.bus import Bus
 from uwsim.errors import AssetNotFound, UnknownName
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.world import Actuators, Body, Box, Camera, Contact, Flow
-
-M = TypeVar("M")
 
 
 class FakeBody:
@@ -158,33 +155,6 @@ class FakeWorld:
         if name not in self.cameras:
             raise UnknownName("camera", name, self.cameras)
         return self.cameras[name]
-
-    def message_type(self, topic: str) -> type | None:
-        return self.bus.message_type(topic)
-
-    def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
-        return self.bus.inbox(topic, type, latched=latched)
-
-    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
-        return self.bus.publisher(topic, type)
-
-    def has_readers(self, topic: str) -> bool:
-        return self.bus.has_readers(topic)
-
-    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
-        self.bus.serve(name, type, handler)
-
-    def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
-        return self.bus.offer(name, type, handler)
-
-    def withdraw(self, name: str) -> None:
-        self.bus.withdraw(name)
-
-    def serves(self, name: str) -> bool:
-        return self.bus.serves(name)
-
-    def call(self, name: str, request: object) -> object:
-        return self.bus.call(name, request)
 
     def stream(self, name: str) -> np.random.Generator:
         return chance.stream(self._seed, name)

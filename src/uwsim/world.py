@@ -9,15 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, TypeVar
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from .bus import Inbox
+from .bus import Bus
 from .geometry import Intrinsics, Pose
 
-M = TypeVar("M")
 TIMESTEP = 0.002
 """Length of a physics step, unless another is asked for [s]."""
 
@@ -134,6 +133,10 @@ class World(Protocol):
         """``step * timestep`` [s]."""
 
     @property
+    def bus(self) -> Bus:
+        """Its topics and services."""
+
+    @property
     def world_from_localized(self) -> Pose:
         """W from L: the scene's offset."""
 
@@ -152,33 +155,6 @@ class World(Protocol):
 
     def camera(self, name: str) -> Camera:
         """Find a virtual camera; UnknownName if none."""
-
-    def message_type(self, topic: str) -> type | None:
-        """What a topic carries; None while nobody has said."""
-
-    def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
-        """Collect the messages of a topic from now on; latched: beginning with the newest."""
-
-    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
-        """Return ``publish(message)``."""
-
-    def has_readers(self, topic: str) -> bool:
-        """Whether anybody would see a message on ``topic``."""
-
-    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
-        """Offer a service."""
-
-    def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
-        """Offer a service together with others: a call reaches all; returns how to leave."""
-
-    def withdraw(self, name: str) -> None:
-        """Stop offering a service, if it is offered."""
-
-    def serves(self, name: str) -> bool:
-        """Whether somebody offers the service."""
-
-    def call(self, name: str, request: object) -> object:
-        """Call a service; UnknownName when nobody serves it."""
 
     def stream(self, name: str) -> np.random.Generator:
         """The random generator of that name under the run's seed (DESIGN 4)."""

@@ -84,7 +84,7 @@ def scene_for(benchmark: Path, spec: BenchmarkSpec) -> Path:
         except UwsimError as error:
             said.append(f"{path}: {error}")
             continue
-        faults = unknown_names(spec, simulation)
+        faults = unknown_names(spec, simulation.world)
         simulation.close()
         if not faults:
             return path

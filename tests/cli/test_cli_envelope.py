@@ -45,7 +45,7 @@ class LoadSpec(SceneUpdaterSpec):
 
 class Load(SceneUpdater):
     def __init__(self, stage):
-        self.tell = stage.publisher("load", Float32MultiArray)
+        self.tell = stage.bus.publisher("load", Float32MultiArray)
 
     def apply(self, value):
         self.tell(floats([value]))
@@ -63,7 +63,7 @@ class Strain(Measure):
     unit = "px"
 
     def __init__(self, world):
-        self.inbox = world.inbox("load", Float32MultiArray)
+        self.inbox = world.bus.inbox("load", Float32MultiArray)
         self.chance = 0.02 * float(world.stream("strain").normal())
         self.load = 0.0
 

@@ -21,7 +21,7 @@ SCENE = Path(str(resources.files("uwsim") / "data" / "scenes" / "currents-scene.
 
 def diverge() -> None:
     simulation = Simulation(read_scene(SCENE).nominal, is_blind=True)
-    simulation._state._data.qvel[0] = 1e12
+    simulation.world.state._data.qvel[0] = 1e12
     try:
         simulation.advance()
     except RunFailed:

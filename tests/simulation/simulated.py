@@ -40,18 +40,20 @@ def run(simulation: Simulation, seconds: float) -> None:
 
 
 def position(simulation: Simulation, name: str = "girona500") -> np.ndarray:
-    world = simulation.body(name).world_from_body
-    return (simulation.world_from_localized.inverse() @ world).position
+    world = simulation.world.body(name).world_from_body
+    return (simulation.world.world_from_localized.inverse() @ world).position
 
 
 def heading_deg(simulation: Simulation) -> float:
-    world = simulation.body("girona500").world_from_body
-    rotation = (simulation.world_from_localized.inverse() @ world).rotation
+    world = simulation.world.body("girona500").world_from_body
+    rotation = (simulation.world.world_from_localized.inverse() @ world).rotation
     return float(np.degrees(np.arctan2(rotation[1, 0], rotation[0, 0])))
 
 
 def set_current(simulation: Simulation, velocity: tuple[float, float, float]) -> None:
-    simulation.set_current(ConstantSpec(velocity=velocity).bind(Place(stream=simulation.stream)))
+    simulation.world.set_current(
+        ConstantSpec(velocity=velocity).bind(Place(stream=simulation.world.stream))
+    )
 
 
 def vector(x: float, y: float, z: float) -> Vector3:

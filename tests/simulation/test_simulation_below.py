@@ -13,7 +13,7 @@ from scipy.spatial import Delaunay
 from uwsim.cli.files import scene_file
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
-from uwsim.simulation.below import _highest, below
+from uwsim.simulation.below import _highest, below, below_vehicle
 
 
 def test_a_plumb_line_meets_a_triangulated_surface_where_scipy_says() -> None:
@@ -39,15 +39,20 @@ def test_from_inside_only_what_is_lower_is_met() -> None:
 def test_below_a_vehicle_lie_the_box_and_then_the_tank_and_not_itself() -> None:
     simulation = Simulation(read_scene(scene_file("currents-scene")), is_blind=True)
     try:
-        found = simulation.below("girona500")
+        found = below_vehicle(simulation.world, "girona500")
         assert [each.name for each in found] == ["blackbox", "terrain"]
-        box = simulation.body("blackbox").box
+        box = simulation.world.body("blackbox").box
         assert box is not None
-        origin = simulation.body("blackbox").world_from_body.position[2]
+        origin = simulation.world.body("blackbox").world_from_body.position[2]
         assert found[0].height == pytest.approx(origin + box.upper[2], abs=0.15)
         assert found[1].height < found[0].height
         assert (
-            below(np.array([900.0, 0.0, 0.0]), simulation._scenery, simulation._scenery.parts) == ()
+            below(
+                np.array([900.0, 0.0, 0.0]),
+                simulation.world.scenery,
+                simulation.world.scenery.parts,
+            )
+            == ()
         )
     finally:
         simulation.close()

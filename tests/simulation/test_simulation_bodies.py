@@ -58,7 +58,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
             replace(scene, vehicles=(), objects=(thing,), ros_interfaces=()),
             compatibility=slips,
         )
-        box = simulation.body("blackbox").box
+        box = simulation.world.body("blackbox").box
         simulation.close()
         assert box is not None
         sizes.append(np.subtract(box.upper, box.lower))
@@ -68,7 +68,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
 
 
 def test_what_an_object_that_never_moves_hands_out_is_a_copy() -> None:
-    body = Simulation(read_scene(SCENE).nominal).body("blackbox")
+    body = Simulation(read_scene(SCENE).nominal).world.body("blackbox")
     place, turn = body.world_from_body.position, body.world_from_body.rotation
     body.world_from_body.position[:] = np.nan
     body.world_from_body.rotation[:] = np.nan
@@ -82,7 +82,7 @@ def test_all_slips_of_the_original_leave_a_camera_where_scenes_since_2014_put_it
     looks = {}
     for name in ("", "uwsim", "visual-frames"):
         asked = compatibility([name] if name else [])
-        camera = Simulation(scene, compatibility=asked).camera("bowtech1")
+        camera = Simulation(scene, compatibility=asked).world.camera("bowtech1")
         looks[name] = -camera.world_from_camera.rotation[:, 2]  # along -z of OpenGL
     assert looks[""] == pytest.approx((0.0, 0.0, -1.0), abs=0.01)
     assert looks["uwsim"] == pytest.approx(looks[""])
@@ -91,6 +91,6 @@ def test_all_slips_of_the_original_leave_a_camera_where_scenes_since_2014_put_it
 
 def test_a_link_of_which_nothing_is_seen_has_its_own_frame_for_a_visual_one() -> None:
     simulation = Simulation(read_scene(SCENE).nominal)
-    link, visual = (simulation.body(f"girona500/end_effector{at}") for at in ("", "@visual"))
+    link, visual = (simulation.world.body(f"girona500/end_effector{at}") for at in ("", "@visual"))
     assert visual.world_from_body.position == pytest.approx(link.world_from_body.position)
     assert visual.box is None

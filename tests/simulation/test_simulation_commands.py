@@ -46,8 +46,8 @@ def simulation() -> Simulation:
 
 
 def pose_in_l(simulation: Simulation) -> Pose:
-    return simulation.world_from_localized.inverse() @ (
-        simulation.body("girona500").world_from_body
+    return simulation.world.world_from_localized.inverse() @ (
+        simulation.world.body("girona500").world_from_body
     )
 
 
@@ -142,7 +142,7 @@ def test_positions_of_joints_do_not_take_the_time_of_their_velocities(
     publish(slew(nothing, np.array([-0.5])))
     simulation.advance()
     simulation.advance()
-    assert simulation.joints("girona500")[0] == pytest.approx(0.2 - 0.5 * 0.1)
+    assert simulation.world.joints("girona500")[0] == pytest.approx(0.2 - 0.5 * 0.1)
 
 
 def test_joints_are_found_by_name_and_clamped(simulation: Simulation) -> None:
@@ -155,10 +155,10 @@ def test_joints_are_found_by_name_and_clamped(simulation: Simulation) -> None:
             effort=np.array([]),
         )
     )
-    before = simulation.joints("girona500")
+    before = simulation.world.joints("girona500")
     simulation.advance()
     simulation.advance()
-    after = simulation.joints("girona500")
+    after = simulation.world.joints("girona500")
     assert after[2] == pytest.approx(2.15294)
     assert after[0] == pytest.approx(-0.3)
     assert after[[1, 3, 4]] == pytest.approx(before[[1, 3, 4]])

@@ -34,19 +34,19 @@ def run(simulation: Simulation, seconds: float) -> None:
 
 
 def position(simulation: Simulation) -> np.ndarray:
-    world = simulation.body("girona500").world_from_body
-    return (simulation.world_from_localized.inverse() @ world).position
+    world = simulation.world.body("girona500").world_from_body
+    return (simulation.world.world_from_localized.inverse() @ world).position
 
 
 def heading_deg(simulation: Simulation) -> float:
-    world = simulation.body("girona500").world_from_body
-    rotation = (simulation.world_from_localized.inverse() @ world).rotation
+    world = simulation.world.body("girona500").world_from_body
+    rotation = (simulation.world.world_from_localized.inverse() @ world).rotation
     return float(np.degrees(np.arctan2(rotation[1, 0], rotation[0, 0])))
 
 
 def set_current(simulation: Simulation, velocity: tuple[float, float, float]) -> None:
-    place = Place(stream=simulation.stream)
-    simulation.set_current(ConstantSpec(velocity=velocity).bind(place))
+    place = Place(stream=simulation.world.stream)
+    simulation.world.set_current(ConstantSpec(velocity=velocity).bind(place))
 
 
 def command(simulation: Simulation, surge: float, sway: float) -> None:
@@ -120,7 +120,7 @@ def test_a_vehicle_that_is_put_back_is_at_rest() -> None:
     simulation = make()
     command(simulation, 0.3, 0.0)
     run(simulation, 5.0)
-    simulation.put_back("girona500")
+    simulation.world.put_back("girona500")
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515])
     run(simulation, 5.0)
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515], abs=0.02)
@@ -180,7 +180,7 @@ def test_water_is_asked_only_where_it_acts() -> None:
     simulation = Simulation(replace(scene, vehicles=(vehicle,)), is_blind=True)
     simulation.open()
     asked = Asked()
-    simulation.set_current(asked)
+    simulation.world.set_current(asked)
     simulation.advance()
     assert asked.names == {"girona500"}
     assert len(asked.points) == 2 * len(read_vehicle(vehicle_sets()["g500_physical"]).bodies)

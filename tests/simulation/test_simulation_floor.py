@@ -63,7 +63,7 @@ def opened(*objects: ObjectSpec, frame: SimParamsSpec = UP, rov: bool = False) -
 
 def corners(simulation: Simulation) -> np.ndarray:
     """Corners of the thing in W, (8, 3) [m]."""
-    body = simulation.body("thing")
+    body = simulation.world.body("thing")
     assert body.box is not None
     return body.world_from_body.transform(body.box.corners())
 
@@ -84,7 +84,10 @@ def test_a_box_stands_on_a_flat_floor_whichever_way_the_files_z_points(
     turned = (0.0, 0.0, 0.0) if sign > 0 else (np.pi, 0.0, 0.0)
     simulation = opened(ground(file, orientation=turned), thing(1.3, -0.7), frame=frame)
     assert lowest(simulation) == pytest.approx(-4.0, abs=1e-6)
-    place = simulation.world_from_localized.inverse() @ simulation.body("thing").world_from_body
+    place = (
+        simulation.world.world_from_localized.inverse()
+        @ simulation.world.body("thing").world_from_body
+    )
     assert (place.position - place.rotation @ [0, 0, 0])[:2] == pytest.approx([1.3, -0.7], abs=1e-9)
 
 
@@ -115,8 +118,8 @@ def clearance_by_sampling(simulation: Simulation, file: str) -> float:
     import trimesh
     from matplotlib.tri import LinearTriInterpolator, Triangulation
 
-    part = simulation.body("thing")
-    scale = simulation._scene.objects[1].scale_factor[0]
+    part = simulation.world.body("thing")
+    scale = simulation.world.scene.objects[1].scale_factor[0]
     points = np.concatenate([mesh.vertices for mesh in load_model(BOX).meshes]) * scale
     hull = trimesh.convex.convex_hull(points)
     surface, _ = trimesh.sample.sample_surface_even(hull, 4000, seed=1)
@@ -134,7 +137,7 @@ def test_aligned_to_a_slope_a_box_lies_flat_on_it(tmp_path: Path) -> None:
     simulation = opened(ground(file), stands)
     over = corners(simulation)[:, 2] - (-4.0 + np.tan(steepness) * corners(simulation)[:, 0])
     assert np.sort(over)[:4] == pytest.approx(np.zeros(4), abs=1e-6)
-    rotation = simulation.body("thing").world_from_body.rotation
+    rotation = simulation.world.body("thing").world_from_body.rotation
     heading = np.arctan2(rotation[1, 0], rotation[0, 0])
     assert heading == pytest.approx(0.5, abs=0.1)
 
@@ -154,9 +157,9 @@ def test_what_is_loose_stays_where_it_was_set(tmp_path: Path) -> None:
     )
     simulation = opened(ground(file), stands, frame=UP, rov=True)
     simulation.open()
-    before = simulation.body("thing").world_from_body.position
+    before = simulation.world.body("thing").world_from_body.position
     run(simulation, 3.0)
-    after = simulation.body("thing").world_from_body.position
+    after = simulation.world.body("thing").world_from_body.position
     assert after == pytest.approx(before, abs=0.02)
 
 
@@ -208,7 +211,9 @@ def test_a_thing_as_thin_as_paper_lies_on_the_ground(tmp_path: Path) -> None:
         np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]), np.array([[0, 1, 2], [0, 2, 3]]),
     )  # fmt: skip
     simulation = opened(ground(file), replace(thing(0.0, 0.0), file=sheet))
-    assert simulation.body("thing").world_from_body.position[2] == pytest.approx(-4.0, abs=1e-3)
+    assert simulation.world.body("thing").world_from_body.position[2] == pytest.approx(
+        -4.0, abs=1e-3
+    )
 
 
 def test_on_scaled_terrain_it_stands_where_the_terrain_is_seen(tmp_path: Path) -> None:
@@ -242,14 +247,14 @@ def test_a_vehicle_begins_with_its_lowest_link_on_the_floor(align: bool, tmp_pat
     terrain = ground(file, orientation=(np.pi, 0.0, 0.0))
     simulation = Simulation(replace(scene, vehicles=(vehicle,), objects=(terrain,)))
     simulation.open()
-    start: Pose = simulation.body("girona500").world_from_body
+    start: Pose = simulation.world.body("girona500").world_from_body
     simulation.advance()
-    touched = simulation.contacts("girona500")
+    touched = simulation.world.contacts("girona500")
     run(simulation, 0.05)
-    end: Pose = simulation.body("girona500").world_from_body
+    end: Pose = simulation.world.body("girona500").world_from_body
     assert {contact.other for contact in touched} == {"terrain"}
     assert np.linalg.norm(end.position - start.position) < 0.005
-    localized = simulation.world_from_localized.inverse() @ start
+    localized = simulation.world.world_from_localized.inverse() @ start
     assert localized.position[:2] == pytest.approx([2.0, 1.0], abs=1e-9)
 
 
@@ -270,7 +275,7 @@ def test_a_scaled_vehicle_stands_on_its_scaled_foot(tmp_path: Path) -> None:
         on_floor=ON_FLOOR,
     )
     scene = SceneSpec(objects=(ground(grid(tmp_path, flat(6.0))),), vehicles=(vehicle,))
-    height = Simulation(scene).body("tall").world_from_body.position[2]
+    height = Simulation(scene).world.body("tall").world_from_body.position[2]
     assert height == pytest.approx(-6.0 + 1.5 * 2.1, abs=1e-6)
 
 
@@ -287,7 +292,7 @@ def test_check_says_with_its_line_where_there_is_no_ground(tmp_path: Path) -> No
     path = tmp_path / "scene.xml"
     path.write_text(FILE.format(x=3))
     assert [fault for fault in faults_of(path) if fault.severity == "fault"] == []
-    assert Simulation(read_scene(path)).body("pot").world_from_body.position[2] > -7.2
+    assert Simulation(read_scene(path)).world.body("pot").world_from_body.position[2] > -7.2
     path.write_text(FILE.format(x=300))
     (fault,) = [fault for fault in faults_of(path) if fault.severity == "fault"]
     assert (fault.line, "at x 300, y 0" in fault.message) == (6, True)

@@ -23,12 +23,12 @@ def test_a_fog_updater_changes_how_thick_the_fog_is_and_not_its_colour() -> None
     murky = replace(scene, ocean_state=replace(scene.ocean_state, fog=fog))
     simulation = Simulation(murky)
     try:
-        simulation.set_fog(20.0)
-        camera = simulation.camera("bowtech1")
-        picture = simulation.picture(camera.world_from_camera, camera.intrinsics)
+        simulation.world.set_fog(20.0)
+        camera = simulation.world.camera("bowtech1")
+        picture = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics)
     finally:
         simulation.close()
-    assert simulation.fog_colour == colour
+    assert simulation.world.fog_colour == colour
     assert picture.colour is not None
     middle = picture.colour[120, 160].astype(float) / 255.0
     assert middle == pytest.approx(np.array(colour), abs=0.003)

@@ -83,12 +83,12 @@ class Grasp:
         self.simulation.bus.publisher("/pose", PoseMessage)(message)
 
     def box_in_jaw(self) -> Pose:
-        wrist = self.simulation.body("girona500/part4_base").world_from_body
-        return wrist.inverse() @ self.simulation.body("blackbox").world_from_body
+        wrist = self.simulation.world.body("girona500/part4_base").world_from_body
+        return wrist.inverse() @ self.simulation.world.body("blackbox").world_from_body
 
     @property
     def touches(self) -> set[str]:
-        return {contact.other for contact in self.simulation.contacts("blackbox")}
+        return {contact.other for contact in self.simulation.world.contacts("blackbox")}
 
     def _bend(self, names: list[str], **given: list[float]) -> None:
         arrays = {
@@ -129,9 +129,9 @@ def test_a_lifted_box_is_held_for_ten_seconds_and_while_the_arm_moves(timestep: 
 def test_a_box_that_is_let_go_sinks() -> None:
     grasp = Grasp()
     grasp.lift()
-    before = grasp.simulation.body("blackbox").world_from_body.position[2]
+    before = grasp.simulation.world.body("blackbox").world_from_body.position[2]
     grasp.jaw(OPEN)
-    after = grasp.simulation.body("blackbox").world_from_body.position[2]
+    after = grasp.simulation.world.body("blackbox").world_from_body.position[2]
     assert after < before - 0.1
     assert "girona500" not in grasp.touches
 
@@ -147,7 +147,7 @@ def test_a_box_heavier_than_friction_can_bear_slips_out() -> None:
 def test_the_fingers_stay_mirror_images_of_each_other() -> None:
     grasp = Grasp()
     grasp.lift()
-    model, data = grasp.simulation._state._model, grasp.simulation._state._data
+    model, data = grasp.simulation.world.state._model, grasp.simulation.world.state._data
     data.xfrc_applied[model.body("object/0").id, :2] = 20.0  # across the jaw and along it [N]
     run(grasp.simulation, 1.0)
     first, second = (

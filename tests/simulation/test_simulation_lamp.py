@@ -43,8 +43,8 @@ def night(*lamps: LampSpec, vr: bool = False) -> SceneSpec:
 
 
 def brightness(simulation: Simulation) -> np.ndarray:
-    camera = simulation.camera("bowtech1")
-    colour = simulation.picture(camera.world_from_camera, camera.intrinsics).colour
+    camera = simulation.world.camera("bowtech1")
+    colour = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics).colour
     assert colour is not None
     return colour[..., 0].astype(float)
 
@@ -63,7 +63,7 @@ def test_a_lamp_lights_the_black_box_at_night() -> None:
 def test_the_light_goes_with_the_vehicle() -> None:
     simulation = Simulation(night(LAMP))
     before = brightness(simulation)
-    state = simulation._state
+    state = simulation.world.state
     higher = Pose(np.array([0.0, 0.0, 0.5]), np.eye(3)) @ state.vehicle_pose(0)
     state.place_vehicle(0, higher)
     after = brightness(simulation)
@@ -75,7 +75,7 @@ def test_the_light_goes_with_the_vehicle() -> None:
 def test_the_light_of_the_scene_does_not_dim_a_lamp() -> None:
     simulation = Simulation(night(LAMP))
     at_night = brightness(simulation)
-    simulation.set_light_rate(0.3)
+    simulation.world.set_light_rate(0.3)
     assert (brightness(simulation) >= at_night).all()
     simulation.close()
 

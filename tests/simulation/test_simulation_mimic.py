@@ -35,6 +35,6 @@ def test_a_vehicle_whose_joint_mimics_what_cannot_move_is_simulated(
     simulation = begin(scene, is_blind=True)
     for _ in range(200):
         simulation.advance()
-    base = simulation.body("r/base").world_from_body
-    jaw = base.inverse() @ simulation.body("r/b").world_from_body
+    base = simulation.world.body("r/base").world_from_body
+    jaw = base.inverse() @ simulation.world.body("r/b").world_from_body
     assert jaw.rotation[0, 0] == pytest.approx(math.cos(held_at), abs=0.01)

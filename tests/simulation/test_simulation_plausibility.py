@@ -348,4 +348,4 @@ def test_every_doubt_has_a_name_and_a_sentence() -> None:
 def test_what_is_asked_costs_a_simulation_nothing_until_somebody_reads_it(tmp_path: Path) -> None:
     simulation = Simulation(read_scene(written(tmp_path)), is_blind=True)
     assert "warnings" not in vars(simulation)
-    assert simulation.warnings == ()
+    assert simulation.world.warnings == ()

@@ -58,23 +58,23 @@ def test_links_cameras_and_routes_stand_where_the_scale_puts_them(
     scale: tuple[float, float, float], values: tuple[float, float], tmp_path: Path
 ) -> None:
     simulation = begin(arm(tmp_path, scale), is_blind=True)
-    simulation.set_joints("arm", dict(enumerate(values)))
-    robot = simulation.robots[0]
+    simulation.world.set_joints("arm", dict(enumerate(values)))
+    robot = simulation.world.robots[0]
     poses = link_poses(robot, values)
     for link, pose in poses.items():
-        found = simulation.body(f"arm/{link}").world_from_body
+        found = simulation.world.body(f"arm/{link}").world_from_body
         assert found.position == pytest.approx(placed(scale, pose.position)), link
         turn = rotation_from_xyz(0.3, -0.2, 0.5) @ pose.rotation
         assert found.rotation == pytest.approx(turn, abs=1e-9), link  # a frame has no shear
     eye = poses["rail"].transform(np.array([CAMERA.position]))[0]
-    camera = simulation.camera("eye").world_from_camera
+    camera = simulation.world.camera("eye").world_from_camera
     assert camera.position == pytest.approx(placed(scale, eye))
     turn = rotation_from_xyz(0.3, -0.2, 0.5) @ poses["rail"].rotation
     assert camera.rotation == pytest.approx(turn @ rotation_from_rpy(*CAMERA.orientation))
     visual = poses["upper"].transform(np.array([[0.25, 0.0, 0.0]]))[0]
-    found = simulation.body("upper@visual").world_from_body
+    found = simulation.world.body("upper@visual").world_from_body
     assert found.position == pytest.approx(placed(scale, visual))
-    assert simulation.joints("arm") == pytest.approx(values)
+    assert simulation.world.joints("arm") == pytest.approx(values)
 
 
 @pytest.mark.parametrize("scale", [EVEN, UNEVEN])
@@ -82,12 +82,12 @@ def test_meshes_are_stretched_along_the_axes_of_the_base(
     scale: tuple[float, float, float], tmp_path: Path
 ) -> None:
     simulation = begin(arm(tmp_path, scale), is_blind=True)
-    poses = link_poses(simulation.robots[0], VALUES)
-    part = next(p for p in simulation._scenery.parts if p.link == "upper")
+    poses = link_poses(simulation.world.robots[0], VALUES)
+    part = next(p for p in simulation.world.scenery.parts if p.link == "upper")
     corner = np.array([0.25, 0.05, -0.05])  # of the box in its own frame
     link_from_mesh = Pose.from_rpy((0.25, 0.0, 0.0), (0.0, 0.0, 0.3))
     base_from_corner = (poses["upper"] @ link_from_mesh).transform(corner[None])[0]
-    world_from_mesh = simulation._scenery.world_from_mesh(part)
+    world_from_mesh = simulation.world.scenery.world_from_mesh(part)
     assert (world_from_mesh @ [*corner, 1.0])[:3] == pytest.approx(placed(scale, base_from_corner))
 
 
@@ -96,8 +96,8 @@ def test_a_lamp_hangs_where_the_scale_puts_it(
     scale: tuple[float, float, float], tmp_path: Path
 ) -> None:
     simulation = begin(arm(tmp_path, scale), is_blind=True)
-    ((mount, _),) = simulation._scenery._mounted_lamps
-    base_from_rail = link_poses(simulation.robots[0], VALUES)["rail"]
+    ((mount, _),) = simulation.world.scenery._mounted_lamps
+    base_from_rail = link_poses(simulation.world.robots[0], VALUES)["rail"]
     place = base_from_rail.transform(np.array([[0.1, 0.2, 0.3]]))[0]
     assert mount.world_from_body.position == pytest.approx(placed(scale, place))
 
@@ -114,7 +114,7 @@ def test_a_camera_sees_the_larger_robot_where_it_is(tmp_path: Path) -> None:
         simulation = begin(scene_of(vehicle))
         pose = Pose.from_rpy((0.0, 0.0, -1.0), (np.pi / 2, 0.0, -np.pi / 2))
         lens = CAMERA.intrinsics()
-        pictures.append(simulation.picture(pose, lens))
+        pictures.append(simulation.world.scenery.picture(pose, lens))
         simulation.close()
     assert pictures[0].ids is not None
     assert pictures[0].ids.any()
@@ -144,7 +144,7 @@ def test_contacts_know_how_large_a_vehicle_is(
     simulation = begin(scene, is_blind=True)
     for _ in range(3):
         simulation.advance()
-    assert bool(simulation.contacts("arm")) is touches
+    assert bool(simulation.world.contacts("arm")) is touches
 
 
 def test_a_simulated_vehicle_with_a_scale_is_refused_with_the_way_out(tmp_path: Path) -> None:

@@ -38,7 +38,7 @@ def seen(folder: Path, inside: str) -> tuple[Simulation, Picture]:
     """A robot 3 m ahead, and the picture of it."""
     vehicle = VehicleSpec(name="r", file=str(write_robot(folder, inside)), position=(3.0, 0.0, 0.0))
     simulation = begin(scene_of(vehicle))
-    picture = simulation.picture(AHEAD, LENS)
+    picture = simulation.world.scenery.picture(AHEAD, LENS)
     simulation.close()
     return simulation, picture
 
@@ -55,7 +55,7 @@ def test_every_visual_of_a_link_is_seen_under_the_links_number(tmp_path: Path) -
     assert picture.ids is not None
     assert (picture.ids[30, [20, 60]] == 1).all()
     assert picture.ids[30, 40] == 0
-    assert simulation.part_names == {1: "r/base"}
+    assert simulation.world.scenery.part_names == {1: "r/base"}
     red, blue = colour_at(picture, 20), colour_at(picture, 60)
     assert red[0] > red[2] + 40
     assert blue[2] > blue[0] + 40
@@ -74,14 +74,14 @@ def test_every_collision_of_a_link_is_touched(tmp_path: Path) -> None:
     simulation = begin(
         scene_of(VehicleSpec(name="r", file=str(file)), objects=(wall,)), is_blind=True
     )
-    assert {contact.other for contact in simulation.contacts("r")} == {"wall"}
+    assert {contact.other for contact in simulation.world.contacts("r")} == {"wall"}
 
 
 def test_the_box_of_a_links_visual_frame_holds_all_that_is_seen_of_it(tmp_path: Path) -> None:
     first = shape(xyz="1 0 0", rpy="0 0 1.5707963267948966", size=(0.2, 0.2, 0.2))
     second = shape(xyz="1 2 0", size=(0.2, 0.2, 0.2))
     simulation, _ = seen(tmp_path, f'<link name="base">{first}{second}</link>')
-    box = simulation.body("base@visual").box
+    box = simulation.world.body("base@visual").box
     assert box is not None
     assert box.lower == pytest.approx((-0.1, -0.1, -0.1))
     assert box.upper == pytest.approx((2.1, 0.1, 0.1))  # y of the link is x of the visual
@@ -143,7 +143,7 @@ def test_two_vehicles_of_one_name_carry_their_own_cameras(tmp_path: Path) -> Non
     )
     simulation = begin(scene_of(twins[0], vehicles=twins), is_blind=True)
     for x in (1.0, 5.0):
-        assert simulation.camera(f"eye{x}").world_from_camera.position[0] == x
+        assert simulation.world.camera(f"eye{x}").world_from_camera.position[0] == x
 
 
 def test_a_camera_that_looks_at_an_object_has_it_in_the_middle_of_its_picture(
@@ -159,11 +159,11 @@ def test_a_camera_that_looks_at_an_object_has_it_in_the_middle_of_its_picture(
     )  # fmt: skip
     thing = ObjectSpec(name="thing", file="objects/blackbox", position=(4.0, 3.0, -2.0))
     simulation = begin(scene_of(vehicle, objects=(thing,)))
-    camera = simulation.camera("eye")
-    picture = simulation.picture(camera.world_from_camera, camera.intrinsics)
+    camera = simulation.world.camera("eye")
+    picture = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics)
     simulation.close()
     assert picture.ids is not None
-    assert simulation.part_names[int(picture.ids[60, 80])] == "thing"
+    assert simulation.world.scenery.part_names[int(picture.ids[60, 80])] == "thing"
 
 
 @pytest.mark.parametrize(
@@ -181,7 +181,7 @@ def test_scenes_of_the_original_have_no_sun_shadows_unless_they_ask_for_them(
     asked = replace(scene.sim_params, sun_shadow=sun_shadow)
     simulation = begin(replace(scene, sim_params=asked))
     from_above = Pose.from_rpy((0.0, 0.0, 5.0), (0.0, 0.0, 0.0))
-    picture = simulation.picture(from_above, Intrinsics.from_fovy(160, 120, 0.6))
+    picture = simulation.world.scenery.picture(from_above, Intrinsics.from_fovy(160, 120, 0.6))
     simulation.close()
     assert picture.colour is not None
     brightness = picture.colour.sum(axis=2).astype(int)

@@ -45,25 +45,25 @@ def check_joints(scene: SceneSpec, n_steps: int = 0) -> None:
     """Links, joint vector and JointState all show the values of the file."""
     with begun(scene) as simulation:
         inboxes = [
-            simulation.inbox(STATES.format(i), JointState) for i in range(len(scene.vehicles))
+            simulation.bus.inbox(STATES.format(i), JointState) for i in range(len(scene.vehicles))
         ]
         simulation.open()
         for _ in range(n_steps):
             simulation.advance()
         for index, vehicle in enumerate(scene.vehicles):
-            robot = simulation.robots[index]
+            robot = simulation.world.robots[index]
             expected = [
                 min(max(value, joint.lower), joint.upper)
                 for joint, value in zip(
                     robot.movable, [*vehicle.joint_values, *[0.0] * 99], strict=False
                 )
             ]
-            assert simulation.joints(vehicle.name) == pytest.approx(expected, abs=1e-12)
+            assert simulation.world.joints(vehicle.name) == pytest.approx(expected, abs=1e-12)
             (message, *_) = inboxes[index].take()
             assert message.position == pytest.approx(expected, abs=1e-12)
-            base = simulation.body(vehicle.name).world_from_body
+            base = simulation.world.body(vehicle.name).world_from_body
             for link, base_from_link in link_poses(robot, expected).items():
-                there = simulation.body(f"{vehicle.name}/{link}").world_from_body
+                there = simulation.world.body(f"{vehicle.name}/{link}").world_from_body
                 found = base.inverse() @ there
                 assert np.allclose(found.position, base_from_link.position, atol=1e-9), link
                 assert np.allclose(found.rotation, base_from_link.rotation, atol=1e-9), link
@@ -85,9 +85,9 @@ def test_beside_a_simulated_vehicle_the_joints_of_a_kinematic_one_stay() -> None
     plain = replace(simulated, name="other", position=(6.0, 1.5, 2.0), dynamics=None)
     with begun(replace(scene, vehicles=(simulated, plain))) as simulation:
         simulation.open()
-        before = simulation.body("other/part4_jaw1").world_from_body
+        before = simulation.world.body("other/part4_jaw1").world_from_body
         for _ in range(500):
             simulation.advance()
-        after = simulation.body("other/part4_jaw1").world_from_body
+        after = simulation.world.body("other/part4_jaw1").world_from_body
         assert np.array_equal(before.position, after.position)
         assert np.array_equal(before.rotation, after.rotation)

@@ -15,8 +15,8 @@ SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
 
 def pictures(scene: SceneSpec, studio: Studio | None) -> list[np.ndarray]:
     simulation = Simulation(scene, seed=3, studio=studio)
-    camera = simulation.camera("bowtech1")
-    exact = simulation.picture(camera.world_from_camera, camera.intrinsics)
+    camera = simulation.world.camera("bowtech1")
+    exact = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics)
     assert exact.colour is not None
     assert exact.range is not None
     assert exact.ids is not None
@@ -42,9 +42,9 @@ def test_two_simulations_at_once_do_not_see_each_other() -> None:
     studio = Studio()
     emptier = Simulation(replace(scene, objects=scene.objects[:1]), studio=studio)
     whole = Simulation(scene, studio=studio)
-    camera = emptier.camera("bowtech1")
-    with_all = whole.picture(camera.world_from_camera, camera.intrinsics).ids
-    with_one = emptier.picture(camera.world_from_camera, camera.intrinsics).ids
+    camera = emptier.world.camera("bowtech1")
+    with_all = whole.world.scenery.picture(camera.world_from_camera, camera.intrinsics).ids
+    with_one = emptier.world.scenery.picture(camera.world_from_camera, camera.intrinsics).ids
     assert with_all is not None
     assert with_one is not None
     assert set(np.unique(with_one)) < set(np.unique(with_all))

@@ -87,11 +87,11 @@ def drive(simulation: Simulation, surge: float, seconds: float) -> np.ndarray:
     simulation.open()
     simulation.bus.publisher("/twist", TwistStamped)(TwistStamped(header=header(0.0), twist=twist))
     seen = []
-    localized_from_world = simulation.world_from_localized.inverse()
+    localized_from_world = simulation.world.world_from_localized.inverse()
     for step in range(round(seconds / simulation.timestep)):
         simulation.advance()
         if step % 500 == 0:
-            pose = localized_from_world @ simulation.body("torpedo").world_from_body
+            pose = localized_from_world @ simulation.world.body("torpedo").world_from_body
             lean = np.degrees(np.arcsin(-pose.rotation[2, 0]))
             seen.append((pose.position[2], lean))
     return np.array(seen)
@@ -116,13 +116,13 @@ def test_a_torpedo_with_a_stern_thruster_alone_lets_go_what_it_cannot_hold(
     assert np.abs(seen[:, 1]).max() < 40.0
     assert np.abs(seen[:, 0] - 5.5).max() < (1.8 if surge == 0.0 else 2.5)
     if surge == 0.0:  # nothing is tried: the thruster stands still, the hull drifts up upright
-        assert simulation._state._data.ctrl == pytest.approx([0.0], abs=0.05)
+        assert simulation.world.state._data.ctrl == pytest.approx([0.0], abs=0.05)
 
 
 def test_what_was_let_go_does_not_wind_up(tmp_path: Path) -> None:
     simulation = torpedo(tmp_path, STERN)
     drive(simulation, 0.5, 30.0)
-    pilot = simulation._state.pilot(0)
+    pilot = simulation.world.state.pilot(0)
     assert pilot._integral[1:] == pytest.approx(np.zeros(5), abs=0.0)
 
 
@@ -214,11 +214,11 @@ def test_weight_and_righting_of_a_vehicle_with_an_arm_are_those_of_the_engine() 
 
     scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal
     simulation = Simulation(scene)
-    model, data = simulation._state._model, simulation._state._data
+    model, data = simulation.world.state._model, simulation.world.state._data
     vehicle = read_vehicle(find_vehicle("g500_physical"))
-    balance = balance_of(simulation.robots[0], vehicle, scene.vehicles[0].joint_values)
+    balance = balance_of(simulation.world.robots[0], vehicle, scene.vehicles[0].joint_values)
     mujoco.mj_forward(model, data)
-    base = simulation._state._bases[0]
+    base = simulation.world.state._bases[0]
     rotation = data.xmat[base].reshape(3, 3).copy()
     world = data.xpos[base] + rotation @ balance.centre_of_mass
     # the engine gives 10 g to each link without a mass
@@ -238,7 +238,7 @@ def test_weight_and_righting_of_a_vehicle_with_an_arm_are_those_of_the_engine() 
 def said_of(folder: Path, *thrusters: str) -> list[str]:
     simulation = torpedo(folder, *thrusters)
     checked = [fault for fault in faults_of(folder / "scene.xml") if "drive" in fault.message]
-    assert tuple(checked) == simulation.warnings
+    assert tuple(checked) == simulation.world.warnings
     assert all((fault.severity, fault.line) == ("notice", 5) for fault in checked)
     return [fault.message for fault in checked]
 
@@ -259,8 +259,10 @@ def test_what_thrusters_cannot_give_is_said_at_the_start_and_by_check(tmp_path: 
         scene.replace("</u:dynamics>", "</u:dynamics> <u:accept>thrust</u:accept>")
     )
     assert [f for f in faults_of(tmp_path / "scene.xml") if "drive" in f.message] == []
-    assert Simulation(read_scene(tmp_path / "scene.xml")).warnings == ()
+    assert Simulation(read_scene(tmp_path / "scene.xml")).world.warnings == ()
 
 
 def test_of_the_bundled_scene_nothing_is_said() -> None:
-    assert Simulation(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).warnings == ()
+    assert (
+        Simulation(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).world.warnings == ()
+    )

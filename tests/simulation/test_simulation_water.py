@@ -157,12 +157,12 @@ def test_what_floats_goes_where_the_water_goes(
     scene.write_text(SCENE.format(current=write(tmp_path), dynamics=dynamics))
     simulation = Simulation(replace(read_scene(scene), ros_interfaces=()))
     simulation.open()
-    localized_from_world = simulation.world_from_localized.inverse()
+    localized_from_world = simulation.world.world_from_localized.inverse()
     dt, travelled, places = simulation.timestep, np.zeros(3), [START]
     for step in range(round(8.0 / dt)):
         travelled += law(places[-1], step * dt) * dt
         simulation.advance()
-        world = simulation.body("float").world_from_body
+        world = simulation.world.body("float").world_from_body
         places.append((localized_from_world @ world).position)
     assert np.linalg.norm(travelled) > 0.5
     velocity = (places[-1] - places[-101]) / (100 * dt)

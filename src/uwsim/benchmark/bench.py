@@ -321,9 +321,9 @@ def open_once(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, objec
         )
         try:
             with blamed(plan.plugins):
-                check_bound(plan.plugins, plan.benchmark.parts, simulation)
+                check_bound(plan.plugins, plan.benchmark.parts, simulation.world)
                 _bind_all(plan, simulation)
-            return inputs_of(plan, simulation, files), simulation.renderer_name
+            return inputs_of(plan, simulation, files), simulation.world.scenery.renderer_name
         finally:
             simulation.close()
 
@@ -333,7 +333,7 @@ def _bind_all(plan: Plan, simulation: Simulation) -> None:
     try:
         bind_all(plan, simulation)
     except UwsimError:
-        if faults := unknown_names(plan.benchmark, simulation):
+        if faults := unknown_names(plan.benchmark, simulation.world):
             raise BenchmarkError(faults) from None
         raise
 

@@ -56,11 +56,13 @@ def visibility_facts(
         truth = spec.ground_truth
         if not isinstance(truth, CornersFromCameraSpec):
             continue
-        corners = truth.bind(simulation, spec.truth).read()
+        corners = truth.bind(simulation.world, spec.truth).read()
         if corners is None:
             continue
-        camera = simulation.camera(truth.camera)
-        picture = simulation.picture(camera.world_from_camera, camera.intrinsics, fog=0.0)
+        camera = simulation.world.camera(truth.camera)
+        picture = simulation.world.scenery.picture(
+            camera.world_from_camera, camera.intrinsics, fog=0.0
+        )
         assert picture.range is not None
         assert picture.colour is not None
         inside = quad_mask(corners.reshape(4, 2), picture.range.shape)
@@ -129,7 +131,7 @@ def _first_truth(simulation: Simulation, plan: Plan) -> GroundTruth | None:
         if isinstance(spec, EuclideanNormSpec) and isinstance(
             spec.ground_truth, CornersFromCameraSpec
         ):
-            return spec.ground_truth.bind(simulation, spec.truth)
+            return spec.ground_truth.bind(simulation.world, spec.truth)
     return None
 
 

@@ -25,7 +25,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
     """
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
     robots = {
-        Path(simulation.robots[i].path): vehicle.file
+        Path(simulation.world.robots[i].path): vehicle.file
         for i, vehicle in enumerate(plan.scene.vehicles)
     }
     assets = [
@@ -34,17 +34,18 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
         if file.path not in (benchmark, scene)
     ]
     known = {file.path for file in read}
-    others = dict(simulation.files)
+    others = dict(simulation.world.files)
     for updater in chain(plan.benchmark.scene_updater):
         with blamed(plan.plugins):
-            others |= files_of(updater, simulation)
+            others |= files_of(updater, simulation.world)
     assets += [
         InputFile(portable(name), hash_of(path))
         for name, path in others.items()
         if path not in known
     ]
     assets += [
-        InputFile(name, f"sha256:{digest}") for name, digest in simulation.made_hashes.items()
+        InputFile(name, f"sha256:{digest}")
+        for name, digest in simulation.world.scenery.made_hashes.items()
     ]
     return {
         "benchmark": [benchmark.name, hash_of(benchmark)],

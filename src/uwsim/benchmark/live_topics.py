@@ -40,15 +40,15 @@ class LiveTopics:
         self, function: FunctionSpec, expression: Expression, simulation: Simulation
     ) -> None:
         self._expression, self._simulation = expression, simulation
-        self._say_info = simulation.publisher(INFO, String)
-        self._say_results = simulation.publisher(RESULTS, Float32MultiArray)
+        self._say_info = simulation.bus.publisher(INFO, String)
+        self._say_results = simulation.bus.publisher(RESULTS, Float32MultiArray)
         simulation.bus.withhold(RESULTS)
         self._publishes_results = function.publish_result
         self._period = max(1, math.ceil(function.publish_rate / simulation.timestep - 1e-9))
         self._due = 0  # step from which on the next entry may be taken
         self._news = ""
         self._entries: list[float] = []
-        simulation.every(RATE, self._speak)
+        simulation.world.every(RATE, self._speak)
 
     def changed(self, level: Level, *, after: Level | None) -> None:
         """Take note that the scene was brought to ``level``; the first one changes nothing."""
@@ -60,7 +60,7 @@ class LiveTopics:
         step = self._simulation.step
         if not self._publishes_results or step < self._due:
             return
-        if not self._simulation.has_readers(RESULTS):
+        if not self._simulation.bus.has_readers(RESULTS):
             return
         values = {gated.spec.name: finite(gated.value)[0] for gated in measures}
         total = self._expression.evaluate(values)
@@ -73,9 +73,9 @@ class LiveTopics:
         self._entries.append(total)
 
     def _speak(self) -> None:
-        if self._simulation.has_readers(INFO):
+        if self._simulation.bus.has_readers(INFO):
             self._say_info(String(data=self._news))
         self._news = ""
-        if self._publishes_results and self._simulation.has_readers(RESULTS):
+        if self._publishes_results and self._simulation.bus.has_readers(RESULTS):
             self._say_results(floats(self._entries))
         self._entries = []

@@ -138,10 +138,10 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
         UnknownName: a body, a camera or a link is not there.
     """
     benchmark = plan.benchmark
-    bind_updaters(benchmark.scene_updater, simulation)
-    for gated in [Gated(spec, simulation) for spec in benchmark.measures]:
+    bind_updaters(benchmark.scene_updater, simulation.world)
+    for gated in [Gated(spec, simulation.world) for spec in benchmark.measures]:
         gated.close()
-    Gate(benchmark, simulation).close()
+    Gate(benchmark, simulation.world).close()
 
 
 class _Playing:
@@ -152,15 +152,15 @@ class _Playing:
         benchmark = benchmark_of_seed(plan.benchmark, unit.seed)
         self._updater = benchmark.scene_updater
         self._tracer = Tracer(simulation)
-        self._updaters = bind_updaters(self._updater, simulation)
+        self._updaters = bind_updaters(self._updater, simulation.world)
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # as they are bound for the next level
         ramp_level(self._updaters, initial_level(self._updater))
         for gated in self._bind_measures():
             gated.close()  # the bus now keeps what they want to find when they start
-        self._gate = Gate(benchmark, simulation)
+        self._gate = Gate(benchmark, simulation.world)
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
-        status = simulation.inbox(STATUS_TOPIC, String)
+        status = simulation.bus.inbox(STATUS_TOPIC, String)
         self._calls = calls
         self._algorithm = _make(plan, calls)
         self._parameters = {**known_corners(plan), **plan.parameters}
@@ -291,7 +291,7 @@ class _Playing:
 
     def _bind_measures(self) -> list[Gated]:
         """Bind every measure afresh."""
-        return [Gated(spec, self._simulation) for spec in self._measures]
+        return [Gated(spec, self._simulation.world) for spec in self._measures]
 
     def _close_measures(self, measures: list[Gated]) -> None:
         """Let go of them, and remember whom they have initialised."""

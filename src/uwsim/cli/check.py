@@ -252,8 +252,8 @@ def unknown_names(
         try:
             return [
                 *faults.all(),
-                *names.unknown_names(benchmark, simulation),
-                *arm_notices(benchmark, simulation.vehicles, simulation.robots),
+                *names.unknown_names(benchmark, simulation.world),
+                *arm_notices(benchmark, simulation.world.vehicles, simulation.world.robots),
             ]
         finally:
             simulation.close()

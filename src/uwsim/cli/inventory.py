@@ -22,6 +22,7 @@ from ..scene.variation import draw
 from ..scene.vehicle import VehicleSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
+from ..simulation.below import below_vehicle
 
 Fields = dict[str, Any]
 
@@ -85,8 +86,8 @@ def _water(scene: SceneSpec) -> Fields:
 
 def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
     spec = scene.vehicles[index]
-    robot = simulation.robots[index]
-    actuators = simulation.actuators(spec.name)
+    robot = simulation.world.robots[index]
+    actuators = simulation.world.actuators(spec.name)
     return {
         "name": spec.name,
         "file": spec.file,
@@ -129,10 +130,10 @@ def _joint(joint: JointSpec) -> Fields:
 
 def _below(scene: SceneSpec, spec: VehicleSpec, simulation: Simulation) -> list[Fields]:
     """The surfaces below the vehicle's origin, the nearest first: the last one is the floor."""
-    origin = simulation.body(spec.name).world_from_body.position
+    origin = simulation.world.body(spec.name).world_from_body.position
     localized_from_world = scene.world_from_localized.inverse()
     found = []
-    for each in simulation.below(spec.name):
+    for each in below_vehicle(simulation.world, spec.name):
         place = localized_from_world.transform(np.array([[origin[0], origin[1], each.height]]))[0]
         distance = float(origin[2]) - each.height
         found.append({"name": each.name, "distance": distance, "position": _rounded(place)})

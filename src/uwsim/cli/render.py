@@ -138,13 +138,13 @@ def render(
     warn_of_stand_ins(spec, folders)
     simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=slips)
     try:
-        say_notices(simulation.warnings)
+        say_notices(simulation.world.warnings)
         shot = wanted.shoot(simulation, spec)
         written = [save(out, shot.pixels)]
         if depth:
             written += save_depth(out, shot.picture())
         if segmentation:
-            written += save_ids(out, shot.picture(), simulation.part_names)
+            written += save_ids(out, shot.picture(), simulation.world.scenery.part_names)
     finally:
         simulation.close()
     print(f"{shot.what}; written: " + ", ".join(str(path) for path in written))

@@ -83,7 +83,7 @@ class Wanted:
         from ..simulation import views
 
         is_view = self.line is not None or self.view is not None
-        cameras = simulation.cameras if self.camera is None else (self.camera,)
+        cameras = simulation.world.cameras if self.camera is None else (self.camera,)
         if len(cameras) > 1 and not is_view:
             raise BadSetting(
                 f"The scene has {len(cameras)} virtual cameras; choose one with --camera: "
@@ -109,20 +109,20 @@ class Wanted:
         fog = 0.0 if view.is_clear and not self.has_fog else None
 
         def draw() -> Picture:
-            return simulation.look(view.world_from_camera, view.intrinsics, fog=fog)
+            return simulation.world.scenery.look(view.world_from_camera, view.intrinsics, fog=fog)
 
         pixels = draw().colour
         assert pixels is not None
         return Shot(what, pixels.view(np.uint8), draw)
 
     def _seen(self, simulation: Simulation, name: str) -> Shot:
-        camera = simulation.camera(name)
+        camera = simulation.world.camera(name)
         if self.size is not None:
             camera.resize(resized(camera.intrinsics, self.size))
         return Shot(
             f"camera {name!r}",
             camera.shoot(),
-            lambda: simulation.picture(camera.world_from_camera, camera.intrinsics),
+            lambda: simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics),
         )
 
 

@@ -11,6 +11,7 @@ from ..geometry import Array
 from ..linear import product
 from .parts import Part
 from .scenery import Scenery
+from .world import SceneWorld
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,14 @@ class Below:
     """Of the object or link that it belongs to."""
     height: float
     """z of the surface in W [m]."""
+
+
+def below_vehicle(world: SceneWorld, vehicle: str) -> tuple[Below, ...]:
+    """Return what lies straight below a vehicle's origin, the nearest first."""
+    index = world.vehicle_index(vehicle)
+    parts = world.scenery.parts
+    others = [part for part in parts if part.vehicle != index and not part.is_hidden]
+    return below(world.state.vehicle_pose(index).position, world.scenery, others)
 
 
 def below(point: Array, scenery: Scenery, parts: Iterable[Part]) -> tuple[Below, ...]:

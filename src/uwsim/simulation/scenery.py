@@ -1,9 +1,10 @@
-"""What a scene looks like: its models, where they stand, and the renderer that draws them."""
+"""What a scene looks like: its models, its water, its light, and the renderer that draws them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +12,13 @@ import numpy.typing as npt
 
 from ..devices.lamp import LampSpec
 from ..errors import UwsimError
-from ..geometry import Intrinsics, Pose
+from ..geometry import Array, Intrinsics, Pose
 from ..linear import product
 from ..physics.state import State
+from ..rendering.grey import grey_truncated
 from ..rendering.lamp import Lamp
 from ..rendering.lamps import MOST_LAMPS
+from ..rendering.noise import add_noise
 from ..rendering.renderer import Picture, Renderer
 from ..rendering.water import Light, Water
 from ..scene.spec import SceneSpec
@@ -25,9 +28,21 @@ from ..world import Body
 from .parts import Part, parts_of
 from .studio import Studio
 
+ALL_TARGETS = frozenset({"colour", "range", "ids"})
+
 
 class Scenery:
-    """The models of a scene; borrows a renderer when the first picture is asked for."""
+    """The models of a scene in its water; borrows a renderer when the first picture is asked for.
+
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle, by its number.
+        state: where everything is.
+        carriers: the vehicles, on which lamps hang.
+        data_path: folders in which files are looked for.
+        compatibility: the original's slips asked for.
+        studio: lends the renderer; without one the scenery has a renderer of its own.
+    """
 
     def __init__(
         self,
@@ -36,6 +51,8 @@ class Scenery:
         state: State,
         carriers: Sequence[Carrier],
         data_path: tuple[Path, ...],
+        *,
+        compatibility: frozenset[str],
         studio: Studio | None,
     ) -> None:
         self._state = state
@@ -45,6 +62,19 @@ class Scenery:
         self._handles: list[int] = []  # of each part
         self._drawn_version = -1
         self.parts = tuple(parts_of(scene, robots, data_path))
+        """The models of the scene and whose they are."""
+        ocean = scene.ocean_state
+        self.water = Water(
+            fog=ocean.fog.density,
+            fog_colour=ocean.fog.color,
+            colour=ocean.color,
+            attenuation=ocean.attenuation,
+            surface_height=ocean.ocean_surface_height,
+            fog_distance="clip" if "fog-distance" in compatibility else "ray",
+        )
+        """The water as it is now; scene updaters change its fog."""
+        self.light = Light(rate=scene.sim_params.light_rate, shadows=scene.has_sun_shadows)
+        """The sun as it shines now; scene updaters change its rate."""
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
         self._mounted_lamps = _mounted_lamps(scene, carriers)
         self._lamps: tuple[Lamp, ...] = ()
@@ -58,15 +88,77 @@ class Scenery:
             frame = self._state.link_frame(part.vehicle, part.link)
         return product(frame, part.frame_from_mesh)
 
-    def draw(
+    def corners(self, part: Part) -> Array:
+        """Return the corners of a part's box where it is now, in W, (8, 3) [m]."""
+        world_from_mesh = self.world_from_mesh(part)
+        return product(part.model.box.corners(), world_from_mesh[:3, :3].T) + world_from_mesh[:3, 3]
+
+    def photograph(
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        *,
+        std: float,
+        random: np.random.Generator,
+        grey: bool,
+    ) -> npt.NDArray[np.uint8]:
+        """Draw what a camera would see now, with noise, (h, w, 3) or (h, w) when ``grey``."""
+        picture = self._draw(
+            world_from_camera,
+            intrinsics,
+            self.water,
+            targets=frozenset({"colour"}),
+            colour="linear16" if std > 0.0 else "uint8",
+        )
+        assert picture.colour is not None
+        if picture.colour.dtype == np.uint16:
+            pixels = add_noise(picture.colour.view(np.uint16), std, random)
+        else:
+            pixels = picture.colour.view(np.uint8)
+        return grey_truncated(pixels) if grey else pixels
+
+    def picture(
+        self, world_from_camera: Pose, intrinsics: Intrinsics, *, fog: float | None = None
+    ) -> Picture:
+        """Draw a noise-free picture with range and ids, as things stand, or at another fog."""
+        water = self.water if fog is None else replace(self.water, fog=fog)
+        return self._draw(world_from_camera, intrinsics, water)
+
+    def look(
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        *,
+        targets: Collection[str] = ALL_TARGETS,
+        hidden: frozenset[int] = frozenset(),
+        fog: float | None = None,
+    ) -> Picture:
+        """Draw what a viewer sees who is no camera of the scene: ghosts, too, and air above water.
+
+        Args:
+            world_from_camera: where the viewer is; OpenGL axes.
+            intrinsics: the pinhole.
+            targets: some of colour, range, ids.
+            hidden: numbers of parts that are left out.
+            fog: density of the fog instead of the scene's [1/m].
+        """
+        density = self.water.fog if fog is None else fog
+        return self._draw(
+            world_from_camera,
+            intrinsics,
+            replace(self.water, fog=density, has_air=True, fog_distance="ray"),
+            targets=frozenset(targets),
+            hidden=hidden,
+        )
+
+    def _draw(
         self,
         world_from_camera: Pose,
         intrinsics: Intrinsics,
         water: Water,
-        light: Light,
         *,
-        targets: frozenset[str],
-        colour: str,
+        targets: frozenset[str] = ALL_TARGETS,
+        colour: str = "uint8",
         hidden: frozenset[int] | None = None,
     ) -> Picture:
         """Draw what a camera sees, without the parts ``hidden``; None: without ghosts."""
@@ -82,7 +174,7 @@ class Scenery:
             world_from_camera,
             intrinsics,
             water,
-            light,
+            self.light,
             targets=targets,
             colour=colour,
             hidden=self._hidden if hidden is None else hidden,
@@ -91,8 +183,20 @@ class Scenery:
 
     @property
     def renderer_name(self) -> str:
-        """What draws the pictures."""
+        """What draws the pictures; makes the graphics context if there is none yet."""
         return self._open().description
+
+    @property
+    def part_names(self) -> dict[int, str]:
+        """Number in segmentation pictures -> ``vehicle/link`` or object."""
+        return {part.id: part.name for part in self.parts}
+
+    @property
+    def made_hashes(self) -> dict[str, str]:
+        """Name of each model that is of no file -> sha256 of its arrays, sorted by name."""
+        made = [part.model for part in self.parts if not part.model.files]
+        models = {model.name: model.sha256 for model in made}
+        return {name: models[name] for name in sorted(models)}
 
     def _lamp(self, mounted: Body, spec: LampSpec) -> Lamp:
         """The lamp as it shines now."""

@@ -85,14 +85,14 @@ def viewer_view(simulation: Simulation, spec: ViewerCameraSpec, size: Size) -> V
 
 def view_from(simulation: Simulation, eye: Array, at: Array, size: Size) -> View:
     """From a point to a point, both in L, (3,) [m]; raises BadSetting where they are the same."""
-    points = simulation.world_from_localized.transform(np.stack([eye, at]))
+    points = simulation.world.world_from_localized.transform(np.stack([eye, at]))
     return View(_looking(points[0], points[1] - points[0], "--from"), _lens(size, FIELD))
 
 
 def top_view(simulation: Simulation, size: Size) -> View:
     """From above; L's x axis is up in the picture, if it lies level."""
     focus, lens = focus_of(simulation), _lens(size, FIELD)
-    top = simulation.world_from_localized.rotation[:, 0] * [1.0, 1.0, 0.0]
+    top = simulation.world.world_from_localized.rotation[:, 0] * [1.0, 1.0, 0.0]
     if length(top) < 0.5:
         top = np.array([0.0, 1.0, 0.0])
     return View(_framing(focus, camera_axes(-UP, top), lens), lens, is_clear=True)
@@ -119,7 +119,9 @@ def orbit_view(simulation: Simulation, size: Size) -> View:
 
 def focus_of(simulation: Simulation) -> Focus:
     """Find what matters: the vehicles and what is near them; else the objects; else the ground."""
-    shown = [(part, simulation.corners(part)) for part in simulation.parts]
+    shown = [
+        (part, simulation.world.scenery.corners(part)) for part in simulation.world.scenery.parts
+    ]
     vehicles = [(part.id, corners) for part, corners in shown if part.vehicle is not None]
     things = [
         (part.id, corners)
@@ -135,10 +137,10 @@ def focus_of(simulation: Simulation) -> Focus:
     else:
         chosen = things or [(part.id, corners) for part, corners in shown]
     if not chosen:  # nothing at all: the origin of the file's frame
-        chosen = [(0, simulation.world_from_localized.position + np.eye(3))]
-    ahead = simulation.world_from_localized.rotation[:, 0]
-    if simulation.vehicles:
-        ahead = simulation.body(simulation.vehicles[0]).world_from_body.rotation[:, 0]
+        chosen = [(0, simulation.world.world_from_localized.position + np.eye(3))]
+    ahead = simulation.world.world_from_localized.rotation[:, 0]
+    if simulation.world.vehicles:
+        ahead = simulation.world.body(simulation.world.vehicles[0]).world_from_body.rotation[:, 0]
     level = ahead * [1.0, 1.0, 0.0]
     size = length(level)
     return Focus(
@@ -151,10 +153,10 @@ def focus_of(simulation: Simulation) -> Focus:
 def _share_seen(simulation: Simulation, focus: Focus, world_from_camera: Pose) -> float:
     """How much of what matters is seen of what would be without the rest, 0..1."""
     lens = _lens(SKETCH, FIELD)
-    rest = frozenset(part.id for part in simulation.parts) - focus.ids
+    rest = frozenset(part.id for part in simulation.world.scenery.parts) - focus.ids
     shares = []
     alone, all_there = (
-        simulation.look(world_from_camera, lens, targets={"ids"}, hidden=hidden).ids
+        simulation.world.scenery.look(world_from_camera, lens, targets={"ids"}, hidden=hidden).ids
         for hidden in (rest, frozenset[int]())
     )
     assert alone is not None
@@ -196,7 +198,7 @@ def _centre(simulation: Simulation, route: str) -> Array:
     """The middle of what a route names, in W, (3,) [m]; the origin where nothing is called so."""
     for name in (f"{route}@visual", route):
         try:
-            body = simulation.body(name)
+            body = simulation.world.body(name)
         except UnknownName:
             continue
         if body.box is None:

@@ -58,7 +58,7 @@ def go_on(control: Control, world: FakeWorld, steps: int = 1) -> None:
 
 def send(control: Control, world: FakeWorld, message: object, steps: int = 1) -> None:
     """Publish a message and let it be in force for so many steps."""
-    world.publisher("u", type(message))(message)
+    world.bus.publisher("u", type(message))(message)
     go_on(control, world, steps)
 
 
@@ -139,10 +139,10 @@ def test_every_type_of_command_has_its_axes_and_units(
 
 def test_units_of_what_is_squared_and_integrated_are_said() -> None:
     world = FakeWorld(timestep=DT)
-    world.publisher("u", Twist)
+    world.bus.publisher("u", Twist)
     units = bound(world, topic="u", axes="vx vy").detail_units
     assert units["effort"] == units["vx.effort"] == "(m/s)^2 s"
-    world.publisher("v", Wrench)
+    world.bus.publisher("v", Wrench)
     units = bound(world, topic="v").detail_units
     assert units["effort"] == "N^2 s, (N m)^2 s"
     assert units["n"] == "1"
@@ -161,7 +161,7 @@ def test_joints_that_a_message_does_not_name_keep_their_command() -> None:
 def test_what_is_in_force_when_it_goes_on_counts_as_effort_and_not_as_a_change() -> None:
     world = FakeWorld(timestep=DT)
     control = bound(world, topic="u")
-    publish = world.publisher("u", Twist)
+    publish = world.bus.publisher("u", Twist)
     for vx in (0.7, 0.2):
         publish(twist(vx))
         world.advance()
@@ -192,7 +192,7 @@ def test_commands_while_it_is_off_do_not_count() -> None:
     control = bound(world, topic="u")
     control.start()
     send(control, world, twist(1.0), 101)
-    publish = world.publisher("u", Twist)
+    publish = world.bus.publisher("u", Twist)
     for vx in (5.0, -5.0, 2.0):
         publish(twist(vx))
         world.advance(100)
@@ -226,7 +226,7 @@ def test_positions_and_velocities_of_joints_are_not_mixed() -> None:
 
 def test_without_commands_there_is_no_value_and_its_details_are_known_by_the_type() -> None:
     world = FakeWorld(timestep=DT)
-    world.publisher("u", TwistStamped)
+    world.bus.publisher("u", TwistStamped)
     control = bound(world, topic="u", axes="vx")
     assert (control.value, control.why) == (None, "it was never on")
     control.start()
@@ -240,7 +240,7 @@ def test_without_commands_there_is_no_value_and_its_details_are_known_by_the_typ
 
 def test_an_axis_that_commands_do_not_have_is_named() -> None:
     world = FakeWorld(timestep=DT)
-    world.publisher("v", Twist)
+    world.bus.publisher("v", Twist)
     with pytest.raises(UnknownName, match="Did you mean 'vx'"):
         bound(world, topic="v", axes="vxx")
     control = bound(world, topic="u", axes="u7")

@@ -33,7 +33,7 @@ def norm_of(world: FakeWorld, *truth: float, value: str = "last") -> EuclideanNo
 
 def say(world: FakeWorld, norm: EuclideanNorm, *estimate: float) -> None:
     """Publish an estimate, let one step pass, let the measure look."""
-    world.publisher("estimate", Float32MultiArray)(floats(estimate))
+    world.bus.publisher("estimate", Float32MultiArray)(floats(estimate))
     world.advance()
     norm.update()
 
@@ -69,7 +69,7 @@ def test_of_two_estimates_in_one_step_the_newer_is_scored() -> None:
     world = FakeWorld()
     norm = norm_of(world, 0.0)
     norm.start()
-    world.publisher("estimate", Float32MultiArray)(floats([9.0]))
+    world.bus.publisher("estimate", Float32MultiArray)(floats([9.0]))
     say(world, norm, 2.0)
     assert (norm.value, norm.details["n"], norm.details["frames"]) == (2.0, 2.0, 1.0)
 
@@ -117,7 +117,7 @@ def test_no_estimate_is_no_value_and_a_reason_never_minus_one() -> None:
 def test_what_arrived_before_the_start_is_forgotten() -> None:
     world = FakeWorld()
     norm = norm_of(world, 0.0)
-    world.publisher("estimate", Float32MultiArray)(floats([7.0]))
+    world.bus.publisher("estimate", Float32MultiArray)(floats([7.0]))
     world.advance()
     norm.start()
     wait(world, norm, 1)
@@ -186,14 +186,14 @@ def test_in_the_original_an_estimate_counts_that_came_while_the_measure_was_off(
             stop_on=ServiceSpec(target="stop"),
         )  # fmt: skip
         gated = Gated(spec, world)
-        publish = world.publisher("estimate", Float32MultiArray)
+        publish = world.bus.publisher("estimate", Float32MultiArray)
         gated.tick()
         for estimate in (4.0, 7.0):
             publish(floats([estimate]))
             world.advance()
             gated.tick()
             if estimate == 4.0:
-                world.call("stop", Empty())
+                world.bus.call("stop", Empty())
                 world.advance()
                 gated.tick()
         gated.end()
@@ -237,7 +237,7 @@ def test_at_the_start_the_truth_is_handed_to_the_algorithm() -> None:
         told.append(request)
         return GTpublishResponse()
 
-    world.serve("autoInit", GTpublish, listen)
+    world.bus.serve("autoInit", GTpublish, listen)
     norm = corners_spec("autoInit").bind(world)
     assert told == []
     norm.start()
@@ -275,7 +275,7 @@ def test_a_target_behind_the_camera_has_no_truth_and_that_is_said() -> None:
     world, body = seen_box()
     norm = corners_spec("autoInit").bind(world)
     body.move(0.0, 0.0, 3.0)
-    world.serve("autoInit", GTpublish, lambda request: GTpublishResponse())
+    world.bus.serve("autoInit", GTpublish, lambda request: GTpublishResponse())
     norm.start()
     say(world, norm, *range(8))
     assert (norm.value, norm.why) == (None, "no truth: the target is behind the camera")

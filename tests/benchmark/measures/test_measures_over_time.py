@@ -45,7 +45,7 @@ class Scene:
         """Measure a level in which an algorithm says what ``say`` gives for each step."""
         norm = self.bind(value)
         norm.start()
-        publish = self.world.publisher("estimate", Float32MultiArray)
+        publish = self.world.bus.publisher("estimate", Float32MultiArray)
         for step in range(1, steps + 1):
             self.body.move((self.truth(step)[0] - 160.0) / 257.34083, 0.0, -1.0)
             if step % FRAME == 0:
@@ -202,7 +202,7 @@ def test_without_pictures_every_step_is_a_sample(truth: object, unseen: None) ->
     width = len(norm.log_header) - 1
     for step in range(20):
         if step == 9:
-            scene.world.publisher("estimate", Float32MultiArray)(floats([0.0] * width))
+            scene.world.bus.publisher("estimate", Float32MultiArray)(floats([0.0] * width))
         scene.world.advance()
         norm.update()
     assert (norm.details["n"], norm.details["frames"]) == (1.0, 20.0)

@@ -49,7 +49,7 @@ def following(
 
 
 def send(world: FakeWorld, points: Sequence[Sequence[float]]) -> None:
-    world.publisher("path", Path)(message(points))
+    world.bus.publisher("path", Path)(message(points))
     world.bus.deliver()
 
 
@@ -207,7 +207,7 @@ def test_what_passed_before_there_was_a_path_does_not_count() -> None:
     world = FakeWorld({"v": FakeBody((1.0, 2.0, 0.0))}, timestep=0.5)
     measure = following(world, None)
     go(world, measure, lambda t: (1.0, 2.0, 0.0), 5.0)
-    world.publisher("path", Path)(message(STRAIGHT))
+    world.bus.publisher("path", Path)(message(STRAIGHT))
     go(world, measure, lambda t: (1.0, 2.0, 0.0), 0.5)
     assert measure.value == 0.0
     go(world, measure, lambda t: (1.0, 2.0, 0.0), 3.0)

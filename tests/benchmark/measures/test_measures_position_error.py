@@ -67,7 +67,7 @@ def test_with_a_topic_its_first_message_says_where_the_body_should_be() -> None:
     )
     error.start()
     assert (error.value, error.why) == (None, "no position on 'goal'")
-    publish = world.publisher("goal", PoseStamped)
+    publish = world.bus.publisher("goal", PoseStamped)
     publish(stamped(2.0, 3.0, 9.0))
     publish(stamped(0.0, 0.0, 0.0))
     for _ in range(2):
@@ -85,7 +85,7 @@ def test_a_goal_that_was_published_before_the_level_began_counts() -> None:
     spec = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0), topic="goal")
     spec.bind(world).close()  # every name is looked up before the algorithm starts
     for x in (9.0, 4.0):
-        world.publisher("goal", PoseStamped)(stamped(x, 0.0, 0.0))
+        world.bus.publisher("goal", PoseStamped)(stamped(x, 0.0, 0.0))
         world.advance()
     error = spec.bind(world)
     error.start()
@@ -106,7 +106,7 @@ def test_the_original_measures_in_the_world_and_takes_the_topic_to_be_in_it() ->
     told = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0), topic="goal").bind(
         world
     )
-    world.publisher("goal", PoseStamped)(stamped(-3.0, 2.0, 1.0))
+    world.bus.publisher("goal", PoseStamped)(stamped(-3.0, 2.0, 1.0))
     world.advance()
     told.start()
     assert told.value == pytest.approx(4.0)
@@ -127,7 +127,7 @@ def test_the_original_starts_at_100_and_is_minus_1_until_it_is_told_where() -> N
         assert error.log_values[0] == error.value
         for said in (False, True):
             if said:
-                world.publisher("g", PoseStamped)(stamped(1.0, 0.0, 0.0))
+                world.bus.publisher("g", PoseStamped)(stamped(1.0, 0.0, 0.0))
             world.advance()
             error.update()
             seen.append(error.value)

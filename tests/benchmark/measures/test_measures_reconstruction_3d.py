@@ -48,7 +48,7 @@ def cloud(points: np.ndarray) -> PointCloud2:
 
 
 def send(world: FakeWorld, measure: Reconstruction3D, *clouds: PointCloud2) -> None:
-    publish = world.publisher("cloud", PointCloud2)
+    publish = world.bus.publisher("cloud", PointCloud2)
     for each in clouds:
         publish(each)
     world.advance()
@@ -234,7 +234,7 @@ def test_one_inlier_has_no_variance_and_the_reason_says_so() -> None:
 def test_what_came_before_the_start_is_forgotten_and_the_rest_adds_up() -> None:
     world = sea()
     measure = bound(world)
-    world.publisher("cloud", PointCloud2)(cloud(FRONT + 9.0))
+    world.bus.publisher("cloud", PointCloud2)(cloud(FRONT + 9.0))
     world.advance()
     measure.start()
     send(world, measure, cloud(FRONT[:2]), cloud(FRONT[2:]))

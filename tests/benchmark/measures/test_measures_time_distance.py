@@ -127,7 +127,7 @@ def test_a_distance_that_started_and_stands_still_is_no_start_value() -> None:
 def test_time_counts_from_the_start_to_the_stop_and_what_follows_adds_up() -> None:
     world = FakeWorld(timestep=0.002)
     start, stop = ServiceSpec(target="begin"), TopicSpec(target="end")
-    end = world.publisher("end", Bool)
+    end = world.bus.publisher("end", Bool)
     gated = Gated(TimeSpec(name="t", start_on=start, stop_on=stop), world)
 
     def let_pass(n: int) -> None:
@@ -136,7 +136,7 @@ def test_time_counts_from_the_start_to_the_stop_and_what_follows_adds_up() -> No
             gated.tick()
 
     let_pass(10)
-    world.call("begin", Empty())
+    world.bus.call("begin", Empty())
     let_pass(200)
     for is_off in (True, False):
         end(Bool(data=is_off))

@@ -37,7 +37,7 @@ def test_a_service_trigger_goes_on_with_the_call_and_stays_on() -> None:
     trigger = ServiceSpec(target="startBench").bind(world)
     world.advance()
     assert not trigger.is_on()
-    assert world.call("/startBench", Empty()) == EmptyResponse()
+    assert world.bus.call("/startBench", Empty()) == EmptyResponse()
     assert trigger.is_on()
     world.advance(100)
     assert trigger.is_on()
@@ -46,9 +46,9 @@ def test_a_service_trigger_goes_on_with_the_call_and_stays_on() -> None:
 def test_a_closed_service_trigger_withdraws_its_service() -> None:
     world = FakeWorld()
     trigger = ServiceSpec(target="startBench").bind(world)
-    assert world.serves("startBench")
+    assert world.bus.serves("startBench")
     trigger.close()
-    assert not world.serves("startBench")
+    assert not world.bus.serves("startBench")
     trigger.close()
 
 
@@ -58,21 +58,21 @@ def test_one_call_reaches_every_trigger_of_that_service() -> None:
     second = ServiceSpec(target="stopTask").bind(world)
     first.close()
     third = ServiceSpec(target="stopTask").bind(world)
-    world.call("stopTask", Empty())
+    world.bus.call("stopTask", Empty())
     assert (first.is_on(), second.is_on(), third.is_on()) == (False, True, True)
 
 
 def test_a_service_trigger_of_the_next_level_has_not_been_called() -> None:
     world = FakeWorld()
     before = ServiceSpec(target="stopTask").bind(world)
-    world.call("stopTask", Empty())
+    world.bus.call("stopTask", Empty())
     before.close()
     assert not ServiceSpec(target="stopTask").bind(world).is_on()
 
 
 def test_a_topic_trigger_is_what_the_last_message_said() -> None:
     world = FakeWorld()
-    publish = world.publisher("ready", Bool)
+    publish = world.bus.publisher("ready", Bool)
     trigger = TopicSpec(target=" /ready").bind(world)
     assert not trigger.is_on()
     for said, expected in (((True,), True), ((), True), ((True, False), False), ((True,), True)):
@@ -86,7 +86,7 @@ def test_a_topic_trigger_is_what_the_last_message_said() -> None:
 def test_any_message_that_is_no_bool_sets_a_topic_trigger_on(message: object) -> None:
     world = FakeWorld()
     trigger = TopicSpec(target="goal").bind(world)
-    publish = world.publisher("goal", type(message))
+    publish = world.bus.publisher("goal", type(message))
     world.advance()
     assert not trigger.is_on()
     publish(message)
@@ -98,7 +98,7 @@ def test_any_message_that_is_no_bool_sets_a_topic_trigger_on(message: object) ->
 
 def test_a_topic_trigger_lets_the_publisher_choose_the_type() -> None:
     world = FakeWorld()
-    world.publisher("goal", String)
+    world.bus.publisher("goal", String)
     trigger = TopicSpec(target="goal").bind(world)
     assert world.bus.topics == {"goal": "std_msgs/msg/String"}
     trigger.close()

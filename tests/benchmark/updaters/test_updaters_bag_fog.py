@@ -227,7 +227,7 @@ def test_what_is_missing_is_found_when_it_is_bound(tmp_path: Path) -> None:
         spec(tmp_path, image_topic="/camera/image").bind(stage)
     with pytest.raises(AssetError, match="carries sensor_msgs/msg/CameraInfo"):
         spec(tmp_path, image_topic=INFO).bind(stage)
-    stage.publisher(IMAGE, Image)
+    stage.bus.publisher(IMAGE, Image)
     with pytest.raises(BadSetting, match=f"Topic '{IMAGE}' is the scene's already; name another"):
         spec(tmp_path).bind(stage)
     spec(tmp_path, image_pub="/other").bind(stage)

@@ -68,7 +68,7 @@ def test_its_levels_are_those_the_original_plays() -> None:
 def test_the_first_level_of_a_sequence_is_no_step_and_has_no_still_water() -> None:
     world = ship()
     updater = tracking().bind(world)
-    world.serve("dynamics/reset", Empty, lambda request: pytest.fail("it was reset"))
+    world.bus.serve("dynamics/reset", Empty, lambda request: pytest.fail("it was reset"))
     updater.ramp(0.2)
     assert (world.current, len(world.put_backs)) == (None, 1)  # held before it begins
     updater.begin(0.2)
@@ -122,7 +122,7 @@ def test_the_reset_service_is_called_if_somebody_offers_it() -> None:
 
     updater = tracking().bind(world)
     updater.apply(0.0)
-    world.serve("dynamics/reset", Empty, reset)
+    world.bus.serve("dynamics/reset", Empty, reset)
     updater.apply(0.1)
     assert asked == [Empty()]
 
@@ -163,7 +163,7 @@ def test_a_current_that_is_repeated_begins_anew_each_time() -> None:
 
 def forces(spec: CurrentForceUpdaterSpec, **other: object) -> list[WrenchStamped]:
     world = ship(**other)
-    inbox = world.inbox("currentForce", WrenchStamped)
+    inbox = world.bus.inbox("currentForce", WrenchStamped)
     spec.bind(world).apply(0.2)
     world.advance(round(30.0 / world.timestep))
     assert world.current is None
@@ -195,7 +195,7 @@ def test_the_force_of_the_original_has_lost_its_sign() -> None:
 
 def test_one_second_of_levels_does_not_say_it_twice() -> None:
     world = ship()
-    inbox = world.inbox("currentForce", WrenchStamped)
+    inbox = world.bus.inbox("currentForce", WrenchStamped)
     updater = tracking(publish_as_force=True).bind(world)
     updater.apply(0.1)
     updater.apply(0.2)

@@ -110,10 +110,10 @@ class ControlSpec(MeasureSpec):
             for axis in self.axes.split() if carried in FIXED else ():
                 if axis not in FIXED[carried]:
                     raise UnknownName("axis", axis, FIXED[carried])
-            commands = world.inbox(self.topic, object, latched=True)
+            commands = world.bus.inbox(self.topic, object, latched=True)
         if self.error_topic is not None:
             _check_type(world, self.error_topic, ERRORS)
-            errors = world.inbox(self.error_topic, object)
+            errors = world.bus.inbox(self.error_topic, object)
         return Control(self, world, body, commands, errors)
 
 
@@ -148,7 +148,7 @@ class Control(Measure):
         self._goal = np.array(spec.position or (0.0, 0.0, 0.0))  # in L [m]
         self._commands = HeldCommands(tuple(spec.axes.split()))
         if spec.topic is not None:
-            self._commands.expect(FIXED.get(world.message_type(spec.topic) or object, {}))
+            self._commands.expect(FIXED.get(world.bus.message_type(spec.topic) or object, {}))
         self._response = StepResponse(
             world.timestep, band=spec.band, least_step=spec.least_step, holds=body is None
         )
@@ -373,7 +373,7 @@ class Control(Measure):
 
 def _check_type(world: World, topic: str, types: tuple[type, ...]) -> type:
     """Return what a topic is known to carry, else `object`; BadSetting if it is none of these."""
-    carried = world.message_type(topic)
+    carried = world.bus.message_type(topic)
     if carried is not None and carried not in types:
         raise BadSetting(f"{topic!r} carries {_name(carried)}; expected {_names(types)}.")
     return carried or object

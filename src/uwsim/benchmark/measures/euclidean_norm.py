@@ -130,7 +130,7 @@ class EuclideanNorm(Measure):
         self._topic, self._which = spec.target, spec.value
         self._publish_on = spec.ground_truth.publish_on
         self._last_norm_stands = "last-norm" in world.compatibility
-        self._inbox = world.inbox(spec.target, Float32MultiArray)
+        self._inbox = world.bus.inbox(spec.target, Float32MultiArray)
         self._frames = Signal(truth.components)
         self._n_pictures: int | None = None  # of the truth's camera, at the last look
         self._last: Sample | None = None  # of the newest estimate, as it arrived
@@ -310,12 +310,12 @@ class EuclideanNorm(Measure):
 
     def _publish(self, service: str) -> None:
         truth = self._truth.read()
-        if not self._world.serves(service):
+        if not self._world.bus.serves(service):
             self._notes.append(f"{service!r} was not called: nobody serves it")
         elif truth is None:
             self._notes.append(f"{service!r} was not called: {self._truth.missing}")
         else:
-            self._world.call(service, GTpublish(truth.astype(np.float32)))
+            self._world.bus.call(service, GTpublish(truth.astype(np.float32)))
             self._has_initialised = True
 
 

@@ -56,7 +56,7 @@ class PathFollowingSpec(MeasureSpec):
 
     def bind(self, world: World) -> PathFollowing:
         """Find target and frame; raises UnknownName if one is not there."""
-        inbox = None if self.topic is None else world.inbox(self.topic, Path, latched=True)
+        inbox = None if self.topic is None else world.bus.inbox(self.topic, Path, latched=True)
         frame = None if self.from_ is None else world.body(self.from_)
         return PathFollowing(self, world, world.body(self.target), frame, inbox)
 

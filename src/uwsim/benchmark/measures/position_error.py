@@ -51,7 +51,9 @@ class PositionErrorSpec(MeasureSpec):
 
     def bind(self, world: World) -> PositionError:
         """Find the target; raises UnknownName if it is not there."""
-        inbox = None if self.topic is None else world.inbox(self.topic, PoseStamped, latched=True)
+        inbox = (
+            None if self.topic is None else world.bus.inbox(self.topic, PoseStamped, latched=True)
+        )
         return PositionError(self, world, world.body(self.target), inbox)
 
 

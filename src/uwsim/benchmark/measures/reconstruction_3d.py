@@ -129,7 +129,7 @@ class Reconstruction3D(Measure):
     ) -> None:
         slips = world.compatibility
         self._target, self._frame, self._topic = target, frame, spec.topic
-        self._inbox = world.inbox(spec.topic, PointCloud2)
+        self._inbox = world.bus.inbox(spec.topic, PointCloud2)
         rotation = target.world_from_body.rotation
         self._box_from_target = rotation if "reconstruction-box" in slips else upright(rotation)
         turned = turned_box(box, self._box_from_target)

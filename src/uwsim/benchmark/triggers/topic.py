@@ -24,7 +24,7 @@ class TopicSpec(TriggerSpec):
 
     def bind(self, world: World) -> Topic:
         """Listen to the topic."""
-        return Topic(world.inbox(self.target, object))
+        return Topic(world.bus.inbox(self.target, object))
 
 
 class Topic(Trigger):

@@ -99,7 +99,7 @@ class BagFogUpdaterSpec(FogSweepSpec):
         path = self.find(stage)
         Recording(path, self.image_topic, self.info_topic).close()
         for tag, topic in zip(("imagePub", "infoPub"), self.topics, strict=True):
-            if stage.message_type(topic) is not None:
+            if stage.bus.message_type(topic) is not None:
                 raise BadSetting(
                     f"Topic {topic!r} is the scene's already; name another in <{tag}>.", name=topic
                 )
@@ -196,18 +196,18 @@ class BagFogUpdater(SceneUpdater):
             raise RunFailed(f"The recording broke off: {error}") from error
 
     def _publish(self, frame: Frame) -> None:
-        is_seen = self._stage.has_readers(self._image_topic)
-        if not is_seen and not self._stage.has_readers(self._info_topic):
+        is_seen = self._stage.bus.has_readers(self._image_topic)
+        if not is_seen and not self._stage.bus.has_readers(self._info_topic):
             return
         picture, time = frame.picture(), self._stage.time
         stamp = time_from_seconds(time)
         info = camera_info(frame.info, stamp=stamp, frame_id=picture.frame_id)
-        self._stage.publisher(self._info_topic, CameraInfo)(info)
+        self._stage.bus.publisher(self._info_topic, CameraInfo)(info)
         if is_seen:
             pixels = self._fogged(picture)
             self._n_frames += 1
             self._digest.update(pixels.tobytes())
-            self._stage.publisher(self._image_topic, Image)(
+            self._stage.bus.publisher(self._image_topic, Image)(
                 image(pixels, time=time, frame_id=picture.frame_id)
             )
 

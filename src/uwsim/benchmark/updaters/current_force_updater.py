@@ -148,8 +148,8 @@ class CurrentForceUpdater(SceneUpdater):
         """Put the vehicle back and let a current of ``value`` [m/s] flow in 2 s."""
         self._stage.put_back(self._spec.target)
         self._flow(value, delay=STILL_WATER)
-        if self._stage.serves(RESET):
-            self._stage.call(RESET, Empty())
+        if self._stage.bus.serves(RESET):
+            self._stage.bus.call(RESET, Empty())
 
     def begin(self, value: float) -> None:
         """Let a current of ``value`` [m/s] flow."""
@@ -189,7 +189,7 @@ class ForcePublisher:
         """The current as of now."""
         self._stage = stage
         self._is_signless = "current-force" in stage.compatibility
-        self._publish = stage.publisher(FORCE_TOPIC, WrenchStamped)
+        self._publish = stage.bus.publisher(FORCE_TOPIC, WrenchStamped)
         stage.every(FORCE_RATE, self._say)
 
     def _say(self) -> None:

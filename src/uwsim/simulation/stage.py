@@ -1,0 +1,95 @@
+"""The world of a scene, and what scene updaters may change in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from ..currents import Place
+from ..geometry import Array
+from ..scene.spec import SceneSpec
+from ..world import Flow
+from .image_publisher import SampleTimer
+from .water_motion import WaterMotion
+from .world import SceneWorld
+
+
+class SceneStage(SceneWorld):
+    """A scene world whose fog, light, noise, currents and arms can be set (`uwsim.world.Stage`).
+
+    Args:
+        scene: what the file says.
+        options: those of `SceneWorld`.
+    """
+
+    def __init__(self, scene: SceneSpec, **options: Any) -> None:
+        super().__init__(scene, **options)
+        path = self.scene.path
+        place = Place(
+            stream=self.stream,
+            find=lambda name: self.find(name, beside=path),
+            world_from_localized=self.scene.world_from_localized,
+            runs_code=self._runs_code,
+            surface_height=self.scene.ocean_state.ocean_surface_height,
+        )
+        self.water = WaterMotion(self.scene, place)
+        """How its water moves."""
+        self.files |= self.water.files
+        self._timers: list[SampleTimer] = []
+
+    @property
+    def fog_colour(self) -> tuple[float, float, float]:
+        """What replaces what the water hides [0..1]."""
+        return self.scenery.water.fog_colour
+
+    def set_fog(self, density: float) -> None:
+        """Set the fog density [1/m] of the water; its colour stays.
+
+        The original sets the colour of its window's fog to (0, 0.05, 0.3) here, and leaves that of
+        its cameras as the scene has it.
+        """
+        self.scenery.water = replace(self.scenery.water, fog=density)
+
+    def set_light_rate(self, rate: float) -> None:
+        """Scale the light of the scene; 1 is as usual."""
+        self.scenery.light = replace(self.scenery.light, rate=rate)
+
+    def set_camera_noise(self, std: float) -> None:
+        """Set the noise [0..1] of every colour camera."""
+        for name in self.cameras:
+            self.camera(name).std = std
+
+    def set_current(self, current: Flow | None) -> None:
+        """Let the water move so, besides the scene's own currents; None: no more."""
+        self.water.set(current)
+
+    def joints(self, vehicle: str) -> Array:
+        """Return the joint vector of a vehicle, (n,) [rad or m]; UnknownName if there is none."""
+        return self.state.joints(self.vehicle_index(vehicle))
+
+    def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
+        """Set joints by their number in the joint vector [rad or m], clamped to limits."""
+        index = self.vehicle_index(vehicle)
+        joints = self.state.joints(index)
+        for number, value in values.items():
+            if 0 <= number < len(joints):
+                joints[number] = value
+        self.state.set_joints(index, joints)
+
+    def put_back(self, vehicle: str) -> None:
+        """Put a vehicle where the scene put it, at rest."""
+        index = self.vehicle_index(vehicle)
+        localized_from_base = self.scene.vehicles[index].localized_from_base_at(self.time)
+        self.state.place_vehicle(index, self.world_from_localized @ localized_from_base)
+
+    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
+        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
+        timer = SampleTimer(self.step, rate, self.timestep, call)
+        self._timers.append(timer)
+        return lambda: self._timers.remove(timer) if timer in self._timers else None
+
+    def tick(self) -> None:
+        """Call what is due at the current step."""
+        for timer in self._timers:
+            timer.tick(self.step)

@@ -1,0 +1,192 @@
+"""What is in a scene: bodies, cameras, topics; what measures, triggers and sensors see of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..bus import Bus
+from ..chance import stream
+from ..errors import Fault, UnknownName
+from ..geometry import Intrinsics, Pose
+from ..physics.state import State
+from ..scene.spec import SceneSpec
+from ..scene.variation import varied
+from ..sensors.virtual_camera import VirtualCamera
+from ..world import TIMESTEP, Actuators, Contact
+from .bodies import SceneBody, find_body, find_file, name_bodies, read_robots
+from .carriers import carriers_of
+from .collision_shapes import simulated_shapes
+from .dynamics import read_dynamics
+from .floor import set_on_floor
+from .plausibility import doubts_about
+from .scenery import Scenery
+from .studio import Studio
+from .touch import Touch
+
+
+class SceneWorld:
+    """A scene with its bodies, cameras and topics (`uwsim.world.World`, `uwsim.world.SensorWorld`).
+
+    Args:
+        scene: what the file says; what varies in it is drawn for the seed.
+        seed: the run's seed.
+        stream_prefix: stands in front of the name of every random stream.
+        timestep: length of a step [s].
+        data_path: folders in which files are looked for.
+        compatibility: the original's slips asked for.
+        runs_code: let Python code that the scene names run; without it that water is still.
+        studio: lends the renderer; without one the scene has a renderer of its own.
+    """
+
+    def __init__(
+        self,
+        scene: SceneSpec,
+        *,
+        seed: int = 0,
+        stream_prefix: str = "",
+        timestep: float = TIMESTEP,
+        data_path: tuple[Path, ...] = (),
+        compatibility: frozenset[str] = frozenset(),
+        runs_code: bool = True,
+        studio: Studio | None = None,
+    ) -> None:
+        data_path = tuple(Path(folder) for folder in data_path)
+        scene = varied(scene, seed)
+        self.robots = read_robots(scene, data_path)
+        """The robot of each vehicle, by its number in the scene."""
+        self._as_written = scene
+        self.scene = scene = set_on_floor(scene, self.robots, data_path)
+        """What the file says, as it is for this seed."""
+        self._seed, self._prefix, self._timestep = seed, stream_prefix, timestep
+        self._data_path, self._compatibility = data_path, compatibility
+        self._runs_code = runs_code
+        self._bus = Bus()
+        self._dynamics = dynamics = read_dynamics(scene, self.robots, data_path)
+        self.files = {path.name: path for one in dynamics.values() for path in one.files}
+        """Side files of vehicles, and files of currents, by name."""
+        shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
+        self.state = State(scene, self.robots, dynamics, timestep, shapes)
+        """Where everything is, and what moves it."""
+        carriers = carriers_of(scene, self.robots, self.state)
+        self.scenery = Scenery(
+            scene,
+            self.robots,
+            self.state,
+            carriers,
+            data_path,
+            compatibility=compatibility,
+            studio=studio,
+        )
+        """What it looks like."""
+        self._bodies = name_bodies(
+            scene, self.robots, self.state, self.scenery.parts, compatibility
+        )
+        self.touch = Touch(scene, self.robots, self.state, data_path, timestep)
+        """Who touches whom."""
+        self._cameras: dict[str, VirtualCamera] = {}
+        for vehicle, carrier in zip(scene.vehicles, carriers, strict=True):
+            for spec in vehicle.virtual_cameras:
+                # a sensor on a link that is not there is left out, as in the original
+                if carrier.has_link(spec.relative_to):
+                    self._cameras.setdefault(spec.name, spec.bind(self, carrier))
+
+    @cached_property
+    def warnings(self) -> tuple[Fault, ...]:
+        """What of the scene seems not to be meant, with the lines of the file."""
+        return tuple(doubts_about(self._as_written, self.robots, self._dynamics, self._data_path))
+
+    @property
+    def bus(self) -> Bus:
+        """Its topics and services."""
+        return self._bus
+
+    @property
+    def step(self) -> int:
+        """Physics steps since the simulation began."""
+        return self._bus.step
+
+    @property
+    def timestep(self) -> float:
+        """Length of a step [s]."""
+        return self._timestep
+
+    @property
+    def time(self) -> float:
+        """``step * timestep`` [s]."""
+        return self._bus.step * self._timestep
+
+    @property
+    def world_from_localized(self) -> Pose:
+        """W from L: the scene's offset."""
+        return self.scene.world_from_localized
+
+    @property
+    def compatibility(self) -> frozenset[str]:
+        """The original's slips asked for."""
+        return self._compatibility
+
+    def body(self, name: str) -> SceneBody:
+        """Find a vehicle, link or object by its route (see `name_bodies`)."""
+        return find_body(name, self._bodies)
+
+    def contacts(self, name: str) -> Sequence[Contact]:
+        """Where a vehicle (all its links) or object touches others now.
+
+        Raises:
+            UnknownName: there is none of that name.
+            UwsimError: it cannot be touched.
+        """
+        return self.touch.contacts(name)
+
+    def actuators(self, name: str) -> Actuators | None:
+        """What drives a vehicle; None if it is not simulated; UnknownName if there is none."""
+        return self.state.actuators(self.vehicle_index(name))
+
+    def camera(self, name: str) -> VirtualCamera:
+        """Find a virtual camera."""
+        if name not in self._cameras:
+            raise UnknownName("virtual camera", name, self._cameras)
+        return self._cameras[name]
+
+    @property
+    def cameras(self) -> tuple[str, ...]:
+        """Names of the virtual cameras, in the file's order."""
+        return tuple(self._cameras)
+
+    @property
+    def vehicles(self) -> tuple[str, ...]:
+        """Names of the vehicles, in the file's order."""
+        return tuple(vehicle.name for vehicle in self.scene.vehicles)
+
+    def vehicle_index(self, name: str) -> int:
+        """Return the number of a vehicle in the file; UnknownName if there is none."""
+        if name not in self.vehicles:
+            raise UnknownName("vehicle", name, self.vehicles)
+        return self.vehicles.index(name)
+
+    def stream(self, name: str) -> np.random.Generator:
+        """Return the random generator of that name."""
+        return stream(self._seed, self._prefix + name)
+
+    def find(self, name: str, *, beside: str) -> Path:
+        """Find a file that the file ``beside`` names; AssetNotFound says where it was sought."""
+        return find_file(name, beside, self._data_path)
+
+    def photograph(
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        *,
+        std: float,
+        random: np.random.Generator,
+        grey: bool,
+    ) -> npt.NDArray[np.uint8]:
+        """Draw what a camera would see now, with noise, (h, w, 3) or (h, w) when ``grey``."""
+        return self.scenery.photograph(
+            world_from_camera, intrinsics, std=std, random=random, grey=grey
+        )
