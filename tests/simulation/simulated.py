@@ -24,11 +24,13 @@ def make(
     *,
     objects: tuple[ObjectSpec, ...] = (),
     change: Callable[[VehicleSpec], VehicleSpec] = lambda vehicle: vehicle,
+    data_path: tuple[Path, ...] = (),
 ) -> Simulation:
     scene = read_scene(SCENE).nominal
     vehicle = change(replace(scene.vehicles[0], virtual_cameras=()))
     simulation = Simulation(
-        replace(scene, vehicles=(vehicle,), objects=objects, ros_interfaces=interfaces)
+        replace(scene, vehicles=(vehicle,), objects=objects, ros_interfaces=interfaces),
+        data_path=data_path,
     )
     simulation.open()
     return simulation

@@ -245,7 +245,9 @@ def test_a_vehicle_begins_with_its_lowest_link_on_the_floor(align: bool, tmp_pat
         on_floor=OnFloorSpec(align_to_slope=align, clearance=-0.003),
     )
     terrain = ground(file, orientation=(np.pi, 0.0, 0.0))
-    simulation = Simulation(replace(scene, vehicles=(vehicle,), objects=(terrain,)))
+    simulation = Simulation(
+        replace(scene, vehicles=(vehicle,), objects=(terrain,)), data_path=(tmp_path,)
+    )
     simulation.open()
     start: Pose = simulation.world.body("girona500").world_from_body
     simulation.advance()

@@ -140,7 +140,7 @@ SQUARE = "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\n"
 def test_a_sheet_that_is_wound_the_wrong_way_round_stops_where_it_is_seen(
     faces: str, tmp_path: Path
 ) -> None:
-    deep = dive(make(objects=(paper(tmp_path, SQUARE + faces),)), 8.0)
+    deep = dive(make(objects=(paper(tmp_path, SQUARE + faces),), data_path=(tmp_path,)), 8.0)
     on_a_slab = dive(make(objects=(box_scenery(is_solid=True),)), 8.0)
     assert deep == pytest.approx(on_a_slab, abs=0.02)
 
@@ -155,7 +155,7 @@ def test_a_mesh_of_many_triangles_is_simplified_so_that_it_can_be_touched(tmp_pa
     )
     k = np.arange(n * n) + np.arange(n * n) // n + 1
     faces = "".join(f"f {i + n + 1} {i + 1} {i}\nf {i + n + 1} {i + n + 2} {i + 1}\n" for i in k)
-    simulation = make(objects=(paper(tmp_path, points + faces),))
+    simulation = make(objects=(paper(tmp_path, points + faces),), data_path=(tmp_path,))
     assert 1.5 < dive(simulation, 6.0) < 3.5
 
 

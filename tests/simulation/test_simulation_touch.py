@@ -128,7 +128,7 @@ def test_an_arm_touches_as_the_vehicle_does() -> None:
     deep = 1.515 + 1.6  # below the hull, where only an arm that hangs down can be
     low = scene(replace(wall(1.5), position=(3.0, 1.5, deep + 1.5), scale_factor=(20, 20, 20)))
     before = len(low.world.contacts("girona500"))
-    low.set_joints("girona500", {1: 1.5, 2: 0.0})
+    low.world.set_joints("girona500", {1: 1.5, 2: 0.0})
     low.advance()
     assert len(low.world.contacts("girona500")) > before
 
@@ -163,7 +163,7 @@ def test_where_nothing_has_physics_all_is_touched_and_the_ground_by_its_faces() 
     )  # though it is within the box around the tank
     drive(open_water, 1.0, 3.0)
     assert {contact.other for contact in open_water.world.contacts("girona500")} == {"wall"}
-    assert CollisionSpec(name="hits", target="wall").bind(open_water)
+    assert CollisionSpec(name="hits", target="wall").bind(open_water.world)
 
 
 def test_who_cannot_be_touched_is_told_why() -> None:
