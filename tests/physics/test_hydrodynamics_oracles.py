@@ -151,7 +151,7 @@ def test_a_neutral_body_goes_along_with_water_that_accelerates() -> None:
 
 def test_a_slender_body_at_incidence_feels_the_munk_moment() -> None:
     water = BodyHydrodynamics(link="body", added_mass=(10, 90, 90, 0, 4, 4), volume=0.1)
-    model = free_body(water, mass=100.0, inertia=(1, 8, 8))
+    model = free_body(water, mass=100.0, inertia=(1, 8, 8), integrator="RK4")
     install(model)
     data = mujoco.MjData(model)
     u, v = 1.2, 0.3
@@ -168,7 +168,7 @@ def test_added_mass_does_no_work_by_turning() -> None:
     added = root @ root.T
     model = free_body(
         BodyHydrodynamics(link="body", added_mass=tuple(added.ravel())), mass=3.0, gravity=0.0,
-        inertia=(1.0, 1.0, 1.0),
+        inertia=(1.0, 1.0, 1.0), integrator="RK4",
     )  # fmt: skip
     install(model)
     data = mujoco.MjData(model)

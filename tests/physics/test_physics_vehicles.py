@@ -145,6 +145,7 @@ def test_rexrov_rises_at_the_speed_of_its_reserve_buoyancy() -> None:
 
 def test_rexrovs_vertical_thrusters_together_push_straight_up() -> None:
     model, vehicle = bundled("rexrov", z_down=False)
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4  # forces at the start of a step
     water, data = install(model), mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     still = data.qfrc_passive.copy()

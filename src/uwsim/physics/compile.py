@@ -61,6 +61,12 @@ SHAPES = {
 }
 
 
+INTEGRATORS = {
+    "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+    "RK4": mujoco.mjtIntegrator.mjINT_RK4,
+}
+
+
 def vehicle_body(index: int, link: str) -> str:
     """Name in the model of a link of the vehicle number ``index``."""
     return f"vehicle/{index}/{link}"
@@ -111,7 +117,7 @@ def compile_scene(
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
     spec.option.timestep = timestep
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.integrator = INTEGRATORS[scene.sim_params.integrator]
     spec.option.gravity = [0.0, 0.0, -GRAVITY if dynamics else 0.0]
     if scene.things_fall:
         spec.option.gravity = list(scene.sim_params.original_gravity)

@@ -7,8 +7,18 @@ is also counted in the state, where `why_untrue` reads it after each step.
 
 from __future__ import annotations
 
-import mujoco
+import math
 
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array
+from ..jit import njit
+
+LARGEST_SPEED = 100.0
+"""Of a body in water: no thing that a simulation of this kind is for goes faster, or turns more
+quickly [m/s, rad/s]."""
 FIRST_UNSTABLE = int(mujoco.mjtWarning.mjWARN_BADQPOS)
 """From this on: a position, velocity, acceleration or control is no number."""
 SINGULAR = int(mujoco.mjtWarning.mjWARN_INERTIA)
@@ -47,6 +57,48 @@ def why_untrue(data: mujoco.MjData, time: float, timestep: float, names: list[st
     return (
         f"There are more contacts at {time:g} s than the engine has memory for, and some would be "
         "left out. Do things stand inside one another?"
+    )
+
+
+def speeds_of(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
+    """Which velocities make a speed together: first degree of freedom and how many, (n, 2)."""
+    parts = {mujoco.mjtJoint.mjJNT_FREE: (3, 3), mujoco.mjtJoint.mjJNT_BALL: (3,)}
+    found = []
+    for joint in range(model.njnt):
+        first = int(model.jnt_dofadr[joint])
+        for n in parts.get(mujoco.mjtJoint(model.jnt_type[joint]), (1,)):
+            found.append((first, n))
+            first += n
+    return np.array(found, dtype=np.int64).reshape(-1, 2)
+
+
+@njit
+def too_fast(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
+    """The first degree of freedom of a speed above `LARGEST_SPEED`, or that is no number; else -1.
+
+    Args:
+        velocities: of all degrees of freedom [m/s, rad/s].
+        speeds: see `speeds_of`.
+    """
+    for i in range(speeds.shape[0]):
+        first = speeds[i, 0]
+        square = 0.0
+        for k in range(first, first + speeds[i, 1]):
+            square += velocities[k] * velocities[k]
+        if not square <= LARGEST_SPEED * LARGEST_SPEED:
+            return int(first)
+    return -1
+
+
+def say_too_fast(
+    velocities: Array, speeds: npt.NDArray[np.int64], dof: int, time: float, names: list[str]
+) -> str:
+    """Say which body is too fast, as `why_untrue` does."""
+    row = next(i for i, first in enumerate(speeds[:, 0]) if first == dof)
+    speed = math.hypot(*velocities[dof : dof + speeds[row, 1]].tolist())
+    return (
+        f"{names[dof]!r} moves at {speed:.4g} m/s or rad/s at {time:g} s, and nothing here is made "
+        f"for more than {LARGEST_SPEED:g}: a mass, an inertia, a force or a current cannot be right."
     )
 
 

@@ -22,7 +22,7 @@ from .autopilot import Autopilot
 from .balance import balance_of
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .contacts import contacts_of
-from .engine_warnings import why_untrue
+from .engine_warnings import say_too_fast, speeds_of, too_fast, why_untrue
 from .falling import Falling
 from .hydrodynamics import VehicleHydrodynamics
 from .motion import Motion
@@ -70,6 +70,8 @@ class State:
         }
         self._objects = [ids[object_body(i)] for i in range(len(scene.objects))]
         self._warnings = self._data.warning.number
+        self._velocities = self._data.qvel
+        self._speeds = speeds_of(self._model)
         self._origins = self._data.xpos  # (nbody, 3) [m]
         self._axes = self._data.xmat.reshape(-1, 3, 3)  # (nbody, 3, 3)
         free = {i: self._model.joint(vehicle_joint(i, "")) for i in range(len(scene.vehicles))}
@@ -158,7 +160,8 @@ class State:
             acceleration: of the water there, in W, (n, 3) [m/s2].
 
         Raises:
-            RunFailed: the engine warned: what follows would not be true.
+            RunFailed: the engine warned, or a body moves faster than can be: what follows would
+                not be true.
         """
         if self._water is None or self._set_current is None:
             return
@@ -172,6 +175,9 @@ class State:
         self._water.step(self._data)
         if any(self._warnings.tolist()):
             raise RunFailed(self._why_untrue())
+        dof = too_fast(self._velocities, self._speeds)
+        if dof >= 0:
+            raise RunFailed(self._say_too_fast(dof))
         self._contacts_hold = True
         for index, pose in before.items():
             self._frees[index][:] = pose
@@ -195,9 +201,18 @@ class State:
         self._moved()
 
     def _why_untrue(self) -> str:
-        names = [self._body_names[body] for body in self._model.dof_bodyid]
-        time = (self._n_steps + 1) * self._timestep
-        return why_untrue(self._data, time, self._timestep, names)
+        return why_untrue(self._data, self._next_time(), self._timestep, self._dof_names())
+
+    def _say_too_fast(self, dof: int) -> str:
+        return say_too_fast(
+            self._velocities, self._speeds, dof, self._next_time(), self._dof_names()
+        )
+
+    def _dof_names(self) -> list[str]:
+        return [self._body_names[body] for body in self._model.dof_bodyid]
+
+    def _next_time(self) -> float:
+        return (self._n_steps + 1) * self._timestep
 
     def contacts(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""

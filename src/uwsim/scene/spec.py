@@ -21,10 +21,12 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal, get_args
 
 from ..currents import CURRENTS, CurrentSpec
 from ..devices.comms import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..dialect import FARTHEST, NAMESPACE, element
+from ..errors import BadSetting
 from ..geometry import Pose, rotation_from_xyz
 from ..linear import product
 from .doubts import ObjectDoubt
@@ -41,6 +43,7 @@ NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
 TERRAIN = "terrain"
 """An object of this name is the ground: nothing picks it up, and without ``<physics>`` it is
 fixed, and solid for simulated vehicles."""
+Integrator = Literal["implicitfast", "RK4"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,6 +140,11 @@ class SimParamsSpec:
     sun_shadow: bool | None = element(namespaced=True, default=None)
     """Whether vehicles and objects cast the sun's shadow; when absent they do, but not in a scene
     of the original's, which had no shadows."""
+
+    integrator: Integrator = element(namespaced=True, default="implicitfast")
+    """How simulated vehicles step in time. ``implicitfast`` bears stiff servos, contacts and light
+    things, its errors fall with the square of the step; ``RK4`` with the fourth power, for a
+    vehicle alone: servos of arms and contacts need steps so short that it is of no use there."""
 
     @property
     def original_gravity(self) -> Triple:
@@ -419,3 +427,19 @@ class SceneSpec:
         return {
             i: dataclasses.replace(thing.solid, is_kinematic=True) for i, thing in objects.items()
         }
+
+
+def with_integrator(scene: SceneSpec, integrator: Integrator | None) -> SceneSpec:
+    """Return the scene with an integrator of somebody's choice, where there is one.
+
+    Raises:
+        BadSetting: there is none of that name.
+    """
+    if integrator is None:
+        return scene
+    if integrator not in get_args(Integrator):
+        raise BadSetting(
+            f"The integrator is {integrator!r}; expected {' or '.join(get_args(Integrator))}."
+        )
+    changed = dataclasses.replace(scene.sim_params, integrator=integrator)
+    return dataclasses.replace(scene, sim_params=changed)

@@ -36,7 +36,7 @@ class Simulation:
         scene: what the file says; what varies in it is drawn for the seed.
         is_blind: publish black images, drawing nothing.
         options: those of `uwsim.simulation.world.SceneWorld`: ``seed``, ``stream_prefix``,
-            ``timestep``, ``data_path``, ``compatibility``, ``studio``.
+            ``timestep``, ``integrator``, ``data_path``, ``compatibility``, ``studio``.
     """
 
     def __init__(self, scene: SceneSpec, *, is_blind: bool = False, **options: Any) -> None:
@@ -148,9 +148,9 @@ class Simulation:
         if not state.is_dynamic:
             state.fall()
             return
-        points, time = state.wet_positions(), self.time - self.timestep
-        velocity, acceleration = water.at(points, time, self._wet_names)
-        self._thruster_faults.apply(time)
+        middle = self.time - 0.5 * self.timestep  # of the step, where forces act
+        velocity, acceleration = water.at(state.wet_positions(), middle, self._wet_names)
+        self._thruster_faults.apply(self.time - self.timestep)
         state.step(velocity, acceleration)
 
     def _sway(self) -> None:

@@ -14,7 +14,7 @@ from ..chance import stream
 from ..errors import Fault, UnknownName
 from ..geometry import Intrinsics, Pose
 from ..physics.state import State
-from ..scene.spec import SceneSpec
+from ..scene.spec import Integrator, SceneSpec, with_integrator
 from ..scene.variation import varied
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact
@@ -37,6 +37,7 @@ class SceneWorld:
         seed: the run's seed.
         stream_prefix: stands in front of the name of every random stream.
         timestep: length of a step [s].
+        integrator: ``implicitfast`` or ``RK4`` instead of the file's (`SimParamsSpec`).
         data_path: folders in which files are looked for.
         compatibility: the original's slips asked for.
         runs_code: let Python code that the scene names run; without it that water is still.
@@ -50,13 +51,14 @@ class SceneWorld:
         seed: int = 0,
         stream_prefix: str = "",
         timestep: float = TIMESTEP,
+        integrator: Integrator | None = None,
         data_path: tuple[Path, ...] = (),
         compatibility: frozenset[str] = frozenset(),
         runs_code: bool = True,
         studio: Studio | None = None,
     ) -> None:
         data_path = tuple(Path(folder) for folder in data_path)
-        scene = varied(scene, seed)
+        scene = with_integrator(varied(scene, seed), integrator)
         self.robots = read_robots(scene, data_path)
         """The robot of each vehicle, by its number in the scene."""
         self._as_written = scene

@@ -24,7 +24,7 @@ import numpy as np
 from numba import types
 
 from ...errors import UwsimError
-from . import kernel, layout
+from . import free_bodies, kernel, layout
 from .memory import Floats, Ints64
 
 
@@ -86,9 +86,11 @@ def stepper() -> Callable[[int, int, int], None]:
     )
     add_water, needs_projection = kernel.add_water, kernel.needs_projection
     has_water = kernel.has_water
+    to_the_middle, to_the_end = free_bodies.to_the_middle, free_bodies.to_the_end
 
     def loop(m: int, d: int, n: int) -> None:
         for _ in range(n):
+            to_the_middle(m, d, at)
             one(m, d)
             if has_water(d, at):
                 make(m, d)
@@ -97,6 +99,7 @@ def stepper() -> Callable[[int, int, int], None]:
             if needs_projection(m, at):
                 project(m, d)
             two(m, d)
+            to_the_end(m, d, at)
 
     compiled: Callable[[int, int, int], None] = numba.njit(nogil=True)(loop)
     return compiled
@@ -155,6 +158,16 @@ def add_water(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Call what the callback calls, once, on ``data`` as ``mj_forward`` without it left it."""
     function = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(wrapper().address)
     function(model._address, data._address)
+
+
+def to_the_middle(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """What is to be done before a step of MuJoCo's; see `free_bodies`."""
+    free_bodies.to_the_middle(model._address, data._address, offsets())
+
+
+def to_the_end(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """What is to be done after it."""
+    free_bodies.to_the_end(model._address, data._address, offsets())
 
 
 def water_wrenches(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:

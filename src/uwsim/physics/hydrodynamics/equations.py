@@ -154,17 +154,27 @@ def diagonal_momentum(table: Floats, nu: Six) -> Six:
 
 
 @njit
-def diagonal_force(table: Floats, nu: Six, rate: Six) -> Six:
-    r"""What added mass and drag do: :math:`-M_A\,\dot\nu - D(\nu)\,\nu`, all diagonal."""
-    u, v, w, p, q, r = nu
+def diagonal_force(table: Floats, nu: Six, rate: Six, step: float) -> Six:
+    r"""What added mass and drag do, all diagonal: :math:`-(M_A + h D')\dot\nu - D(\nu)\,\nu`.
+
+    Drag is linear over a step, so that it answers to what is known of the rate as to the rest.
+    """
     return (
-        -table[ADDED] * rate[0] - (table[LINEAR] + table[QUADRATIC] * abs(u)) * u,
-        -table[ADDED + 7] * rate[1] - (table[LINEAR + 7] + table[QUADRATIC + 7] * abs(v)) * v,
-        -table[ADDED + 14] * rate[2] - (table[LINEAR + 14] + table[QUADRATIC + 14] * abs(w)) * w,
-        -table[ADDED + 21] * rate[3] - (table[LINEAR + 21] + table[QUADRATIC + 21] * abs(p)) * p,
-        -table[ADDED + 28] * rate[4] - (table[LINEAR + 28] + table[QUADRATIC + 28] * abs(q)) * q,
-        -table[ADDED + 35] * rate[5] - (table[LINEAR + 35] + table[QUADRATIC + 35] * abs(r)) * r,
+        _axis_force(table, 0, nu[0], rate[0], step),
+        _axis_force(table, 1, nu[1], rate[1], step),
+        _axis_force(table, 2, nu[2], rate[2], step),
+        _axis_force(table, 3, nu[3], rate[3], step),
+        _axis_force(table, 4, nu[4], rate[4], step),
+        _axis_force(table, 5, nu[5], rate[5], step),
     )
+
+
+@njit
+def _axis_force(table: Floats, i: int, speed: float, rate: float, step: float) -> float:
+    linear, steep = table[LINEAR + 7 * i], table[QUADRATIC + 7 * i] * abs(speed)
+    inertia = table[ADDED + 7 * i] + step * (linear + 2.0 * steep)
+    force: float = -inertia * rate - (linear + steep) * speed
+    return force
 
 
 @njit
@@ -182,11 +192,11 @@ def full_force(
             added = table[ADDED + 6 * i + j]
             linear = table[LINEAR + 6 * i + j]
             steep = table[QUADRATIC + 6 * i + j] * abs(nu[j])
-            momentum += added * nu[j]
-            force -= added * rate[j] + (linear + steep) * nu[j]
             mirrored = table[LINEAR + 6 * j + i] + 2.0 * table[QUADRATIC + 6 * j + i] * abs(nu[i])
             slope = 0.5 * (linear + 2.0 * steep + mirrored)
             work[at + 6 * i + j] = added + step * slope
+            momentum += added * nu[j]
+            force -= work[at + 6 * i + j] * rate[j] + (linear + steep) * nu[j]
         work[at + 36 + i], work[at + 42 + i] = force, momentum
     f, m = at + 36, at + 42
     return (

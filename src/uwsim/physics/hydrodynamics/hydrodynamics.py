@@ -128,7 +128,10 @@ class Hydrodynamics:
         """Advance by ``n`` steps, through the callback where there is one."""
         if self._uses_callback:
             callback.install()  # mj_resetCallbacks may have emptied the slot
-            mujoco.mj_step(self.model, data, n)
+            for _ in range(n):
+                callback.to_the_middle(self.model, data)
+                mujoco.mj_step(self.model, data)
+                callback.to_the_end(self.model, data)
         else:
             self.step_without_callback(data, n)
 

@@ -30,9 +30,12 @@ ground effect, flow of one body over another, thrust lost to inflow.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ...jit import njit
+from . import fields as f
 from .columns import (
     BACKWARD,
     BODY_COLUMNS,
@@ -44,6 +47,7 @@ from .columns import (
     FULL,
     IS_THRUSTER,
     KIND,
+    LAG,
     LEAST,
     MAGIC,
     MAGIC_NUMBER,
@@ -73,59 +77,11 @@ from .equations import (
     subtract,
     wet_part,
 )
-from .layout import DATA_FIELDS, MODEL_FIELDS
+from .free_bodies import keep_energy
 from .memory import Floats, Ints64, floats, ints, real, small, word
 
-COMPILED_IN = "56c9aecefb89bbd9"
-"""Digest of `columns`, `equations`, `layout`, `memory` and `submersion`."""
-
-_NAMES = (*MODEL_FIELDS, *DATA_FIELDS)
-_TIMESTEP = _NAMES.index("opt.timestep")
-_GRAVITY = _NAMES.index("opt.gravity")
-_INTEGRATOR = _NAMES.index("opt.integrator")
-_SOLVER = _NAMES.index("opt.solver")
-_NOSLIP = _NAMES.index("opt.noslip_iterations")
-_DISABLE = _NAMES.index("opt.disableflags")
-_ENABLE = _NAMES.index("opt.enableflags")
-_NV = _NAMES.index("nv")
-_NBODY = _NAMES.index("nbody")
-_NACTUATOR = _NAMES.index("nactuator")
-_NUSER_BODY = _NAMES.index("nuser_body")
-_NUSER_ACTUATOR = _NAMES.index("nuser_actuator")
-_NUSERDATA = _NAMES.index("nuserdata")
-_BODY_PARENT = _NAMES.index("body_parentid")
-_BODY_ROOT = _NAMES.index("body_rootid")
-_BODY_TREE = _NAMES.index("body_treeid")
-_BODY_DOFNUM = _NAMES.index("body_dofnum")
-_BODY_DOFADR = _NAMES.index("body_dofadr")
-_BODY_USER = _NAMES.index("body_user")
-_DOF_BODY = _NAMES.index("dof_bodyid")
-_ROW_LENGTH = _NAMES.index("M_rownnz")
-_ROW_START = _NAMES.index("M_rowadr")
-_COLUMN = _NAMES.index("M_colind")
-_ACTUATOR_USER = _NAMES.index("actuator_user")
-_ACTUATOR_TARGET = _NAMES.index("actuator_trnid")
-_ACTUATOR_ACT = _NAMES.index("actuator_actadr")
-_ACTUATOR_CTRL = _NAMES.index("actuator_ctrladr")
-_ACTUATOR_RANGE = _NAMES.index("actuator_ctrlrange")
-_SITE_BODY = _NAMES.index("site_bodyid")
-_QVEL = _NAMES.index("qvel")
-_ACT = _NAMES.index("act")
-_CTRL = _NAMES.index("ctrl")
-_USERDATA = _NAMES.index("userdata")
-_XPOS = _NAMES.index("xpos")
-_XMAT = _NAMES.index("xmat")
-_SITE_XPOS = _NAMES.index("site_xpos")
-_SITE_XMAT = _NAMES.index("site_xmat")
-_COM = _NAMES.index("subtree_com")
-_CDOF = _NAMES.index("cdof")
-_CDOF_DOT = _NAMES.index("cdof_dot")
-_CVEL = _NAMES.index("cvel")
-_CACC = _NAMES.index("cacc")
-_CRB = _NAMES.index("crb")
-_M = _NAMES.index("M")
-_PASSIVE = _NAMES.index("qfrc_passive")
-_AWAKE = _NAMES.index("tree_awake")
+COMPILED_IN = "7a01bd7eee1c52c9"
+"""Digest of the other modules: `columns` to `submersion`, by name."""
 
 _WET = 1e-300
 """Stands in the world's composite inertia, which nobody reads and MuJoCo clears with every M."""
@@ -135,69 +91,64 @@ _RK4, _PGS = 1, 0
 
 _SCRATCH = 60  # doubles behind the rows, for full matrices
 
-# a row of the scratch array, one a body
-_BIAS, _WRENCH, _FF, _FT, _TT, _TOUCHED, _ROW = 0, 6, 12, 18, 27, 33, 34
-# _FF: force by velocity, symmetric (xx xy xz yy yz zz); _FT: force by rotation (3, 3), row by row;
-# _TT: torque by rotation, symmetric. Wrenches and twists: rotational part first, as in MuJoCo.
-
 
 @njit
 def has_tables(m: int, at: Ints64) -> bool:
     """Whether a model carries our tables."""
-    if word(m + at[_NUSER_BODY]) != BODY_COLUMNS:
+    if word(m + at[f.NUSER_BODY]) != BODY_COLUMNS:
         return False
-    return real(word(m + at[_BODY_USER]) + 8 * MAGIC) == MAGIC_NUMBER
+    return real(word(m + at[f.BODY_USER]) + 8 * MAGIC) == MAGIC_NUMBER
 
 
 @njit
 def needs_projection(m: int, at: Ints64) -> bool:
     """Whether the constraint solver keeps products with the inverse of M that are now stale."""
     return (
-        small(m + at[_SOLVER]) == _PGS
-        or small(m + at[_NOSLIP]) > 0
-        or (small(m + at[_ENABLE]) & _DIAGEXACT) != 0
+        small(m + at[f.SOLVER]) == _PGS
+        or small(m + at[f.NOSLIP]) > 0
+        or (small(m + at[f.ENABLE]) & _DIAGEXACT) != 0
     )
 
 
 @njit
 def has_water(d: int, at: Ints64) -> bool:
     """Whether ``d.M`` has had its water since MuJoCo made it; if so it must be made anew."""
-    return real(word(d + at[_CRB])) == _WET
+    return real(word(d + at[f.CRB])) == _WET
 
 
 @njit
 def add_water(m: int, d: int, at: Ints64) -> None:
     """Add the water to ``d.M`` and ``d.qfrc_passive``; both must be as MuJoCo made them."""
-    nv, nbody = word(m + at[_NV]), word(m + at[_NBODY])
-    work = np.zeros(_ROW * nbody + _SCRATCH)
-    theta_h = real(m + at[_TIMESTEP])
-    if small(m + at[_INTEGRATOR]) == _RK4:
-        theta_h = 0.0
-    floats(word(d + at[_CRB]), 1)[0] = _WET
+    nv, nbody = word(m + at[f.NV]), word(m + at[f.NBODY])
+    work = np.zeros(f.ROW * nbody + _SCRATCH)
+    step = real(m + at[f.TIMESTEP])
+    if small(m + at[f.INTEGRATOR]) == _RK4:
+        step = 0.0
+    floats(word(d + at[f.CRB]), 1)[0] = _WET
     _bias(m, d, at, work)
-    _bodies(m, d, at, theta_h, work, True)
-    _thrusters(m, d, at, work)
+    _bodies(m, d, at, step, work, True)
+    _thrusters(m, d, at, work, 0.5 * step)
     _sum_up(m, at, work)
-    cdof = floats(word(d + at[_CDOF]), 6 * nv)
-    dof_body = ints(word(m + at[_DOF_BODY]), nv)
-    length = ints(word(m + at[_ROW_LENGTH]), nv)
-    start = ints(word(m + at[_ROW_START]), nv)
-    passive = floats(word(d + at[_PASSIVE]), nv)
+    cdof = floats(word(d + at[f.CDOF]), 6 * nv)
+    dof_body = ints(word(m + at[f.DOF_BODY]), nv)
+    length = ints(word(m + at[f.ROW_LENGTH]), nv)
+    start = ints(word(m + at[f.ROW_START]), nv)
+    passive = floats(word(d + at[f.PASSIVE]), nv)
     n_entries = start[nv - 1] + length[nv - 1] if nv > 0 else 0
-    column = ints(word(m + at[_COLUMN]), n_entries)
-    mass = floats(word(d + at[_M]), n_entries)
+    column = ints(word(m + at[f.COLUMN]), n_entries)
+    mass = floats(word(d + at[f.M]), n_entries)
     for k in range(nv):
-        base = _ROW * dof_body[k]
-        if work[base + _TOUCHED] == 0.0:
+        base = f.ROW * dof_body[k]
+        if work[base + f.TOUCHED] == 0.0:
             continue
         wx, wy, wz = cdof[6 * k], cdof[6 * k + 1], cdof[6 * k + 2]
         vx, vy, vz = cdof[6 * k + 3], cdof[6 * k + 4], cdof[6 * k + 5]
-        to = base + _WRENCH
+        to = base + f.WRENCH
         passive[k] += (
             wx * work[to] + wy * work[to + 1] + wz * work[to + 2]
             + vx * work[to + 3] + vy * work[to + 4] + vz * work[to + 5]
         )  # fmt: skip
-        ff, ft, tt = base + _FF, base + _FT, base + _TT
+        ff, ft, tt = base + f.FF, base + f.FT, base + f.TT
         fx = work[ff] * vx + work[ff + 1] * vy + work[ff + 2] * vz
         fy = work[ff + 1] * vx + work[ff + 3] * vy + work[ff + 4] * vz
         fz = work[ff + 2] * vx + work[ff + 4] * vy + work[ff + 5] * vz
@@ -216,6 +167,8 @@ def add_water(m: int, d: int, at: Ints64) -> None:
                 cdof[j] * tx + cdof[j + 1] * ty + cdof[j + 2] * tz
                 + cdof[j + 3] * fx + cdof[j + 4] * fy + cdof[j + 5] * fz
             )  # fmt: skip
+    if small(m + at[f.INTEGRATOR]) != _RK4:
+        keep_energy(m, d, at, work)
 
 
 @njit
@@ -231,35 +184,35 @@ def water_wrenches(m: int, d: int, at: Ints64, wrenches: Floats) -> None:
         wrenches: (nbody, 6), receives torque [N m] and force [N] of each subtree in world axes,
             about the centre of mass of its tree.
     """
-    nbody = word(m + at[_NBODY])
-    work = np.zeros(_ROW * nbody + _SCRATCH)
-    cacc = floats(word(d + at[_CACC]), 6 * nbody)
-    gravity = floats(m + at[_GRAVITY], 3)
+    nbody = word(m + at[f.NBODY])
+    work = np.zeros(f.ROW * nbody + _SCRATCH)
+    cacc = floats(word(d + at[f.CACC]), 6 * nbody)
+    gravity = floats(m + at[f.GRAVITY], 3)
     for body in range(1, nbody):
         for i in range(6):
-            work[_ROW * body + _BIAS + i] = cacc[6 * body + i]
-        if (small(m + at[_DISABLE]) & _GRAVITY_OFF) == 0:
+            work[f.ROW * body + f.BIAS + i] = cacc[6 * body + i]
+        if (small(m + at[f.DISABLE]) & _GRAVITY_OFF) == 0:
             for i in range(3):
-                work[_ROW * body + _BIAS + 3 + i] += gravity[i]
+                work[f.ROW * body + f.BIAS + 3 + i] += gravity[i]
     _bodies(m, d, at, 0.0, work, False)
-    _thrusters(m, d, at, work)
+    _thrusters(m, d, at, work, 0.5 * real(m + at[f.TIMESTEP]))
     _sum_up(m, at, work)
     for body in range(nbody):
         for i in range(6):
-            wrenches[body, i] = work[_ROW * body + _WRENCH + i]
+            wrenches[body, i] = work[f.ROW * body + f.WRENCH + i]
 
 
 @njit
 def _bias(m: int, d: int, at: Ints64, work: Floats) -> None:
     """Spatial acceleration of every body when no joint accelerates: Jdot qvel."""
-    nv, nbody = word(m + at[_NV]), word(m + at[_NBODY])
-    parent = ints(word(m + at[_BODY_PARENT]), nbody)
-    dof_number = ints(word(m + at[_BODY_DOFNUM]), nbody)
-    dof_start = ints(word(m + at[_BODY_DOFADR]), nbody)
-    cdof_dot = floats(word(d + at[_CDOF_DOT]), 6 * nv)
-    qvel = floats(word(d + at[_QVEL]), nv)
+    nv, nbody = word(m + at[f.NV]), word(m + at[f.NBODY])
+    parent = ints(word(m + at[f.BODY_PARENT]), nbody)
+    dof_number = ints(word(m + at[f.BODY_DOFNUM]), nbody)
+    dof_start = ints(word(m + at[f.BODY_DOFADR]), nbody)
+    cdof_dot = floats(word(d + at[f.CDOF_DOT]), 6 * nv)
+    qvel = floats(word(d + at[f.QVEL]), nv)
     for body in range(1, nbody):
-        base, above = _ROW * body + _BIAS, _ROW * parent[body] + _BIAS
+        base, above = f.ROW * body + f.BIAS, f.ROW * parent[body] + f.BIAS
         for i in range(6):
             work[base + i] = work[above + i]
         for k in range(dof_start[body], dof_start[body] + dof_number[body]):
@@ -270,55 +223,67 @@ def _bias(m: int, d: int, at: Ints64, work: Floats) -> None:
 @njit
 def _sum_up(m: int, at: Ints64, work: Floats) -> None:
     """Add every body's wrench and inertia to its parent's."""
-    nbody = word(m + at[_NBODY])
-    parent = ints(word(m + at[_BODY_PARENT]), nbody)
+    nbody = word(m + at[f.NBODY])
+    parent = ints(word(m + at[f.BODY_PARENT]), nbody)
     for body in range(nbody - 1, 0, -1):
-        base, above = _ROW * body, _ROW * parent[body]
-        if work[base + _TOUCHED] != 0.0 and above > 0:
-            for i in range(_WRENCH, _TOUCHED):
+        base, above = f.ROW * body, f.ROW * parent[body]
+        if work[base + f.TOUCHED] != 0.0 and above > 0:
+            for i in range(f.WRENCH, f.TOUCHED):
                 work[above + i] += work[base + i]
-            work[above + _TOUCHED] = 1.0
+            work[above + f.TOUCHED] = 1.0
 
 
 @njit
-def _thrusters(m: int, d: int, at: Ints64, work: Floats) -> None:
-    """Add the thrust of every thruster that is in the water."""
-    if word(m + at[_NUSER_ACTUATOR]) != THRUSTER_COLUMNS:
+def _thrusters(m: int, d: int, at: Ints64, work: Floats, ahead: float) -> None:
+    """Add the thrust of every thruster in the water, by its rotor some time ahead."""
+    if word(m + at[f.NUSER_ACTUATOR]) != THRUSTER_COLUMNS:
         return
-    n, nbody = word(m + at[_NACTUATOR]), word(m + at[_NBODY])
+    n, nbody = word(m + at[f.NACTUATOR]), word(m + at[f.NBODY])
     for i in range(n):
-        table = floats(word(m + at[_ACTUATOR_USER]) + 8 * THRUSTER_COLUMNS * i, THRUSTER_COLUMNS)
+        table = floats(word(m + at[f.ACTUATOR_USER]) + 8 * THRUSTER_COLUMNS * i, THRUSTER_COLUMNS)
         if table[IS_THRUSTER] == 0.0:
             continue
-        state = small(word(m + at[_ACTUATOR_ACT]) + 4 * i)
-        control = small(word(m + at[_ACTUATOR_CTRL]) + 4 * i)
-        command = real(word(d + at[_CTRL]) + 8 * control)
+        state = small(word(m + at[f.ACTUATOR_ACT]) + 4 * i)
+        control = small(word(m + at[f.ACTUATOR_CTRL]) + 4 * i)
+        command = real(word(d + at[f.CTRL]) + 8 * control)
         if state >= 0:
-            command = real(word(d + at[_ACT]) + 8 * state)
-        limits = floats(word(m + at[_ACTUATOR_RANGE]) + 16 * control, 2)
-        loss = real(word(d + at[_USERDATA]) + 8 * (WATER_COLUMNS * nbody + i))
+            rotor = real(word(d + at[f.ACT]) + 8 * state)
+            command = rotor + share_of_lag(table[LAG], ahead) * (command - rotor)
+        limits = floats(word(m + at[f.ACTUATOR_RANGE]) + 16 * control, 2)
+        loss = real(word(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * nbody + i))
         thrust = (1.0 - loss) * curve(table, min(max(command, limits[0]), limits[1]))
-        site = small(word(m + at[_ACTUATOR_TARGET]) + 8 * i)
-        body = small(word(m + at[_SITE_BODY]) + 4 * site)
-        place = floats(word(d + at[_SITE_XPOS]) + 24 * site, 3)
-        axes = floats(word(d + at[_SITE_XMAT]) + 72 * site, 9)
-        surface = real(word(m + at[_BODY_USER]) + 8 * SURFACE)
-        surface += real(word(d + at[_USERDATA]) + 8 * (WATER_COLUMNS * body + 6))
+        site = small(word(m + at[f.ACTUATOR_TARGET]) + 8 * i)
+        body = small(word(m + at[f.SITE_BODY]) + 4 * site)
+        place = floats(word(d + at[f.SITE_XPOS]) + 24 * site, 3)
+        axes = floats(word(d + at[f.SITE_XMAT]) + 72 * site, 9)
+        surface = real(word(m + at[f.BODY_USER]) + 8 * SURFACE)
+        surface += real(word(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * body + 6))
         wet = 0.5 + 0.5 * (surface - place[2]) / table[RADIUS]
         thrust *= min(max(wet, 0.0), 1.0)
-        root = small(word(m + at[_BODY_ROOT]) + 4 * body)
-        com = floats(word(d + at[_COM]) + 24 * root, 3)
+        root = small(word(m + at[f.BODY_ROOT]) + 4 * body)
+        com = floats(word(d + at[f.COM]) + 24 * root, 3)
         fx, fy, fz = thrust * axes[0], thrust * axes[3], thrust * axes[6]
         rx, ry, rz = place[0] - com[0], place[1] - com[1], place[2] - com[2]
-        base = _ROW * body
-        to = base + _WRENCH
-        work[base + _TOUCHED] = 1.0
+        base = f.ROW * body
+        to = base + f.WRENCH
+        work[base + f.TOUCHED] = 1.0
         work[to] += ry * fz - rz * fy + table[TORQUE] * fx
         work[to + 1] += rz * fx - rx * fz + table[TORQUE] * fy
         work[to + 2] += rx * fy - ry * fx + table[TORQUE] * fz
         work[to + 3] += fx
         work[to + 4] += fy
         work[to + 5] += fz
+
+
+@njit
+def share_of_lag(time_constant: float, time: float) -> float:
+    """How far a first-order lag comes in a time, of the way to its input, 0..1."""
+    if time_constant <= 0.0:
+        return 1.0
+    x = time / time_constant
+    if x < 0.01:
+        return x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)))  # quickly, to 1e-12
+    return -math.expm1(-x)
 
 
 @njit
@@ -340,46 +305,49 @@ def curve(table: Floats, command: float) -> float:
 @njit
 def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass: bool) -> None:
     """Wrench of the water on every body, and its inertia when ``with_mass``."""
-    nbody = word(m + at[_NBODY])
-    tree = ints(word(m + at[_BODY_TREE]), nbody)
-    root = ints(word(m + at[_BODY_ROOT]), nbody)
-    still = real(word(m + at[_BODY_USER]) + 8 * SURFACE)
-    gravity = floats(m + at[_GRAVITY], 3)
-    weight = 0.0 if (small(m + at[_DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
-    scratch = _ROW * nbody
+    nbody = word(m + at[f.NBODY])
+    tree = ints(word(m + at[f.BODY_TREE]), nbody)
+    root = ints(word(m + at[f.BODY_ROOT]), nbody)
+    still = real(word(m + at[f.BODY_USER]) + 8 * SURFACE)
+    gravity = floats(m + at[f.GRAVITY], 3)
+    weight = 0.0 if (small(m + at[f.DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
+    scratch = f.ROW * nbody
     for body in range(1, nbody):
-        table = floats(word(m + at[_BODY_USER]) + 8 * BODY_COLUMNS * body, BODY_COLUMNS)
+        table = floats(word(m + at[f.BODY_USER]) + 8 * BODY_COLUMNS * body, BODY_COLUMNS)
         if table[KIND] == DRY or tree[body] < 0:
             continue
-        if small(word(d + at[_AWAKE]) + 4 * tree[body]) == 0:
+        if small(word(d + at[f.AWAKE]) + 4 * tree[body]) == 0:
             continue
-        water = floats(word(d + at[_USERDATA]) + 8 * WATER_COLUMNS * body, WATER_COLUMNS)
-        place = floats(word(d + at[_XPOS]) + 24 * body, 3)
-        axes = floats(word(d + at[_XMAT]) + 72 * body, 9)
-        com = floats(word(d + at[_COM]) + 24 * root[body], 3)
-        twist = floats(word(d + at[_CVEL]) + 48 * body, 6)
+        water = floats(word(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, WATER_COLUMNS)
+        place = floats(word(d + at[f.XPOS]) + 24 * body, 3)
+        axes = floats(word(d + at[f.XMAT]) + 72 * body, 9)
+        com = floats(word(d + at[f.COM]) + 24 * root[body], 3)
+        twist = floats(word(d + at[f.CVEL]) + 48 * body, 6)
         height, lever = reference_point(table, place, axes, com)
         wet, centre = wet_part(table, axes, still + water[6] - height)
         if wet <= 0.0:
             continue
-        base = _ROW * body
-        work[base + _TOUCHED] = 1.0
+        base = f.ROW * body
+        work[base + f.TOUCHED] = 1.0
         step = theta_h * table[THETA]
         nu = relative_twist(axes, lever, twist, water)
-        bias = six(work, base + _BIAS)
+        bias = six(work, base + f.BIAS)
         rate = known_rate(axes, lever, bias, water, nu)
         if table[KIND] == FULL:
             force, momentum = full_force(table, nu, rate, step, work, scratch)
         else:
-            force, momentum = diagonal_force(table, nu, rate), diagonal_momentum(table, nu)
+            force, momentum = diagonal_force(table, nu, rate, step), diagonal_momentum(table, nu)
         force = subtract(force, coriolis(nu, momentum))
         wrench = move_wrench(axes, lever, wet, force)
         lift = buoyancy(wet * table[DISPLACED], water, gravity, weight)
-        to = base + _WRENCH
+        to = base + f.WRENCH
         add_lift(axes, lever, centre, wrench, lift, work, to)
         if not with_mass:
             continue
-        ff, ft, tt = base + _FF, base + _FT, base + _TT
+        ff, ft, tt = base + f.FF, base + f.FT, base + f.TT
+        impulse = move_wrench(axes, lever, wet, momentum)
+        for i in range(6):
+            work[base + f.MOMENTUM + i] = impulse[i]
         if table[KIND] == FULL:
             move_full_inertia(axes, lever, wet, work, scratch, ff, ft, tt)
         else:

@@ -22,7 +22,9 @@ MODEL_FIELDS = (
     "opt.timestep", "opt.gravity", "opt.integrator", "opt.solver", "opt.noslip_iterations",
     "opt.disableflags", "opt.enableflags",
     "nv", "nbody", "nactuator", "nuser_body", "nuser_actuator", "nuserdata",
-    "body_parentid", "body_rootid", "body_treeid", "body_dofnum", "body_dofadr", "body_user",
+    "ntree", "tree_bodyadr", "tree_bodynum", "tree_dofadr", "tree_dofnum",
+    "body_parentid", "body_rootid", "body_treeid", "body_jntnum", "body_jntadr", "body_dofnum",
+    "body_dofadr", "body_user", "jnt_qposadr",
     "dof_bodyid", "M_rownnz", "M_rowadr", "M_colind",
     "actuator_user", "actuator_trnid", "actuator_actadr", "actuator_ctrladr", "actuator_ctrlrange",
     "site_bodyid",
@@ -30,8 +32,9 @@ MODEL_FIELDS = (
 """What the kernel reads of the model."""
 
 DATA_FIELDS = (
-    "qvel", "act", "ctrl", "userdata", "xpos", "xmat", "site_xpos", "site_xmat", "subtree_com",
-    "cdof", "cdof_dot", "cvel", "cacc", "crb", "M", "qfrc_passive", "tree_awake",
+    "qpos", "qvel", "act", "ctrl", "userdata", "xpos", "xmat", "site_xpos", "site_xmat",
+    "subtree_com", "cdof", "cdof_dot", "cvel", "cacc", "cinert", "crb", "M", "qfrc_passive",
+    "qfrc_applied", "tree_awake",
 )  # fmt: skip
 """What the kernel reads and writes of the data."""
 

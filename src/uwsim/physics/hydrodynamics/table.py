@@ -93,7 +93,9 @@ def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:
     row[c.IS_THRUSTER] = 1.0
     row[c.DEAD_ZONE] = thruster.dead_zone
     row[c.LEAST], row[c.MOST] = thruster.saturation or (-math.inf, math.inf)
-    row[c.TORQUE], row[c.RADIUS] = thruster.torque, thruster.radius
+    row[c.TORQUE], row[c.RADIUS], row[c.LAG] = (
+        thruster.torque, thruster.radius, thruster.time_constant,
+    )  # fmt: skip
     backward = thruster.forward if thruster.backward is None else thruster.backward
     row[c.FORWARD : c.FORWARD + len(thruster.forward)] = thruster.forward
     row[c.BACKWARD : c.BACKWARD + len(backward)] = backward

@@ -1,0 +1,73 @@
+"""Where in the kernel's memory things lie: fields of MuJoCo's structs, and rows of its own.
+
+A field's number here is its place among the offsets that `layout.offsets` gives.
+"""
+
+from __future__ import annotations
+
+from .layout import DATA_FIELDS, MODEL_FIELDS
+
+_NAMES = (*MODEL_FIELDS, *DATA_FIELDS)
+TIMESTEP = _NAMES.index("opt.timestep")
+GRAVITY = _NAMES.index("opt.gravity")
+INTEGRATOR = _NAMES.index("opt.integrator")
+SOLVER = _NAMES.index("opt.solver")
+NOSLIP = _NAMES.index("opt.noslip_iterations")
+DISABLE = _NAMES.index("opt.disableflags")
+ENABLE = _NAMES.index("opt.enableflags")
+NV = _NAMES.index("nv")
+NBODY = _NAMES.index("nbody")
+NACTUATOR = _NAMES.index("nactuator")
+NUSER_BODY = _NAMES.index("nuser_body")
+NUSER_ACTUATOR = _NAMES.index("nuser_actuator")
+NUSERDATA = _NAMES.index("nuserdata")
+BODY_PARENT = _NAMES.index("body_parentid")
+BODY_ROOT = _NAMES.index("body_rootid")
+BODY_TREE = _NAMES.index("body_treeid")
+NTREE = _NAMES.index("ntree")
+TREE_BODY = _NAMES.index("tree_bodyadr")
+TREE_BODYNUM = _NAMES.index("tree_bodynum")
+TREE_DOFADR = _NAMES.index("tree_dofadr")
+TREE_DOFNUM = _NAMES.index("tree_dofnum")
+BODY_JNTNUM = _NAMES.index("body_jntnum")
+BODY_JNTADR = _NAMES.index("body_jntadr")
+JNT_QPOSADR = _NAMES.index("jnt_qposadr")
+BODY_DOFNUM = _NAMES.index("body_dofnum")
+BODY_DOFADR = _NAMES.index("body_dofadr")
+BODY_USER = _NAMES.index("body_user")
+DOF_BODY = _NAMES.index("dof_bodyid")
+ROW_LENGTH = _NAMES.index("M_rownnz")
+ROW_START = _NAMES.index("M_rowadr")
+COLUMN = _NAMES.index("M_colind")
+ACTUATOR_USER = _NAMES.index("actuator_user")
+ACTUATOR_TARGET = _NAMES.index("actuator_trnid")
+ACTUATOR_ACT = _NAMES.index("actuator_actadr")
+ACTUATOR_CTRL = _NAMES.index("actuator_ctrladr")
+ACTUATOR_RANGE = _NAMES.index("actuator_ctrlrange")
+SITE_BODY = _NAMES.index("site_bodyid")
+QPOS = _NAMES.index("qpos")
+QVEL = _NAMES.index("qvel")
+ACT = _NAMES.index("act")
+CTRL = _NAMES.index("ctrl")
+USERDATA = _NAMES.index("userdata")
+XPOS = _NAMES.index("xpos")
+XMAT = _NAMES.index("xmat")
+SITE_XPOS = _NAMES.index("site_xpos")
+SITE_XMAT = _NAMES.index("site_xmat")
+COM = _NAMES.index("subtree_com")
+CDOF = _NAMES.index("cdof")
+CDOF_DOT = _NAMES.index("cdof_dot")
+CVEL = _NAMES.index("cvel")
+CACC = _NAMES.index("cacc")
+CINERT = _NAMES.index("cinert")
+CRB = _NAMES.index("crb")
+M = _NAMES.index("M")
+PASSIVE = _NAMES.index("qfrc_passive")
+APPLIED = _NAMES.index("qfrc_applied")
+AWAKE = _NAMES.index("tree_awake")
+
+# a row of the kernel's own array, one a body; wrenches and twists have their rotational part
+# first, as in MuJoCo
+BIAS, WRENCH, FF, FT, TT, MOMENTUM, TOUCHED, ROW = 0, 6, 12, 18, 27, 33, 39, 40
+# FF: force by velocity, symmetric (xx xy xz yy yz zz); FT: force by rotation (3, 3), row by row;
+# TT: torque by rotation, symmetric
