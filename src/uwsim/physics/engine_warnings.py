@@ -97,8 +97,8 @@ def say_too_fast(
     row = next(i for i, first in enumerate(speeds[:, 0]) if first == dof)
     speed = math.hypot(*velocities[dof : dof + speeds[row, 1]].tolist())
     return (
-        f"{names[dof]!r} moves at {speed:.4g} m/s or rad/s at {time:g} s, and nothing here is made "
-        f"for more than {LARGEST_SPEED:g}: a mass, an inertia, a force or a current cannot be right."
+        f"{names[dof]!r} moves at {speed:.4g} m/s or rad/s at {time:g} s, and nothing here is "
+        f"made for more than {LARGEST_SPEED:g}: a mass, an inertia, a force or a current is wrong."
     )
 
 
