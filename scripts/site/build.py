@@ -88,7 +88,9 @@ def rewritten(text: str, folder: Path, outside: dict[Path, str]) -> str:
         if path.is_relative_to(ROOT / "docs") and path.is_file():
             name = path.relative_to(ROOT / "docs").as_posix()
         elif path.suffix == ".md":
-            name = outside.setdefault(path, path.relative_to(ROOT).as_posix().replace("/", "-"))
+            name = path.relative_to(ROOT).as_posix().replace("/", "-")
+            name = "repository.md" if name == "README.md" else name  # which would be index.html
+            outside.setdefault(path, name)
         else:
             return f"{label.strip('![]')} (`{path.relative_to(ROOT)}`)"
         return f"{label}({name}{anchor or ''})"
