@@ -32,6 +32,7 @@ from ..linear import product
 from .doubts import ObjectDoubt
 from .on_floor import OnFloorSpec
 from .ros_interfaces import INTERFACES, InterfaceSpec
+from .seawater import sea_water_density
 from .variation import DISTRIBUTIONS, VariationSpec
 from .vehicle import VehicleSpec
 
@@ -43,6 +44,8 @@ NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
 TERRAIN = "terrain"
 """An object of this name is the ground: nothing picks it up, and without ``<physics>`` it is
 fixed, and solid for simulated vehicles."""
+MILD = 15.0
+"""Temperature of water of which only the salinity is said [degrees Celsius]."""
 Integrator = Literal["implicitfast", "RK4"]
 
 
@@ -88,11 +91,28 @@ class OceanStateSpec:
         default=(0.015, 0.0075, 0.005), parts="rgb", minimum=0, maximum=1e6
     )
     """Loss of red, green and blue light on its way [1/m]."""
+    density: float | None = element(namespaced=True, default=None, minimum=100.0, maximum=20000.0)
+    """Of the water that vehicles and things float in [kg/m3]; when absent that of temperature and
+    salinity, and without these the density that the vehicles' sets are given for."""
+    temperature: float | None = element(namespaced=True, default=None, minimum=-2.0, maximum=40.0)
+    """Of the water, for its density by EOS-80 [degrees Celsius]; 15 where only salinity is said."""
+    salinity: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=42.0)
+    """Of the water, for its density [g/kg]; 0 where only the temperature is said, 35 in the sea."""
     currents: tuple[CurrentSpec, ...] = element(
         "current", namespaced=True, default=(),
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in CURRENTS.items()},
     )  # fmt: skip
     """How the water moves; several add up."""
+
+    @property
+    def water_density(self) -> float | None:
+        """What the file says of the density [kg/m3]; None if nothing."""
+        if self.density is not None:
+            return self.density
+        if self.temperature is None and self.salinity is None:
+            return None
+        warmth = MILD if self.temperature is None else self.temperature
+        return sea_water_density(warmth, self.salinity or 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)

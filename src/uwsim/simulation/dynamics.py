@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Literal
 
 from ..chance import stream
 from ..currents import Place, PythonFunctionSpec
@@ -47,7 +48,10 @@ from ..scene.vehicle import VehicleSpec
 from .bodies import find_file
 from .scene_lines import SceneLines
 
+Severity = Literal["fault", "notice"]
 U = f"{{{NAMESPACE}}}"
+LEAST_LIFT = 0.1
+"""What other water must add to the buoyancy of a vehicle to be told [N]."""
 LIGHTEST = 100.0
 """Buoyancy per weight that no vehicle has: the lightest foam has 10 kg/m3 [1]."""
 MESSAGES: Mapping[type[InterfaceSpec], Mapping[str, type]] = {
@@ -108,6 +112,7 @@ class Search:
                 self._read(index, vehicle.dynamics, robots[index])
                 self._refuse_scale(index, vehicle)
             self._follow_thrusters(index, vehicle)
+        self._settle_density()
         self._follow_interfaces()
         self._follow_currents(is_thorough)
 
@@ -148,6 +153,39 @@ class Search:
             )
         elif displaced > LIGHTEST * mass:
             self._say(f"{said}; {LIGHTEST:g} times the mass is lighter than any foam", *place)
+
+    def _settle_density(self) -> None:
+        """Put all vehicles into one water: the scene's, or that which their sets agree about."""
+        density = self._scene.ocean_state.water_density
+        given = {index: one.density for index, one in self.dynamics.items()}
+        if density is None and len(set(given.values())) > 1:
+            said = " and ".join(
+                f"{self._scene.vehicles[i].name!r} {value:g}" for i, value in given.items()
+            )
+            self._say(
+                f"the sets of the vehicles are for water of different density ({said} kg/m3); "
+                "expected <u:density> in <oceanState>, which says what the water has",
+                *("vehicle", max(given), f"{U}dynamics", 0),
+            )
+            return
+        for index, own in given.items():
+            if density is not None and density != own:
+                self._trim(index, density)
+
+    def _trim(self, index: int, density: float) -> None:
+        """Put a vehicle into other water than its set is for, and say what that does."""
+        before = self.dynamics[index]
+        self.dynamics[index] = before.in_water(density)
+        lift = 9.81 * (density - before.density) * sum(body.volume for body in before.bodies)
+        name = self._scene.vehicles[index].name
+        if abs(lift) >= LEAST_LIFT:
+            self._say(
+                f"the water has {density:.6g} kg/m3 and the set {before.name!r} of {name!r} was "
+                f"trimmed in {before.density:.6g}: it is {abs(lift):.3g} N "
+                f"{'lighter' if lift > 0.0 else 'heavier'} here than there",
+                *("vehicle", index, f"{U}dynamics", 0),
+                severity="notice",
+            )
 
     def _refuse_scale(self, index: int, vehicle: VehicleSpec) -> None:
         """Masses, volumes and thrusts are those of the size that the files give."""
@@ -232,9 +270,18 @@ class Search:
             except UwsimError as error:
                 self._say(str(error), f"oceanState/{U}current", 0, "*", number)
 
-    def _say(self, message: str, parent: str, index: int, child: str, number: int) -> None:
+    def _say(
+        self,
+        message: str,
+        parent: str,
+        index: int,
+        child: str,
+        number: int,
+        severity: Severity = "fault",
+    ) -> None:
         """Keep a fault of the ``number``th ``child`` of the ``index``th ``parent``."""
-        self.found.append(self._lines.fault(message, parent, index, child, number))
+        found = self._lines.fault(message, parent, index, child, number, severity=severity)
+        self.found.append(found)
 
 
 def _plain(message: type) -> str:

@@ -8,7 +8,7 @@ coefficients; published derivatives (``X_udot``, ``X_u``) mostly carry the other
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -139,7 +139,7 @@ class VehicleHydrodynamics:
     joints: tuple[JointDrive, ...] = ()
     """Joints whose drives are known; any other is as `JointDrive` has it."""
     density: float = 1000.0
-    """Of the water that the numbers were given for [kg/m3]."""
+    """Of the water that the numbers are for: volumes were trimmed in it [kg/m3]."""
     files: tuple[Path, ...] = field(default=(), compare=False)
     """What it was read from, the set's own file first."""
 
@@ -147,10 +147,34 @@ class VehicleHydrodynamics:
         """Find the entry of a link."""
         return next((body for body in self.bodies if body.link == link), None)
 
+    def in_water(self, density: float) -> VehicleHydrodynamics:
+        """Return the same vehicle in other water [kg/m3].
+
+        Masses, volumes and thrusts stay. Added mass and drag, which are the water's, grow with its
+        density.
+        """
+        share = density / self.density
+        if share == 1.0:
+            return self
+        bodies = tuple(
+            replace(
+                body,
+                added_mass=_times(share, body.added_mass),
+                linear_damping=_times(share, body.linear_damping),
+                quadratic_damping=_times(share, body.quadratic_damping),
+            )
+            for body in self.bodies
+        )
+        return replace(self, bodies=bodies, density=density)
+
     def drive(self, joint: str) -> JointDrive:
         """What moves a joint."""
         known = (drive for drive in self.joints if drive.name == joint)
         return next(known, JointDrive(name=joint))
+
+
+def _times(factor: float, numbers: Numbers) -> Numbers:
+    return tuple(factor * number for number in numbers)
 
 
 def matrix(numbers: Numbers) -> npt.NDArray[np.float64]:
