@@ -15,7 +15,7 @@ import pytest
 from PIL import Image
 
 from uwsim.assets import load_model
-from uwsim.assets.loaders import by_trimesh, looks
+from uwsim.assets.loaders import by_trimesh, collada_limits, looks
 from uwsim.errors import AssetError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
@@ -221,3 +221,70 @@ def test_text_is_bounded_before_it_is_read(
     (inside / f"x{suffix}").write_text(start + "v 0 0 0\n" * 200)
     with pytest.raises(AssetError, match=r"is text of more than 0 MiB; write it as"):
         load_model(str(inside / f"x{suffix}"))
+
+
+def dae(nodes: str, library: str = "") -> str:
+    """Collada: one triangle, of which the nodes of a scene hold instances."""
+    return f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<library_geometries> <geometry id="g"> <mesh>
+  <source id="s"> <float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array>
+    <technique_common> <accessor source="#a" count="3" stride="3"> <param name="X" type="float"/>
+      <param name="Y" type="float"/> <param name="Z" type="float"/> </accessor>
+    </technique_common> </source>
+  <vertices id="v"> <input semantic="POSITION" source="#s"/> </vertices>
+  <triangles count="1"> <input semantic="VERTEX" source="#v" offset="0"/> <p>0 1 2</p> </triangles>
+</mesh> </geometry> </library_geometries>
+<library_nodes> {library} </library_nodes>
+<library_visual_scenes> <visual_scene id="scene"> {nodes} </visual_scene> </library_visual_scenes>
+<scene> <instance_visual_scene url="#scene"/> </scene> </COLLADA>"""
+
+
+TRIANGLE_NODE = '<node id="n0"> <instance_geometry url="#g"/> </node>'
+
+
+def instances_of_instances(n: int, each: int) -> str:
+    """Nodes n1, n2, ...: each so many instances of the one before."""
+    nodes = (
+        f'<node id="n{i}">' + f'<instance_node url="#n{i - 1}"/>' * each + "</node>"
+        for i in range(1, n + 1)
+    )
+    return TRIANGLE_NODE + "".join(nodes)
+
+
+@pytest.mark.parametrize(
+    ("nodes", "library", "said"),
+    [
+        (
+            '<node> <instance_node url="#n9"/> </node>',
+            instances_of_instances(9, 10),
+            "its nodes stand for .* at most 20000 are read",
+        ),
+        (
+            '<node> <instance_node url="#n101"/> </node>',
+            instances_of_instances(101, 1),
+            "its nodes form a loop, or a chain of more than 100",
+        ),
+        ('<node id="x"> <instance_node url="#x"/> </node>', "", "its nodes form a loop"),
+        ("<node>" * 5000 + "</node>" * 5000, "", "its nodes form a loop, or a chain"),
+    ],
+)
+def test_nodes_of_a_collada_file_cannot_stand_for_endless_work(
+    nodes: str, library: str, said: str, inside: Path
+) -> None:
+    (inside / "x.dae").write_text(dae(nodes, library))
+    start = time.process_time()
+    with pytest.raises(AssetError, match=said):
+        load_model(str(inside / "x.dae"))
+    assert time.process_time() - start < 2.0
+
+
+def test_triangles_of_a_collada_file_are_counted_for_each_instance(
+    inside: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    nodes, library = '<node> <instance_node url="#n2"/> </node>', instances_of_instances(2, 5)
+    (inside / "x.dae").write_text(dae(nodes, library))
+    assert load_model(str(inside / "x.dae")).n_triangles == 25
+    monkeypatch.setattr(collada_limits, "MOST_TEXT", 24 * len("0 1 2"))
+    (inside / "y.dae").write_text(dae(nodes, library))
+    with pytest.raises(AssetError, match=r"its instances stand for .* MiB of triangles"):
+        load_model(str(inside / "y.dae"))

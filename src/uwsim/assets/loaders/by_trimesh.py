@@ -15,7 +15,7 @@ from ...errors import AssetError
 from ...input_files import read_bytes
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
-from .gltf_limits import too_much
+from . import collada_limits, gltf_limits
 from .looks import Looks
 from .obj_lines import wrong_line
 from .references import References
@@ -99,9 +99,16 @@ def _bytes(path: Path, name: str, original: Path | None) -> bytes:
     # a Collada file needs no document type; one that has it may be a trap
     if suffix == ".dae" and (b"<!DOCTYPE" in data or b"<!ENTITY" in data):
         raise AssetError(f"{path}: document types and entities are not read.")
-    if suffix in (".gltf", ".glb") and (why := too_much(data, suffix)):
+    if why := _too_much(data, suffix):
         raise AssetError(f"{path}: {why}.")
     return data
+
+
+def _too_much(data: bytes, suffix: str) -> str:
+    """Say what a file asks for that is too much, before it is built; empty if nothing is."""
+    if suffix == ".dae":
+        return collada_limits.too_much(data)
+    return gltf_limits.too_much(data, suffix) if suffix in (".gltf", ".glb") else ""
 
 
 def _is_text(data: bytes, suffix: str) -> bool:
