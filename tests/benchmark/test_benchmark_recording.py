@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -167,3 +168,16 @@ def test_a_bag_that_was_cut_off_is_one_clean_error(tmp_path: Path) -> None:
         path.write_bytes(whole[:length])
         with pytest.raises(AssetError, match="cannot be read as a recording"):
             open_bag(path)
+
+
+def test_a_recordings_folder_holds_its_own_files_alone(tmp_path: Path) -> None:
+    folder = write_bag(tmp_path, "mcap", [(time, picture(0)) for time in TIMES])
+    storage = next(folder.glob("*.mcap"))
+    elsewhere = storage.rename(tmp_path / "elsewhere.mcap")
+    storage.symlink_to(elsewhere)
+    with pytest.raises(AssetError, match=r"dive/.*\.mcap leads out of the recording's folder"):
+        open_bag(folder)
+    storage.unlink()
+    os.mkfifo(storage)
+    with pytest.raises(AssetError, match=r"dive/.*\.mcap is not a regular file"):
+        open_bag(folder)

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from rosbags.interfaces import Connection
 
 from ..errors import AssetError, UnknownName
+from ..input_files import is_inside
 from ..messages import CameraInfo, Header, RegionOfInterest, Time
 
 IMAGE = "sensor_msgs/msg/Image"
@@ -117,6 +118,8 @@ class Recording:
 
         self._name = path.name
         self._image_topic = image_topic
+        if path.is_dir():
+            _check_folder(path)
         try:
             self._reader = AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY))
             self._reader.open()
@@ -202,6 +205,19 @@ class Recording:
     def _unreadable(self, error: Exception) -> AssetError:
         said = " ".join(str(error).split())[:200] or type(error).__name__
         return AssetError(f"{self._name} cannot be read as a recording: {said}")
+
+
+def _check_folder(bag: Path) -> None:
+    """See to it that a rosbag2 folder holds files of its own alone.
+
+    Raises:
+        AssetError: a link leads out of it, or something in it is no regular file.
+    """
+    for file in sorted(bag.iterdir()):
+        if not is_inside(file, [bag]):
+            raise AssetError(f"{bag.name}/{file.name} leads out of the recording's folder.")
+        if not file.is_file() and not file.is_dir():
+            raise AssetError(f"{bag.name}/{file.name} is not a regular file.")
 
 
 def camera_info(recorded: Any, *, stamp: Time, frame_id: str) -> CameraInfo:
