@@ -15,6 +15,8 @@ from tempfile import NamedTemporaryFile
 
 DIGEST = 32
 """Length of a hash, SHA-256 [bytes]."""
+DRAFT = ".part"
+"""How the name of a file ends that is still being written, and begins with its process."""
 
 
 def read(file: Path) -> bytes | None:
@@ -37,10 +39,15 @@ def read(file: Path) -> bytes | None:
 
 
 def write(file: Path, data: bytes) -> None:
-    """Keep ``data`` in a file, whole or not at all; where that cannot be, nothing is kept."""
+    """Keep ``data`` in a file, whole or not at all; where that cannot be, nothing is kept.
+
+    What a process was writing there when it was killed is taken away.
+    """
     with suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
-        with NamedTemporaryFile(dir=file.parent, suffix=".part", delete=False) as draft:
+        _discard_drafts(file.parent)
+        mark = f"{os.getpid()}-"
+        with NamedTemporaryFile(dir=file.parent, prefix=mark, suffix=DRAFT, delete=False) as draft:
             try:
                 draft.write(_digest(file, data) + data)
                 draft.flush()
@@ -48,6 +55,18 @@ def write(file: Path, data: bytes) -> None:
             except BaseException:
                 os.unlink(draft.name)
                 raise
+
+
+def _discard_drafts(folder: Path) -> None:
+    """Remove drafts of processes that are gone; on another machine one lives, and loses no more."""
+    for draft in folder.glob(f"*-*{DRAFT}"):
+        number = draft.name.partition("-")[0]
+        try:
+            os.kill(int(number), 0)
+        except (ProcessLookupError, OverflowError):
+            draft.unlink(missing_ok=True)
+        except (OSError, ValueError):
+            pass  # it lives, and is another user's; or no draft of ours
 
 
 def _digest(file: Path, data: bytes) -> bytes:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -111,6 +114,23 @@ def test_other_sources_are_another_model(cache: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(room, "_key", lambda: "another")
     fresh("objects/hook")
     assert len(models(cache)) == 2
+
+
+def test_what_a_killed_process_was_writing_is_taken_away(cache: Path) -> None:
+    fresh("objects/hook")
+    folder = models(cache)[0].parent
+    gone = subprocess.run(
+        [sys.executable, "-c", "import os; print(os.getpid())"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    drafts = [folder / f"{pid}-abc.part" for pid in (int(gone.stdout), os.getpid())]
+    for draft in drafts:
+        draft.touch()
+    fresh("objects/torus")
+    assert [draft.exists() for draft in drafts] == [False, True]
+    assert len(list(folder.glob("*.part"))) == 1
 
 
 def test_without_a_place_to_keep(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
