@@ -12,10 +12,12 @@ from types import SimpleNamespace
 import pytest
 
 from short_benchmark import bench_of, fingerprint, run, write_benchmark
+from stored_rows import stored_end, stored_row
 from uwsim.benchmark import crew
 from uwsim.benchmark.crew import Here, Job, Roster, play_all
 from uwsim.benchmark.processes import Processes, portable
 from uwsim.benchmark.result_file import load
+from uwsim.benchmark.unit_file import UnitFile
 from uwsim.bus import Node
 from uwsim.errors import NeverStarted, RunFailed
 from uwsim.messages import Empty, Image
@@ -152,6 +154,31 @@ def test_a_unit_that_is_lost_twice_in_one_call_is_played_without_it(tmp_path: Pa
     assert roster.take() is first
     assert first.cut == Cut(7, "its process ended (with exit status 0)")
     assert roster.failure is None
+
+
+@pytest.mark.parametrize(
+    ("why", "is_finished", "n_left"),
+    [
+        ("its process ended (killed by SIGSEGV)", True, 1),
+        ("a callback took longer than --callback-limit", True, 3),
+        ("a callback took longer than --callback-limit", False, 1),
+    ],
+)
+def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_back(
+    benchmark: Path, tmp_path: Path, why: str, is_finished: bool, n_left: int
+) -> None:
+    bench = bench_of(benchmark, tmp_path / "out")
+    [unit] = bench.plan.units()
+    file = UnitFile(bench.out, unit.index, bench.head(unit))
+    broken = stored_row(missing={"total": f"esm was stopped at 0.3 s: {why}"})
+    for row in (stored_row(), broken, broken):
+        file.add(row | {"ended_at": 2.0, "fingerprint": ""})
+    if is_finished:
+        file.finish(stored_end(trace={}))
+    file.close()
+    bench.begin()
+    assert bench.n_rows(unit) == n_left
+    assert (bench.unfinished() == []) == (n_left == 3)
 
 
 def test_every_level_is_told_once(tmp_path: Path) -> None:

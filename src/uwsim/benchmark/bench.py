@@ -17,7 +17,7 @@ import numpy as np
 from .. import __version__
 from ..errors import BenchmarkError, UwsimError
 from ..file_names import file_names
-from ..input_files import recorded
+from ..input_files import InputFile, recorded
 from ..simulation import Simulation, Studio
 from . import unit_file
 from .floor import largest
@@ -32,7 +32,7 @@ from .result import Cell, Column, ImageStream, Json, Missing, Result, TakenPictu
 from .result_file import save
 from .summary import save_summary
 from .updaters import chain, references
-from .verdict import was_stopped
+from .verdict import ended_its_process, was_stopped
 
 
 @dataclass(kw_only=True)
@@ -47,6 +47,8 @@ class Bench:
     """Names and hashes of the files read (`open_once`)."""
     renderer: str
     """What draws the pictures (`open_once`)."""
+    files: tuple[InputFile, ...] = ()
+    """Files that must not change while it is played (`watchable`)."""
     n_resumed: int = 0
     """Levels that were on disk already when the run began."""
     n_lost: int = 0
@@ -62,14 +64,18 @@ class Bench:
         return self.unfinished()
 
     def _forget_what_was_stopped(self) -> None:
-        """Have units played again whose algorithm took its process with it, or did not come back.
+        """Have units played again whose algorithm took its process with it.
 
-        The levels before stay, and are held against those that are played again.
+        The levels before stay, and are held against those that are played again. Where it did not
+        come back from a call, that is final; but a unit without an end is played again anyhow, and
+        may go better.
         """
         name = self.plan.algorithm_name
         for unit in self.plan.units():
-            for n, row in enumerate(self.stored(unit).rows):
-                if was_stopped(name, row["missing"].get("total")):
+            stored = self.stored(unit)
+            is_to_go = ended_its_process if stored.end is not None else was_stopped
+            for n, row in enumerate(stored.rows):
+                if is_to_go(name, row["missing"].get("total")):
                     unit_file.cut_back(self.out, unit.index, n)
                     break
 
@@ -299,7 +305,8 @@ def _run(plan: Plan, renderer: str) -> dict[str, object]:
 def open_once(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, object], str]:
     """Open the scene once: hash every file that is read, and name the renderer.
 
-    Every name of the benchmark is looked up on the way, so that no name can fail later.
+    Every name of the benchmark is looked up on the way, so that no name can fail later. Inside
+    `recorded` the files are told with their places.
 
     Args:
         plan: what will be played.

@@ -19,6 +19,7 @@ from .plan import Plan, Unit
 from .result import Result
 from .unit_file import path_of
 from .unit_work import Event, Keeper, perform, portable
+from .verdict import PROCESS_ENDED
 
 OnLevel = Callable[[], None]
 MOST_RETRIES = 3
@@ -26,10 +27,6 @@ MOST_RETRIES = 3
 ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
 """Of a worker, where the user has not said otherwise: no threads beside its own, for there is one
 worker a core."""
-
-
-PROCESS_ENDED = "its process ended"
-"""How the reason begins of an algorithm that took its process with it."""
 
 
 @dataclass(eq=False)

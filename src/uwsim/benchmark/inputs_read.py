@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from ..input_files import InputFile, by_name, hash_of, portable
+from ..input_files import InputFile, by_name, hash_of, portable, record
 from ..python_sources import sources_of
 from ..simulation import Simulation
 from .answers import files_of
@@ -16,7 +16,7 @@ from .updaters import chain
 
 
 def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> dict[str, object]:
-    """Gather what a plan is made of.
+    """Gather what a plan is made of; what was not read yet is recorded now.
 
     Args:
         plan: what is played.
@@ -38,11 +38,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
     for updater in chain(plan.benchmark.scene_updater):
         with blamed(plan.plugins):
             others |= files_of(updater, simulation.world)
-    assets += [
-        InputFile(portable(name), hash_of(path))
-        for name, path in others.items()
-        if path not in known
-    ]
+    assets += _hashed({name: path for name, path in others.items() if path not in known})
     assets += [
         InputFile(name, f"sha256:{digest}")
         for name, digest in simulation.world.scenery.made_hashes.items()
@@ -57,9 +53,15 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
 
 
 def of_algorithm(plan: Plan) -> dict[str, object]:
-    """Hash the sources of a ``module:Class``; nothing of what is bundled, or a plugin's."""
+    """Hash and record the sources of a ``module:Class``, not those bundled or of a plugin."""
     module, colon, _ = plan.algorithm_name.partition(":")
     if not colon:
         return {}
-    sources = [InputFile(name, hash_of(path)) for name, path in sources_of(module).items()]
-    return {ALGORITHM: by_name(sources)}
+    return {ALGORITHM: by_name(_hashed(sources_of(module)))}
+
+
+def _hashed(files: Mapping[str, Path]) -> list[InputFile]:
+    """Hash and record files that are read later, or by others."""
+    found = [InputFile(portable(name), hash_of(path), path) for name, path in files.items()]
+    record(found)
+    return found

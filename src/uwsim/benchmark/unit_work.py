@@ -22,6 +22,7 @@ from . import unit_file
 from .bench import Bench
 from .plan import Plan, Unit
 from .play import Row, UnitEnd, play
+from .watch import Watch
 
 PICTURES = "pictures"
 
@@ -87,14 +88,17 @@ class Keeper:
 
     Raises:
         ReplayDiffers: a row played again differs from the one stored.
+        RunFailed: a file of the run was changed.
     """
 
     def __init__(self, bench: Bench, unit: Unit) -> None:
         self._out = bench.out
+        self._watch = Watch(bench.files)
         self._file = unit_file.UnitFile(bench.out, unit.index, bench.head(unit))
 
     def keep(self, event: Event) -> bool:
         """Keep it; returns whether it is a level that was not on disk before."""
+        self._watch.check()
         if isinstance(event, UnitEnded):
             self._file.finish(event.record)
             return False

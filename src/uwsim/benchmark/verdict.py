@@ -13,9 +13,18 @@ SILENCE = 1.0
 """A measure that waits longer than this for an estimate ends in ``timeout`` [s]."""
 
 
+PROCESS_ENDED = "its process ended"
+"""How the reason begins of an algorithm that took its process with it."""
+
+
 def was_stopped(name: str, why: str | None) -> bool:
     """Whether a row's reason is that its algorithm could not be called any more."""
     return why is not None and why.startswith(f"{name} {STOPPED} at ")
+
+
+def ended_its_process(name: str, why: str | None) -> bool:
+    """Whether that is because the algorithm took its process with it."""
+    return was_stopped(name, why) and f" s: {PROCESS_ENDED}" in str(why)
 
 
 class Verdict:

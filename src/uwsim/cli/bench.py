@@ -13,6 +13,7 @@ import typer
 
 from ..errors import AllErrors, BadSetting, RunFailed
 from ..file_names import file_names
+from ..input_files import InputFile, recorded
 from ..interrupts import raise_from_now_on
 from .completion import algorithm_names
 from .console import Console
@@ -150,20 +151,17 @@ def bench(
 
     from ..benchmark.bench import Bench, open_once
     from ..benchmark.inputs import without_algorithm
-    from ..benchmark.inputs_read import of_algorithm
 
     watch = Stopwatch()
     announce_code(plans[0].scene)
-    inputs, renderer = open_once(plans[0])
+    with recorded() as files:
+        inputs, renderer = open_once(plans[0])
     shared = without_algorithm(inputs)
     say_warnings(plans[0])
     raise_from_now_on()
     runs = [
-        Bench(
-            plan=plan,
-            out=directory / folder,
-            inputs={**shared, **of_algorithm(plan)},
-            renderer=renderer,
+        with_sources(
+            Bench(plan=plan, out=directory / folder, inputs=shared, renderer=renderer), files
         )
         for plan, folder in zip(plans, folders or [""], strict=True)
     ]
@@ -172,6 +170,21 @@ def bench(
         print(said, file=sys.stderr)
     with running(), prepared(directory, resume=resume, overwrite=overwrite, results=folders):
         play_and_finish(runs, crew, workers, watch, context.obj)
+
+
+def with_sources(bench: Bench, files: Sequence[InputFile]) -> Bench:
+    """Return the same with the sources of its algorithm among its inputs.
+
+    Args:
+        bench: its inputs are those of scene and benchmark.
+        files: the places of these.
+    """
+    from ..benchmark.inputs_read import of_algorithm
+    from ..benchmark.watch import watchable
+
+    with recorded() as sources:
+        inputs = {**bench.inputs, **of_algorithm(bench.plan)}
+    return replace(bench, inputs=inputs, files=watchable([*files, *sources]))
 
 
 def play_and_finish(
@@ -268,14 +281,13 @@ def refuse_if_a_process_ended(runs: Sequence[Bench], results: Sequence[Result]) 
     Raises:
         RunFailed: names the algorithms, and why the first such row of each is as it is.
     """
-    from ..benchmark.crew import PROCESS_ENDED
-    from ..benchmark.verdict import was_stopped
+    from ..benchmark.verdict import ended_its_process
 
     ended = []
     for run, result in zip(runs, results, strict=True):
         reasons = [result.why(row, "total") or "" for row in range(len(result.rows))]
         name = run.plan.algorithm_name
-        ended += [why for why in reasons if was_stopped(name, why) and PROCESS_ENDED in why][:1]
+        ended += [why for why in reasons if ended_its_process(name, why)][:1]
     if ended:
         raise RunFailed(f"{'; '.join(ended)}. Rows are kept; --resume tries those again.")
 
@@ -311,7 +323,7 @@ def control_of(run: Bench) -> Bench:
     )
     out = run.out / FOLDER_OF_CONTROL
     inputs = without_algorithm(run.inputs)
-    return Bench(plan=plan, out=out, inputs=inputs, renderer="none")
+    return Bench(plan=plan, out=out, inputs=inputs, renderer="none", files=run.files)
 
 
 def finish(run: Bench, result: Result, beside: Beside, took: Took) -> None:

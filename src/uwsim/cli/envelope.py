@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import AllErrors, BadSetting
+from ..input_files import recorded
 from ..interrupts import raise_from_now_on
 from .bench import OTHER_CODE
 from .completion import algorithm_names
@@ -230,9 +231,11 @@ def play(
     from ..benchmark.envelope import Asked, Envelope, Evaluations, strategy
     from ..benchmark.envelope.plot import draw
     from ..benchmark.provenance import carried, machine, save_beginning, save_provenance
+    from ..benchmark.watch import watchable
 
     announce_code(plan.scene)
-    inputs, renderer = open_once(plan)
+    with recorded() as files:
+        inputs, renderer = open_once(plan)
     say_warnings(plan)
     raise_from_now_on()
     over, where, at = question.over, question.where, question.at
@@ -244,7 +247,13 @@ def play(
         discard_drafts(directory, OURS, FOLDERS)
         if said := save_beginning(command, directory):
             warn(OTHER_CODE.format(said))
-        bench = Bench(plan=plan, out=directory, inputs=inputs, renderer=renderer)
+        bench = Bench(
+            plan=plan,
+            out=directory,
+            inputs=inputs,
+            renderer=renderer,
+            files=watchable(files),
+        )
         most = 9 + len(seeds) * (where.most_cuts() + 1)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
         with progress(title, most, of="runs", at_once=at_once) as on_run:

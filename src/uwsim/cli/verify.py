@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ResultError
+from ..input_files import recorded
 from ..interrupts import raise_from_now_on
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import RUN_FAILED, printable, running
@@ -119,6 +120,7 @@ def verify(
     from ..benchmark.result_file import file_of, load
     from ..benchmark.verify import choose, finished
     from ..benchmark.verify import verify as compare
+    from ..benchmark.watch import watchable
 
     crew = crew_of(workers, callback_limit)
     stored = load(result)
@@ -132,10 +134,17 @@ def verify(
     )
     plan = plan_of(stored, directory, given)
     announce_code(plan.scene)
-    inputs, renderer = open_once(plan)
+    with recorded() as files:
+        inputs, renderer = open_once(plan)
     check_inputs(stored.inputs, inputs)
     renderer = NOT_DRAWN if plan.is_blind else renderer
-    bench = Bench(plan=plan, out=directory, inputs=stored.inputs, renderer=renderer)
+    bench = Bench(
+        plan=plan,
+        out=directory,
+        inputs=stored.inputs,
+        renderer=renderer,
+        files=watchable(files),
+    )
     whole_units = finished(directory, plan, stored)
     if not whole_units:
         command = resuming(directory)
