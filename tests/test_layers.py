@@ -28,10 +28,11 @@ GROUND = {
     "dialect",
     "clock",
     "message_fields",
+    "sampling",
     "interrupts",
 }
-BASE = GROUND | {"world", "messages", "bus"}
-PARTS = BASE | {"currents", "sensors", "devices", "scene", "assets"}
+BASE = GROUND | {"world", "vehicle", "messages", "bus"}
+PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"}
 ENGINES = PARTS | {"physics", "rendering"}
 
 MAY_IMPORT: dict[str, set[str]] = {
@@ -39,11 +40,13 @@ MAY_IMPORT: dict[str, set[str]] = {
     "messages": BASE,
     "bus": GROUND | {"bus"},
     "world": BASE,
+    "vehicle": BASE,
     "statistics": GROUND | {"statistics"},
     "currents": BASE | {"currents"},
     "sensors": BASE | {"sensors", "devices"},
     "devices": BASE | {"sensors", "devices"},
-    "scene": BASE | {"currents", "sensors", "devices", "scene"},
+    "topics": BASE | {"sensors", "devices", "topics"},
+    "scene": BASE | {"currents", "sensors", "devices", "topics", "scene"},
     "assets": BASE | {"assets"},
     "physics": PARTS | {"physics"},
     "rendering": PARTS | {"rendering"},

@@ -14,7 +14,8 @@ from uwsim.benchmark.reader import read_benchmark
 from uwsim.cli.files import bundled
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import ROSOdomToPATSpec, ROSTwistToPATSpec
+from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
+from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
 
 DISTANCE = """<distance> <name>way</name> <target>girona500</target>
   <startOn> {gate} </startOn> <stopOn> <type>never</type> </stopOn> </distance>"""

@@ -28,9 +28,9 @@ from uwsim.cli import main
 from uwsim.compatibility import compatibility
 from uwsim.errors import BenchmarkError, NeverStarted, UwsimError
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import ROSTwistToPATSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
+from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 pytestmark = pytest.mark.skipif(ORIGINALS is None, reason="UWSIM_ORIGINALS is not set")

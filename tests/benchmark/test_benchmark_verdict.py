@@ -14,8 +14,8 @@ from uwsim.benchmark.verdict import Verdict
 from uwsim.bus import Inbox, Node
 from uwsim.messages import Float64MultiArray, MultiArrayLayout, String
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import ROSThrustersToPATSpec
 from uwsim.scene.spec import PhysicsSpec, SceneSpec
+from uwsim.topics.thruster_commands import ROSThrustersToPATSpec
 
 REPEAT = "<repeat> <iterations>2</iterations> <interval>3</interval> </repeat>"
 HITS = "<collision {} > <name>hits</name> <target>blackbox</target> </collision>"

@@ -13,8 +13,8 @@ from uwsim.cli.sensor_tables import filled
 from uwsim.devices import DEVICES
 from uwsim.dialect.names import local
 from uwsim.scene.not_yet import limit_of
-from uwsim.scene.ros_interfaces import INTERFACES
 from uwsim.sensors import SENSORS
+from uwsim.topics import INTERFACES
 
 PAGE = (Path(__file__).parents[2] / "docs" / "sensors.md").read_text()
 SIMULATED, REST = PAGE.split("\n## Read, not simulated\n")

@@ -23,17 +23,13 @@ from uwsim.geometry import Pose
 from uwsim.scene import SceneSpec, read_scene
 from uwsim.scene.kinematics import link_poses
 from uwsim.scene.reader import check_scene
-from uwsim.scene.ros_interfaces import (
-    INTERFACES,
-    CustomCommsDeviceROSSpec,
-    EchoROSSpec,
-    ProfilingSonarROSSpec,
-    ROSOdomToPATSpec,
-    SimulatedDeviceROSSpec,
-)
 from uwsim.scene.spec import ObjectSpec, ShowTrajectorySpec
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
+from uwsim.topics import INTERFACES
+from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
+from uwsim.topics.sensor_topic import CustomCommsDeviceROSSpec, EchoROSSpec, ProfilingSonarROSSpec
+from uwsim.topics.simulated_device_ros import SimulatedDeviceROSSpec
 
 EVERY = Path(__file__).parent / "every-element.xml"
 DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "scenes"

@@ -10,10 +10,11 @@ import numpy as np
 from uwsim.currents import ConstantSpec, Place
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import InterfaceSpec, ROSTwistToPATSpec
 from uwsim.scene.spec import ObjectSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
+from uwsim.topics import InterfaceSpec
+from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
 
 SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
 TWIST = ROSTwistToPATSpec(topic="/twist", vehicle_name="girona500")

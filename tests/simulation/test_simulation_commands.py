@@ -20,13 +20,11 @@ from uwsim.messages import (
 )
 from uwsim.messages import Pose as PoseMessage
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import (
-    ROSJointStateToArmSpec,
-    ROSOdomToPATSpec,
-    ROSPoseToPATSpec,
-    ROSTwistToPATSpec,
-)
 from uwsim.simulation import Simulation
+from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
+from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
+from uwsim.topics.ros_pose_to_pat import ROSPoseToPATSpec
+from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
 
 SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-scene.xml"
 

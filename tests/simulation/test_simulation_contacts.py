@@ -11,9 +11,9 @@ from uwsim.errors import UnknownName
 from uwsim.messages import Bool
 from uwsim.physics.loose import ellipsoid_added_mass
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import ContactSensorToROSSpec
 from uwsim.scene.spec import ObjectSpec, PhysicsSpec
 from uwsim.simulation import Simulation
+from uwsim.topics.contact_sensor_to_ros import ContactSensorToROSSpec
 
 TANK, BLACKBOX = read_scene(SCENE).objects
 BLACKBOX = replace(BLACKBOX, is_solid=None)  # in that scene a ghost, to be looked at

@@ -19,13 +19,11 @@ from uwsim.physics.hydrodynamics import VehicleHydrodynamics
 from uwsim.physics.power import power_table
 from uwsim.physics.power_law import joint_power, thruster_power
 from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
-from uwsim.scene.ros_interfaces import (
-    ArmToROSJointStateSpec,
-    ROSJointStateToArmSpec,
-    ROSThrustersToPATSpec,
-)
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
+from uwsim.topics.arm_to_ros_joint_state import ArmToROSJointStateSpec
+from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
+from uwsim.topics.thruster_commands import ROSThrustersToPATSpec
 
 NAME = "girona500"
 INTERFACES = (

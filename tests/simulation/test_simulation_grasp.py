@@ -11,10 +11,11 @@ from uwsim.messages import JointState, Point, Quaternion, header
 from uwsim.messages import Pose as PoseMessage
 from uwsim.scene.kinematics import link_poses
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import ROSJointStateToArmSpec, ROSPoseToPATSpec
 from uwsim.scene.spec import ObjectSpec, PhysicsSpec
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.simulation import Simulation
+from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
+from uwsim.topics.ros_pose_to_pat import ROSPoseToPATSpec
 
 ARM = [0.0, 0.48, 0.563, 0.0]  # the jaw points down
 OPEN, CLOSED = 0.3, -0.05

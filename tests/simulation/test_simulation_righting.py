@@ -10,8 +10,9 @@ import pytest
 from simulated import make, position, run, set_current, vector
 
 from uwsim.messages import Float64MultiArray, MultiArrayLayout, Twist, TwistStamped, header
-from uwsim.scene.ros_interfaces import ROSThrustersToPATSpec, ROSTwistToPATSpec
 from uwsim.simulation import Simulation
+from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
+from uwsim.topics.thruster_commands import ROSThrustersToPATSpec
 
 UPSIDE = {"bluerov2_heavy": 0.0, "rexrov": math.pi}
 """Roll in the scene's frame, whose z points down: RexROV's own z points up."""

@@ -8,8 +8,8 @@ from simulated import SCENE, TWIST, run
 
 from uwsim.messages import JointState, header
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import ROSJointStateToArmSpec
 from uwsim.simulation import Simulation
+from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 
 ARM = ROSJointStateToArmSpec(topic="/arm", vehicle_name="girona500")
 SLEW, SHOULDER, ELBOW, ROTATE, OPENING = range(5)

@@ -15,9 +15,9 @@ import pytest
 from uwsim.messages import JointState
 from uwsim.scene.kinematics import link_poses
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import ArmToROSJointStateSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
+from uwsim.topics.arm_to_ros_joint_state import ArmToROSJointStateSpec
 
 DATA = Path(str(resources.files("uwsim"))) / "data" / "scenes"
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")

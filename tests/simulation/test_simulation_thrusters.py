@@ -19,16 +19,13 @@ from uwsim.messages import (
     WrenchStamped,
     header,
 )
-from uwsim.scene.ros_interfaces import (
-    ArmToROSJointStateSpec,
-    PATToROSOdomSpec,
-    ROSJointStateToArmSpec,
-    ROSPoseToPATSpec,
-    ROSThrustersToPATSpec,
-    ROSTwistToPATSpec,
-    ROSWrenchToPATSpec,
-)
 from uwsim.simulation import Simulation
+from uwsim.topics.arm_to_ros_joint_state import ArmToROSJointStateSpec
+from uwsim.topics.pat_to_ros_odom import PATToROSOdomSpec
+from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
+from uwsim.topics.ros_pose_to_pat import ROSPoseToPATSpec
+from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
+from uwsim.topics.thruster_commands import ROSThrustersToPATSpec, ROSWrenchToPATSpec
 
 NAME = "girona500"
 INTERFACES = (

@@ -11,10 +11,10 @@ from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.messages import Bool
 from uwsim.scene.reader import read_scene
-from uwsim.scene.ros_interfaces import ContactSensorToROSSpec
 from uwsim.scene.spec import ObjectSpec, PhysicsSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
+from uwsim.topics.contact_sensor_to_ros import ContactSensorToROSSpec
 
 TANK, BLACKBOX = read_scene(SCENE).objects
 BLACKBOX = replace(BLACKBOX, is_solid=None)  # in that scene a ghost, to be looked at

@@ -13,9 +13,9 @@ from typing import Any, Literal
 
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean
-from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
 from ..scene.variation import Draw, draw
+from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from ..world import TIMESTEP
 from .measures import EuclideanNormSpec
 from .plugin import Plugin

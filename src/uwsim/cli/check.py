@@ -155,16 +155,13 @@ def faults_of_side_file(file: Path) -> list[Fault]:
 
 def faults_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fault]:
     """Return everything wrong with what of a scene is simulated; the engine is heavy to load."""
-    from ..scene.ros_interfaces import ROSThrustersToPATSpec, ROSWrenchToPATSpec
+    from ..topics.thruster_commands import AutopilotTopicSpec
 
     if not (
         scene.ocean_state.currents
         or scene.vehicles
         or scene.stands_on_floor
-        or any(
-            isinstance(interface, ROSThrustersToPATSpec | ROSWrenchToPATSpec)
-            for interface in scene.ros_interfaces
-        )
+        or any(isinstance(interface, AutopilotTopicSpec) for interface in scene.ros_interfaces)
     ):
         return []
     from ..simulation.scene_checks import check_simulated

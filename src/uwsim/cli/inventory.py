@@ -15,7 +15,6 @@ import numpy.typing as npt
 from ..dialect.names import local
 from ..errors import Fault
 from ..scene.not_yet import READ_ONLY, limit_of
-from ..scene.ros_interfaces import INTERFACES, InterfaceSpec
 from ..scene.spec import ObjectSpec, SceneSpec
 from ..scene.urdf import JointSpec
 from ..scene.variation import draw
@@ -23,6 +22,7 @@ from ..scene.vehicle import VehicleSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
 from ..simulation.below import below_vehicle
+from ..topics import InterfaceSpec, element_of
 
 Fields = dict[str, Any]
 
@@ -180,10 +180,9 @@ def _object(scene: SceneSpec, thing: ObjectSpec) -> Fields:
 def _topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
     """Every topic of an interface: what it carries, which way, how often."""
     types: Mapping[str, str] = simulation.bus.topics
-    names = {spec: name for name, spec in INTERFACES.items()}
     found = []
     for interface in scene.ros_interfaces:
-        name = names[type(interface)]
+        name = element_of(interface)
         is_heard = _listens(interface)
         for field in ("topic", "image_topic", "info_topic"):
             topic = getattr(interface, field, "")

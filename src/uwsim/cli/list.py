@@ -142,7 +142,7 @@ def devices(tables: Tables) -> dict[str, str]:
 def interfaces(tables: Tables) -> dict[str, str]:
     """Elements of ``<rosInterfaces>``: topics in and out of a scene."""
     from ..dialect.names import local
-    from ..scene.ros_interfaces import INTERFACES
+    from ..topics import INTERFACES
 
     return {local(name): first_line(spec.__doc__) for name, spec in INTERFACES.items()}
 

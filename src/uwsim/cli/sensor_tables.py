@@ -13,8 +13,8 @@ from pathlib import Path
 
 from ..dialect import slots
 from ..dialect.names import local
-from ..scene.ros_interfaces import INTERFACES
 from ..sensors import SENSORS
+from ..topics import INTERFACES
 from .list import devices, limit_in, sensors
 from .plugins import bundled_tables
 

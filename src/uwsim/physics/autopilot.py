@@ -48,6 +48,7 @@ import numpy as np
 
 from ..geometry import Array, Pose
 from ..linear import pseudo_inverse
+from ..vehicle import LARGEST
 from .allocation import N_POINTS, ROLL, allocate, curve
 from .hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 
@@ -70,8 +71,6 @@ class Gains:
 
 LEAST_LAG = 0.08
 """Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
-LARGEST = 1e6
-"""A number of a command is taken as at most this: no vehicle gets there [m, m/s, rad/s, N, N m]."""
 Mode = Literal["velocity", "position", "wrench", "thrusters"]
 
 

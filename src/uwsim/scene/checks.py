@@ -12,16 +12,12 @@ from itertools import chain
 
 from ..devices.force_sensor import ForceSensorSpec
 from ..devices.lamp import MOST_LAMPS, LampSpec
-from ..dialect import Faults, slots
+from ..dialect import Faults
+from ..topics import InterfaceSpec, element_of
+from ..topics.interface import VehiclePublisherSpec
+from ..topics.simulated_device_ros import SimulatedDeviceROSSpec
+from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from .angle_checks import MORE_THAN_A_TURN
-from .ros_interfaces import (
-    INTERFACES,
-    ArmToROSJointStateSpec,
-    InterfaceSpec,
-    PATToROSOdomSpec,
-    SimulatedDeviceROSSpec,
-    VirtualCameraToROSImageSpec,
-)
 from .spec import ObjectSpec, SceneSpec
 from .urdf import RobotSpec
 from .vehicle import VehicleSpec
@@ -31,25 +27,6 @@ SHAPES = ("box", "sphere", "compound box", "compound cylinder", "trimesh", "comp
 
 MOST_NAMED = 8
 """Objects that one notice names."""
-
-SOURCES: dict[str, tuple[str, ...]] = {
-    "VirtualCameraToROSImage": ("virtualCamera", "virtualRangeImage"),
-    "RangeSensorToROSRange": ("rangeSensor", "objectPicker"),
-    "ImuToROSImu": ("imu",),
-    "PressureSensorToROS": ("pressureSensor",),
-    "GPSSensorToROS": ("gpsSensor",),
-    "DVLSensorToROS": ("dvlSensor",),
-    "RangeImageSensorToROSImage": ("virtualRangeImage", "virtualCamera"),
-    "multibeamSensorToLaserScan": ("multibeamSensor",),
-    "ProfilingSonarROS": ("ProfilingSonar",),
-    "contactSensorToROS": ("vehicle", "object"),
-    "echoROS": ("echo",),
-    "ForceSensorROS": ("ForceSensor",),
-    "RangeCameraToPCL": ("virtualRangeImage",),
-    "CustomCommsDeviceROS": ("CustomCommsDevice",),
-    "AcousticCommsDeviceROS": ("AcousticCommsDevice",),
-}
-"""Interface -> elements that it can publish; those with a vehicleName move or publish vehicles."""
 
 
 def check_names(
@@ -91,21 +68,11 @@ def check_names(
         )
 
 
-def mounted(vehicle: VehicleSpec) -> Iterator[tuple[str, object]]:
-    """Element name and spec of everything a vehicle carries."""
-    for slot in slots(VehicleSpec):
-        held = getattr(vehicle, slot.field)
-        if slot.kind == "spec" and held is not None:
-            yield from ((slot.shown, part) for part in (held if slot.repeated else (held,)))
-    if vehicle.simulated_devices is not None:
-        yield from (("echo", part) for part in vehicle.simulated_devices.echo)
-
-
 def _check_links(
     vehicle: VehicleSpec, robot: RobotSpec, scene: SceneSpec, faults: Faults, *, is_its_own: bool
 ) -> None:
     links = {link.name: None for link in robot.links}
-    for element, part in mounted(vehicle):
+    for element, part in vehicle.parts():
         link = getattr(part, "relative_to", None) or getattr(part, "target", None)
         if link is None:
             continue
@@ -149,7 +116,7 @@ def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
         "object": {thing.name: None for thing in scene.objects},
     }
     for vehicle in scene.vehicles:
-        for element, part in mounted(vehicle):
+        for element, part in vehicle.parts():
             name = str(getattr(part, "name", None) or getattr(part, "dccomms_id", ""))
             known.setdefault(element, {})[name] = None
     return known
@@ -170,7 +137,7 @@ def _check_interface(
     faults: Faults,
 ) -> None:
     node = faults.node_of(interface)
-    element = next(name for name, cls in INTERFACES.items() if cls is type(interface))
+    element = element_of(interface)
     wanted = next(
         (
             getattr(interface, name)
@@ -181,7 +148,7 @@ def _check_interface(
     )
     if wanted is None:
         return
-    kinds = SOURCES.get(element, ("vehicle",))
+    kinds = interface.sources
     if not any(wanted in known.get(kind, {}) for kind in kinds):
         near = faults.near(wanted, chain(*(known.get(kind, {}) for kind in kinds)), "notice")
         faults.notice(
@@ -231,7 +198,7 @@ def _check_shared_names(scene: SceneSpec, faults: Faults) -> None:
         first.setdefault(thing.name, "an object")
     said: dict[str, str] = {}
     for interface in scene.ros_interfaces:
-        if not isinstance(interface, PATToROSOdomSpec | ArmToROSJointStateSpec):
+        if not isinstance(interface, VehiclePublisherSpec):
             continue
         topic = interface.topic.strip("/")
         if topic in said:

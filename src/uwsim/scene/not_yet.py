@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from lxml import etree
 
+from ..devices import DEVICES
 from ..dialect import NAMESPACE, Faults
-from .ros_interfaces import INTERFACES
+from ..sensors import SENSORS
+from ..topics import INTERFACES, InterfaceSpec
 
 WAVES = (
     "windx",
@@ -19,19 +21,19 @@ WAVES = (
     "crestFoamHeight",
 )
 
-SIMULATED = (
-    "ArmToROSJointState",
-    "PATToROSOdom",
-    "ROSJointStateToArm",
-    "ROSOdomToPAT",
-    "ROSPoseToPAT",
-    "ROSTwistToPAT",
-    "VirtualCameraToROSImage",
-    "contactSensorToROS",
-    f"{{{NAMESPACE}}}ROSThrustersToPAT",
-    f"{{{NAMESPACE}}}ROSWrenchToPAT",
-)
-"""Interfaces that work."""
+FAMILIES: dict[str, dict[str, type]] = {
+    "vehicle": {**SENSORS, **DEVICES},
+    "simulatedDevices": {"echo": DEVICES["echo"]},
+    "rosInterfaces": {n: spec for n, spec in INTERFACES.items() if n != "SimulatedDeviceROS"},
+    "SimulatedDeviceROS": {"echoROS": INTERFACES["echoROS"]},
+}
+"""Element -> the parts that may stand in it; those without ``bind`` are not simulated."""
+
+
+def _is_simulated(spec: type) -> bool:
+    """Whether a sensor, device or interface does anything."""
+    return spec.is_simulated() if issubclass(spec, InterfaceSpec) else hasattr(spec, "bind")
+
 
 NOT_YET: dict[tuple[str, str], str] = {
     **{("oceanState", name): "waves" for name in WAVES},
@@ -46,37 +48,15 @@ NOT_YET: dict[tuple[str, str], str] = {
     ("UWSimScene", "netTracingScript"): "communication",
     ("UWSimScene", "CustomCommsChannel"): "communication",
     ("UWSimScene", "AcousticCommsChannel"): "communication",
-    ("vehicle", "CustomCommsDevice"): "communication",
-    ("vehicle", "AcousticCommsDevice"): "communication",
     ("virtualCamera", "showpath"): "showpath",
     **{
-        ("vehicle", name): name
-        for name in (
-            "fdm",
-            "tf",
-            "structuredLightProjector",
-            "rangeSensor",
-            "objectPicker",
-            "imu",
-            "pressureSensor",
-            "gpsSensor",
-            "dvlSensor",
-            "virtualRangeImage",
-            "multibeamSensor",
-            "ProfilingSonar",
-            "echo",
-            "ForceSensor",
-            "DredgeTool",
-            "LedArray",
-        )
+        (parent, name): name
+        for parent, parts in FAMILIES.items()
+        for name, spec in parts.items()
+        if not _is_simulated(spec)
     },
-    ("simulatedDevices", "echo"): "echo",
-    ("SimulatedDeviceROS", "echoROS"): "echoROS",
-    **{
-        ("rosInterfaces", name): name
-        for name in INTERFACES
-        if name not in (*SIMULATED, "SimulatedDeviceROS")
-    },
+    **{("vehicle", name): name for name in ("fdm", "tf")},
+    **{("vehicle", name): "communication" for name in ("CustomCommsDevice", "AcousticCommsDevice")},
 }
 """(parent, element) -> what it belongs to."""
 

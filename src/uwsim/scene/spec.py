@@ -29,9 +29,9 @@ from ..dialect import FARTHEST, NAMESPACE, element
 from ..errors import BadSetting
 from ..geometry import Pose, rotation_from_xyz
 from ..linear import product
+from ..topics import INTERFACES, InterfaceSpec
 from .doubts import ObjectDoubt
 from .on_floor import OnFloorSpec
-from .ros_interfaces import INTERFACES, InterfaceSpec
 from .seawater import sea_water_density
 from .variation import DISTRIBUTIONS, VariationSpec
 from .vehicle import VehicleSpec

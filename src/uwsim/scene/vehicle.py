@@ -14,6 +14,7 @@ The fields stand in the order of the original grammar, as in `spec`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -26,7 +27,7 @@ from ..devices.led_array import LedArraySpec
 from ..devices.object_picker import ObjectPickerSpec
 from ..devices.sway import SwaySpec, swayed
 from ..devices.thruster_fault import ThrusterFaultSpec
-from ..dialect import FARTHEST, element
+from ..dialect import FARTHEST, element, slots
 from ..geometry import Pose
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.gps_sensor import GpsSensorSpec
@@ -142,6 +143,15 @@ class VehicleSpec:
     accepts: tuple[VehicleDoubt, ...] = element("accept", namespaced=True, default=())
     """What is meant as it is, though `uwsim check` would ask about it: see
     [doubts](#doubts)."""
+
+    def parts(self) -> Iterator[tuple[str, object]]:
+        """Element name and spec of everything it carries, in the order of the grammar."""
+        for slot in slots(VehicleSpec):
+            held = getattr(self, slot.field)
+            if slot.kind == "spec" and held is not None:
+                yield from ((slot.shown, part) for part in (held if slot.repeated else (held,)))
+        if self.simulated_devices is not None:
+            yield from (("echo", part) for part in self.simulated_devices.echo)
 
     @property
     def localized_from_base(self) -> Pose:

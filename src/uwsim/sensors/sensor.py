@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, Protocol, get_args
+from typing import ClassVar, Literal, Protocol, get_args, runtime_checkable
 
-from ..world import Body
+from ..world import Body, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
 """Of the vehicle, as it stands in its file."""
@@ -57,3 +57,30 @@ class Carrier(Protocol):
         Raises:
             UnknownName: the vehicle has no such link.
         """
+
+
+class Sensor(Protocol):
+    """A sensor at work."""
+
+    def sample(self, time: float) -> object:
+        """Measure now, at ``time`` [s]; the message is of its spec's ``message_type``."""
+
+
+@runtime_checkable
+class BindsSensor(Protocol):
+    """The spec of a sensor that is simulated: what has no ``bind`` is read and does nothing."""
+
+    message_type: ClassVar[type]
+    """Type of its messages."""
+
+    @property
+    def name(self) -> str:
+        """Its name in the scene."""
+
+    def bind(self, world: SensorWorld, vehicle: Carrier) -> Sensor:
+        """Mount it on its vehicle; raises UnknownName if there is no such link."""
+
+
+def measured_by(spec: type) -> type | None:
+    """Return the type of the messages of a sensor or device; None if it is not simulated."""
+    return getattr(spec, "message_type", None) if hasattr(spec, "bind") else None

@@ -14,13 +14,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from ..dialect import FARTHEST, element
 from ..geometry import Intrinsics, Pose
-from ..messages import CameraInfo, RegionOfInterest, header
+from ..messages import CameraInfo, Image, RegionOfInterest, header, image
 from ..world import Body, SensorWorld
 from .sensor import DIRECTIONS, Carrier, LookAt, SensorSpec
 
@@ -68,6 +69,8 @@ class VirtualCameraSpec(SensorSpec):
 
     Without ``parameters``: square pixels, a centred axis, near 0.18 m, far 2000 m.
     """
+
+    message_type: ClassVar[type] = Image
 
     resw: int = element(default=160, minimum=1, maximum=16384)
     """Columns of the picture [px]."""
@@ -161,6 +164,10 @@ class VirtualCamera:
             random=self._random,
             grey=self.is_grey,
         )
+
+    def sample(self, time: float) -> Image:
+        """Take a picture as a message, stamped ``time`` [s]."""
+        return image(self.shoot(), time=time, frame_id=self.frame_id)
 
     def skip(self) -> None:
         """Let a picture that nobody reads take its turn in the random stream."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from .calls import BEFORE, Calls, Counter, Cut, open_call
-from .image_publisher import ImagePublisher, sample_step
 from .node import STOPPED, InProcessNode, latency_of, what_broke
 from .simulation import Simulation
 from .studio import Studio
@@ -14,12 +13,10 @@ __all__ = [
     "Calls",
     "Counter",
     "Cut",
-    "ImagePublisher",
     "InProcessNode",
     "Simulation",
     "Studio",
     "latency_of",
     "open_call",
-    "sample_step",
     "what_broke",
 ]

@@ -15,36 +15,13 @@ from ..chance import stream
 from ..currents import Place, PythonFunctionSpec
 from ..dialect import NAMESPACE, Faults
 from ..errors import Fault, SceneError, UnknownName, UwsimError, did_you_mean
-from ..messages import (
-    Bool,
-    CameraInfo,
-    Float64MultiArray,
-    Image,
-    JointState,
-    Odometry,
-    Pose,
-    TwistStamped,
-    WrenchStamped,
-)
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
 from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle_into
-from ..scene.ros_interfaces import (
-    INTERFACES,
-    ArmToROSJointStateSpec,
-    ContactSensorToROSSpec,
-    InterfaceSpec,
-    PATToROSOdomSpec,
-    ROSJointStateToArmSpec,
-    ROSOdomToPATSpec,
-    ROSPoseToPATSpec,
-    ROSThrustersToPATSpec,
-    ROSTwistToPATSpec,
-    ROSWrenchToPATSpec,
-    VirtualCameraToROSImageSpec,
-)
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.vehicle import VehicleSpec
+from ..topics import element_of
+from ..topics.thruster_commands import AutopilotTopicSpec
 from .bodies import find_file
 from .scene_lines import SceneLines
 
@@ -54,19 +31,6 @@ LEAST_LIFT = 0.1
 """What other water must add to the buoyancy of a vehicle to be told [N]."""
 LIGHTEST = 100.0
 """Buoyancy per weight that no vehicle has: the lightest foam has 10 kg/m3 [1]."""
-MESSAGES: Mapping[type[InterfaceSpec], Mapping[str, type]] = {
-    ROSPoseToPATSpec: {"topic": Pose},
-    ROSTwistToPATSpec: {"topic": TwistStamped},
-    ROSOdomToPATSpec: {"topic": Odometry},
-    ROSJointStateToArmSpec: {"topic": JointState},
-    ROSThrustersToPATSpec: {"topic": Float64MultiArray},
-    ROSWrenchToPATSpec: {"topic": WrenchStamped},
-    PATToROSOdomSpec: {"topic": Odometry},
-    ArmToROSJointStateSpec: {"topic": JointState},
-    ContactSensorToROSSpec: {"topic": Bool},
-    VirtualCameraToROSImageSpec: {"image_topic": Image, "info_topic": CameraInfo},
-}
-"""What the interfaces that are simulated carry, by the field that names the topic."""
 
 
 def read_dynamics(
@@ -223,9 +187,8 @@ class Search:
         carried: dict[str, tuple[type, str]] = {}
         for number, interface in enumerate(self._scene.ros_interfaces):
             place = ("rosInterfaces", 0, "*", number)
-            element = next(name for name, cls in INTERFACES.items() if cls is type(interface))
-            element = element.replace(U, "u:")
-            if isinstance(interface, ROSThrustersToPATSpec | ROSWrenchToPATSpec):
+            element = element_of(interface).replace(U, "u:")
+            if isinstance(interface, AutopilotTopicSpec):
                 wanted = vehicles.get(interface.vehicle_name)
                 if wanted is None:
                     near = did_you_mean(interface.vehicle_name, vehicles)
@@ -245,7 +208,7 @@ class Search:
             )
             if named[0] not in (None, *vehicles) or named[1] not in (None, *cameras):
                 continue  # left out, as in the original
-            for field, message in MESSAGES.get(type(interface), {}).items():
+            for field, message in interface.carries().items():
                 topic = str(getattr(interface, field))
                 other, first = carried.setdefault(topic.strip("/"), (message, element))
                 if other is not message:

@@ -18,14 +18,11 @@ from typing import Any
 from ..bus import Algorithm, Bus
 from ..errors import BadSetting
 from ..physics.motion import Motion
-from ..scene.ros_interfaces import VirtualCameraToROSImageSpec
 from ..scene.spec import SceneSpec
+from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from .calls import Calls
-from .commands import Commands
-from .image_publisher import ImagePublisher
 from .node import InProcessNode
 from .stage import SceneStage
-from .state_publishers import state_publishers
 from .thruster_faults import ThrusterFaults
 
 
@@ -34,12 +31,12 @@ class Simulation:
 
     Args:
         scene: what the file says; what varies in it is drawn for the seed.
-        is_blind: publish black images, drawing nothing.
         options: those of `uwsim.simulation.world.SceneWorld`: ``seed``, ``stream_prefix``,
-            ``timestep``, ``integrator``, ``data_path``, ``compatibility``, ``studio``.
+            ``timestep``, ``integrator``, ``data_path``, ``compatibility``, ``studio``,
+            ``is_blind``.
     """
 
-    def __init__(self, scene: SceneSpec, *, is_blind: bool = False, **options: Any) -> None:
+    def __init__(self, scene: SceneSpec, **options: Any) -> None:
         if not isinstance(scene, SceneSpec):
             raise BadSetting(
                 f"A Simulation is made of what read_scene returns, not of {_shown(scene)}."
@@ -54,27 +51,12 @@ class Simulation:
         )
         self._swaying = [(i, v) for i, v in enumerate(scene.vehicles) if v.sways]
         self._sway()
-        robots = [world.robots[i] for i in range(len(scene.vehicles))]
-        self._commands = Commands(scene, robots, state, world.bus, world.timestep)
         self._thruster_faults = ThrusterFaults(scene, state)
-        for rate, tell in state_publishers(
-            scene, world.robots, state, world.touch, world.bus, lambda: self.time
-        ):
-            world.every(rate, tell)
         self._nodes: list[InProcessNode] = []
-        self.images: dict[str, ImagePublisher] = {}
+        self.images = {
+            each.image_topic: each for each in world.interfaces if isinstance(each, ImagePublisher)
+        }
         """What publishes images, by topic."""
-        for interface in scene.ros_interfaces:
-            if isinstance(interface, VirtualCameraToROSImageSpec) and not interface.depth:
-                if interface.camera_name not in world.cameras:
-                    continue
-                self.images[interface.image_topic] = ImagePublisher(
-                    interface,
-                    world.camera(interface.camera_name),
-                    world.bus,
-                    world.timestep,
-                    is_blind=is_blind,
-                )
 
     @property
     def bus(self) -> Bus:
@@ -103,7 +85,7 @@ class Simulation:
     def advance(self) -> None:
         """Take one step."""
         self.bus.step += 1
-        self._commands.carry_out()
+        self.world.apply_commands()
         self._drift()
         self._push()
         self._sway()
@@ -124,8 +106,7 @@ class Simulation:
     def _tail(self) -> None:
         bus = self.bus
         for images in self.images.values():
-            if bus.step >= images.due:
-                images.publish()
+            images.tick(bus.step)
         self.world.tick()
         bus.deliver()
         for node in self._nodes:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
 from ..currents import Place
+from ..errors import UnknownName
 from ..geometry import Array
+from ..sampling import SampleTimer
 from ..scene.spec import SceneSpec
+from ..topics.interface import Binds
 from ..world import Flow
-from .image_publisher import SampleTimer
 from .water_motion import WaterMotion
 from .world import SceneWorld
 
@@ -37,6 +40,16 @@ class SceneStage(SceneWorld):
         """How its water moves."""
         self.files |= self.water.files
         self._timers: list[SampleTimer] = []
+        self._commands: list[Callable[[], None]] = []
+        self.interfaces = tuple(self._bound_interfaces())
+        """What publishes and listens, in the file's order."""
+
+    def _bound_interfaces(self) -> Iterator[object]:
+        for spec in self.scene.ros_interfaces:
+            # one that names what is not there is left out, as in the original
+            with suppress(UnknownName):
+                if spec.is_simulated() and isinstance(spec, Binds):
+                    yield spec.bind(self)
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
@@ -88,6 +101,16 @@ class SceneStage(SceneWorld):
         timer = SampleTimer(self.step, rate, self.timestep, call)
         self._timers.append(timer)
         return lambda: self._timers.remove(timer) if timer in self._timers else None
+
+    def at_next_step(self, command: Callable[[], None]) -> None:
+        """Have ``command`` carried out at the start of the next step."""
+        self._commands.append(command)
+
+    def apply_commands(self) -> None:
+        """Carry out what arrived during the last step, in its order."""
+        commands, self._commands = self._commands, []
+        for command in commands:
+            command()
 
     def tick(self) -> None:
         """Call what is due at the current step."""

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
+from ..errors import UwsimError
 from ..geometry import Pose
 from ..physics.state import State
 from ..physics.touching import Touching
@@ -43,6 +44,17 @@ class Touch:
         self._data_path, self._timestep = data_path, timestep
         self._touching: Touching | None = None
         self._step = 0
+
+    def is_possible(self, name: str) -> bool:
+        """Whether there is a vehicle or object of that name that can touch others.
+
+        One without a shape cannot, as in the original without physics.
+        """
+        try:
+            kind, index = touchable(name, self._scene)
+        except UwsimError:
+            return False
+        return kind == "object" or any(link.solids for link in self._robots[index].links)
 
     def look(self, step: int) -> None:
         """Take note of where everything is at a step; to be called at every one."""

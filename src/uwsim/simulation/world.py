@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 
@@ -16,10 +17,10 @@ from ..geometry import Intrinsics, Pose
 from ..physics.state import State
 from ..scene.spec import Integrator, SceneSpec, with_integrator
 from ..scene.variation import varied
+from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact
 from .bodies import SceneBody, find_body, find_file, name_bodies, read_robots
-from .carriers import carriers_of
 from .collision_shapes import simulated_shapes
 from .dynamics import read_dynamics
 from .floor import set_on_floor
@@ -27,6 +28,7 @@ from .plausibility import doubts_about
 from .scenery import Scenery
 from .studio import Studio
 from .touch import Touch
+from .vehicles import SceneVehicle, vehicles_of
 
 
 class SceneWorld:
@@ -42,6 +44,7 @@ class SceneWorld:
         compatibility: the original's slips asked for.
         runs_code: let Python code that the scene names run; without it that water is still.
         studio: lends the renderer; without one the scene has a renderer of its own.
+        is_blind: images on topics are black, nothing is drawn for them.
     """
 
     def __init__(
@@ -56,6 +59,7 @@ class SceneWorld:
         compatibility: frozenset[str] = frozenset(),
         runs_code: bool = True,
         studio: Studio | None = None,
+        is_blind: bool = False,
     ) -> None:
         data_path = tuple(Path(folder) for folder in data_path)
         scene = with_integrator(varied(scene, seed), integrator)
@@ -67,6 +71,8 @@ class SceneWorld:
         self._seed, self._prefix, self._timestep = seed, stream_prefix, timestep
         self._data_path, self._compatibility = data_path, compatibility
         self._runs_code = runs_code
+        self.is_blind = is_blind
+        """Whether images on topics are black."""
         self._bus = Bus()
         self._dynamics = dynamics = read_dynamics(scene, self.robots, data_path)
         self.files = {path.name: path for one in dynamics.values() for path in one.files}
@@ -74,12 +80,12 @@ class SceneWorld:
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
         self.state = State(scene, self.robots, dynamics, timestep, shapes)
         """Where everything is, and what moves it."""
-        carriers = carriers_of(scene, self.robots, self.state)
+        self._vehicles = vehicles_of(scene, self.robots, self.state)
         self.scenery = Scenery(
             scene,
             self.robots,
             self.state,
-            carriers,
+            self._vehicles,
             data_path,
             compatibility=compatibility,
             studio=studio,
@@ -90,12 +96,23 @@ class SceneWorld:
         )
         self.touch = Touch(scene, self.robots, self.state, data_path, timestep)
         """Who touches whom."""
-        self._cameras: dict[str, VirtualCamera] = {}
-        for vehicle, carrier in zip(scene.vehicles, carriers, strict=True):
-            for spec in vehicle.virtual_cameras:
+        self._sensors = self._bound_sensors()
+        self._cameras = {
+            name: sensor
+            for (_, name), sensor in self._sensors.items()
+            if isinstance(sensor, VirtualCamera)
+        }
+
+    def _bound_sensors(self) -> dict[tuple[str, str], Sensor]:
+        """Sensors by element and name; where two share both, the first has it."""
+        sensors: dict[tuple[str, str], Sensor] = {}
+        for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
+            for element, part in spec.parts():
                 # a sensor on a link that is not there is left out, as in the original
-                if carrier.has_link(spec.relative_to):
-                    self._cameras.setdefault(spec.name, spec.bind(self, carrier))
+                with suppress(UnknownName):
+                    if isinstance(part, BindsSensor):
+                        sensors.setdefault((element, part.name), part.bind(self, vehicle))
+        return sensors
 
     @cached_property
     def warnings(self) -> tuple[Fault, ...]:
@@ -155,6 +172,13 @@ class SceneWorld:
             raise UnknownName("virtual camera", name, self._cameras)
         return self._cameras[name]
 
+    def sensor(self, name: str, elements: tuple[str, ...]) -> Sensor:
+        """Find a sensor, or a device that measures, read from one of these elements."""
+        known = {given: each for (kind, given), each in self._sensors.items() if kind in elements}
+        if name not in known:
+            raise UnknownName(" or ".join(elements), name, known)
+        return known[name]
+
     @property
     def cameras(self) -> tuple[str, ...]:
         """Names of the virtual cameras, in the file's order."""
@@ -170,6 +194,14 @@ class SceneWorld:
         if name not in self.vehicles:
             raise UnknownName("vehicle", name, self.vehicles)
         return self.vehicles.index(name)
+
+    def vehicle(self, name: str) -> SceneVehicle:
+        """Find a vehicle; UnknownName if there is none."""
+        return self._vehicles[self.vehicle_index(name)]
+
+    def is_touchable(self, name: str) -> bool:
+        """Whether there is a vehicle or object of that name, with a shape that others touch."""
+        return self.touch.is_possible(name)
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of that name."""

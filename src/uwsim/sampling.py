@@ -1,0 +1,27 @@
+"""When samples are due: at the first step at or after their time, counted from the start."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+
+def sample_step(n: int, rate: float, timestep: float) -> int:
+    """Step at which sample ``n`` of a sensor with ``rate`` [Hz] is taken (DESIGN 4)."""
+    return math.ceil(n / (rate * timestep) - 1e-9)
+
+
+class SampleTimer:
+    """Calls something at the samples of a rate."""
+
+    def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
+        self._start, self._rate, self._timestep, self._call = start, rate, timestep, call
+        self._n_samples = 0
+        self._due = start  # step of the next sample
+
+    def tick(self, step: int) -> None:
+        """Call it, if its step has come."""
+        if step >= self._due:
+            self._n_samples += 1
+            self._due = self._start + sample_step(self._n_samples, self._rate, self._timestep)
+            self._call()

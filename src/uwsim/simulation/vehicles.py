@@ -1,0 +1,116 @@
+"""Vehicles as sensors, devices and topics see them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+
+from ..errors import UnknownName
+from ..geometry import Array, Pose
+from ..physics.state import State
+from ..scene.mounts import Stand, link_from_frame
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec
+from ..sensors.sensor import Mounted
+from ..vehicle import Autopilot, Servos
+from .bodies import SceneBody
+
+
+class SceneVehicle:
+    """One vehicle of a scene (`uwsim.vehicle.Vehicle`, `uwsim.sensors.sensor.Carrier`).
+
+    It is known by its number: of several that share a name each is one of these.
+
+    Args:
+        index: its number in the scene.
+        stand: the vehicle where its file puts it.
+        state: where its links are.
+    """
+
+    def __init__(self, index: int, stand: Stand, state: State) -> None:
+        self._index, self._stand, self._state = index, stand, state
+        self.name = stand.vehicle.name
+        """Its name in the scene."""
+        self.joint_names = tuple(joint.name for joint in stand.robot.movable)
+        """Names of the joints of the joint vector."""
+        self._losses: dict[int, list[float]] = {}  # of each thruster, one a setter
+
+    @property
+    def autopilot(self) -> Autopilot | None:
+        """What steers it; None if it is not simulated."""
+        return self._state.pilot(self._index) if self._is_simulated else None
+
+    @property
+    def servos(self) -> Servos | None:
+        """What moves its joints; None if it is not simulated."""
+        return self._state.servos(self._index) if self._is_simulated else None
+
+    @property
+    def _is_simulated(self) -> bool:
+        return self._state.is_simulated(self._index)
+
+    @property
+    def thrusters(self) -> tuple[str, ...]:
+        """Names of its thrusters, in the order of its side file; none if it is not simulated."""
+        return self._state.thrusters(self._index)
+
+    @property
+    def world_from_base(self) -> Pose:
+        """Where its base is now."""
+        return self._state.vehicle_pose(self._index)
+
+    @property
+    def velocity(self) -> Array:
+        """Twist of its base over ground, base axes, (6,) [m/s, rad/s]."""
+        return self._state.vehicle_velocity(self._index)
+
+    @property
+    def joints(self) -> Array:
+        """A copy of its joint vector, (n,) [rad or m]."""
+        return self._state.joints(self._index)
+
+    def place(self, world_from_base: Pose) -> None:
+        """Put it somewhere, at rest."""
+        self._state.place_vehicle(self._index, world_from_base)
+
+    def set_joints(self, values: Array) -> None:
+        """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
+        self._state.set_joints(self._index, values)
+
+    def loss_setter(self, thruster: str) -> Callable[[float], None]:
+        """Return what sets the loss of a thruster [0..1]; of several the greatest counts."""
+        if thruster not in self.thrusters:
+            raise UnknownName("thruster", thruster, self.thrusters)
+        number = self.thrusters.index(thruster)
+        losses = self._losses.setdefault(number, [])
+        own = len(losses)
+        losses.append(0.0)
+
+        def lose(loss: float) -> None:
+            losses[own] = loss
+            self._state.set_loss(self._index, number, max(losses))
+
+        return lose
+
+    def mount(self, spec: Mounted, *, visual: bool = False) -> SceneBody:
+        """Fix something to its link; raises UnknownName if there is no such link."""
+        link, robot = spec.relative_to, self._stand.robot
+        if robot.link(link) is None:
+            raise UnknownName("link", link, [each.name for each in robot.links])
+        link_from_part = link_from_frame(robot, link, visual) @ self._stand.frame_from_mounted(
+            spec, visual=visual
+        )
+        pose: Callable[[], Pose] = partial(
+            self._state.mounted_pose, self._index, link, link_from_part
+        )
+        return SceneBody(f"{self.name}/{link}", pose, None)
+
+
+def vehicles_of(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], state: State
+) -> tuple[SceneVehicle, ...]:
+    """The vehicles of a scene, in the file's order."""
+    return tuple(
+        SceneVehicle(index, Stand(vehicle, robots[index], scene.world_from_localized), state)
+        for index, vehicle in enumerate(scene.vehicles)
+    )

@@ -1,0 +1,103 @@
+"""Topics in and out of a scene: the elements of ``<rosInterfaces>``, one file each.
+
+.. code-block:: xml
+
+    <rosInterfaces>
+      <VirtualCameraToROSImage>
+        <cameraName>bowtech1</cameraName>
+        <imageTopic>/uwsim/camera1</imageTopic> <infoTopic>/uwsim/camera1_info</infoTopic>
+        <rate>30</rate>
+      </VirtualCameraToROSImage>
+    </rosInterfaces>
+
+The bus uses these topics whether or not there is any ROS. An interface without ``bind`` is read
+and not simulated.
+
+=====================  ===========================  =============================================
+interface              message                      effect
+=====================  ===========================  =============================================
+ROSPoseToPAT           geometry_msgs/Pose           the vehicle is put there (in L)
+ROSTwistToPAT          geometry_msgs/TwistStamped   one step of the twist (in the base frame)
+ROSOdomToPAT           nav_msgs/Odometry            a pose that is not all zero as ROSPoseToPAT,
+                                                    else its twist as ROSTwistToPAT
+ROSJointStateToArm     sensor_msgs/JointState       positions, else one step of the velocities
+u:ROSThrustersToPAT    std_msgs/Float64MultiArray   commands of the thrusters, simulated only
+u:ROSWrenchToPAT       geometry_msgs/WrenchStamped  force and torque, simulated only
+=====================  ===========================  =============================================
+
+Commands are carried out at the start of the next step, in the order in which they arrived. Poses
+and positions between two velocities do not count, as in the original: they take no time from a
+velocity. A vehicle that is simulated (``u:dynamics``) is never put anywhere by a message: its
+autopilot takes a pose for the place to go to and stay at, and holds a twist, a wrench or thruster
+commands until the next of any of them; so do its joints' servos with theirs.
+"""
+
+from __future__ import annotations
+
+from ..dialect import NAMESPACE
+from .arm_to_ros_joint_state import ArmToROSJointStateSpec
+from .contact_sensor_to_ros import ContactSensorToROSSpec
+from .depth_images import RangeCameraToPCLSpec, RangeImageSensorToROSImageSpec
+from .interface import InterfaceSpec
+from .pat_to_ros_odom import PATToROSOdomSpec
+from .ros_joint_state_to_arm import ROSJointStateToArmSpec
+from .ros_odom_to_pat import ROSOdomToPATSpec
+from .ros_pose_to_pat import ROSPoseToPATSpec
+from .ros_twist_to_pat import ROSTwistToPATSpec
+from .sensor_topic import (
+    AcousticCommsDeviceROSSpec,
+    CustomCommsDeviceROSSpec,
+    DVLSensorToROSSpec,
+    EchoROSSpec,
+    ForceSensorROSSpec,
+    GPSSensorToROSSpec,
+    ImuToROSImuSpec,
+    MultibeamSensorToLaserScanSpec,
+    PressureSensorToROSSpec,
+    ProfilingSonarROSSpec,
+    RangeSensorToROSRangeSpec,
+)
+from .simulated_device_ros import SimulatedDeviceROSSpec
+from .thruster_commands import ROSThrustersToPATSpec, ROSWrenchToPATSpec
+from .viewer_topics import ROSImageToHUDSpec, ROSPointCloudLoaderSpec
+from .virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
+from .world_to_ros_tf import WorldToROSTFSpec
+
+INTERFACES: dict[str, type[InterfaceSpec]] = {
+    "ROSOdomToPAT": ROSOdomToPATSpec,
+    "PATToROSOdom": PATToROSOdomSpec,
+    "WorldToROSTF": WorldToROSTFSpec,
+    "ArmToROSJointState": ArmToROSJointStateSpec,
+    "ROSJointStateToArm": ROSJointStateToArmSpec,
+    "VirtualCameraToROSImage": VirtualCameraToROSImageSpec,
+    "ROSImageToHUD": ROSImageToHUDSpec,
+    "ROSTwistToPAT": ROSTwistToPATSpec,
+    "RangeSensorToROSRange": RangeSensorToROSRangeSpec,
+    "ROSPoseToPAT": ROSPoseToPATSpec,
+    "ImuToROSImu": ImuToROSImuSpec,
+    "PressureSensorToROS": PressureSensorToROSSpec,
+    "GPSSensorToROS": GPSSensorToROSSpec,
+    "DVLSensorToROS": DVLSensorToROSSpec,
+    "RangeImageSensorToROSImage": RangeImageSensorToROSImageSpec,
+    "multibeamSensorToLaserScan": MultibeamSensorToLaserScanSpec,
+    "ProfilingSonarROS": ProfilingSonarROSSpec,
+    "SimulatedDeviceROS": SimulatedDeviceROSSpec,
+    "contactSensorToROS": ContactSensorToROSSpec,
+    "echoROS": EchoROSSpec,
+    "ForceSensorROS": ForceSensorROSSpec,
+    "ROSPointCloudLoader": ROSPointCloudLoaderSpec,
+    "RangeCameraToPCL": RangeCameraToPCLSpec,
+    "CustomCommsDeviceROS": CustomCommsDeviceROSSpec,
+    "AcousticCommsDeviceROS": AcousticCommsDeviceROSSpec,
+    f"{{{NAMESPACE}}}ROSThrustersToPAT": ROSThrustersToPATSpec,
+    f"{{{NAMESPACE}}}ROSWrenchToPAT": ROSWrenchToPATSpec,
+}
+"""Element -> spec, in the order of the original grammar; ours last."""
+
+
+def element_of(interface: InterfaceSpec) -> str:
+    """Return the name of the element that an interface was read from, as the table has it."""
+    return next(name for name, spec in INTERFACES.items() if spec is type(interface))
+
+
+__all__ = ["INTERFACES", "InterfaceSpec", "element_of"]

@@ -1,0 +1,54 @@
+"""The joints of a vehicle, on a topic.
+
+As in the original the velocities of a vehicle that is not simulated are missing and its efforts
+are zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..messages import JointState, header
+from ..vehicle import Vehicle
+from .interface import TopicWorld, VehiclePublisherSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class ArmToROSJointStateSpec(VehiclePublisherSpec):
+    """Publishes the joints of a vehicle as sensor_msgs/JointState."""
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": JointState}
+
+    def bind(self, world: TopicWorld) -> JointPublisher:
+        """Publish from now on; raises UnknownName if there is no such vehicle."""
+        publisher = JointPublisher(self.topic, world.vehicle(self.vehicle_name), world)
+        world.every(self.rate, publisher.publish)
+        return publisher
+
+
+class JointPublisher:
+    """Publishes the joint vector and, of a simulated vehicle, its velocities and efforts."""
+
+    def __init__(self, topic: str, vehicle: Vehicle, world: TopicWorld) -> None:
+        self._vehicle, self._world = vehicle, world
+        self._publish = world.bus.publisher(topic, JointState)
+
+    def publish(self) -> None:
+        """Publish the state as it is now."""
+        names, servos = list(self._vehicle.joint_names), self._vehicle.servos
+        velocity, effort = np.zeros(0), np.zeros(len(names))
+        if servos is not None:
+            velocity, effort = servos.velocities, servos.efforts
+        self._publish(
+            JointState(
+                header=header(self._world.time),
+                name=names,
+                position=self._vehicle.joints,
+                velocity=velocity,
+                effort=effort,
+            )
+        )

@@ -1,0 +1,48 @@
+"""Whether a vehicle or object touches another, on a topic."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..dialect import element
+from ..errors import UnknownName
+from ..messages import Bool
+from .interface import InterfaceSpec, TopicWorld
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactSensorToROSSpec(InterfaceSpec):
+    """Publishes whether something touches, as std_msgs/Bool."""
+
+    sources: ClassVar[tuple[str, ...]] = ("vehicle", "object")
+    messages: ClassVar[Mapping[str, type]] = {"topic": Bool}
+
+    name: str
+    """Name of the vehicle or object."""
+    topic: str
+    """Name of the topic."""
+    rate: int = element(default=10, minimum=1)
+    """How often [Hz]."""
+
+    def bind(self, world: TopicWorld) -> ContactPublisher:
+        """Publish from now on; raises UnknownName if there is nothing of that name to touch."""
+        if not world.is_touchable(self.name):
+            raise UnknownName("vehicle or object with a shape", self.name, ())
+        publisher = ContactPublisher(self.name, self.topic, world)
+        world.every(self.rate, publisher.publish)
+        return publisher
+
+
+class ContactPublisher:
+    """Publishes whether something touches anything."""
+
+    def __init__(self, name: str, topic: str, world: TopicWorld) -> None:
+        self._name, self._topic, self._world = name, topic, world
+        self._publish = world.bus.publisher(topic, Bool)
+
+    def publish(self) -> None:
+        """Publish it as it is now, if somebody reads it; the message has no time."""
+        if self._world.bus.has_readers(self._topic):
+            self._publish(Bool(data=bool(self._world.contacts(self._name))))

@@ -1,0 +1,76 @@
+"""The joints of a vehicle move as a topic says; those of a simulated one by their servos.
+
+Positions, else velocities, else efforts. The joints of a vehicle that is not simulated are put
+there, clamped to their limits, or moved by one step of the velocities. Not modelled: that a
+command is refused when the arm would touch something.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..geometry import Array
+from ..messages import JointState
+from ..vehicle import Servos, Vehicle
+from .interface import TopicWorld, VehicleTopicSpec
+from .ros_twist_to_pat import Gap
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSJointStateToArmSpec(VehicleTopicSpec):
+    """Moves the joints of a vehicle by sensor_msgs/JointState."""
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": JointState}
+
+    def bind(self, world: TopicWorld) -> JointCommand:
+        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        command = JointCommand(world.vehicle(self.vehicle_name), Gap(world))
+        world.bus.subscribe(
+            self.topic, JointState, lambda m: world.at_next_step(lambda: command.obey(m))
+        )
+        return command
+
+
+class JointCommand:
+    """Moves the joints of a vehicle."""
+
+    def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
+        self._vehicle, self._gap = vehicle, gap
+
+    def obey(self, message: JointState) -> None:
+        """Take positions, else velocities, else efforts."""
+        servos = self._vehicle.servos
+        if servos is not None:
+            self._steer(servos, message)
+            return
+        joints = self._vehicle.joints  # (n,) [rad or m]
+        if message.position.size:
+            for number, value in self._numbered(message, message.position).items():
+                joints[number] = value
+        elif message.velocity.size:
+            time = self._gap.take()
+            for number, value in self._numbered(message, message.velocity).items():
+                joints[number] += value * time
+        self._vehicle.set_joints(joints)
+
+    def _steer(self, servos: Servos, message: JointState) -> None:
+        if message.position.size:
+            servos.aim(self._numbered(message, message.position))
+        elif message.velocity.size:
+            servos.drive(self._numbered(message, message.velocity))
+        else:
+            servos.push(self._numbered(message, message.effort))
+
+    def _numbered(self, message: JointState, given: Array) -> dict[int, float]:
+        """Values by the number of their joint; by name, or without names in order."""
+        names = list(self._vehicle.joint_names)
+        places = message.name or names
+        return {
+            names.index(name): value
+            for name, value in zip(places, given.tolist(), strict=False)
+            if name in names and np.isfinite(value)
+        }

@@ -1,0 +1,51 @@
+"""A vehicle follows odometry: its pose, or where that is all zero its twist."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..messages import Odometry
+from .interface import TopicWorld, VehicleTopicSpec
+from .ros_pose_to_pat import PoseCommand
+from .ros_twist_to_pat import Gap, TwistCommand
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSOdomToPATSpec(VehicleTopicSpec):
+    """Moves a vehicle by nav_msgs/Odometry.
+
+    A position or turn that is not all zero puts it there, in L; else it goes on by the twist, in
+    its own axes, for the time since the twist before (1 s at most). A pose takes no time from a
+    twist.
+    """
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": Odometry}
+
+    def bind(self, world: TopicWorld) -> OdometryCommand:
+        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        vehicle = world.vehicle(self.vehicle_name)
+        command = OdometryCommand(
+            PoseCommand(vehicle, world.world_from_localized), TwistCommand(vehicle, Gap(world))
+        )
+        world.bus.subscribe(
+            self.topic, Odometry, lambda m: world.at_next_step(lambda: command.obey(m))
+        )
+        return command
+
+
+class OdometryCommand:
+    """Puts a vehicle somewhere or moves it on, as a message has it."""
+
+    def __init__(self, pose: PoseCommand, twist: TwistCommand) -> None:
+        self._pose, self._twist = pose, twist
+
+    def obey(self, odometry: Odometry) -> None:
+        """Take a pose in L, or a twist in the base's axes."""
+        pose = odometry.pose.pose
+        p, q = pose.position, pose.orientation
+        if any((p.x, p.y, p.z, q.x, q.y, q.z)):
+            self._pose.obey(pose)
+        else:
+            self._twist.obey(odometry.twist.twist)

@@ -1,0 +1,55 @@
+"""A vehicle is put where a message says; a simulated one goes there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..geometry import Pose, rotation_from_quaternion
+from ..messages import Pose as PoseMessage
+from ..vehicle import LARGEST, Vehicle
+from .interface import TopicWorld, VehicleTopicSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSPoseToPATSpec(VehicleTopicSpec):
+    """Moves a vehicle by geometry_msgs/Pose."""
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": PoseMessage}
+
+    def bind(self, world: TopicWorld) -> PoseCommand:
+        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        command = PoseCommand(world.vehicle(self.vehicle_name), world.world_from_localized)
+        world.bus.subscribe(
+            self.topic, PoseMessage, lambda m: world.at_next_step(lambda: command.obey(m))
+        )
+        return command
+
+
+class PoseCommand:
+    """Puts a vehicle somewhere, or has its autopilot bring it there."""
+
+    def __init__(self, vehicle: Vehicle, world_from_localized: Pose) -> None:
+        self._vehicle, self._world_from_localized = vehicle, world_from_localized
+
+    def obey(self, pose: PoseMessage) -> None:
+        """Take a pose in L; a quaternion that is none is that of no rotation."""
+        p, q = pose.position, pose.orientation
+        wxyz = np.array([q.w, q.x, q.y, q.z])
+        largest = float(np.abs(wxyz).max())
+        if not 0.0 < largest < np.inf:
+            wxyz, largest = np.array([1.0, 0.0, 0.0, 0.0]), 1.0
+        position = np.array([p.x, p.y, p.z])
+        if not np.isfinite(position).all():
+            return
+        localized_from_base = Pose(
+            np.clip(position, -LARGEST, LARGEST), rotation_from_quaternion(wxyz / largest)
+        )
+        world_from_base = self._world_from_localized @ localized_from_base
+        if (autopilot := self._vehicle.autopilot) is not None:
+            autopilot.go_to(world_from_base)
+        else:
+            self._vehicle.place(world_from_base)

@@ -1,0 +1,77 @@
+"""A vehicle moves by the twists of a topic; a simulated one holds the last.
+
+A velocity moves a vehicle that is not simulated by the time since the velocity before it on its
+interface (nothing for the first, or after more than 1 s). Time is simulation time, where the
+original took the wall's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..geometry import Pose, rotation_from_xyz
+from ..messages import Twist, TwistStamped
+from ..vehicle import LARGEST, Vehicle
+from .interface import TopicWorld, VehicleTopicSpec
+
+LONGEST_GAP = 1.0
+"""After a longer silence a velocity moves nothing [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSTwistToPATSpec(VehicleTopicSpec):
+    """Moves a vehicle by geometry_msgs/TwistStamped in its own axes.
+
+    It goes on for the time since the message before; nothing is held after more than 1 s.
+    """
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": TwistStamped}
+
+    def bind(self, world: TopicWorld) -> TwistCommand:
+        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        command = TwistCommand(world.vehicle(self.vehicle_name), Gap(world))
+        world.bus.subscribe(
+            self.topic, TwistStamped, lambda m: world.at_next_step(lambda: command.obey(m.twist))
+        )
+        return command
+
+
+class TwistCommand:
+    """Moves a vehicle by one step of a twist, or has its autopilot hold it."""
+
+    def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
+        self._vehicle, self._gap = vehicle, gap
+
+    def obey(self, twist: Twist) -> None:
+        """Take a twist in the base's axes; one that is not finite is passed over."""
+        time = self._gap.take()
+        v, w = twist.linear, twist.angular
+        numbers = np.array([v.x, v.y, v.z, w.x, w.y, w.z])
+        if not np.isfinite(numbers).all():
+            return
+        numbers = np.clip(numbers, -LARGEST, LARGEST)
+        if (autopilot := self._vehicle.autopilot) is not None:
+            autopilot.command(numbers[:3].tolist(), numbers[3:].tolist())
+            return
+        step = numbers * time  # (6,) [m, rad]
+        before_from_after = Pose(step[:3], rotation_from_xyz(*step[3:].tolist()))
+        self._vehicle.place(self._vehicle.world_from_base @ before_from_after)
+
+
+class Gap:
+    """Time since the velocity before."""
+
+    def __init__(self, world: TopicWorld) -> None:
+        self._world = world
+        self._last: int | None = None
+
+    def take(self) -> float:
+        """Return the time since the last call [s]; 0 for the first, or after a long silence."""
+        now, last = self._world.step, self._last
+        self._last = now
+        gap = 0.0 if last is None else (now - last) * self._world.timestep
+        return gap if gap <= LONGEST_GAP else 0.0

@@ -1,0 +1,139 @@
+"""Sensors on topics, at a rate: interfaces that differ only in what they publish.
+
+What is published is what the sensor or device measures; where none of the elements that an
+interface may name is simulated (has a ``bind``), the interface is not either.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..devices import DEVICES
+from ..dialect import element
+from ..sensors import SENSORS
+from ..sensors.sensor import Sensor, measured_by
+from .interface import InterfaceSpec, TopicWorld
+
+
+@dataclass(frozen=True, kw_only=True)
+class SensorTopicSpec(InterfaceSpec):
+    """An interface of a sensor or device with one topic."""
+
+    name: str
+    """Name of the sensor or device."""
+    topic: str
+    """Name of the topic."""
+    rate: int = element(default=10, minimum=1)
+    """How often [Hz]."""
+
+    @classmethod
+    def is_simulated(cls) -> bool:
+        """Whether one of its sources is."""
+        return bool(cls.carries())
+
+    @classmethod
+    def carries(cls) -> Mapping[str, type]:
+        """Return what its sources measure; they agree."""
+        specs = [{**SENSORS, **DEVICES}[source] for source in cls.sources]
+        types = [found for spec in specs if (found := measured_by(spec)) is not None]
+        return {"topic": types[0]} if types else {}
+
+    def bind(self, world: TopicWorld) -> SensorPublisher:
+        """Publish the sensor from now on; raises UnknownName if it is not there."""
+        sensor = world.sensor(self.name, self.sources)
+        publish: Callable[[object], None] = world.bus.publisher(self.topic, self.carries()["topic"])
+        publisher = SensorPublisher(sensor, publish, lambda: world.time)
+        world.every(self.rate, publisher.publish)
+        return publisher
+
+
+class SensorPublisher:
+    """Publishes what a sensor measures."""
+
+    def __init__(
+        self, sensor: Sensor, publish: Callable[[object], None], clock: Callable[[], float]
+    ) -> None:
+        self._sensor, self._publish, self._clock = sensor, publish, clock
+
+    def publish(self) -> None:
+        """Take a sample now and publish it, read or not: a random stream has its turns."""
+        self._publish(self._sensor.sample(self._clock()))
+
+
+@dataclass(frozen=True, kw_only=True)
+class RangeSensorToROSRangeSpec(SensorTopicSpec):
+    """Publishes a range sensor or picker as sensor_msgs/Range."""
+
+    sources: ClassVar[tuple[str, ...]] = ("rangeSensor", "objectPicker")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImuToROSImuSpec(SensorTopicSpec):
+    """Publishes an imu as sensor_msgs/Imu."""
+
+    sources: ClassVar[tuple[str, ...]] = ("imu",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PressureSensorToROSSpec(SensorTopicSpec):
+    """Publishes a pressure sensor."""
+
+    sources: ClassVar[tuple[str, ...]] = ("pressureSensor",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GPSSensorToROSSpec(SensorTopicSpec):
+    """Publishes a GPS as sensor_msgs/NavSatFix."""
+
+    sources: ClassVar[tuple[str, ...]] = ("gpsSensor",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DVLSensorToROSSpec(SensorTopicSpec):
+    """Publishes a DVL."""
+
+    sources: ClassVar[tuple[str, ...]] = ("dvlSensor",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MultibeamSensorToLaserScanSpec(SensorTopicSpec):
+    """Publishes a multibeam as sensor_msgs/LaserScan."""
+
+    sources: ClassVar[tuple[str, ...]] = ("multibeamSensor",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProfilingSonarROSSpec(SensorTopicSpec):
+    """Publishes a profiling sonar as sensor_msgs/LaserScan."""
+
+    sources: ClassVar[tuple[str, ...]] = ("ProfilingSonar",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class EchoROSSpec(SensorTopicSpec):
+    """Publishes the text of an echo device as std_msgs/String."""
+
+    sources: ClassVar[tuple[str, ...]] = ("echo",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ForceSensorROSSpec(SensorTopicSpec):
+    """Publishes a force sensor as geometry_msgs/WrenchStamped."""
+
+    sources: ClassVar[tuple[str, ...]] = ("ForceSensor",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CustomCommsDeviceROSSpec(SensorTopicSpec):
+    """Publishes the pose of a communication device."""
+
+    sources: ClassVar[tuple[str, ...]] = ("CustomCommsDevice",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AcousticCommsDeviceROSSpec(SensorTopicSpec):
+    """Publishes the pose of an acoustic modem."""
+
+    sources: ClassVar[tuple[str, ...]] = ("AcousticCommsDevice",)

@@ -1,0 +1,17 @@
+"""The wrapper around the interfaces of devices that files of some years have."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..dialect import element
+from .interface import InterfaceSpec
+from .sensor_topic import EchoROSSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class SimulatedDeviceROSSpec(InterfaceSpec):
+    """An optional wrapper around the interface of a device."""
+
+    echo_ros: EchoROSSpec | None = element("echoROS", default=None)
+    """Interface of an echo device."""

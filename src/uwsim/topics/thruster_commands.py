@@ -1,0 +1,116 @@
+"""Thrusters and wrenches of simulated vehicles; extensions of the dialect.
+
+A command is held until the next of any kind; the autopilot holds nothing meanwhile. What is not
+finite is passed over, what is beyond 1e6 taken as that; a wrong number of thruster commands is the
+sender's error, raised where it publishes them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..dialect import element
+from ..errors import BadMessage, UnknownName
+from ..geometry import Array
+from ..messages import Float64MultiArray, WrenchStamped
+from ..vehicle import Autopilot
+from .interface import TopicWorld, VehicleTopicSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class AutopilotTopicSpec(VehicleTopicSpec):
+    """An interface of a vehicle that must be simulated."""
+
+    topic: str = element(namespaced=True)
+    """Name of the topic."""
+    vehicle_name: str = element(namespaced=True)
+    """Name of the vehicle; it has ``u:dynamics``."""
+
+    def autopilot(self, world: TopicWorld) -> Autopilot:
+        """Find what steers the vehicle; raises UnknownName if it is not simulated."""
+        autopilot = world.vehicle(self.vehicle_name).autopilot
+        if autopilot is None:
+            raise UnknownName("simulated vehicle", self.vehicle_name, ())
+        return autopilot
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSThrustersToPATSpec(AutopilotTopicSpec):
+    """Commands the thrusters of a simulated vehicle by std_msgs/Float64MultiArray.
+
+    One value from -1 to 1 a thruster, in the order of the vehicle's side file; held until the
+    next command of any kind. The autopilot holds nothing meanwhile.
+    """
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": Float64MultiArray}
+
+    def bind(self, world: TopicWorld) -> ThrusterCommand:
+        """Listen from now on; raises UnknownName if no such vehicle is simulated."""
+        autopilot, vehicle = self.autopilot(world), world.vehicle(self.vehicle_name)
+        command = ThrusterCommand(autopilot, vehicle.name, vehicle.thrusters)
+        world.bus.subscribe(
+            self.topic,
+            Float64MultiArray,
+            lambda m: world.at_next_step(lambda: command.obey(m)),
+            check=command.check,
+        )
+        return command
+
+
+class ThrusterCommand:
+    """Sets the commands of all thrusters of a vehicle."""
+
+    def __init__(self, autopilot: Autopilot, vehicle: str, thrusters: tuple[str, ...]) -> None:
+        self._autopilot, self._vehicle, self._thrusters = autopilot, vehicle, thrusters
+
+    def check(self, message: Float64MultiArray) -> None:
+        """Refuse a wrong number of values."""
+        names = self._thrusters
+        if message.data.shape != (len(names),):
+            raise BadMessage(
+                f"A message for the thrusters of {self._vehicle!r} has "
+                f"{message.data.size} values; expected {len(names)}: {', '.join(names)}."
+            )
+
+    def obey(self, message: Float64MultiArray) -> None:
+        """Take a value a thruster."""
+        commands: Array = np.array(message.data, dtype=np.float64)  # (n,) [1]
+        if np.isfinite(commands).all():
+            self._autopilot.set_thrusters(commands)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSWrenchToPATSpec(AutopilotTopicSpec):
+    """Pushes a simulated vehicle with its thrusters by geometry_msgs/WrenchStamped.
+
+    Force and torque at the origin of its base, in its axes, as far as the thrusters reach; held
+    until the next command of any kind. The autopilot holds nothing meanwhile.
+    """
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": WrenchStamped}
+
+    def bind(self, world: TopicWorld) -> WrenchCommand:
+        """Listen from now on; raises UnknownName if no such vehicle is simulated."""
+        command = WrenchCommand(self.autopilot(world))
+        world.bus.subscribe(
+            self.topic, WrenchStamped, lambda m: world.at_next_step(lambda: command.obey(m))
+        )
+        return command
+
+
+class WrenchCommand:
+    """Pushes a vehicle with its thrusters."""
+
+    def __init__(self, autopilot: Autopilot) -> None:
+        self._autopilot = autopilot
+
+    def obey(self, message: WrenchStamped) -> None:
+        """Take a wrench in the base's axes."""
+        f, t = message.wrench.force, message.wrench.torque
+        force, torque = np.array([f.x, f.y, f.z]), np.array([t.x, t.y, t.z])
+        if np.isfinite(force).all() and np.isfinite(torque).all():
+            self._autopilot.push(force, torque)

@@ -1,0 +1,40 @@
+"""Topics whose messages the viewer shows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..dialect import element
+from .interface import InterfaceSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSImageToHUDSpec(InterfaceSpec):
+    """Shows pictures of a topic in the viewer."""
+
+    width: int = element(minimum=1)
+    """Columns of the pictures [px]."""
+    height: int = element(minimum=1)
+    """Rows of the pictures [px]."""
+    posx: int = 0
+    """From the left edge of the window [px]."""
+    posy: int = 0
+    """From the bottom edge of the window [px]."""
+    scale: float = 1.0
+    """Size on the screen [1]."""
+    black_white: bool = False
+    """Whether the pictures have one channel."""
+    image_topic: str
+    """Topic of the pictures."""
+    info_topic: str = ""
+    """Topic of the camera's description."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSPointCloudLoaderSpec(InterfaceSpec):
+    """Shows sensor_msgs/PointCloud2 in the scene."""
+
+    topic: str
+    """Name of the topic."""
+    del_last_pcd: bool = element("delLastPCD", attribute=True, default=True)
+    """Whether a cloud replaces the one before."""

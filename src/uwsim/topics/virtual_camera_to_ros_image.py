@@ -1,0 +1,97 @@
+"""Images of a virtual camera on a topic, at a rate, and only when somebody reads them."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from ..dialect import element
+from ..errors import UnknownName
+from ..messages import CameraInfo, Image, image
+from ..sampling import SampleTimer
+from ..sensors.virtual_camera import VirtualCamera
+from .interface import InterfaceSpec, TopicWorld
+
+
+@dataclass(frozen=True, kw_only=True)
+class VirtualCameraToROSImageSpec(InterfaceSpec):
+    """Publishes a camera as sensor_msgs/Image and CameraInfo."""
+
+    sources: ClassVar[tuple[str, ...]] = ("virtualCamera", "virtualRangeImage")
+    messages: ClassVar[Mapping[str, type]] = {"image_topic": Image, "info_topic": CameraInfo}
+
+    camera_name: str
+    """Name of the camera."""
+    image_topic: str
+    """Topic of the pictures."""
+    info_topic: str
+    """Topic of the camera's description."""
+    rate: int = element(default=10, minimum=1)
+    """How often [Hz]."""
+    depth: bool = False
+    """Whether depth is published instead of colour (range cameras only)."""
+
+    def bind(self, world: TopicWorld) -> ImagePublisher:
+        """Find the camera; raises UnknownName if it is not there, or no colour camera."""
+        if self.depth:
+            raise UnknownName("camera of depth that is simulated", self.camera_name, ())
+        return ImagePublisher(self, world.camera(self.camera_name), world)
+
+
+class ImagePublisher:
+    """Publishes the images of a camera.
+
+    A sample that nobody reads is not drawn, but takes its turn in the camera's random stream: the
+    pictures do not depend on who is listening. In a blind world the images are black, for
+    algorithms that do not look at them.
+    """
+
+    def __init__(
+        self, spec: VirtualCameraToROSImageSpec, camera: VirtualCamera, world: TopicWorld
+    ) -> None:
+        self.camera = camera
+        """The camera whose images these are."""
+        camera.n_pictures = camera.n_pictures or 0
+        self.n_frames = 0
+        """Images published."""
+        self.last: npt.NDArray[np.uint8] | None = None
+        """The pixels of the last image published; read-only."""
+        self.image_topic = spec.image_topic
+        """Where they are published."""
+        self._world, self._info_topic = world, spec.info_topic
+        shape = (camera.intrinsics.height, camera.intrinsics.width)
+        black = np.zeros(shape if camera.is_grey else (*shape, 3), dtype=np.uint8)
+        self._blank = black if world.is_blind else None
+        self._publish_image = world.bus.publisher(spec.image_topic, Image)
+        self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
+        self._digest = hashlib.sha256()
+        self.tick = SampleTimer(0, float(spec.rate), world.timestep, self.publish).tick
+        """Publish at this step if a sample is due."""
+
+    @property
+    def sha256(self) -> str:
+        """Hash of all pixels published so far, in order."""
+        return self._digest.hexdigest()
+
+    def publish(self) -> None:
+        """Take the sample that is due and publish it."""
+        self.camera.n_pictures = (self.camera.n_pictures or 0) + 1
+        time, bus = self._world.time, self._world.bus
+        if bus.has_readers(self._info_topic):
+            self._publish_info(self.camera.info(time))
+        if not bus.has_readers(self.image_topic):
+            self.camera.skip()
+            return
+        if self._blank is None:
+            pixels = self.camera.shoot()
+            self._digest.update(np.ascontiguousarray(pixels).data)
+        else:
+            pixels = self._blank
+        self.last = pixels
+        self.n_frames += 1
+        self._publish_image(image(pixels, time=time, frame_id=self.camera.frame_id))

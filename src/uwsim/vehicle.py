@@ -1,0 +1,99 @@
+"""What topics and devices may ask of a vehicle and do to it: protocols only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
+
+from .geometry import Array, Pose
+
+LARGEST = 1e6
+"""A number of a command is taken as at most this: no vehicle gets there [m, m/s, rad/s, N, N m]."""
+
+
+class Autopilot(Protocol):
+    """What steers a simulated vehicle; each command holds until the next of any kind."""
+
+    def go_to(self, world_from_base: Pose) -> None:
+        """Go to a place and stay there."""
+
+    def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
+        """Move at a twist, base axes [m/s], [rad/s]."""
+
+    def push(self, force: Array, torque: Array) -> None:
+        """Push with the thrusters, base axes (3,) [N], (3,) [N m]."""
+
+    def set_thrusters(self, commands: Array) -> None:
+        """Set the commands of the thrusters, (n,) [1]."""
+
+
+class Servos(Protocol):
+    """What moves the joints of a simulated vehicle; joints by their number in the joint vector."""
+
+    @property
+    def velocities(self) -> Array:
+        """How fast the joints move, (n,) [rad/s or m/s]."""
+
+    @property
+    def efforts(self) -> Array:
+        """What acts on them, (n,) [N m or N]."""
+
+    def aim(self, targets: Mapping[int, float]) -> None:
+        """Bring these joints to [rad or m] and hold them there."""
+
+    def drive(self, speeds: Mapping[int, float]) -> None:
+        """Move the targets of these joints at [rad/s or m/s]."""
+
+    def push(self, efforts: Mapping[int, float]) -> None:
+        """Act on these joints with [N m or N]."""
+
+
+class Vehicle(Protocol):
+    """A vehicle of the scene: simulated, with autopilot and servos, or moved by commands alone."""
+
+    @property
+    def name(self) -> str:
+        """Its name in the scene."""
+
+    @property
+    def joint_names(self) -> Sequence[str]:
+        """Names of the joints of the joint vector."""
+
+    @property
+    def thrusters(self) -> tuple[str, ...]:
+        """Names of its thrusters, in the order of its side file; none if it is not simulated."""
+
+    @property
+    def autopilot(self) -> Autopilot | None:
+        """What steers it; None if it is not simulated."""
+
+    @property
+    def servos(self) -> Servos | None:
+        """What moves its joints; None if it is not simulated."""
+
+    @property
+    def world_from_base(self) -> Pose:
+        """Where its base is now."""
+
+    @property
+    def velocity(self) -> Array:
+        """Twist of its base over ground, base axes, (6,) [m/s, rad/s]."""
+
+    @property
+    def joints(self) -> Array:
+        """A copy of its joint vector, (n,) [rad or m]."""
+
+    def place(self, world_from_base: Pose) -> None:
+        """Put it somewhere, at rest."""
+
+    def set_joints(self, values: Array) -> None:
+        """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
+
+    def loss_setter(self, thruster: str) -> Callable[[float], None]:
+        """Return what sets the share of its thrust that a thruster loses [0..1].
+
+        Of several setters of one thruster the greatest loss counts.
+
+        Raises:
+            UnknownName: it has no such thruster.
+        """
