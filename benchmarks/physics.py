@@ -28,6 +28,7 @@ from mujoco import batch
 
 from uwsim.physics.compile import compile_scene
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec, callback, prepare
+from uwsim.physics.hydrodynamics.columns import WATER_COLUMNS
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import PhysicsSpec
@@ -229,7 +230,8 @@ def soak() -> dict[str, object]:
             pool.ctrl[:, :n_servos] = random.uniform(-1.2, 1.2, (N_SOAK, n_servos))
             pool.ctrl[:, n_servos : n_servos + 2] = random.uniform(-80, 80, (N_SOAK, 2))
             pool.ctrl[:, n_servos + 2 :] = random.uniform(-1.0, 1.0, (N_SOAK, 5))
-            water = pool.userdata[:, : 8 * model.nbody].reshape(N_SOAK, model.nbody, 8)
+            water = pool.userdata[:, : WATER_COLUMNS * model.nbody]
+            water = water.reshape(N_SOAK, model.nbody, WATER_COLUMNS)
             water[:, :, 0:3] = random.uniform(-0.5, 0.5, (N_SOAK, 1, 3))
             for _ in range(10):
                 pool.step(nstep=hold // 10)

@@ -135,6 +135,29 @@ def _decomposed(matrix: Array) -> tuple[Array, Array, Array]:
 
 
 @njit
+def points_of(origins: Array, axes: Array, bodies: npt.NDArray[np.int64], points: Array) -> Array:
+    """Places of one point each of some bodies, (n, 3).
+
+    Args:
+        origins: of all bodies, (m, 3).
+        axes: their axes, (m, 3, 3).
+        bodies: which ones, (n,).
+        points: in their axes, (n, 3).
+    """
+    found = np.empty((len(bodies), 3))
+    for row in range(len(bodies)):
+        body = bodies[row]
+        for i in range(3):
+            found[row, i] = (
+                origins[body, i]
+                + axes[body, i, 0] * points[row, 0]
+                + axes[body, i, 1] * points[row, 1]
+                + axes[body, i, 2] * points[row, 2]
+            )
+    return found
+
+
+@njit
 def _matrices(a: Array, b: Array) -> Array:
     """Row by row; the loop inside is along the rows of ``b`` where these are long."""
     found = np.zeros((a.shape[0], b.shape[1]))

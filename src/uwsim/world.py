@@ -106,6 +106,10 @@ class Actuators(Protocol):
 class Flow(Protocol):
     """Moving water, such as those in `uwsim.currents`; everything in L."""
 
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it is the same everywhere, but for whom it is meant."""
+
     def velocity(
         self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
     ) -> npt.NDArray[np.float64]:

@@ -179,6 +179,8 @@ def test_without_a_simulated_vehicle_a_step_may_be_long() -> None:
 class Asked:
     """Still water that remembers where it was asked about."""
 
+    is_uniform = True
+
     def __init__(self) -> None:
         self.points: list[list[float]] = []
         self.names: set[str] = set()

@@ -210,3 +210,18 @@ def test_what_is_not_finite_is_passed_over(simulation: Simulation) -> None:
         bend(simulation, ["Slew"], position=[value])
     run(simulation, 2.0)
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515], abs=0.02)
+
+
+@pytest.mark.parametrize("kind", ["thrusters", "wrench"])
+def test_thrusts_and_wrenches_act_on_the_next_step(kind: str, simulation: Simulation) -> None:
+    """Between two ticks of the autopilot, which are 20 ms apart."""
+    run(simulation, 0.024)
+    controls = simulation.world.state._data.ctrl
+    before = controls.copy()
+    if kind == "thrusters":
+        thrust(simulation, 0.5, 0.5, 0.0, 0.0, 0.0)
+    else:
+        push(simulation, (30.0, 0.0, 0.0))
+    simulation.advance()  # delivers
+    simulation.advance()
+    assert np.abs(controls - before).max() > 0.05

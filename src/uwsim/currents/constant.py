@@ -36,6 +36,11 @@ class Constant(Current):
     def __init__(self, velocity: tuple[float, float, float]) -> None:
         self._velocity = velocity
 
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it is the same everywhere."""
+        return True
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         return everywhere(points, *self._velocity)

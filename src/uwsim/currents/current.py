@@ -67,6 +67,11 @@ class Current(abc.ABC):
     It is a function of place and time alone: asked twice, or out of order, it answers the same.
     """
 
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it is the same everywhere, but for whom it is meant."""
+        return False
+
     @abc.abstractmethod
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L.

@@ -15,6 +15,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..dialect import element
 from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
 from .draws import Draws
@@ -58,6 +60,9 @@ class GaussMarkov(Current):
     two times it runs straight, which takes a share of about :math:`\mu h / 3` of the variance.
     (Adding ``amplitude * uniform`` at every step, as some simulators do, makes both depend on it.)
 
+    The process has no derivative: the slope of the pieces grows as :math:`1/\sqrt{h}` and says
+    nothing of the water. So it exerts no inertial force, drag alone.
+
     Not modelled: any change with place; correlation between axes; limits to the speed.
     """
 
@@ -66,6 +71,11 @@ class GaussMarkov(Current):
         self._keep = math.exp(-spec.mu * spec.step)
         self._stir = math.sqrt(-math.expm1(-2.0 * spec.mu * spec.step))
         self._states = [draws.row(0)]  # of unit variance, at k * step, (k, 3)
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it is the same everywhere."""
+        return True
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
@@ -78,13 +88,8 @@ class GaussMarkov(Current):
         return everywhere(points, x, y, z)
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the slope of the piece it is on, in L, (n, 3) [m/s2]."""
-        here, after, _ = self._around(time)
-        x, y, z = (
-            sigma * (b - a) / self._spec.step
-            for sigma, a, b in zip(self._spec.deviation, here, after, strict=True)
-        )
-        return everywhere(points, x, y, z)
+        """Return zeros, (n, 3) [m/s2]: it has no derivative, and that of its pieces is not one."""
+        return np.zeros((len(points), 3))
 
     def _around(self, time: float) -> tuple[list[float], list[float], float]:
         """The states before and after ``time``, and how far it is from one to the other."""

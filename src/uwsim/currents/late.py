@@ -21,6 +21,11 @@ class LateCurrent(Current):
         self._current, self._began, self._delay = current, began, delay
         self._offset = offset
 
+    @property
+    def is_uniform(self) -> bool:
+        """Whether the other one is."""
+        return self._current.is_uniform
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         elapsed = round(time - self._began, 9)

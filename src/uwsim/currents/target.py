@@ -16,6 +16,11 @@ class TargetCurrent(Current):
     def __init__(self, current: Flow, target: str) -> None:
         self._current, self._target = current, target
 
+    @property
+    def is_uniform(self) -> bool:
+        """Whether the other one is."""
+        return self._current.is_uniform
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         return self._own(self._current.velocity(points, time, vehicles), vehicles)

@@ -95,6 +95,11 @@ class Tidal(Current):
             for each in spec.constituents
         ]
 
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it is the same everywhere."""
+        return True
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         x = y = 0.0

@@ -17,6 +17,11 @@ class TotalCurrent(Current):
     def __init__(self, currents: Sequence[Flow]) -> None:
         self._currents = tuple(currents)
 
+    @property
+    def is_uniform(self) -> bool:
+        """Whether all of them are the same everywhere."""
+        return all(current.is_uniform for current in self._currents)
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         parts = [current.velocity(points, time, vehicles) for current in self._currents]

@@ -90,6 +90,11 @@ class UwsimSinusoid(Current):
         self._time = math.nan  # of the newest motion [s]
         self._motion: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it is the same everywhere."""
+        return True
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         return everywhere(points, *self._at(time)[0])

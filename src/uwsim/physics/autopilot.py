@@ -138,6 +138,8 @@ class Autopilot:
         self._model = np.zeros(6)  # the velocity that is followed [m/s, rad/s]
         self._integral = np.zeros(6)
         self._mode: Mode = "velocity"
+        self.has_news = False
+        """Whether forces or thrusts were commanded that it has not given yet."""
         self._takes_over = False  # whether depth and heading are still to be taken from the pose
         self._target = np.zeros(3)  # position and height to hold, W [m]
         self._heading = np.eye(3)  # world_from_base whose yaw is to be held
@@ -177,13 +179,13 @@ class Autopilot:
 
     def push(self, force: Array, torque: Array) -> None:
         """Share out a force [N] and a torque about the base's origin [N m], base axes."""
-        self._mode = "wrench"
+        self._mode, self.has_news = "wrench", True
         force, torque = np.clip([force, torque], -LARGEST, LARGEST)
         self._wrench = np.concatenate([force, torque - np.cross(self._reference, force)])
 
     def set_thrusters(self, commands: Array) -> None:
         """Pass the commands of the thrusters on, (n,) [1]."""
-        self._mode = "thrusters"
+        self._mode, self.has_news = "thrusters", True
         self._commands = commands.copy()
 
     def thrust(self, world_from_base: Pose, velocity: Array, dt: float) -> Array:
@@ -194,6 +196,7 @@ class Autopilot:
             velocity: of the base, relative to water or ground, base axes, (6,) [m/s, rad/s].
             dt: time since the last call [s].
         """
+        self.has_news = False
         if self._mode == "thrusters":
             return self._commands
         if self._mode == "wrench":

@@ -2,7 +2,8 @@ r"""Loose objects in water: mass, buoyancy and drag from a box.
 
 The coefficients of an object are those of the box around its shape: drag
 :math:`\tfrac12\rho C_d A v|v|` on each pair of faces with :math:`C_d` = 1.05, added mass that of
-the ellipsoid of the same proportions and volume (Lamb), buoyancy its volume unless ``u:volume``
+plates and prisms in DNV-RP-H103 (2011, appendix A), in rotation that of the ellipsoid of the same
+proportions and volume (Lamb), buoyancy its volume unless ``u:volume``
 says another. A ball has :math:`C_d` = 0.47. ``linearDamping`` and ``angularDamping`` come on top,
 per mass and inertia.
 """
@@ -24,6 +25,20 @@ BOX_DRAG = 1.05
 """Of a cube face on [1]."""
 BALL_DRAG = 0.47
 """Of a ball [1]."""
+
+
+PLATES = (
+    (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 8.0, 10.0, 1e3),
+    (0.579, 0.642, 0.690, 0.757, 0.801, 0.830, 0.872, 0.897, 0.934, 0.947, 1.0),
+)
+"""Long by short side of a plate; its added mass in water of the cylinder about it, pi/4 a^2 b [1]
+(DNV-RP-H103, table A-2)."""
+DEPTHS = (
+    (0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 10.0),
+    (1.0, 1.14, 1.21, 1.36, 1.495, 1.583, 1.67, 1.715, 1.76),
+)
+"""Length of a box along its way by the short side of its face; its added mass in that of the
+face as a plate [1] (up to 0.5 rectangles of table A-1, from 1 on square prisms of table A-2)."""
 
 
 def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[Shape]) -> LinkSpec:
@@ -60,6 +75,9 @@ def loose_hydrodynamics(
     drag = density * (_ball_drag(box.size[0]) if is_ball else box_drag(edges))
     volume = float(np.prod(edges)) * (math.pi / 6.0 if is_ball else 1.0)
     half = 0.5 * edges * (1.0 if is_ball else (6.0 / math.pi) ** (1.0 / 3.0))
+    added = ellipsoid_added_mass(half)
+    if not is_ball:
+        added[:3] = box_added_mass(edges)
     mx, my, mz = box.body_from_shape.position.tolist()
     link = loose_link(name, physics, shapes)
     own = np.array([physics.mass] * 3 + list(link.inertia[:3]))
@@ -67,7 +85,7 @@ def loose_hydrodynamics(
     return BodyHydrodynamics(
         link=name,
         reference=(mx, my, mz),
-        added_mass=tuple((density * ellipsoid_added_mass(half)).tolist()),
+        added_mass=tuple((density * added).tolist()),
         linear_damping=tuple((own * np.maximum(rates, 0.0)).tolist()),
         quadratic_damping=tuple(drag.tolist()),
         volume=volume if physics.volume is None else physics.volume,
@@ -93,6 +111,16 @@ def box_drag(edges: Array) -> Array:
 
 def _ball_drag(radius: float) -> Array:
     return np.array([0.5 * BALL_DRAG * math.pi * radius**2] * 3 + [0.0] * 3)
+
+
+def box_added_mass(edges: Array) -> Array:
+    """Added mass of a box along its three axes, per density, (3,) [m3]."""
+    found = np.empty(3)
+    for axis in range(3):
+        short, long = sorted(np.delete(edges, axis).tolist())
+        plate = np.interp(long / short, *PLATES) * math.pi / 4.0 * short * short * long
+        found[axis] = plate * np.interp(edges[axis] / short, *DEPTHS)
+    return found
 
 
 def ellipsoid_added_mass(half: Array) -> Array:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ..errors import RunFailed
 from ..geometry import Array, Pose, quaternion_from_rotation
-from ..linear import product, turned, turned_back
+from ..linear import points_of, product, turned, turned_back
 from ..scene.kinematics import joint_positions
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
@@ -104,6 +104,9 @@ class State:
         self._water: Hydrodynamics | None = _water_of(self._model) if dynamics else None
         bases = {self._bases[i] for i in dynamics}  # autopilots feel the water there
         self._wet = np.array(sorted({*(self._water.bodies if self._water else ()), *bases}), int)
+        self._felt_at = np.array(
+            [self._water.felt_at(body) for body in self._wet] if self._water else []
+        ).reshape(-1, 3)
         self._set_current = (
             self._water.current_setter(self._data, self._wet) if self._water else None
         )
@@ -139,10 +142,12 @@ class State:
         return index in self._dynamics
 
     def wet_positions(self) -> Array:
-        """Return where the bodies are that the water acts on, in W, (n, 3) [m]."""
+        """Return where the water acts on bodies, in W, (n, 3) [m].
+
+        At the centre of buoyancy; for a body that displaces nothing, where its matrices are about.
+        """
         self._refresh()
-        positions: Array = self._origins.take(self._wet, axis=0)
-        return positions
+        return points_of(self._origins, self._axes, self._wet, self._felt_at)
 
     def wet_vehicles(self) -> tuple[int | None, ...]:
         """Return the number of the vehicle that each of them belongs to."""
@@ -152,12 +157,13 @@ class State:
             numbers.append(int(parts[1]) if parts[0] == "vehicle" else None)
         return tuple(numbers)
 
-    def step(self, velocity: Array, acceleration: Array) -> None:
+    def step(self, velocity: Array, acceleration: Array, rotation: Array | None = None) -> None:
         """Let the forces act for one step.
 
         Args:
             velocity: of the water at each body that it acts on, in W, (n, 3) [m/s].
             acceleration: of the water there, in W, (n, 3) [m/s2].
+            rotation: half its vorticity, in W, (n, 3) [rad/s]; None for none.
 
         Raises:
             RunFailed: the engine warned, or a body moves faster than can be: what follows would
@@ -165,9 +171,10 @@ class State:
         """
         if self._water is None or self._set_current is None:
             return
-        self._set_current(velocity, acceleration)
-        if self._n_steps % self._pilot_steps == 0:
-            for index, pilot in self._pilots.items():
+        self._set_current(velocity, acceleration, rotation)
+        is_due = self._n_steps % self._pilot_steps == 0
+        for index, pilot in self._pilots.items():
+            if is_due or pilot.has_news:
                 self._fly(index, pilot, velocity)
         for servos in self._servos.values():
             servos.step(self._timestep)

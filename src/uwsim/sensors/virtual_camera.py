@@ -175,18 +175,23 @@ class VirtualCamera:
             self._random.integers(2**63)
 
     def info(self, time: float) -> CameraInfo:
-        """Build its CameraInfo, stamped ``time`` [s]: no distortion, Tx = -fx * baseline."""
+        """Build its CameraInfo, stamped ``time`` [s]: no distortion, Tx = -fx * baseline.
+
+        As in ROS and OpenCV the principal point counts from the *centre* of the first pixel, half a
+        pixel less than from the corner of the image.
+        """
         lens = self._intrinsics
-        fx, fy, cx, cy = lens.fx, lens.fy, lens.cx, self._published_cy
+        fx, fy, skew = lens.fx, lens.fy, -lens.skew  # ROS: y points down
+        cx, cy = lens.cx - 0.5, self._published_cy - 0.5
         return CameraInfo(
             header=header(time, self.frame_id),
             height=lens.height,
             width=lens.width,
             distortion_model="",
             d=np.zeros(4),
-            k=np.array([fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
+            k=np.array([fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
             r=np.eye(3).reshape(-1),
-            p=np.array([fx, 0.0, cx, -fx * self._baseline, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]),
+            p=np.array([fx, skew, cx, -fx * self._baseline, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]),
             binning_x=0,
             binning_y=0,
             roi=RegionOfInterest(

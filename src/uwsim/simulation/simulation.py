@@ -130,9 +130,9 @@ class Simulation:
             state.fall()
             return
         middle = self.time - 0.5 * self.timestep  # of the step, where forces act
-        velocity, acceleration = water.at(state.wet_positions(), middle, self._wet_names)
+        motion = water.at(state.wet_positions(), middle, self._wet_names)
         self._thruster_faults.apply(self.time - self.timestep)
-        state.step(velocity, acceleration)
+        state.step(*motion)
 
     def _sway(self) -> None:
         for index, vehicle in self._swaying:

@@ -5,11 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from ..currents import Place, TotalCurrent, bind_currents
 from ..geometry import Array, Pose
 from ..linear import product
 from ..scene.spec import SceneSpec
 from ..world import Flow
+
+WaterRow = tuple[Array, Array, Array | None]
+"""Velocity, acceleration and rotation of the water at some points."""
+NEARBY = 0.05
+"""Half the distance over which shear is taken [m]."""
 
 
 class WaterMotion:
@@ -48,8 +55,11 @@ class WaterMotion:
         """Whether the water does not move at all."""
         return self._is_still
 
-    def at(self, points: Array, time: float, vehicles: Sequence[str]) -> tuple[Array, Array]:
-        """Return the water's velocity and its rate of change at fixed points, in W.
+    def at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
+        r"""Return how the water moves, in W.
+
+        The acceleration is that of the water which passes a point, and what its pressure gives to
+        a body: :math:`Du/Dt = \partial u/\partial t + (u \cdot \nabla) u`.
 
         Args:
             points: in W, (n, 3) [m].
@@ -57,13 +67,30 @@ class WaterMotion:
             vehicles: the name of the vehicle that each point belongs to, or empty.
 
         Returns:
-            The velocity, (n, 3) [m/s], and its derivative, (n, 3) [m/s2].
+            The velocity, (n, 3) [m/s], the acceleration, (n, 3) [m/s2], and how fast the water
+            turns, :math:`\tfrac12 \nabla \times u`, (n, 3) [rad/s]; None if it is nowhere sheared.
         """
         localized = self._localized_from_world.transform(points)
         turn = self._localized_from_world.rotation
         velocity = self._flow.velocity(localized, time, vehicles)
         acceleration = self._flow.acceleration(localized, time, vehicles)
-        return product(velocity, turn), product(acceleration, turn)
+        if self._flow.is_uniform:
+            return product(velocity, turn), product(acceleration, turn), None
+        gradient = self._gradient(localized, time, vehicles)
+        acceleration += np.einsum("nij,nj->ni", gradient, velocity)
+        x, y, z = (gradient[:, j, i] - gradient[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1)))
+        rotation = 0.5 * np.stack([x, y, z], axis=1)
+        return product(velocity, turn), product(acceleration, turn), product(rotation, turn)
+
+    def _gradient(self, localized: Array, time: float, vehicles: Sequence[str]) -> Array:
+        """Derivative of the velocity by the place, in L, (n, 3, 3) [1/s]: rows are components."""
+        n = len(localized)
+        offsets = NEARBY * np.concatenate([np.eye(3), -np.eye(3)])  # (6, 3) [m]
+        around = (localized + offsets[:, None]).reshape(-1, 3)  # (6 n, 3)
+        names = tuple(vehicles) * len(offsets)
+        found = self._flow.velocity(around, time, names).reshape(6, n, 3)
+        slopes: Array = (found[:3] - found[3:]) / (2.0 * NEARBY)  # (by j, n, i)
+        return slopes.transpose(1, 2, 0)
 
     def carried(self, world_from_base: Pose, time: float, timestep: float, vehicle: str) -> Pose:
         """Return where a vehicle is after a step of drifting with the water: ``p += v dt``."""

@@ -11,10 +11,13 @@ BODY_COLUMNS = 128
 """``nuser_body``."""
 THRUSTER_COLUMNS = 32
 """``nuser_actuator``."""
-WATER_COLUMNS = 8
+WATER_COLUMNS = 12
 """Of a body's row in ``userdata``: velocity (3) [m/s], acceleration (3) [m/s2], elevation of the
-surface above its still height [m], spare. Behind the rows of all bodies: the loss of each
-actuator, 0 (healthy) .. 1 (dead)."""
+surface above its still height [m], spare, rotation (3) [rad/s], spare. Behind the rows of all
+bodies: the loss of each actuator, 0 (healthy) .. 1 (dead)."""
+
+TURN = 8
+"""Where the rotation is."""
 
 # the row of the world body: the water as a whole
 MAGIC, SURFACE, DENSITY = 0, 1, 2

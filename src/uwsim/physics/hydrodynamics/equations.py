@@ -13,7 +13,7 @@ After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), 
 from __future__ import annotations
 
 from ...jit import njit
-from .columns import ADDED, CENTRE, LINEAR, QUADRATIC, REACH, REFERENCE, SHAPE, SIZE
+from .columns import ADDED, CENTRE, LINEAR, QUADRATIC, REACH, REFERENCE, SHAPE, SIZE, TURN
 from .memory import Floats
 from .submersion import submerged
 
@@ -103,7 +103,7 @@ def relative_twist(axes: Floats, lever: Three, twist: Floats, water: Floats) -> 
         axes: world_from_body.
         lever: of the reference point.
         twist: rotational, then translational part at the origin of the sums, world axes.
-        water: the body's row of the water, which begins with its velocity.
+        water: the body's row of the water.
     """
     rx, ry, rz = lever
     wx, wy, wz = twist[0], twist[1], twist[2]
@@ -113,22 +113,24 @@ def relative_twist(axes: Floats, lever: Three, twist: Floats, water: Floats) -> 
         twist[4] + wz * rx - wx * rz - water[1],
         twist[5] + wx * ry - wy * rx - water[2],
     )
-    p, q, r = to_body(axes, wx, wy, wz)
+    p, q, r = to_body(axes, wx - water[TURN], wy - water[TURN + 1], wz - water[TURN + 2])
     return u, v, w, p, q, r
 
 
 @njit
-def known_rate(axes: Floats, lever: Three, bias: Six, water: Floats, nu: Six) -> Six:
+def known_rate(axes: Floats, lever: Three, bias: Six, water: Floats, omega: Three) -> Six:
     r"""The part of :math:`\dot\nu_r` that is known before the step is solved.
 
     .. math:: R^T (\dot J\dot q - \dot v_c) + \omega \times R^T v_c
+
+    with the water's rotation, which counts as steady, in :math:`v_c`.
 
     Args:
         axes: world_from_body.
         lever: of the reference point.
         bias: :math:`\dot J\dot q` at the origin of the sums, rotational part first, world axes.
-        water: velocity and acceleration of the water, world axes, (6,) at least.
-        nu: the relative twist.
+        water: the body's row of the water.
+        omega: the body's own rotation, in its axes.
     """
     rx, ry, rz = lever
     ax, ay, az = bias[0], bias[1], bias[2]
@@ -139,9 +141,13 @@ def known_rate(axes: Floats, lever: Three, bias: Six, water: Floats, nu: Six) ->
         bias[5] + ax * ry - ay * rx - water[5],
     )
     cx, cy, cz = to_body(axes, water[0], water[1], water[2])
-    p, q, r = nu[3], nu[4], nu[5]
+    tx, ty, tz = to_body(axes, water[TURN], water[TURN + 1], water[TURN + 2])
+    p, q, r = omega
     dp, dq, dr = to_body(axes, ax, ay, az)
-    return x + q * cz - r * cy, y + r * cx - p * cz, z + p * cy - q * cx, dp, dq, dr
+    return (
+        x + q * cz - r * cy, y + r * cx - p * cz, z + p * cy - q * cx,
+        dp + q * tz - r * ty, dq + r * tx - p * tz, dr + p * ty - q * tx,
+    )  # fmt: skip
 
 
 @njit
@@ -206,13 +212,16 @@ def full_force(
 
 
 @njit
-def coriolis(nu: Six, momentum: Six) -> Six:
+def coriolis(nu: Six, omega: Three, momentum: Six) -> Six:
     r"""What the moving added mass takes, :math:`C_A(\nu)\,\nu` (Kirchhoff).
+
+    The axes turn with the body's own rotation :math:`\omega`, in still water that of the twist.
 
     With the momentum (p, h): force :math:`\omega \times p`, torque
     :math:`\omega \times h + v \times p`.
     """
-    u, v, w, p, q, r = nu
+    u, v, w = nu[0], nu[1], nu[2]
+    p, q, r = omega
     px, py, pz, hx, hy, hz = momentum
     return (
         q * pz - r * py,

@@ -51,7 +51,7 @@ class Hydrodynamics:
         return float(self.model.body_user[0, c.DENSITY])
 
     def water(self, data: mujoco.MjData) -> Floats:
-        """The water at every body, a live view, (nbody, 8): see `columns.WATER_COLUMNS`."""
+        """The water at every body, a live view, (nbody, 12): see `columns.WATER_COLUMNS`."""
         n = c.WATER_COLUMNS * self.model.nbody
         rows: Floats = data.userdata[:n].reshape(self.model.nbody, c.WATER_COLUMNS)
         return rows
@@ -61,6 +61,7 @@ class Hydrodynamics:
         data: mujoco.MjData,
         velocity: Sequence[float] | Floats,
         acceleration: Sequence[float] | Floats = (0.0, 0.0, 0.0),
+        rotation: Sequence[float] | Floats = (0.0, 0.0, 0.0),
         *,
         body: int | npt.NDArray[np.int64] | None = None,
     ) -> None:
@@ -70,29 +71,47 @@ class Hydrodynamics:
             data: the state.
             velocity: of the water in W, (3,) [m/s]; of several bodies also (n, 3).
             acceleration: of the water in W, the same shapes [m/s2].
+            rotation: half its vorticity, in W [rad/s].
             body: id in the model, or (n,) such; None for all.
         """
         rows = self.water(data)
         chosen = slice(None) if body is None else body
         rows[chosen, 0:3] = velocity
         rows[chosen, 3:6] = acceleration
+        rows[chosen, c.TURN : c.TURN + 3] = rotation
 
     def current_setter(
         self, data: mujoco.MjData, bodies: npt.NDArray[np.int64]
-    ) -> Callable[[Floats, Floats], None]:
+    ) -> Callable[[Floats, Floats, Floats | None], None]:
         """Return `set_current` of some bodies (n,), for every step: nothing is looked up any more.
 
-        It takes velocities [m/s] and accelerations [m/s2] of the water in W, (n, 3) each.
+        It takes velocities [m/s], accelerations [m/s2] and rotations [rad/s] of the water in W,
+        (n, 3) each; for the last None, where nothing turns.
         """
         userdata = data.userdata
         velocities = c.WATER_COLUMNS * bodies[:, None] + np.arange(3)  # (n, 3) places
-        accelerations = velocities + 3
+        accelerations, rotations = velocities + 3, velocities + c.TURN
+        turns = False
 
-        def set_current(velocity: Floats, acceleration: Floats) -> None:
+        def set_current(
+            velocity: Floats, acceleration: Floats, rotation: Floats | None = None
+        ) -> None:
+            nonlocal turns
             userdata[velocities] = velocity
             userdata[accelerations] = acceleration
+            if turns or rotation is not None:
+                userdata[rotations] = 0.0 if rotation is None else rotation
+                turns = rotation is not None
 
         return set_current
+
+    def felt_at(self, body: int) -> Floats:
+        """Where a body feels the water, in its axes, (3,) [m]: see `state.State.wet_positions`."""
+        row = self.model.body_user[body]
+        point = row[c.REFERENCE : c.REFERENCE + 3].copy()
+        if row[c.DISPLACED] > 0.0:
+            point += row[c.CENTRE : c.CENTRE + 3]
+        return np.asarray(point)
 
     def set_elevation(
         self, data: mujoco.MjData, elevation: float, *, body: int | None = None

@@ -75,12 +75,13 @@ from .equations import (
     relative_twist,
     six,
     subtract,
+    to_body,
     wet_part,
 )
 from .free_bodies import keep_energy
 from .memory import Floats, Ints64, floats, ints, real, small, word
 
-COMPILED_IN = "7a01bd7eee1c52c9"
+COMPILED_IN = "023bc0fcc94dc888"
 """Digest of the other modules: `columns` to `submersion`, by name."""
 
 _WET = 1e-300
@@ -332,12 +333,13 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         step = theta_h * table[THETA]
         nu = relative_twist(axes, lever, twist, water)
         bias = six(work, base + f.BIAS)
-        rate = known_rate(axes, lever, bias, water, nu)
+        omega = to_body(axes, twist[0], twist[1], twist[2])
+        rate = known_rate(axes, lever, bias, water, omega)
         if table[KIND] == FULL:
             force, momentum = full_force(table, nu, rate, step, work, scratch)
         else:
             force, momentum = diagonal_force(table, nu, rate, step), diagonal_momentum(table, nu)
-        force = subtract(force, coriolis(nu, momentum))
+        force = subtract(force, coriolis(nu, omega, momentum))
         wrench = move_wrench(axes, lever, wet, force)
         lift = buoyancy(wet * table[DISPLACED], water, gravity, weight)
         to = base + f.WRENCH

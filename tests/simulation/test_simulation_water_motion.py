@@ -1,0 +1,100 @@
+"""Water that turns and is sheared, and what floats in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uwsim.currents import Place
+from uwsim.currents.current import Current
+from uwsim.physics.hydrodynamics import BodyHydrodynamics
+from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
+from uwsim.scene.reader import read_scene
+from uwsim.scene.vehicle import VehicleSpec
+from uwsim.simulation import Simulation
+from uwsim.simulation.water_motion import WaterMotion
+
+SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
+
+
+class Linear(Current):
+    """A velocity that is linear in the place."""
+
+    def __init__(self, gradient: Sequence[Sequence[float]], steady: Sequence[float] = (0, 0, 0)):
+        self._gradient, self._steady = np.array(gradient, float), np.array(steady, float)
+
+    def velocity(self, points: np.ndarray, time: float, vehicles: Sequence[str] = ()) -> np.ndarray:
+        return np.asarray(points @ self._gradient.T + self._steady)
+
+
+EDDY = [[0.0, -0.1, 0.0], [0.1, 0.0, 0.0], [0.0, 0.0, 0.0]]
+SHEAR = [[0.0, 0.3, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
+
+
+def test_an_eddy_accelerates_towards_its_middle_and_turns() -> None:
+    scene = read_scene(SCENE).nominal
+    motion = WaterMotion(scene, Place(stream=lambda _: np.random.default_rng()))
+    motion.set(Linear(EDDY))
+    at = scene.world_from_localized.transform(np.array([[10.0, 0.0, 0.0]]))
+    velocity, acceleration, rotation = motion.at(at, 0.0, ("",))
+    back = scene.world_from_localized.rotation
+    assert velocity[0] == pytest.approx(back @ [0.0, 1.0, 0.0], abs=1e-9)
+    assert acceleration[0] == pytest.approx(back @ [-0.1, 0.0, 0.0], abs=1e-9)
+    assert rotation is not None
+    assert rotation[0] == pytest.approx(back @ [0.0, 0.0, 0.1], abs=1e-9)
+
+
+def bluerov(current: Current) -> Simulation:
+    scene = read_scene(SCENE).nominal
+    vehicle = VehicleSpec(
+        name="bluerov", file="bluerov2_heavy.urdf", dynamics="bluerov2_heavy", position=(0, 0, 3.0)
+    )
+    simulation = Simulation(
+        replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=()), is_blind=True
+    )
+    simulation.open()
+    simulation.world.set_current(current)
+    simulation.world.state.pilot(0).push(np.zeros(3), np.zeros(3))  # adrift
+    return simulation
+
+
+def test_a_vehicle_adrift_in_sheared_water_turns_with_it() -> None:
+    simulation = bluerov(Linear(SHEAR))
+    for _ in range(round(6.0 / simulation.timestep)):
+        simulation.advance()
+    # half the shear, a little less for what is not a ball
+    assert -0.16 < simulation.world.state.vehicle_velocity(0)[5] < -0.09
+
+
+def test_a_neutral_ball_goes_round_in_an_eddy() -> None:
+    """Released with the water 2 m from the middle it stays there, and is not flung out."""
+    simulation = bluerov(Linear(EDDY))
+    state = simulation.world.state
+    frame = simulation.world.world_from_localized
+    base = state.vehicle_pose(0)
+    state.place_vehicle(0, replace(base, position=frame.transform(np.array([[2.0, 0, 3.0]]))[0]))
+    state._free_velocities[0][:3] = frame.rotation @ [0.0, 0.2, 0.0]
+    state._free_velocities[0][3:] = base.rotation.T @ frame.rotation @ [0.0, 0.0, 0.1]
+    for _ in range(round(5.0 / simulation.timestep)):
+        simulation.advance()
+    place = frame.inverse().transform(state.vehicle_pose(0).position[None])[0]
+    assert np.hypot(*place[:2]) == pytest.approx(2.0, abs=0.01)
+
+
+def test_a_hull_below_its_origin_feels_the_water_where_it_is() -> None:
+    """Of a current that grows with depth."""
+    shift = (0.0, 0.0, 2.0)
+    simulation = bluerov(Linear([[0.0, 0.0, 0.1], [0.0] * 3, [0.0] * 3]))
+    water = simulation.world.state._water
+    assert water is not None
+    own = read_vehicle(vehicle_sets()["bluerov2_heavy"]).bodies[0]
+    assert isinstance(own, BodyHydrodynamics)
+    row = water.model.body_user[water.bodies[0]]
+    assert water.felt_at(water.bodies[0]) == pytest.approx(own.centre_of_buoyancy)
+    row[3:6] += shift  # the centre of buoyancy
+    assert water.felt_at(water.bodies[0])[2] == pytest.approx(own.centre_of_buoyancy[2] + 2.0)
