@@ -181,6 +181,27 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
     assert (bench.unfinished() == []) == (n_left == 3)
 
 
+class Wanders:
+    """Goes to another folder."""
+
+    def start(self, node: Node) -> None:
+        node.subscribe("/uwsim/camera1", Image, lambda _: os.chdir(str(node.parameters["where"])))
+        node.call("startBench", Empty())
+
+
+def test_an_algorithm_that_changes_the_working_directory_takes_no_result_with_it(
+    benchmark: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "elsewhere").mkdir()
+    settings = [f"algorithm.where={tmp_path / 'elsewhere'}"]
+    algorithm = f"{HERE}:Wanders"
+    run(benchmark, Path("out"), algorithm=algorithm, settings=settings, repeat=2)
+    assert len(load(tmp_path / "out").rows) == 6
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+    assert Path.cwd() == tmp_path
+
+
 def test_every_level_is_told_once(tmp_path: Path) -> None:
     told: list[None] = []
     roster = Roster(jobs(tmp_path, 3), lambda: told.append(None))

@@ -6,9 +6,12 @@ unit has lost its worker, and whose units are not worth playing any more; a crew
 
 from __future__ import annotations
 
+import os
 from collections import Counter, deque
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import chdir
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol
 
 from ..errors import RUN_ERRORS, RunFailed, UwsimError
@@ -188,11 +191,15 @@ class Here:
 def play_and_keep(job: Job, studio: Studio, calls: Calls) -> Iterator[Event]:
     """Play a unit where its result is; yields the levels that were not on disk before."""
     keeper = Keeper(job.bench, job.unit)
+    here = Path.cwd()  # an algorithm may go elsewhere
     try:
         for event in perform(job.bench.plan, job.unit, studio, calls):
-            if keeper.keep(event):
+            with chdir(here):
+                is_new = keeper.keep(event)
+            if is_new:
                 yield event
     finally:
+        os.chdir(here)
         keeper.close()
 
 
