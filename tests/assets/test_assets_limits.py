@@ -141,6 +141,12 @@ def test_a_picture_of_a_few_bytes_may_not_fill_the_memory(inside: Path) -> None:
     assert time.process_time() - start < 2.0
 
 
+def test_a_picture_too_large_to_be_opened_is_not_left_out_in_silence(inside: Path) -> None:
+    png(inside, "p.png", 20_000, 10_000)
+    with pytest.raises(AssetError, match=r"p\.png: a picture of too many pixels; at most 67"):
+        load_model(str(obj(inside, "m.mtl")))
+
+
 def test_pictures_are_bounded_in_all_too(inside: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(looks, "MOST_PIXELS_IN_ALL", 300)
     Image.new("RGB", (10, 10)).save(inside / "p.png")

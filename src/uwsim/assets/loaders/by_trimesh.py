@@ -16,7 +16,7 @@ from ...input_files import read_bytes
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
 from . import collada_limits, gltf_limits
-from .looks import Looks
+from .looks import Looks, check_size
 from .obj_lines import wrong_line
 from .references import References
 
@@ -111,6 +111,13 @@ def _too_much(data: bytes, suffix: str) -> str:
     return gltf_limits.too_much(data, suffix) if suffix in (".gltf", ".glb") else ""
 
 
+def _referred(path: Path, name: str, original: Path | None, suffix: str) -> bytes:
+    """A file that a model names."""
+    data = _bytes(path, name, original)
+    check_size(data, path)
+    return in_utf8(data, suffix)
+
+
 def _is_text(data: bytes, suffix: str) -> bool:
     """Whether it is a format that takes far more memory to read than to keep."""
     if suffix == ".stl":
@@ -128,8 +135,8 @@ def _parts(
     references: Any = References(
         beside,
         [path.parent, *within] if original is not None else within,
-        lambda found, place: in_utf8(
-            _bytes(found, str(PurePosixPath(name).parent / place), original), place.suffix.lower()
+        lambda found, place: _referred(
+            found, str(PurePosixPath(name).parent / place), original, place.suffix.lower()
         ),
     )
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import hashlib
+import io
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from PIL import Image
 
 from ...errors import AssetError
 from ..mesh import Texture
@@ -19,6 +21,25 @@ MOST_PIXELS_IN_ALL = 4 * MOST_PIXELS
 """Of all pictures of a model [px]."""
 FORMATS = ("BMP", "DDS", "GIF", "JPEG", "MPO", "PNG", "PPM", "SGI", "TGA", "TIFF", "WEBP")
 """Pictures that are decoded; Pillow knows others, some of them programs."""
+
+
+def check_size(data: bytes, name: object) -> None:
+    """Refuse a picture that Pillow does not open because of its size: trimesh would go without.
+
+    Raises:
+        AssetError: it is one.
+    """
+    try:
+        with Image.open(io.BytesIO(data)):
+            pass
+    except Image.DecompressionBombError as error:
+        raise AssetError(
+            f"{name}: a picture of too many pixels; at most {MOST_PIXELS / 1e6:.0f} million are "
+            "read."
+        ) from error
+    except Exception:  # no picture, or a broken one: whoever wants one says so
+        pass
+
 
 Look = tuple[tuple[float, float, float], Texture | None]
 
