@@ -8,10 +8,7 @@ from math import exp
 
 from PIL import Image
 
-from uwsim.assets.find import find
-from uwsim.scene.reader import read_scene
-from uwsim.scene.settings import apply_setting
-from uwsim.simulation import Simulation
+import uwsim
 
 SCENE = "visibility-scene.xml"
 CAMERA = "bowtech1"
@@ -20,16 +17,16 @@ PIXEL = (120, 220)  # row, column
 
 
 def main() -> None:
-    path = find(SCENE)
-    assert path is not None
     # Attenuation is a law of its own; without it the fog stands alone.
-    scene = apply_setting(read_scene(path), "oceanState.attenuation", "0 0 0")
-    simulation = Simulation(scene)
-    camera = simulation.world.camera(CAMERA)
+    with uwsim.load(SCENE, settings={"oceanState.attenuation": "0 0 0"}) as simulation:
+        show(simulation)
+
+
+def show(simulation: uwsim.Simulation) -> None:
     clear = None
     for fog in FOGS:
         simulation.world.set_fog(fog)
-        picture = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics)
+        picture = simulation.image(CAMERA)
         row, column = PIXEL
         # The fog's colour has no red: what red there is comes from the floor.
         red = picture.colour[row - 8 : row + 9, column - 8 : column + 9, 0].mean()
@@ -40,7 +37,6 @@ def main() -> None:
             f"{red / clear:.2f} left, law {exp(-((fog * distance) ** 2)):.2f}"
         )
         Image.fromarray(picture.colour).save(f"hello-fog-{fog:.1f}.png")
-    simulation.close()
 
 
 if __name__ == "__main__":

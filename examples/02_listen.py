@@ -4,11 +4,8 @@ An algorithm under test is a class with ``start(node)``: it subscribes and publi
 touches the simulator. This one notes what arrives and when.
 """
 
-from uwsim.assets.find import find
-from uwsim.bus import Node
+import uwsim
 from uwsim.messages import CameraInfo, Image, seconds
-from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 SCENE = "visibility-scene.xml"
 TOPIC = "/uwsim/camera1"
@@ -18,7 +15,7 @@ SECONDS = 0.2  # of simulation time [s]
 class Listener:
     """Prints a line for each picture."""
 
-    def start(self, node: Node) -> None:
+    def start(self, node: uwsim.Node) -> None:
         """Say what it wants to hear; from here on it lives on callbacks."""
         self.node = node
         node.subscribe(TOPIC, Image, self.look)
@@ -38,14 +35,9 @@ class Listener:
 
 
 def main() -> None:
-    path = find(SCENE)
-    assert path is not None
-    simulation = Simulation(read_scene(path), seed=1)
-    simulation.attach(Listener(), name="listener", parameters={})
-    simulation.open()
-    while simulation.time < SECONDS:
-        simulation.advance()
-    simulation.close()
+    with uwsim.load(SCENE, seed=1) as simulation:
+        simulation.attach(Listener())
+        simulation.advance(SECONDS)
 
 
 if __name__ == "__main__":

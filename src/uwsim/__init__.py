@@ -1,7 +1,80 @@
-"""Underwater robots, simulated and measured."""
+"""Underwater robots, simulated and measured.
+
+The public names, each imported when it is first used (`uwsim.api` says what they do)::
+
+    import uwsim
+
+    with uwsim.load("currents-scene") as simulation:
+        simulation.advance(1.0)
+        print(simulation.pose("girona500").position)
+        image = simulation.image("bowtech1").colour
+"""
 
 from __future__ import annotations
 
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from . import messages
+    from .api import bench, check, compare, load, read_result
+    from .benchmark.result import Result
+    from .bus import Algorithm, Node
+    from .errors import UwsimError
+    from .geometry import Pose
+    from .rendering.renderer import Picture
+    from .simulation import Simulation
+
 __version__ = "0.1.0"
 
-__all__ = ["__version__"]
+__all__ = [
+    "Algorithm",
+    "Node",
+    "Picture",
+    "Pose",
+    "Result",
+    "Simulation",
+    "UwsimError",
+    "__version__",
+    "bench",
+    "check",
+    "compare",
+    "load",
+    "messages",
+    "read_result",
+]
+
+_HOMES = {
+    "Algorithm": "bus",
+    "Node": "bus",
+    "Picture": "rendering.renderer",
+    "Pose": "geometry",
+    "Result": "benchmark.result",
+    "Simulation": "simulation",
+    "UwsimError": "errors",
+    "bench": "api",
+    "check": "api",
+    "compare": "api",
+    "load": "api",
+    "read_result": "api",
+}
+"""Public name -> the module that defines it."""
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used."""
+    if name == "messages":
+        return importlib.import_module(".messages", __name__)
+    if name not in _HOMES:
+        import difflib
+
+        near = difflib.get_close_matches(name, __all__, n=1)
+        hint = f" Did you mean {near[0]!r}?" if near else ""
+        raise AttributeError(f"module 'uwsim' has no attribute {name!r}.{hint}")
+    value = getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

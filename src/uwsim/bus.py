@@ -127,6 +127,8 @@ class _Topic:
     has_writers: bool = False
     kept: deque[Any] | None = None
     """The newest message, once somebody asked for it to be kept."""
+    unread: Any = None
+    """The newest message that was published while nobody read the topic."""
 
 
 class Bus:
@@ -207,6 +209,7 @@ class Bus:
                 wrong_class = _but_not(type, message.__class__)
                 raise BadMessage(f"Topic {topic!r} carries {_type_name(type)}, {wrong_class}.")
             if not entry.readers:
+                entry.unread = message
                 return
             if wrong := unfit(message):
                 raise BadMessage(f"Topic {topic!r} carries {_type_name(type)}: {wrong}.")
@@ -228,6 +231,11 @@ class Bus:
     def is_withheld(self, topic: str) -> bool:
         """Whether a topic is kept from algorithms under test."""
         return _plain(topic) in self._withheld
+
+    def unread(self, topic: str) -> object | None:
+        """Return the newest message that was published while nobody read the topic."""
+        entry = self._topics.get(_plain(topic))
+        return None if entry is None or entry.unread is None else freeze(entry.unread)
 
     def message_type(self, topic: str) -> type | None:
         """What ``topic`` carries; None while nobody has said."""

@@ -9,7 +9,6 @@ from typing import Annotated
 
 import typer
 
-from ..errors import ResultError
 from .console import Console
 from .faults import printable
 from .options import JsonOption
@@ -79,41 +78,19 @@ def compare(
     differ are refused. Written: comparison.json, comparison.csv, comparison.html, plots as PNG and
     PDF. What the numbers mean: docs/statistics.md.
     """
-    from ..benchmark.comparison import (
-        compare as compare_entries,
-    )
-    from ..benchmark.comparison import (
-        differences,
-        read_entries,
-        remarks,
-        shared_column,
-        write_comparison,
-    )
+    from ..benchmark.comparison import compare_files, write_comparison
     from ..benchmark.comparison.document import json_text
     from ..benchmark.comparison.terminal import drawn
     from ..benchmark.comparison.write import FOLDERS, OURS
     from ..benchmark.directory import make_room
 
     paths, place = with_baseline(each_of(results), baseline)
-    entries = read_entries(paths)
-    column = shared_column(entries, measure)
-    differing = differences(entries)
-    if differing and not force:
-        raise ResultError(
-            f"These results are not of one experiment: {'; '.join(differing)}. "
-            "--force compares them all the same."
-        )
-    comparison = compare_entries(
-        entries,
-        column,
-        baseline=None if place is None else entries[place],
-        higher_is_better=higher_is_better,
-        forced=differing,
-        remarks=remarks(entries),
+    comparison = compare_files(
+        paths, column=measure, baseline=place, higher_is_better=higher_is_better, force=force
     )
     make_room(out, overwrite=overwrite, ours=OURS, folders=FOLDERS)
-    if differing:
-        warning = f"warning: not of one experiment: {'; '.join(differing)}"
+    if comparison.forced:
+        warning = f"warning: not of one experiment: {'; '.join(comparison.forced)}"
         print(printable(warning), file=sys.stderr)
     for remark in comparison.remarks:
         print(printable(f"note: {remark}"), file=sys.stderr)

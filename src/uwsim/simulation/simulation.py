@@ -12,12 +12,16 @@ step 0, when the simulation is opened.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
-from typing import Any
+from types import MappingProxyType, TracebackType
+from typing import Any, Self
 
-from ..bus import Algorithm, Bus
-from ..errors import BadSetting
+from ..bus import Algorithm, Bus, Inbox
+from ..errors import BadSetting, UnknownName, UwsimError
+from ..geometry import Array, Pose
 from ..physics.motion import Motion
+from ..rendering.renderer import Picture
 from ..scene.spec import SceneSpec
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from .calls import Calls
@@ -56,6 +60,7 @@ class Simulation:
         self.images = {
             each.image_topic: each for each in world.interfaces if isinstance(each, ImagePublisher)
         }
+        self._inboxes: dict[str, Inbox[Any]] = {}
         """What publishes images, by topic."""
 
     @property
@@ -79,11 +84,25 @@ class Simulation:
         return self.world.time
 
     def open(self) -> None:
-        """Run the tail of step 0: first samples, first messages."""
+        """Publish the first samples, at step 0; `uwsim.load` has done so."""
         self._tail()
 
-    def advance(self) -> None:
-        """Take one step."""
+    def advance(self, seconds: float | None = None) -> None:
+        """Take one step, or as many whole steps as there are in some seconds (rounded).
+
+        Raises:
+            BadSetting: the time is negative or not finite.
+            RunFailed: the engine cannot go on; says why.
+        """
+        if seconds is None:
+            self._advance()
+            return
+        if not 0.0 <= seconds < math.inf:
+            raise BadSetting(f"advance({seconds!r}): expected a time >= 0 [s].")
+        for _ in range(round(seconds / self.timestep)):
+            self._advance()
+
+    def _advance(self) -> None:
         self.bus.step += 1
         self.world.apply_commands()
         self._drift()
@@ -97,6 +116,92 @@ class Simulation:
     def watch(self, look: Callable[[], None]) -> None:
         """Have ``look`` called at the end of every step."""
         self._watchers.append(look)
+
+    @property
+    def topics(self) -> dict[str, str]:
+        """Topic name -> message type, sorted by name."""
+        return self.bus.topics
+
+    def publish(self, topic: str, message: object) -> None:
+        """Publish a message; it is delivered at the end of the next step.
+
+        Raises:
+            BadSetting: the topic carries another type.
+            BadMessage: a field of the message has the wrong type or shape.
+        """
+        self.bus.publisher(topic, type(message))(message)
+
+    def latest(self, topic: str) -> Any:
+        """Return the newest message on a topic; None before the first.
+
+        The topic is read from the first call on. Sensors whose messages are costly (images) publish
+        only while somebody reads: ask once, then advance.
+
+        Raises:
+            UnknownName: no such topic; names the nearest.
+        """
+        name = topic.strip().lstrip("/")
+        if name not in self._inboxes:
+            if name not in self.bus.topics:
+                raise UnknownName("topic", topic, self.bus.topics)
+            before = self.bus.unread(name)
+            self._inboxes[name] = self.bus.inbox(name, object)
+            if before is not None:
+                self._inboxes[name].receive(before, self.step)
+        inbox = self._inboxes[name]
+        inbox.take()
+        return inbox.last
+
+    def call(self, service: str, request: object) -> object:
+        """Call a service and return its response.
+
+        Raises:
+            UnknownName: nobody offers it; names the nearest.
+            BadMessage: the request is of another type.
+        """
+        return self.bus.call(service, request)
+
+    def pose(self, name: str, of: str = "L") -> Pose:
+        """Return where a body is: a vehicle, a link ``vehicle/link``, or an object.
+
+        Args:
+            name: of the body.
+            of: the frame: ``L`` (that of files and topics), ``W`` (z up), or another body's name.
+
+        Raises:
+            UnknownName: there is no such body; names the nearest.
+        """
+        world_from_body = self.world.body(name).world_from_body
+        if of == "W":
+            return world_from_body
+        frame = self.world.world_from_localized
+        if of != "L":
+            frame = self.world.body(of).world_from_body
+        return frame.inverse() @ world_from_body
+
+    def velocity(self, name: str) -> Array:
+        """Return the twist of a simulated vehicle over ground, in its base frame, (6,).
+
+        Linear [m/s] first, then angular [rad/s].
+
+        Raises:
+            UnknownName: there is no such vehicle; names the nearest.
+            UwsimError: the vehicle is kinematic.
+        """
+        index = self.world.vehicle_index(name)
+        if not self.world.state.is_simulated(index):
+            raise UwsimError(f"{name!r} is kinematic (no <u:dynamics>): it has no velocity.")
+        return self.world.state.vehicle_velocity(index)
+
+    def image(self, camera: str) -> Picture:
+        """Render what a camera sees now, without noise: colour, range and ids.
+
+        Raises:
+            UnknownName: there is no such camera; names the nearest.
+            NoGraphics: there is no OpenGL.
+        """
+        view = self.world.camera(camera)
+        return self.world.scenery.picture(view.world_from_camera, view.intrinsics)
 
     @property
     def motion(self) -> Motion:
@@ -144,8 +249,8 @@ class Simulation:
         self,
         algorithm: Algorithm,
         *,
-        name: str,
-        parameters: Mapping[str, float | str],
+        name: str | None = None,
+        parameters: Mapping[str, float | str] = MappingProxyType({}),
         raises: bool = True,
         calls: Calls | None = None,
     ) -> InProcessNode:
@@ -156,7 +261,7 @@ class Simulation:
         """
         node = InProcessNode(
             self.bus,
-            name=name,
+            name=name or type(algorithm).__name__,
             timestep=self.timestep,
             random=self.world.stream("algorithm"),
             parameters=parameters,
@@ -172,6 +277,17 @@ class Simulation:
         for node in self._nodes:
             node.close()
         self.world.scenery.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
 
 
 def _shown(found: object) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .compare import compare
+from .compare import compare, compare_files
 from .entries import Entry, differences, read_entries, remarks, shared_column
 from .findings import Comparison, Difference
 from .write import write_comparison
@@ -12,6 +12,7 @@ __all__ = [
     "Difference",
     "Entry",
     "compare",
+    "compare_files",
     "differences",
     "read_entries",
     "remarks",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from ...errors import ResultError
 from ...statistics import (
@@ -26,7 +27,14 @@ from ...statistics import (
 )
 from ..repeats import ALPHA
 from ..result import Column
-from .entries import Entry, same_pictures
+from .entries import (
+    Entry,
+    differences,
+    read_entries,
+    remarks,
+    same_pictures,
+    shared_column,
+)
 from .findings import (
     CONFIDENCE,
     POWER,
@@ -42,6 +50,44 @@ from .findings import (
     least_corrected,
 )
 from .pairs import Level, Pair, pair_up
+
+
+def compare_files(
+    paths: Sequence[Path],
+    *,
+    column: str | None = None,
+    baseline: int | None = None,
+    higher_is_better: bool = False,
+    force: bool = False,
+) -> Comparison:
+    """Read results and compare them.
+
+    Args:
+        paths: result directories, or their ``result.json``.
+        column: what is compared; without it the score.
+        baseline: the place among the paths of the result that all others are compared with.
+        higher_is_better: more of it is better; errors are not so.
+        force: compare results of different experiments, too.
+
+    Raises:
+        ResultError: a result cannot be read, or they are of different experiments; says which.
+    """
+    entries = read_entries(paths)
+    compared = shared_column(entries, column)
+    differing = differences(entries)
+    if differing and not force:
+        raise ResultError(
+            f"These results are not of one experiment: {'; '.join(differing)}. "
+            "--force compares them all the same."
+        )
+    return compare(
+        entries,
+        compared,
+        baseline=None if baseline is None else entries[baseline],
+        higher_is_better=higher_is_better,
+        forced=differing,
+        remarks=remarks(entries),
+    )
 
 
 def compare(

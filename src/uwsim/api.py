@@ -1,0 +1,179 @@
+"""The Python face of uwsim: what `import uwsim` offers beside the classes that it names.
+
+Files are found as the command line finds them: a path, a name in a search folder, or a bundled
+name. Everything takes `str` or `Path`, and what goes wrong is an `UwsimError` of one or more lines
+that names the file, the line and the nearest right name.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .errors import BadSetting, Fault
+from .world import TIMESTEP
+
+if TYPE_CHECKING:
+    from .benchmark.comparison.findings import Comparison
+    from .benchmark.result import Result
+    from .bus import Algorithm
+    from .scene.spec import SceneSpec
+    from .simulation import Simulation
+
+Setting = str | float | int
+
+
+def load(
+    scene: str | Path | SceneSpec,
+    *,
+    seed: int = 0,
+    timestep: float = TIMESTEP,
+    settings: Mapping[str, Setting] | None = None,
+    data_path: Sequence[str | Path] = (),
+) -> Simulation:
+    """Open a scene at step 0: its first messages are out.
+
+    Args:
+        scene: a scene file, a bundled name (``uwsim list scenes``), or what `read_scene` returned.
+        seed: of every random stream, and of what varies in the scene (``<u:vary>``).
+        timestep: length of a physics step [s].
+        settings: values of the scene to change, as ``--set`` names them:
+            ``{"oceanState.fog.density": 0.4}``.
+        data_path: more folders in which files are looked for.
+
+    Raises:
+        UwsimError: a file, a name or a setting is wrong; names all faults of the file.
+    """
+    from .cli.files import scene_file
+    from .scene.reader import read_scene
+    from .scene.settings import apply_setting
+    from .simulation import Simulation
+
+    folders = tuple(Path(folder) for folder in data_path)
+    if isinstance(scene, str | Path):
+        scene = read_scene(scene_file(str(scene), folders))
+    for path, value in (settings or {}).items():
+        scene = apply_setting(scene, path, str(value))
+    simulation = Simulation(scene, seed=seed, timestep=timestep, data_path=folders)
+    simulation.open()
+    return simulation
+
+
+def bench(
+    benchmark: str | Path,
+    *,
+    scene: str | Path | None = None,
+    algorithm: str | type[Algorithm] | None = None,
+    seeds: Sequence[int] = (0,),
+    levels: Mapping[str, Sequence[float]] | None = None,
+    settings: Mapping[str, Setting] | None = None,
+    data_path: Sequence[str | Path] = (),
+    workers: int = 0,
+    out: str | Path | None = None,
+) -> Result:
+    """Run a benchmark as ``uwsim bench`` does, with the same numbers in the same bytes.
+
+    Args:
+        benchmark: a benchmark file or a bundled name.
+        scene: the scene; without it the one that the benchmark names.
+        algorithm: a name (``uwsim list algorithms``), ``module:Class``, or a class.
+        seeds: of the repeats; consecutive, such as ``range(6)``.
+        levels: only these levels of the sweep: ``{"fog": [0.0, 0.5]}``.
+        settings: values to change, as ``--set`` names them; ``algorithm.kp`` is a parameter.
+        data_path: more folders in which files are looked for.
+        workers: processes to use; 0 runs everything in this process.
+        out: the result directory, which must be empty or not there yet; without it nothing is kept
+            but what is returned.
+
+    Raises:
+        UwsimError: an input is wrong, or a run failed; finished rows are kept in ``out``.
+    """
+    from .benchmark.bench import Bench, open_once
+    from .benchmark.crew import play_all
+    from .benchmark.directory import check as check_directory
+    from .benchmark.inputs import without_algorithm
+    from .benchmark.inputs_read import of_algorithm
+    from .cli.crew import CALLBACK_LIMIT, crew_of
+    from .cli.plan import make_plan
+
+    given = algorithm if isinstance(algorithm, str) or algorithm is None else None
+    plan = make_plan(
+        str(benchmark),
+        scene=None if scene is None else str(scene),
+        algorithm=given,
+        seed=_first_of(seeds),
+        repeat=len(seeds),
+        mode=None,
+        levels=[f"{name}={value:g}" for name, each in (levels or {}).items() for value in each],
+        settings=[f"{path}={value}" for path, value in (settings or {}).items()],
+        compat=[],
+        data_path=tuple(Path(folder) for folder in data_path),
+    )
+    if algorithm is not None and not isinstance(algorithm, str):
+        name = f"{algorithm.__module__}:{algorithm.__qualname__}"
+        plan = replace(plan, algorithm=algorithm, algorithm_name=name)
+    executor = crew_of(str(workers), CALLBACK_LIMIT)
+    inputs, renderer = open_once(plan)
+    with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
+        directory = Path(scratch) / "result" if out is None else Path(out)
+        check_directory(directory, resume=False, overwrite=False, results=[])
+        run = Bench(
+            plan=plan,
+            out=directory,
+            inputs={**without_algorithm(inputs), **of_algorithm(plan)},
+            renderer=renderer,
+        )
+        (result,) = play_all([run], executor)
+    return result
+
+
+def _first_of(seeds: Sequence[int]) -> int:
+    """Return the first of some consecutive seeds; BadSetting if they are not."""
+    if len(seeds) == 0 or list(seeds) != list(range(seeds[0], seeds[0] + len(seeds))):
+        raise BadSetting(
+            f"seeds={list(seeds)[:10]}: expected consecutive seeds, such as (0,) or range(6)."
+        )
+    return seeds[0]
+
+
+def read_result(path: str | Path) -> Result:
+    """Read a result: its directory or its ``result.json``, of any format version.
+
+    Raises:
+        ResultError: it is not there, not whole, or not a result; says which.
+    """
+    from .benchmark.result_file import load as load_result
+
+    return load_result(path)
+
+
+def compare(
+    *results: str | Path, column: str | None = None, higher_is_better: bool = False
+) -> Comparison:
+    """Compare results of one experiment by the paired statistics of ``uwsim compare``.
+
+    Args:
+        results: result directories, two at least.
+        column: what is compared: a column, as ``total`` or ``corners.max``; without it the score.
+        higher_is_better: more of it is better; errors are not so.
+
+    Raises:
+        ResultError: a result cannot be read, or the results cannot be compared; says why.
+    """
+    from .benchmark.comparison import compare_files
+
+    paths = [Path(path) for path in results]
+    return compare_files(paths, column=column, higher_is_better=higher_is_better)
+
+
+def check(*paths: str | Path) -> tuple[Fault, ...]:
+    """Return what ``uwsim check`` says of scene, benchmark, robot and vehicle files.
+
+    Faults come with their file, line and severity; a file without any gives none.
+    """
+    from .cli.check import faults_of
+
+    return tuple(fault for path in paths for fault in faults_of(Path(path)))
