@@ -60,6 +60,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "__main__": {"cli", "interrupts"},
     "cli": ENGINES | {"simulation", "interfaces", "algorithms", "benchmark", "viewer", "cli"},
 }
+MAY_IMPORT["api"] = MAY_IMPORT["cli"]
 """Room -> rooms it may import from. The package itself (``__version__``) is open to all."""
 
 

@@ -34,7 +34,7 @@ def load(
     settings: Mapping[str, Setting] | None = None,
     data_path: Sequence[str | Path] = (),
 ) -> Simulation:
-    """Open a scene at step 0: its first messages are out.
+    """Open a scene at step 0; its first messages go out with the first `advance`.
 
     Args:
         scene: a scene file, a bundled name (``uwsim list scenes``), or what `read_scene` returned.
@@ -57,9 +57,7 @@ def load(
         scene = read_scene(scene_file(str(scene), folders))
     for path, value in (settings or {}).items():
         scene = apply_setting(scene, path, str(value))
-    simulation = Simulation(scene, seed=seed, timestep=timestep, data_path=folders)
-    simulation.open()
-    return simulation
+    return Simulation(scene, seed=seed, timestep=timestep, data_path=folders)
 
 
 def bench(

@@ -133,7 +133,8 @@ def test_a_body_that_moves_otherwise_in_the_replay_is_named_with_its_steps(
 
     def drifting(self: Simulation) -> None:
         if self.step == 700:
-            self.world.set_joints("girona500", {1: float(self.world.joints("girona500")[1]) + 1e-9})
+            joints = self.world.joints("girona500")
+            self.world.set_joints("girona500", {1: float(joints[1]) + 1e-9})
         advance(self)
 
     monkeypatch.setattr(Simulation, "advance", drifting)

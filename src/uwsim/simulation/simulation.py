@@ -60,8 +60,9 @@ class Simulation:
         self.images = {
             each.image_topic: each for each in world.interfaces if isinstance(each, ImagePublisher)
         }
-        self._inboxes: dict[str, Inbox[Any]] = {}
         """What publishes images, by topic."""
+        self._inboxes: dict[str, Inbox[Any]] = {}
+        self._is_open = False
 
     @property
     def bus(self) -> Bus:
@@ -84,7 +85,8 @@ class Simulation:
         return self.world.time
 
     def open(self) -> None:
-        """Publish the first samples, at step 0; `uwsim.load` has done so."""
+        """Publish the first samples, at step 0; the first `advance` does so, too."""
+        self._is_open = True
         self._tail()
 
     def advance(self, seconds: float | None = None) -> None:
@@ -94,6 +96,8 @@ class Simulation:
             BadSetting: the time is negative or not finite.
             RunFailed: the engine cannot go on; says why.
         """
+        if not self._is_open:
+            self.open()
         if seconds is None:
             self._advance()
             return
