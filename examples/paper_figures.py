@@ -2,7 +2,6 @@
 
     python examples/paper_figures.py FOLDER            all of them, about a minute
     python examples/paper_figures.py FOLDER --quick    few levels and points, for CI
-    python examples/paper_figures.py FOLDER --trackers   all trackers in one plot, too; half an hour
 
 3: the scene, with the camera's picture as an inset. 4: the tracker while visibility falls.
 5-7: total, centroid and corner error over fog. 8, 9: scene and camera at fog 0 and 1.1.
@@ -29,7 +28,7 @@ from uwsim.benchmark.figures import (
     visibility_over_fog,
 )
 from uwsim.benchmark.overlay import overlay
-from uwsim.benchmark.plots import compare_plot, save_plot, value_plot
+from uwsim.benchmark.plots import save_plot, value_plot
 from uwsim.benchmark.result import Result
 from uwsim.benchmark.result_file import load
 from uwsim.cli import main as uwsim
@@ -42,9 +41,6 @@ from uwsim.simulation import Simulation
 SCENE, CAMERA, SEED = "visibility-scene.xml", "bowtech1", 1
 EYE, TARGET = (-1.8, 3.8, -2.0), (0.1, 1.9, -3.3)  # of the viewer, in W [m]
 PAPER_FOG, PAPER_DISTANCE = 1.1, 1.36  # [1/m], [m]
-TRACKERS = ("ecc", "esm", "frozen", "ic", "orb", "ssd-esm")
-TRACKED = (("visibility", "corners", 1), ("visibility-moving", "cornersFace", 6))
-"""Benchmarks in which trackers are compared: what is drawn, and over how many seeds."""
 FOGS_OF_DISTANCE = (0.1, 0.25, 0.5, 0.75, 1.05, 2.0)  # [1/m]
 DISTANCES = (0.2, 0.4, 0.6, 0.8, 1.0, 1.36, 1.7, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0)  # [m]
 FOGS = tuple(0.1 * i for i in range(21))  # [1/m]
@@ -56,15 +52,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the figures of the paper.")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--quick", action="store_true", help="few levels and points, for CI")
-    parser.add_argument("--trackers", action="store_true", help="compare all trackers, too")
     asked = parser.parse_args()
     folder: Path = asked.folder
     folder.mkdir(parents=True, exist_ok=True)
     scene_figures(folder)
     visibility_figures(folder, quick=asked.quick)
     benchmark_figures(folder, quick=asked.quick)
-    if asked.trackers:
-        tracker_figures(folder, quick=asked.quick)
 
 
 # ------------------------------------------------------------------ 3, 8, 9: the scene
@@ -186,30 +179,10 @@ def benchmark_figures(folder: Path, *, quick: bool) -> None:
         save_plot(figure, folder / f"figure-{number:02}-{column}.png")
 
 
-def tracker_figures(folder: Path, *, quick: bool) -> None:
-    """All trackers and the control in one plot: where nothing moves, and where they must track."""
-    for benchmark, column, repeats in TRACKED:
-        results = [
-            play(
-                name,
-                folder / f"{benchmark}-{name}.result",
-                quick=quick,
-                benchmark=benchmark,
-                repeats=1 if quick else repeats,
-            )
-            for name in TRACKERS
-        ]
-        save_plot(compare_plot(results, column), folder / f"trackers-{benchmark}.png")
-
-
-def play(
-    algorithm: str, out: Path, *, quick: bool, benchmark: str = "visibility", repeats: int = 1
-) -> Result:
+def play(algorithm: str, out: Path, *, quick: bool) -> Result:
     """Play a benchmark as ``uwsim bench`` does."""
     levels = [word for fog in QUICK_FOGS for word in ("--level", f"fog={fog}")] if quick else []
-    command = ["bench", benchmark, "--algorithm", algorithm, "--seed", str(SEED), *levels]
-    if repeats > 1:
-        command += ["--repeat", str(repeats), "--workers", "2"]
+    command = ["bench", "visibility", "--algorithm", algorithm, "--seed", str(SEED), *levels]
     status = uwsim([*command, "--out", str(out), "--overwrite"])
     if status != 0:
         raise SystemExit(status)

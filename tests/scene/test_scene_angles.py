@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.scene.reader import check_robot, check_scene
+from uwsim.scene.reader import angle_notices, check_robot, check_scene, read_scene
+from uwsim.scene.settings import apply_setting
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
   <simParams> <offsetr> <x>180</x> <y>0</y> <z>-90</z> </offsetr> </simParams>
@@ -52,3 +53,15 @@ def test_limits_of_a_robot_that_look_like_degrees_are_asked_about(
     assert [message.split(";")[0] for message in said[1:]] == (
         [f"joint 'a' turns from {lower} to {upper} rad"] if is_asked else []
     )
+
+
+def test_angles_of_a_scene_that_was_set_are_asked_about_at_the_lines_of_its_file(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "scene.xml"
+    path.write_text(SCENE)
+    scene = apply_setting(read_scene(path), "vehicle[rov].orientation", "0 0 1.57")
+    assert [(fault.line, fault.message[:30]) for fault in angle_notices(scene)] == [
+        (2, "<offsetr> is 180 0 -90 in radi"),
+        (6, "<orientation> is 0 180 1.5708 "),
+    ]

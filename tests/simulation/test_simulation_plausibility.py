@@ -306,9 +306,13 @@ def test_a_kinematic_vehicle_is_asked_about_its_size_and_the_floor_only(tmp_path
 
 
 def test_render_says_it_before_it_draws(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = written(tmp_path, water=WATER.replace("0.0201", "0.03"))
+    turned = "</position> <orientation> <r>0</r> <p>0</p> <y>90</y> </orientation>"
+    scene = SCENE.replace("</position>", turned, 1)
+    path = written(tmp_path, water=WATER.replace("0.0201", "0.03"), scene=scene)
     assert main(["render", str(path), "-o", str(tmp_path / "a.png"), "--size", "8x8"]) == 0
-    assert f"{path}:6: the vehicle 'rov': it has 20 kg" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert f"{path}:6: the vehicle 'rov': it has 20 kg" in said
+    assert "<orientation> is 0 0 90 in radians, more than a turn" in said
 
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in (DATA / "scenes").glob("*.xml")))

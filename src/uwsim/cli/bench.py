@@ -220,9 +220,7 @@ def play_and_finish(
         outcome = play_with_progress(runs, crew, n_at_once(workers))
         failed = {id(run) for run, _ in outcome.failures}
         if controls and len(failed) < len(runs):
-            beside.wait()
-            for other in controls[1:]:  # the control looks at nothing: it is the same for all
-                shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
+            wait_for_controls(beside, controls)
         took = Took(
             began=watch.began, wall=watch.passed(), workers=workers, command=command, runs=runs
         )
@@ -324,6 +322,16 @@ def control_of(run: Bench) -> Bench:
     out = run.out / FOLDER_OF_CONTROL
     inputs = without_algorithm(run.inputs)
     return Bench(plan=plan, out=out, inputs=inputs, renderer="none", files=run.files)
+
+
+def wait_for_controls(beside: Beside, controls: Sequence[Bench]) -> None:
+    """Wait for the control of a run; what was asked for is whole without it."""
+    try:
+        beside.wait()
+        for other in controls[1:]:  # the control looks at nothing: it is the same for all
+            shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
+    except (RunFailed, OSError) as error:
+        warn(f"the report lacks the control {CONTROL!r}, which failed: {error}")
 
 
 def finish(run: Bench, result: Result, beside: Beside, took: Took) -> None:

@@ -49,6 +49,22 @@ def check_angles(spec: object, faults: Faults) -> None:
         check_angles(part, faults)
 
 
+def remember_twins(spec: object, written: object, lines: Faults, faults: Faults) -> None:
+    """Give a spec and its parts the elements of another one that was read from the same file.
+
+    Args:
+        spec: what was read earlier, and may have been changed by settings.
+        written: what is read from its file now.
+        lines: remembers the elements of ``written``.
+        faults: shall remember them for ``spec``.
+    """
+    node = lines.node_of(written)
+    if node is not None:
+        faults.remember(spec, node)
+    for part, twin in zip(_parts(spec), _parts(written), strict=False):
+        remember_twins(part, twin, lines, faults)
+
+
 @functools.cache
 def _angles(cls: Hashable) -> tuple[tuple[str, str], ...]:
     """The angles of a spec, by field and element; a phase may have any number of turns."""

@@ -10,7 +10,7 @@ from typing import Protocol
 
 from ..dialect import Document, Faults, check_head, parse, read
 from ..errors import AssetError, Fault, SceneError
-from .angle_checks import check_angles
+from .angle_checks import check_angles, remember_twins
 from .checks import check_names
 from .legacy import upgrade
 from .look_checks import check_looks
@@ -121,6 +121,18 @@ def check_scene(
         if further is not None and not faults.any:
             others += further(scene)
     return [*faults.all(), *others]
+
+
+def angle_notices(scene: SceneSpec) -> list[Fault]:
+    """Ask about the angles of a scene as it is set now, at the lines of its file."""
+    faults = Faults(scene.path or "the scene")
+    if scene.path:
+        with suppress(SceneError):
+            lines = Faults(scene.path)
+            written = read_document(parse(Path(scene.path), error=SceneError), lines)
+            remember_twins(scene, written, lines, faults)
+    check_angles(scene, faults)
+    return faults.all()
 
 
 def check_robot(path: Path, *, library: Library | None = None) -> list[Fault]:

@@ -14,6 +14,7 @@ from typing import Literal
 from ..errors import Fault, UwsimError
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.doubts import VehicleDoubt, unless_meant
+from ..scene.reader import angle_notices
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from .bodies import read_robots
@@ -62,9 +63,10 @@ def doubts_about(
 
 
 def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fault]:
-    """The same of a scene that nobody has opened yet."""
+    """The same of a scene that nobody has opened yet, and what is asked about its angles."""
     robots = read_robots(scene, data_path)
-    return doubts_about(scene, robots, read_dynamics(scene, robots, data_path), data_path)
+    dynamics = read_dynamics(scene, robots, data_path)
+    return [*angle_notices(scene), *doubts_about(scene, robots, dynamics, data_path)]
 
 
 def _of_vehicle(

@@ -15,6 +15,7 @@ from ..chance import stream
 from ..errors import Fault, UnknownName
 from ..geometry import Intrinsics, Pose
 from ..physics.state import State
+from ..scene.reader import angle_notices
 from ..scene.spec import Integrator, SceneSpec, with_integrator
 from ..scene.variation import varied
 from ..sensors.sensor import BindsSensor, Sensor
@@ -117,7 +118,9 @@ class SceneWorld:
     @cached_property
     def warnings(self) -> tuple[Fault, ...]:
         """What of the scene seems not to be meant, with the lines of the file."""
-        return tuple(doubts_about(self._as_written, self.robots, self._dynamics, self._data_path))
+        scene = self._as_written
+        doubts = doubts_about(scene, self.robots, self._dynamics, self._data_path)
+        return (*angle_notices(scene), *doubts)
 
     @property
     def bus(self) -> Bus:
