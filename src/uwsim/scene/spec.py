@@ -303,8 +303,8 @@ class ObjectSpec:
     weathering: WeatheringSpec | None = element(namespaced=True, default=None)
     """Clouds of light and dark on its textures; None: as they are."""
     accepts: tuple[ObjectDoubt, ...] = element("accept", namespaced=True, default=())
-    """What is meant as it is, though `uwsim check` would ask about it: see
-    [doubts](#doubts)."""
+    """Warnings of `uwsim check` that do not apply here, because the value is intended; the
+    section *Doubts* of the reference lists the names."""
 
     @property
     def solid(self) -> PhysicsSpec:

@@ -141,8 +141,8 @@ class VehicleSpec:
     on_floor: OnFloorSpec | None = element(namespaced=True, default=None)
     """Whether it begins on the ground."""
     accepts: tuple[VehicleDoubt, ...] = element("accept", namespaced=True, default=())
-    """What is meant as it is, though `uwsim check` would ask about it: see
-    [doubts](#doubts)."""
+    """Warnings of `uwsim check` that do not apply here, because the value is intended; the
+    section *Doubts* of the reference lists the names."""
 
     def parts(self) -> Iterator[tuple[str, object]]:
         """Element name and spec of everything it carries, in the order of the grammar."""
