@@ -1,7 +1,7 @@
-"""Hello, water: one camera looks down at the floor of a tank while the fog rises.
+"""Render the camera that looks down at the floor of a tank, in increasing fog.
 
-Prints how much of the light from the floor is left behind the fog, beside the law that the
-renderer draws, 1 - exp(-(fog * distance)^2), and writes hello-fog-*.png into the current folder.
+Prints the measured share of the floor's light that passes through the fog, next to the renderer's
+model, exp(-(fog * distance)^2), and writes hello-fog-*.png to the working directory.
 """
 
 from math import exp
@@ -17,7 +17,7 @@ PIXEL = (120, 220)  # row, column
 
 
 def main() -> None:
-    # Attenuation is a law of its own; without it the fog stands alone.
+    # Switch off attenuation, which is modelled separately, to see the effect of fog alone.
     with uwsim.load(SCENE, settings={"oceanState.attenuation": "0 0 0"}) as simulation:
         show(simulation)
 
@@ -28,13 +28,13 @@ def show(simulation: uwsim.Simulation) -> None:
         simulation.world.set_fog(fog)
         picture = simulation.image(CAMERA)
         row, column = PIXEL
-        # The fog's colour has no red: what red there is comes from the floor.
+        # The fog's colour has no red, so all red light comes from the floor.
         red = picture.colour[row - 8 : row + 9, column - 8 : column + 9, 0].mean()
         clear = red if clear is None else clear
         distance = picture.range[row, column]  # [m]
         print(
             f"fog {fog:.1f} 1/m, floor at {distance:.2f} m: "
-            f"{red / clear:.2f} left, law {exp(-((fog * distance) ** 2)):.2f}"
+            f"{red / clear:.2f} left, model {exp(-((fog * distance) ** 2)):.2f}"
         )
         Image.fromarray(picture.colour).save(f"hello-fog-{fog:.1f}.png")
 

@@ -1,7 +1,7 @@
-"""Listen: a program that lives outside the simulator and sees topics only.
+"""Subscribe to topics, as an algorithm under test does.
 
-An algorithm under test is a class with ``start(node)``: it subscribes and publishes, and never
-touches the simulator. This one notes what arrives and when.
+An algorithm is a class with ``start(node)``. It subscribes and publishes and has no access to the
+simulator. This one prints which message arrives when.
 """
 
 import uwsim
@@ -13,24 +13,24 @@ SECONDS = 0.2  # of simulation time [s]
 
 
 class Listener:
-    """Prints a line for each picture."""
+    """Prints a line for each image."""
 
     def start(self, node: uwsim.Node) -> None:
-        """Say what it wants to hear; from here on it lives on callbacks."""
+        """Subscribe; from here on only callbacks run."""
         self.node = node
         node.subscribe(TOPIC, Image, self.look)
         node.subscribe(f"{TOPIC}_info", CameraInfo, self.note)
         node.every(0.1, lambda: print(f"{node.now:.3f} s: every tenth of a second"))
 
     def look(self, image: Image) -> None:
-        """Look at a picture."""
+        """Print size, encoding and time stamp of an image."""
         print(
             f"{self.node.now:.3f} s: {image.width}x{image.height} {image.encoding}, "
             f"stamped {seconds(image.header.stamp):.3f} s"
         )
 
     def note(self, info: CameraInfo) -> None:
-        """Note what the camera says of itself."""
+        """Print the camera's focal length."""
         print(f"{self.node.now:.3f} s: focal length {info.k[0]:.2f} px")
 
 

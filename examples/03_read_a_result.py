@@ -1,7 +1,7 @@
-"""Read a result: play two levels with two algorithms, and ask result.json how it went.
+"""Run two levels with two algorithms, and read the scores from result.json.
 
-A result explains itself: columns with units, a row for each level, and a reason for every value
-that is missing. Nothing but the standard library is needed to read it.
+A result is self-describing: columns with units, a row for each level, and a reason for every
+missing value. The standard library is enough to read it.
 """
 
 import json
@@ -11,7 +11,7 @@ from pathlib import Path
 
 ALGORITHMS = ("esm", "frozen")
 LEVELS = ("fog=0", "fog=1.3")  # [1/m]
-GOOD = 5.0  # total below which the paper calls tracking good [px]
+GOOD = 5.0  # the paper's limit of good tracking, for the total [px]
 
 
 def main() -> None:

@@ -1,13 +1,13 @@
-"""The figures of the second experiment of the UWSim benchmarking paper: P and PI in a current.
+"""Draw the figures of the UWSim benchmarking paper's second experiment: P and PI in a current.
 
     python examples/currents_figures.py FOLDER                      two minutes on two cores
     python examples/currents_figures.py FOLDER --quick              short levels, for CI
-    python examples/currents_figures.py FOLDER --sweep DIR DIR ...  error over the current, too,
+    python examples/currents_figures.py FOLDER --sweep DIR DIR ...  also error over current,
                                      from results of ``uwsim bench currents``, any number of seeds
 
-2: the scene, the current as an arrow, the camera's picture as an inset. 12: distance to the
-objective. 13, 14: its two components, right and up in the camera's picture. 15: the tracker's
-error. The objective is the place at which the tracked centroid is in the middle of the picture.
+2: the scene, the current as an arrow, the camera image as an inset. 12: distance to the
+objective. 13, 14: its two components, right and up in the camera image. 15: the tracker's
+error. The objective is the position at which the tracked centroid is in the image centre.
 """
 
 from __future__ import annotations
@@ -111,7 +111,7 @@ def looking(eye: tuple[float, float, float], target: tuple[float, float, float])
 
 
 def pixel(eye: Pose, viewer: Intrinsics, point: Array) -> tuple[float, float]:
-    """Where a point of W [m] stands in the viewer's picture [px]."""
+    """Image coordinates of a point of W [m] in the viewer's image [px]."""
     x, y, z = eye.inverse().transform(point[None])[0]
     return viewer.cx - viewer.fx * x / z, viewer.cy + viewer.fy * y / z
 
@@ -162,7 +162,7 @@ def time_figures(folder: Path, *, quick: bool) -> None:
 
 
 def play(controller: str, folder: Path, *, quick: bool) -> Result:
-    """Play a benchmark as ``uwsim bench`` does."""
+    """Run a benchmark as ``uwsim bench`` does."""
     benchmark, settings = BENCHMARK.removesuffix(".xml"), []
     if quick:
         text = (
@@ -190,13 +190,13 @@ def taken(result: Result, directory: Path, level: float, seed: int | None = None
 
 
 def loop_of(result: Result) -> Loop:
-    """The gains that a result says were in force."""
+    """The gains recorded in a result."""
     parameters = result.run["parameters"]
     return Loop(kp=float(parameters["kp"]), ki=float(parameters.get("ki", 0.0)))
 
 
 def table(kept: dict[tuple[str, float], tuple[Loop, Station]]) -> str:
-    """Measured beside theory."""
+    """Write the table of measured and theoretical values."""
     head = ("controller", "current", "along: mean", "theory", "across: amplitude", "theory")
     rows: list[Sequence[str]] = [head]
     for (name, level), (loop, found) in kept.items():
@@ -211,7 +211,7 @@ def table(kept: dict[tuple[str, float], tuple[Loop, Station]]) -> str:
 
 
 def sweep_figure(folder: Path, directories: Sequence[Path]) -> None:
-    """Mean along and amplitude across at every level that was played to its end."""
+    """Mean along and amplitude across at every level that was completed."""
     kept: dict[str, dict[float, list[Station]]] = {}
     loops: dict[str, Loop] = {}
     known = set()

@@ -1,4 +1,4 @@
-"""Draw the pictures of README.md and docs/ again.
+"""Draw the images of README.md and docs/ again.
 
     python examples/docs_images.py docs/images                          about a minute
     python examples/docs_images.py docs/images --trackers DIR           also the comparison of
@@ -7,9 +7,9 @@
     uwsim bench visibility-moving --algorithm esm --algorithm frozen --algorithm ecc --algorithm ic
         --algorithm orb --algorithm ssd-esm --seed 1 --repeat 6 --workers 2 --out DIR
 
-tank.png: the scene of ``visibility-moving`` in slightly turbid water, and what its camera sees at
-three fogs, with the truth and the tracker's estimate. wreck.png, wreck-offset.png: what the
-commands of docs/first-benchmark.md make. trackers.png: the score over fog.
+tank.png: the scene of ``visibility-moving`` in slightly turbid water, and its camera image at
+three fogs, with the truth and the tracker's estimate. wreck.png, wreck-offset.png: output of the
+commands of docs/first-benchmark.md. trackers.png: the score over fog.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ COMMAND = re.compile(r"^\$ uwsim (.*)$", re.MULTILINE)
 SCENE, BENCHMARK, SEED = "visibility-moving-scene.xml", "visibility-moving", 1
 EYE, TARGET = (4.25, -1.3, 2.4), (2.15, 0.4, 3.5)  # of the view, in L [m]
 HAZE = 0.05  # fog of the view [1/m]
-FOGS = (0.0, 0.6, 1.2)  # of the camera's pictures [1/m]
-SIZE, SMALL, GAP = (960, 500), (316, 237), 6  # view, camera's pictures, between them [px]
-FINER = 2  # the view is drawn so many times larger, then averaged
+FOGS = (0.0, 0.6, 1.2)  # of the camera images [1/m]
+SIZE, SMALL, GAP = (960, 500), (316, 237), 6  # view, camera images, gap [px]
+FINER = 2  # supersampling factor of the view
 
 
 def main() -> None:
@@ -63,7 +63,7 @@ def main() -> None:
 
 
 def view() -> Image.Image:
-    """The tank, the vehicle and the box from beside the vehicle's bow."""
+    """The tank, the vehicle and the box, seen from next to the vehicle's bow."""
     path = find(SCENE)
     assert path is not None
     simulation = Simulation(read_scene(path), seed=SEED)
@@ -81,7 +81,7 @@ def view() -> Image.Image:
 
 
 def camera_pictures() -> list[Image.Image]:
-    """The camera's last picture of a level at each fog, with the truth and ESM's estimate."""
+    """The camera's last image of a level at each fog, with the truth and ESM's estimate."""
     levels = [word for fog in FOGS for word in ("--level", f"fog={fog}")]
     with TemporaryDirectory() as folder:
         out = Path(folder) / "esm.result"
@@ -93,7 +93,7 @@ def camera_pictures() -> list[Image.Image]:
 
 
 def drawn(result: Result, directory: Path, fog: float) -> Image.Image:
-    """One camera picture with its quadrangles and its fog."""
+    """One camera image with its quadrangles and its fog."""
     row = next(i for i, level in enumerate(result.numbers("fog")) if math.isclose(level or 0, fog))
     picture = next(each for each in result.pictures if each.row == row)
     pixels = np.asarray(Image.open(directory / picture.file).convert("RGB"))
@@ -106,7 +106,7 @@ def drawn(result: Result, directory: Path, fog: float) -> Image.Image:
 
 
 def stacked(above: Image.Image, below: Sequence[Image.Image]) -> Image.Image:
-    """One wide picture over a row of small ones."""
+    """One wide image above a row of small ones."""
     whole = Image.new("RGB", (SIZE[0], SIZE[1] + GAP + SMALL[1]), "white")
     whole.paste(above, (0, 0))
     for i, small in enumerate(below):
@@ -115,7 +115,7 @@ def stacked(above: Image.Image, below: Sequence[Image.Image]) -> Image.Image:
 
 
 def tutorial(folder: Path) -> None:
-    """Write the files of the page, run its commands, keep two of the pictures that they make."""
+    """Write the files of the page, run its commands, keep two of the images that they write."""
     page = PAGE.read_text()
     here = Path.cwd()
     with TemporaryDirectory() as scratch:
@@ -133,7 +133,7 @@ def tutorial(folder: Path) -> None:
 
 
 def save(image: Image.Image, path: Path) -> None:
-    """Write a true-colour PNG, as small as it gets."""
+    """Write an optimised true-colour PNG."""
     image.save(path, optimize=True)
 
 

@@ -1,11 +1,11 @@
-"""The figures of the UWSim benchmarking paper, drawn from what is simulated here.
+"""Draw the figures of the UWSim benchmarking paper from simulations with uwsim.
 
     python examples/paper_figures.py FOLDER            all of them, about a minute
     python examples/paper_figures.py FOLDER --quick    few levels and points, for CI
 
-3: the scene, with the camera's picture as an inset. 4: the tracker while visibility falls.
+3: the scene, with the camera image as an inset. 4: the tracker in decreasing visibility.
 5-7: total, centroid and corner error over fog. 8, 9: scene and camera at fog 0 and 1.1.
-10, 11: visibility over distance and over fog, measured from pictures of two plates.
+10, 11: visibility over distance and over fog, measured from images of two plates.
 """
 
 from __future__ import annotations
@@ -99,10 +99,10 @@ def looking(eye: tuple[float, float, float], target: tuple[float, float, float])
 
 
 class Plates:
-    """A black and a white plate, looked at along their normal, at any distance in any fog.
+    """A black and a white plate, seen along their normal, at any distance in any fog.
 
     V = 1 - (white(d) - black(d)) / (white(0.2 m, fog 0) - black(0.2 m, fog 0)), means of the
-    central 9 x 9 pixels of 8-bit pictures, without noise and attenuation.
+    central 9 x 9 pixels of 8-bit images, without noise and attenuation.
     """
 
     def __init__(self, *, fog_distance: str = "ray") -> None:
@@ -118,7 +118,7 @@ class Plates:
         return 1.0 - self.contrast(fog, distance) / self.reference
 
     def contrast(self, fog: float, distance: float) -> float:
-        """White less black [grey level], from 5 m under water looking straight down."""
+        """White minus black [grey level], looking straight down from a depth of 5 m."""
         eye = Pose(np.array([0.0, 0.0, -5.0]), np.eye(3))
         below = np.eye(4)
         below[2, 3] = -5.0 - distance
@@ -133,7 +133,7 @@ class Plates:
         return levels[0] - levels[1]
 
     def close(self) -> None:
-        """Give the graphics context back."""
+        """Release the graphics context."""
         self.renderer.close()
 
 
@@ -180,7 +180,7 @@ def benchmark_figures(folder: Path, *, quick: bool) -> None:
 
 
 def play(algorithm: str, out: Path, *, quick: bool) -> Result:
-    """Play a benchmark as ``uwsim bench`` does."""
+    """Run a benchmark as ``uwsim bench`` does."""
     levels = [word for fog in QUICK_FOGS for word in ("--level", f"fog={fog}")] if quick else []
     command = ["bench", "visibility", "--algorithm", algorithm, "--seed", str(SEED), *levels]
     status = uwsim([*command, "--out", str(out), "--overwrite"])
@@ -192,7 +192,7 @@ def play(algorithm: str, out: Path, *, quick: bool) -> Result:
 def tracked(
     result: Result, directory: Path, fogs: list[float]
 ) -> tuple[list[npt.NDArray[np.uint8]], list[str]]:
-    """The camera's last pictures at these fogs, with truth and estimate, and what became of it."""
+    """The camera's last images at these fogs, with truth, estimate and status."""
     drawn, captions = [], []
     for picture in result.pictures:
         fog, status = result.numbers("fog")[picture.row], result.values("status")[picture.row]
