@@ -22,13 +22,16 @@ WHY = "lost at 3.1 s"
 FOUND = {0.0: [1.5, 1.25], 0.5: [2.5, None]}
 
 
-def written(directory: Path, algorithm: str = "esm") -> Path:
+Found = dict[float, list[Any]]
+
+
+def written(directory: Path, algorithm: str = "esm", found: Found = FOUND) -> Path:
     """A result of two seeds and two levels, with what its units have stored."""
-    result = made(algorithm, FOUND)
+    result = made(algorithm, found)
     save(result, directory)
     for seed in (0, 1):
         lines: list[dict[str, Any]] = [{"unit": {"run": {"seed": 0}, "seed": seed}}]
-        for fog, values in FOUND.items():
+        for fog, values in found.items():
             value = values[seed]
             row = stored_row(
                 values=[fog],
@@ -70,6 +73,7 @@ def test_rows_that_say_what_their_units_have_stored_are_believed(tmp_path: Path)
         ('"lost", 4.0', '"ok", 4.0', "row 3, column status: 'ok' there, 'lost' by units/"),
         ('"ok", 2.0', '"ok", 1.0', "row 0, column ended_at: 1.0 there, 2.0 by units/"),
         ("lost at 3.1 s", "bad luck", "row 3, why total is missing: 'bad luck' there"),
+        ('"px"', '"m"', "row 0, column corners: in m there, in px by units/"),
         ("[0, 0, 0.5,", "[0, 0, 0.6,", "row 1: units/ has no such level"),
         ("[1, 1, 0.0,", "[1, 7, 0.0,", "row 2: units/ has no such level"),
     ],
@@ -88,6 +92,12 @@ def test_a_row_that_says_other_than_its_unit_is_refused_everywhere(
         [line] = capsys.readouterr().err.splitlines()
         assert said in line
     assert not (one / "report.html").exists()
+
+
+def test_a_score_by_another_name_is_refused(tmp_path: Path) -> None:
+    altered(written(tmp_path, found={0.0: [1.5, 1.25]}), '"total"', '"totel"')
+    with pytest.raises(ResultError, match="row 0, there is no column total"):
+        checked(tmp_path)
 
 
 def test_many_contradictions_are_counted(tmp_path: Path) -> None:

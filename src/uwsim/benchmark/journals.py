@@ -127,6 +127,13 @@ def _apart(result: Result, row: int, record: Record, counts_time: bool) -> Itera
         stored = _stored(record, column)
         if leaves(cell) != leaves(stored):
             yield f"column {column.name}: {cell!r} there, {stored!r} by {FOLDER}/"
+        unit = _unit(record, column)
+        if unit is not None and unit != (column.unit or "1"):
+            yield f"column {column.name}: in {column.unit or '1'} there, in {unit} by {FOLDER}/"
+    names = [column.name for column in result.columns]
+    for name in (*record["measures"], *record["details"], "total"):
+        if name not in names:
+            yield f"there is no column {name}"
     reasons = {note.column: note.why for note in result.missing if note.row == row}
     for name in dict.fromkeys([*reasons, *record["missing"]]):
         before, after = reasons.get(name), record["missing"].get(name)
@@ -142,3 +149,11 @@ def _stored(record: Record, column: Column) -> object:
         case "score" | "status":
             return record["total" if column.kind == "score" else "status"]
     return record["ended_at"]
+
+
+def _unit(record: Record, column: Column) -> str | None:
+    """The unit of a value that is there; of none it need not be known."""
+    if column.kind not in ("measure", "detail"):
+        return None
+    value, unit = record[f"{column.kind}s"].get(column.name, (None, None))
+    return None if value is None else str(unit)
