@@ -71,5 +71,5 @@ def test_files_are_found_by_a_worker_that_has_gone_elsewhere(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("a").write_text("a")
-    files = watchable([file_of(Path("a")), InputFile("made", "sha256:0")])
+    files = watchable([file_of(Path("a")), InputFile("made", "sha256:0"), file_of(tmp_path / "a")])
     assert [file.path for file in files] == [tmp_path / "a"]

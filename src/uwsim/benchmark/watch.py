@@ -18,8 +18,9 @@ _Stamp = tuple[tuple[int, int, int], ...]
 
 
 def watchable(read: Iterable[InputFile]) -> tuple[InputFile, ...]:
-    """Return the files whose place is known, wherever a worker may be."""
-    return tuple(replace(file, path=file.path.absolute()) for file in read if file.path.name)
+    """Return the files whose place is known, each once, wherever a worker may be."""
+    known = {file.path.absolute(): file for file in read if file.path.name}
+    return tuple(replace(file, path=path) for path, file in known.items())
 
 
 class Watch:
