@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -36,3 +37,11 @@ def test_an_example_fits_on_a_page(example: Path) -> None:
 def test_every_numbered_example_is_linked(page: str) -> None:
     text = (EXAMPLES.parent / page).read_text()
     assert [path.name for path in NUMBERED if f"examples/{path.name})" not in text] == []
+
+
+@pytest.mark.slow
+def test_the_python_of_the_readme_writes_its_image(tmp_path: Path) -> None:
+    readme = (EXAMPLES.parent / "README.md").read_text()
+    (code,) = re.findall(r"^```python\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True)
+    assert [path.name for path in tmp_path.iterdir()] == ["view.png"]
