@@ -89,6 +89,13 @@ class Vehicle(Protocol):
     def set_joints(self, values: Array) -> None:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
 
+    def displacer(self, axis: int) -> Callable[[float], None]:
+        """Return what displaces it from its place in the file, at rest.
+
+        Along x, y, z of L [m] or about roll, pitch, yaw of its orientation [rad], by the number of
+        the ``axis``. Several add up; it moves when the last of them is set.
+        """
+
     def loss_setter(self, thruster: str) -> Callable[[float], None]:
         """Return what sets the share of its thrust that a thruster loses [0..1].
 

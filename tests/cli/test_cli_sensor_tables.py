@@ -33,8 +33,8 @@ def test_the_tables_are_what_the_code_says() -> None:
 def test_every_sensor_and_device_is_in_the_half_that_is_true(name: str) -> None:
     part = REST if limit_of("vehicle", name) else SIMULATED
     other = SIMULATED if part is REST else REST
-    assert f"| [`<{name}>`]" in part
-    assert f"| [`<{name}>`]" not in other
+    assert f"| [`<{local(name)}>`]" in part
+    assert f"| [`<{local(name)}>`]" not in other
 
 
 def test_every_simulated_publisher_has_its_message_and_its_own_paragraph() -> None:

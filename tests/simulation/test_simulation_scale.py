@@ -96,10 +96,10 @@ def test_a_lamp_hangs_where_the_scale_puts_it(
     scale: tuple[float, float, float], tmp_path: Path
 ) -> None:
     simulation = begin(arm(tmp_path, scale), is_blind=True)
-    ((mount, _),) = simulation.world.scenery._mounted_lamps
+    (lamp,) = simulation.world.scenery._mounted_lamps
     base_from_rail = link_poses(simulation.world.robots[0], VALUES)["rail"]
     place = base_from_rail.transform(np.array([[0.1, 0.2, 0.3]]))[0]
-    assert mount.world_from_body.position == pytest.approx(placed(scale, place))
+    assert lamp.world_from_lamp.position == pytest.approx(placed(scale, place))
 
 
 def test_a_camera_sees_the_larger_robot_where_it_is(tmp_path: Path) -> None:

@@ -1,7 +1,18 @@
 import numpy as np
 import pytest
 
-from uwsim.devices.sway import SwaySpec, swayed
+from uwsim.devices.sway import AXES, SwaySpec, displaced
+from uwsim.geometry import Pose
+
+
+def swayed(
+    position: tuple[float, ...],
+    orientation: tuple[float, ...],
+    sways: tuple[SwaySpec, ...],
+    time: float,
+) -> Pose:
+    offsets = [(AXES.index(sway.axis), sway.offset(time)) for sway in sways]
+    return displaced(position, orientation, offsets)
 
 
 def test_a_vehicle_sways_about_its_place_in_the_file() -> None:

@@ -130,13 +130,12 @@ def sensors(tables: Tables) -> dict[str, str]:
 def devices(tables: Tables) -> dict[str, str]:
     """Devices that a scene file may use, and what else it may give a vehicle."""
     from ..devices import DEVICES
-    from ..devices.lamp import LampSpec
-    from ..devices.sway import SwaySpec
-    from ..devices.thruster_fault import ThrusterFaultSpec
+    from ..dialect.names import local
 
-    ours = {"u:lamp": LampSpec, "u:sway": SwaySpec, "u:fault": ThrusterFaultSpec}
-    titled = {name: without_title(line) for name, line in family(ours).items()}
-    return {**family(DEVICES), **titled}
+    return {
+        local(name): without_title(line) if name.startswith("{") else line
+        for name, line in family(DEVICES).items()
+    }
 
 
 def interfaces(tables: Tables) -> dict[str, str]:

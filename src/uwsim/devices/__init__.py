@@ -1,11 +1,15 @@
 """Devices: what acts, touches or talks, one file each."""
 
+from ..dialect import NAMESPACE
 from .comms import AcousticCommsDeviceSpec, CustomCommsDeviceSpec
 from .dredge_tool import DredgeToolSpec
 from .echo import EchoSpec
 from .force_sensor import ForceSensorSpec
+from .lamp import LampSpec
 from .led_array import LedArraySpec
 from .object_picker import ObjectPickerSpec
+from .sway import SwaySpec
+from .thruster_fault import ThrusterFaultSpec
 
 DEVICES: dict[str, type] = {
     "AcousticCommsDevice": AcousticCommsDeviceSpec,
@@ -15,7 +19,10 @@ DEVICES: dict[str, type] = {
     "LedArray": LedArraySpec,
     "echo": EchoSpec,
     "objectPicker": ObjectPickerSpec,
+    f"{{{NAMESPACE}}}lamp": LampSpec,
+    f"{{{NAMESPACE}}}sway": SwaySpec,
+    f"{{{NAMESPACE}}}fault": ThrusterFaultSpec,
 }
-"""Element of a vehicle -> spec."""
+"""Element of a vehicle -> spec; ours last. One without ``bind`` is read and not simulated."""
 
 __all__ = ["DEVICES"]

@@ -15,14 +15,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..dialect import element
+from ..geometry import Pose
 from ..sensors.sensor import DIRECTIONS, LookAt
+from ..world import Body, Stage
+from .device import Device, DeviceSpec, DeviceVehicle
 
 MOST_LAMPS = 4
 """So many lamps may shine in a scene."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class LampSpec:
+class LampSpec(DeviceSpec):
     """A ``<u:lamp>``: a round cone of light along -z, as cameras look; at most four in a scene.
 
     The light rate of the scene does not dim it. The lamp of a ghost (``vr``) does not shine.
@@ -53,3 +56,21 @@ class LampSpec:
     """Of its light [0..1]."""
     shadow: bool = element(namespaced=True, default=True)
     """Whether what stands in its light casts a shadow."""
+
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> MountedLamp:
+        """Hang it on its link; raises UnknownName if the vehicle has no such link."""
+        return MountedLamp(self, vehicle.mount(self))
+
+
+class MountedLamp(Device):
+    """A lamp on a link."""
+
+    def __init__(self, spec: LampSpec, mount: Body) -> None:
+        self.spec = spec
+        """How it shines."""
+        self._mount = mount
+
+    @property
+    def world_from_lamp(self) -> Pose:
+        """Where it is now; it shines along -z."""
+        return self._mount.world_from_body

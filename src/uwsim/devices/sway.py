@@ -10,7 +10,7 @@ r"""sway: a vehicle that swings about its place, as if in a swell; an extension 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,13 +18,15 @@ import numpy as np
 
 from ..dialect import element
 from ..geometry import Pose, rotation_from_xyz
+from ..world import Stage
+from .device import Device, DeviceSpec, DeviceVehicle
 
 AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
 @dataclass(frozen=True, kw_only=True)
-class SwaySpec:
-    """A ``<u:sway>``: one sinusoid about the vehicle's place in its file; it has no ``bind``."""
+class SwaySpec(DeviceSpec):
+    """A ``<u:sway>``: one sinusoid about the vehicle's place in its file."""
 
     axis: Literal["x", "y", "z", "roll", "pitch", "yaw"] = element(namespaced=True)
     """Of L for x, y, z; of the vehicle's orientation for roll, pitch, yaw."""
@@ -39,22 +41,35 @@ class SwaySpec:
         """Return ``amplitude * sin(2 pi time / period + phase)`` [m or rad]."""
         return self.amplitude * math.sin(2.0 * math.pi * time / self.period + self.phase)
 
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Sway:
+        """Sway the vehicle about its place."""
+        return Sway(self, vehicle.displacer(AXES.index(self.axis)))
 
-def swayed(
+
+class Sway(Device):
+    """A vehicle that swings along or about one axis."""
+
+    def __init__(self, spec: SwaySpec, displace: Callable[[float], None]) -> None:
+        self._spec, self._displace = spec, displace
+
+    def animate(self, time: float) -> None:
+        """Put the vehicle where it is at ``time`` [s]."""
+        self._displace(self._spec.offset(time))
+
+
+def displaced(
     position: Sequence[float],
     orientation: Sequence[float],
-    sways: Sequence[SwaySpec],
-    time: float,
+    offsets: Iterable[tuple[int, float]],
 ) -> Pose:
-    """Return ``localized_from_base`` at ``time`` [s] of a vehicle that sways.
+    """Return ``localized_from_base`` of a vehicle that is beside its place in the file.
 
     Args:
         position: its place in the file, in L [m].
         orientation: its angles in the file, Rx Ry Rz [rad].
-        sways: what swings; several on one axis add up.
-        time: simulation time [s].
+        offsets: number of the axis and how far [m or rad]; several on one axis add up.
     """
     values = [*position, *orientation]
-    for sway in sways:
-        values[AXES.index(sway.axis)] += sway.offset(time)
+    for axis, offset in offsets:
+        values[axis] += offset
     return Pose(np.array(values[:3]), rotation_from_xyz(*values[3:]))

@@ -9,14 +9,17 @@ r"""fault: a thruster that fails at a given time; an extension of the dialect.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..dialect import element
+from ..world import Stage
+from .device import Device, DeviceSpec, DeviceVehicle
 
 
 @dataclass(frozen=True, kw_only=True)
-class ThrusterFaultSpec:
-    """A ``<u:fault>``: a thruster of a simulated vehicle loses thrust; it has no ``bind``."""
+class ThrusterFaultSpec(DeviceSpec):
+    """A ``<u:fault>``: a thruster of a simulated vehicle loses thrust."""
 
     thruster: str = element(namespaced=True)
     """Its name in the vehicle's side file."""
@@ -30,3 +33,18 @@ class ThrusterFaultSpec:
     def acts(self, time: float) -> bool:
         """Whether it is there at ``time`` [s]."""
         return time >= self.start and (self.end is None or time < self.end)
+
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> ThrusterFault:
+        """Find the thruster; raises UnknownName if the vehicle has none of that name."""
+        return ThrusterFault(self, vehicle.loss_setter(self.thruster))
+
+
+class ThrusterFault(Device):
+    """A thruster that fails when the scene says so."""
+
+    def __init__(self, spec: ThrusterFaultSpec, lose: Callable[[float], None]) -> None:
+        self._spec, self._lose = spec, lose
+
+    def step(self, time: float) -> None:
+        """Set the loss of the step that begins at ``time`` [s]."""
+        self._lose(self._spec.loss if self._spec.acts(time + 1e-9) else 0.0)

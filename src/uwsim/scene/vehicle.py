@@ -25,7 +25,7 @@ from ..devices.force_sensor import ForceSensorSpec
 from ..devices.lamp import LampSpec
 from ..devices.led_array import LedArraySpec
 from ..devices.object_picker import ObjectPickerSpec
-from ..devices.sway import SwaySpec, swayed
+from ..devices.sway import SwaySpec
 from ..devices.thruster_fault import ThrusterFaultSpec
 from ..dialect import FARTHEST, element, slots
 from ..geometry import Pose
@@ -157,7 +157,3 @@ class VehicleSpec:
     def localized_from_base(self) -> Pose:
         """Where its base stands in L at the start, without its scale."""
         return Pose.from_xyz(self.position, self.orientation)
-
-    def localized_from_base_at(self, time: float) -> Pose:
-        """Where its base stands in L at ``time`` [s] if only its ``sways`` move it."""
-        return swayed(self.position, self.orientation, self.sways, time)

@@ -24,6 +24,6 @@ SENSORS: dict[str, type[SensorSpec]] = {
     "virtualCamera": VirtualCameraSpec,
     "virtualRangeImage": VirtualRangeImageSpec,
 }
-"""Element of a vehicle -> spec."""
+"""Element of a vehicle -> spec; one without ``bind`` is read and not simulated."""
 
 __all__ = ["SENSORS", "SensorSpec"]

@@ -59,6 +59,7 @@ class Carrier(Protocol):
         """
 
 
+@runtime_checkable
 class Sensor(Protocol):
     """A sensor at work."""
 

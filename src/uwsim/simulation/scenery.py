@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
-from ..devices.lamp import LampSpec
+from ..devices.lamp import MountedLamp
 from ..errors import UwsimError
 from ..geometry import Array, Intrinsics, Pose
 from ..linear import product
@@ -23,8 +23,6 @@ from ..rendering.renderer import Picture, Renderer
 from ..rendering.water import Light, Water
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
-from ..sensors.sensor import Carrier
-from ..world import Body
 from .parts import Part, parts_of
 from .studio import Studio
 
@@ -38,7 +36,6 @@ class Scenery:
         scene: what the file says.
         robots: the robot of each vehicle, by its number.
         state: where everything is.
-        carriers: the vehicles, on which lamps hang.
         data_path: folders in which files are looked for.
         compatibility: the original's slips asked for.
         studio: lends the renderer; without one the scenery has a renderer of its own.
@@ -49,7 +46,6 @@ class Scenery:
         scene: SceneSpec,
         robots: Mapping[int, RobotSpec],
         state: State,
-        carriers: Sequence[Carrier],
         data_path: tuple[Path, ...],
         *,
         compatibility: frozenset[str],
@@ -76,8 +72,14 @@ class Scenery:
         self.light = Light(rate=scene.sim_params.light_rate, shadows=scene.has_sun_shadows)
         """The sun as it shines now; scene updaters change its rate."""
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
-        self._mounted_lamps = _mounted_lamps(scene, carriers)
+        self._mounted_lamps: tuple[MountedLamp, ...] = ()
         self._lamps: tuple[Lamp, ...] = ()
+
+    def hang(self, lamps: Iterable[MountedLamp]) -> None:
+        """Let these lamps shine; raises UwsimError if they are too many."""
+        self._mounted_lamps = tuple(lamps)
+        if (n_lamps := len(self._mounted_lamps)) > MOST_LAMPS:
+            raise UwsimError(f"{n_lamps} lamps shine in the scene; at most {MOST_LAMPS} may.")
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
         """Where a part stands now, with its scale, (4, 4) [m]."""
@@ -168,7 +170,7 @@ class Scenery:
         if self._drawn_version != self._state.version:
             for part, handle in zip(self.parts, self._handles, strict=True):
                 renderer.place(handle, self.world_from_mesh(part))
-            self._lamps = tuple(self._lamp(*mounted) for mounted in self._mounted_lamps)
+            self._lamps = tuple(map(_shining, self._mounted_lamps))
             self._drawn_version = self._state.version
         return renderer.draw(
             world_from_camera,
@@ -198,17 +200,6 @@ class Scenery:
         models = {model.name: model.sha256 for model in made}
         return {name: models[name] for name in sorted(models)}
 
-    def _lamp(self, mounted: Body, spec: LampSpec) -> Lamp:
-        """The lamp as it shines now."""
-        return Lamp(
-            world_from_lamp=mounted.world_from_body,
-            half_angle=math.radians(spec.fov / 2.0),
-            softness=spec.softness,
-            colour=spec.color,
-            intensity=spec.intensity,
-            casts_shadow=spec.shadow,
-        )
-
     def _open(self) -> Renderer:
         if self._renderer is None:
             self._renderer = self._studio.borrow()
@@ -224,16 +215,14 @@ class Scenery:
         self._own_studio.close()
 
 
-def _mounted_lamps(
-    scene: SceneSpec, carriers: Sequence[Carrier]
-) -> tuple[tuple[Body, LampSpec], ...]:
-    """Every lamp that shines, and the frame that it hangs on."""
-    mounted = [
-        (carrier.mount(lamp), lamp)
-        for vehicle, carrier in zip(scene.vehicles, carriers, strict=True)
-        if not vehicle.vr
-        for lamp in vehicle.lamps
-    ]
-    if len(mounted) > MOST_LAMPS:
-        raise UwsimError(f"{len(mounted)} lamps shine in the scene; at most {MOST_LAMPS} may.")
-    return tuple(mounted)
+def _shining(lamp: MountedLamp) -> Lamp:
+    """The lamp as it shines now."""
+    spec = lamp.spec
+    return Lamp(
+        world_from_lamp=lamp.world_from_lamp,
+        half_angle=math.radians(spec.fov / 2.0),
+        softness=spec.softness,
+        colour=spec.color,
+        intensity=spec.intensity,
+        casts_shadow=spec.shadow,
+    )

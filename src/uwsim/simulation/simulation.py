@@ -2,9 +2,9 @@
 
 .. code-block:: text
 
-    commands from the bus -> devices -> forces -> physics step -> clock
-      -> sensors whose period is due (images last) -> messages on the bus
-      -> algorithms' callbacks -> observers
+    apply_commands -> step_devices -> advect_kinematic -> step_physics -> animate
+      -> update_contacts -> publish: samples that are due (images first), messages on the bus,
+         algorithms' callbacks -> observers
 
 Time is an integer count of steps. The tail of the step (sensors and after) also runs once at
 step 0, when the simulation is opened.
@@ -27,7 +27,6 @@ from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from .calls import Calls
 from .node import InProcessNode
 from .stage import SceneStage
-from .thruster_faults import ThrusterFaults
 
 
 class Simulation:
@@ -53,9 +52,6 @@ class Simulation:
         self._wet_names = tuple(
             "" if i is None else scene.vehicles[i].name for i in state.wet_vehicles()
         )
-        self._swaying = [(i, v) for i, v in enumerate(scene.vehicles) if v.sways]
-        self._sway()
-        self._thruster_faults = ThrusterFaults(scene, state)
         self._nodes: list[InProcessNode] = []
         self.images = {
             each.image_topic: each for each in world.interfaces if isinstance(each, ImagePublisher)
@@ -63,6 +59,7 @@ class Simulation:
         """What publishes images, by topic."""
         self._inboxes: dict[str, Inbox[Any]] = {}
         self._is_open = False
+        self._animate()
 
     @property
     def bus(self) -> Bus:
@@ -87,7 +84,7 @@ class Simulation:
     def open(self) -> None:
         """Publish the first samples, at step 0; the first `advance` does so, too."""
         self._is_open = True
-        self._tail()
+        self._publish()
 
     def advance(self, seconds: float | None = None) -> None:
         """Take one step, or as many whole steps as there are in some seconds (rounded).
@@ -109,11 +106,12 @@ class Simulation:
     def _advance(self) -> None:
         self.bus.step += 1
         self.world.apply_commands()
-        self._drift()
-        self._push()
-        self._sway()
-        self.world.touch.look(self.step)
-        self._tail()
+        self._step_devices()
+        self._advect_kinematic()
+        self._step_physics()
+        self._animate()
+        self.world.touch.update(self.step)
+        self._publish()
         for look in self._watchers:
             look()
 
@@ -212,7 +210,7 @@ class Simulation:
         """Where everything is and how it moves, as numbers."""
         return self.world.state.motion
 
-    def _tail(self) -> None:
+    def _publish(self) -> None:
         bus = self.bus
         for images in self.images.values():
             images.tick(bus.step)
@@ -222,7 +220,13 @@ class Simulation:
             node.tick()
         bus.deliver()
 
-    def _drift(self) -> None:
+    def _step_devices(self) -> None:
+        """Let devices act, in the step that begins."""
+        time = self.time - self.timestep
+        for device in self.world.devices:
+            device.step(time)
+
+    def _advect_kinematic(self) -> None:
         """Carry kinematic vehicles with the water, as the original does."""
         world = self.world
         if world.water.is_still:
@@ -232,7 +236,7 @@ class Simulation:
             moved = world.water.carried(here, self.time, self.timestep, vehicle.name)
             world.state.place_vehicle(index, moved)
 
-    def _push(self) -> None:
+    def _step_physics(self) -> None:
         """Let the forces act on what is simulated, in the water as it moves now."""
         state, water = self.world.state, self.world.water
         if not state.is_dynamic:
@@ -240,14 +244,12 @@ class Simulation:
             return
         middle = self.time - 0.5 * self.timestep  # of the step, where forces act
         motion = water.at(state.wet_positions(), middle, self._wet_names)
-        self._thruster_faults.apply(self.time - self.timestep)
         state.step(*motion)
 
-    def _sway(self) -> None:
-        for index, vehicle in self._swaying:
-            localized_from_base = vehicle.localized_from_base_at(self.time)
-            world_from_base = self.world.world_from_localized @ localized_from_base
-            self.world.state.place_vehicle(index, world_from_base)
+    def _animate(self) -> None:
+        """Put what devices move where it is now."""
+        for device in self.world.devices:
+            device.animate(self.time)
 
     def attach(
         self,

@@ -8,10 +8,13 @@ from dataclasses import replace
 from typing import Any
 
 from ..currents import Place
+from ..devices.device import Device, DeviceSpec
+from ..devices.lamp import MountedLamp
 from ..errors import UnknownName
 from ..geometry import Array
 from ..sampling import SampleTimer
 from ..scene.spec import SceneSpec
+from ..sensors.sensor import Sensor
 from ..topics.interface import Binds
 from ..world import Flow
 from .water_motion import WaterMotion
@@ -41,8 +44,23 @@ class SceneStage(SceneWorld):
         self.files |= self.water.files
         self._timers: list[SampleTimer] = []
         self._commands: list[Callable[[], None]] = []
+        self.devices = tuple(self._bound_devices())
+        """What acts in the step, in the file's order."""
         self.interfaces = tuple(self._bound_interfaces())
         """What publishes and listens, in the file's order."""
+
+    def _bound_devices(self) -> Iterator[Device]:
+        lamps: list[MountedLamp] = []
+        for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
+            for element, part in spec.parts():
+                if isinstance(part, DeviceSpec):
+                    device = part.bind(self, vehicle)
+                    yield device
+                    if isinstance(device, Sensor):
+                        self._sensors.setdefault((element, getattr(part, "name", "")), device)
+                    if isinstance(device, MountedLamp) and not spec.vr:
+                        lamps.append(device)
+        self.scenery.hang(lamps)
 
     def _bound_interfaces(self) -> Iterator[object]:
         for spec in self.scene.ros_interfaces:
@@ -92,9 +110,7 @@ class SceneStage(SceneWorld):
 
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest."""
-        index = self.vehicle_index(vehicle)
-        localized_from_base = self.scene.vehicles[index].localized_from_base_at(self.time)
-        self.state.place_vehicle(index, self.world_from_localized @ localized_from_base)
+        self.vehicle(vehicle).put_back()
 
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""

@@ -56,7 +56,7 @@ class Touch:
             return False
         return kind == "object" or any(link.solids for link in self._robots[index].links)
 
-    def look(self, step: int) -> None:
+    def update(self, step: int) -> None:
         """Take note of where everything is at a step; to be called at every one."""
         self._step = step
         if self._touching is not None:

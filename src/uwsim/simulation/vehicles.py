@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 
+from ..devices.sway import displaced
 from ..errors import UnknownName
 from ..geometry import Array, Pose
 from ..physics.state import State
@@ -33,6 +34,7 @@ class SceneVehicle:
         """Its name in the scene."""
         self.joint_names = tuple(joint.name for joint in stand.robot.movable)
         """Names of the joints of the joint vector."""
+        self._offsets: list[tuple[int, float]] = []  # axis and [m or rad], one a displacer
         self._losses: dict[int, list[float]] = {}  # of each thruster, one a setter
 
     @property
@@ -76,6 +78,24 @@ class SceneVehicle:
     def set_joints(self, values: Array) -> None:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
         self._state.set_joints(self._index, values)
+
+    def put_back(self) -> None:
+        """Put it where the scene puts it now, at rest."""
+        spec = self._stand.vehicle
+        localized_from_base = displaced(spec.position, spec.orientation, self._offsets)
+        self.place(self._stand.world_from_localized @ localized_from_base)
+
+    def displacer(self, axis: int) -> Callable[[float], None]:
+        """Return what displaces it along or about an axis; several add up, the last moves it."""
+        offsets, own = self._offsets, len(self._offsets)
+        offsets.append((axis, 0.0))
+
+        def displace(offset: float) -> None:
+            offsets[own] = (axis, offset)
+            if own == len(offsets) - 1:
+                self.put_back()
+
+        return displace
 
     def loss_setter(self, thruster: str) -> Callable[[float], None]:
         """Return what sets the loss of a thruster [0..1]; of several the greatest counts."""

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from ..bus import Bus
 from ..chance import stream
+from ..devices.device import DeviceSpec
 from ..errors import Fault, UnknownName
 from ..geometry import Intrinsics, Pose
 from ..physics.state import State
@@ -86,7 +87,6 @@ class SceneWorld:
             scene,
             self.robots,
             self.state,
-            self._vehicles,
             data_path,
             compatibility=compatibility,
             studio=studio,
@@ -111,7 +111,7 @@ class SceneWorld:
             for element, part in spec.parts():
                 # a sensor on a link that is not there is left out, as in the original
                 with suppress(UnknownName):
-                    if isinstance(part, BindsSensor):
+                    if isinstance(part, BindsSensor) and not isinstance(part, DeviceSpec):
                         sensors.setdefault((element, part.name), part.bind(self, vehicle))
         return sensors
 

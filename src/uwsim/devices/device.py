@@ -1,0 +1,39 @@
+"""What devices have in common: they are bound to the scene and their vehicle, and act in each step.
+
+.. code-block:: text
+
+    apply_commands -> step_devices -> advect_kinematic -> step_physics -> animate -> ...
+"""
+
+from __future__ import annotations
+
+import abc
+from dataclasses import dataclass
+from typing import Protocol
+
+from ..sensors.sensor import Carrier
+from ..vehicle import Vehicle
+from ..world import Stage
+
+
+class DeviceVehicle(Vehicle, Carrier, Protocol):
+    """A vehicle as its devices see it: they hang on its links, and act on it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeviceSpec(abc.ABC):
+    """A device that is simulated; the spec of one that is not has no ``bind``."""
+
+    @abc.abstractmethod
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Device:
+        """Find what it acts on; raises UnknownName if that is not there."""
+
+
+class Device:
+    """A device at work; each of its kind does what it has to in one of these."""
+
+    def step(self, time: float) -> None:
+        """Act before the forces, in the step that begins at ``time`` [s]."""
+
+    def animate(self, time: float) -> None:
+        """Put what it moves where that is at ``time`` [s], the end of the step."""

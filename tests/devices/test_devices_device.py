@@ -1,0 +1,75 @@
+"""Devices are bound to their vehicle and act in the step; those on one thing act together."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+from uwsim.devices import DEVICES
+from uwsim.devices.device import DeviceSpec
+from uwsim.devices.thruster_fault import ThrusterFault, ThrusterFaultSpec
+from uwsim.geometry import Pose
+from uwsim.scene.mounts import Stand
+from uwsim.scene.not_yet import limit_of
+from uwsim.scene.vehicle import VehicleSpec
+from uwsim.simulation.vehicles import SceneVehicle
+
+
+class FakeState:
+    def __init__(self) -> None:
+        self.losses: list[tuple[int, float]] = []
+        self.placed: list[Pose] = []
+
+    def thrusters(self, index: int) -> tuple[str, ...]:
+        return ("port", "starboard")
+
+    def set_loss(self, index: int, thruster: int, loss: float) -> None:
+        self.losses.append((thruster, loss))
+
+    def place_vehicle(self, index: int, pose: Pose) -> None:
+        self.placed.append(pose)
+
+
+def vehicle_on(state: FakeState) -> SceneVehicle:
+    spec = VehicleSpec(name="v", file="v.urdf", position=(1.0, 2.0, 3.0))
+    robot = SimpleNamespace(movable=())
+    return SceneVehicle(0, Stand(spec, robot, Pose.identity()), state)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", DEVICES)
+def test_a_device_without_bind_is_said_to_be_read_only(name: str) -> None:
+    spec = DEVICES[name]
+    assert bool(limit_of("vehicle", name)) is not hasattr(spec, "bind")
+    assert issubclass(spec, DeviceSpec) is hasattr(spec, "bind")
+
+
+def test_of_two_losses_of_one_thruster_the_greater_counts() -> None:
+    state = FakeState()
+    vehicle = vehicle_on(state)
+    first, second = vehicle.loss_setter("starboard"), vehicle.loss_setter("starboard")
+    first(0.7)
+    second(0.2)
+    first(0.0)
+    assert state.losses == [(1, 0.7), (1, 0.7), (1, 0.2)]
+
+
+def test_a_fault_begins_and_ends_in_time() -> None:
+    losses: list[float] = []
+    fault = ThrusterFault(
+        ThrusterFaultSpec(thruster="t", loss=0.5, start=1.0, end=2.0), losses.append
+    )
+    for time in (0.998, 1.0, 1.998, 2.0):
+        fault.step(time)
+    assert losses == [0.0, 0.5, 0.5, 0.0]
+
+
+def test_displacements_add_up_and_the_last_one_moves_the_vehicle() -> None:
+    state = FakeState()
+    vehicle = vehicle_on(state)
+    along, again, up = vehicle.displacer(0), vehicle.displacer(0), vehicle.displacer(2)
+    along(0.5)
+    again(0.25)
+    assert state.placed == []
+    up(-1.0)
+    assert state.placed[0].position.tolist() == [1.75, 2.0, 2.0]
