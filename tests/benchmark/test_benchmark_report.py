@@ -450,6 +450,14 @@ def test_without_pixels_nothing_is_said_of_their_floor(tmp_path: Path) -> None:
     assert "floor of the ground truth" not in page_of(replace(base, columns=columns), tmp_path).text
 
 
+def test_where_a_body_is_in_the_picture_has_no_floor(tmp_path: Path) -> None:
+    base = visibility()
+    others = {"centroid": {"unit": "m"}, "corners.max": {"name": "corners.visible", "unit": None}}
+    columns = tuple(replace(c, **others.get(c.name, {})) for c in base.columns)
+    assert "floor of the ground truth" in page_of(base, tmp_path).text
+    assert "floor of the ground truth" not in page_of(replace(base, columns=columns), tmp_path).text
+
+
 def test_a_huge_result_has_a_report_of_sane_size(tmp_path: Path) -> None:
     base = visibility()
     rows = tuple((0.001 * i, *base.rows[26][1:]) for i in range(5_000))

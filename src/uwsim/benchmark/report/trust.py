@@ -23,7 +23,9 @@ def floor(result: Result) -> str | None:
     As the run has measured it (facts ``floor_...``). None where no measure of pixels compares with
     what a tracker cannot know; an empty text where the result does not say how much that is.
     """
-    if not any(column.unit == "px" for column in result.of_kind("measure")):
+    names = {column.name for column in result.columns}
+    in_pixels = [column.name for column in result.of_kind("measure") if column.unit == "px"]
+    if all(f"{name}.visible" in names for name in in_pixels):  # of a body itself: no estimate
         return None
     said = []
     for name in result.facts:
