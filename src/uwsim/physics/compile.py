@@ -50,6 +50,8 @@ SOFTNESS = (0.95, 0.99, 0.001, 0.5, 2.0)
 """MuJoCo's solimp: half the creep of its default in a grasp."""
 IMPRATIO = 10.0
 """How much stiffer friction is than the normal force: less creep of what is held."""
+BOUNCE_TIME = 0.01
+"""Of the spring of a contact that bounces: inverse of its frequency [s]."""
 OBJECTS = 1
 """Collision bit of objects; every vehicle has another."""
 ALL = 2**31 - 1
@@ -147,9 +149,12 @@ def compile_scene(
             _add_body(spec.worldbody, name, world_from_object, None)
             if name in shapes:  # on the world's body the engine need not sort them every step
                 _add_shapes(spec, spec.worldbody, name, shapes[name], world_from_object)
+                _give_surface(spec, name, shapes[name], thing.solid)
     for name, parts in shapes.items():
         if name in loose or not name.startswith("object/"):
             _add_shapes(spec, spec.body(name), name, parts, Pose.identity())
+            if name in loose:
+                _give_surface(spec, name, parts, loose[name])
     if dynamics:
         density = next(iter(dynamics.values())).density
         wet = {
@@ -208,6 +213,40 @@ def _add_shapes(
             mesh = f"{name}/{i}"
             spec.add_mesh(name=mesh, uservert=shape.corners.ravel().tolist())
             geom.meshname = mesh
+
+
+def _give_surface(
+    spec: mujoco.MjSpec, name: str, shapes: Sequence[Shape], physics: PhysicsSpec
+) -> None:
+    """Give an object's shapes the friction and the bounce that the file says of them."""
+    if physics.friction is None and physics.restitution is None:
+        return
+    for i in range(len(shapes)):
+        geom = spec.geom(f"{name}/shape/{i}")
+        geom.priority = 1  # else the greater friction of the two counts
+        if physics.friction is not None:
+            geom.friction = [physics.friction, *FRICTION[1:]]
+        if physics.restitution:
+            ratio = damping_ratio(physics.restitution)
+            geom.solref = [BOUNCE_TIME / ratio, ratio]
+
+
+def damping_ratio(restitution: float) -> float:
+    r"""Return the damping ratio of a contact's spring that throws back with a share of the speed.
+
+    A contact cannot pull, so that it ends when the force is 0 (Schwager and Poeschel, Granular
+    Matter 9, 2007): with the ratio z
+
+    .. math:: e = \exp\Bigl(-\frac{z}{\sqrt{1 - z^2}}
+              \bigl(\pi - \arctan\frac{2 z \sqrt{1 - z^2}}{1 - 2 z^2}\bigr)\Bigr)
+    """
+    low, high = 1e-3, 0.95
+    for _ in range(50):
+        z = 0.5 * (low + high)
+        root = math.sqrt(1.0 - z * z)
+        angle = math.pi - math.atan2(2.0 * z * root, 1.0 - 2.0 * z * z)
+        low, high = (z, high) if math.exp(-z / root * angle) > restitution else (low, z)
+    return 0.5 * (low + high)
 
 
 def _add_children(

@@ -42,14 +42,14 @@ face as a plate [1] (up to 0.5 rectangles of table A-1, from 1 on square prisms 
 
 
 def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[Shape]) -> LinkSpec:
-    """Mass and inertia of an object, about the middle of its box."""
+    """Mass and inertia of an object, about its centre of mass."""
     box = bounds(shapes)
     x, y, z = (2.0 * half for half in box.size)
     given = physics.inertia
     if not any(given):
         share = physics.mass / 12.0
         given = (share * (y * y + z * z), share * (x * x + z * z), share * (x * x + y * y))
-    mx, my, mz = box.body_from_shape.position.tolist()
+    mx, my, mz = physics.centre_of_mass or box.body_from_shape.position.tolist()
     return LinkSpec(
         name=name,
         mass=physics.mass,

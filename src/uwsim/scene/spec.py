@@ -248,6 +248,16 @@ class PhysicsSpec:
     """Where a turn may go to; min above max is free [rad]."""
     volume: float | None = element(namespaced=True, default=None, minimum=0.0)
     """Water it displaces; without it the volume of the box around it [m3]."""
+    friction: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=10.0)
+    """Coefficient of sliding friction with whatever touches it [1]; without it 0.8. Of two objects
+    that say one the greater counts."""
+    restitution: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=0.95)
+    """Speed after a bounce by the speed before, away from the water's drag [1]; without it contacts
+    give 0.1 to 0.3 back."""
+    centre_of_mass: Triple | None = element(
+        namespaced=True, default=None, minimum=-FARTHEST, maximum=FARTHEST
+    )
+    """In the object's frame [m]; without it the middle of its box. Inertia is about it."""
 
     @property
     def is_loose(self) -> bool:

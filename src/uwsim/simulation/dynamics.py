@@ -15,6 +15,7 @@ from ..chance import stream
 from ..currents import Place, PythonFunctionSpec
 from ..dialect import NAMESPACE, Faults
 from ..errors import Fault, SceneError, UnknownName, UwsimError, did_you_mean
+from ..physics.compile import LEAST_MASS
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
 from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle_into
 from ..scene.spec import SceneSpec
@@ -27,6 +28,8 @@ from .scene_lines import SceneLines
 
 Severity = Literal["fault", "notice"]
 U = f"{{{NAMESPACE}}}"
+MOST_NAMED = 8
+"""Links that one notice names."""
 LEAST_LIFT = 0.1
 """What other water must add to the buoyancy of a vehicle to be told [N]."""
 LIGHTEST = 100.0
@@ -97,6 +100,7 @@ class Search:
             if dynamics is not None:
                 self.dynamics[index] = dynamics
                 self._weigh(index, name, robot)
+                self._name_massless(index, robot)
 
     def _weigh(self, index: int, name: str, robot: RobotSpec) -> None:
         """Hold what a vehicle weighs against what it displaces."""
@@ -117,6 +121,20 @@ class Search:
             )
         elif displaced > LIGHTEST * mass:
             self._say(f"{said}; {LIGHTEST:g} times the mass is lighter than any foam", *place)
+
+    def _name_massless(self, index: int, robot: RobotSpec) -> None:
+        """Say which links weigh what the engine needs, because no file says what they weigh."""
+        dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
+        given = {body.link: body.mass for body in dynamics.bodies}
+        names = [one.name for one in robot.links if not (given.get(one.name) or one.mass)]
+        if names:
+            shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
+            self._say(
+                f"{len(names)} links of the vehicle {vehicle!r} have no mass and are given "
+                f"{1e3 * LEAST_MASS:g} g each ({shown}); a <mass> in its URDF or its set says more",
+                *("vehicle", index, f"{U}dynamics", 0),
+                severity="notice",
+            )
 
     def _settle_density(self) -> None:
         """Put all vehicles into one water: the scene's, or that which their sets agree about."""
