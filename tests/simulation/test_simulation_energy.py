@@ -75,8 +75,7 @@ def test_rotors_that_run_up_draw_the_closed_form(vehicle: VehicleHydrodynamics) 
     thrust(simulation, 0.5, -0.25, 0.0, 0.0, 0.0)
     energy = start(simulation)
     go_on(simulation, energy, 2.0)
-    # delivered in the first step, taken by the autopilot when it acts again, in the eleventh
-    turned = 2.0 - 10 * simulation.timestep
+    turned = 2.0 - simulation.timestep  # delivered in the first step, acts in the second
     power = partial(thruster_power, power_table(vehicle.thrusters[0], vehicle.density))
     for name, command in (("surge_port", 0.5), ("surge_starboard", 0.25)):
         spent = energy.details[f"thruster.{name}"]

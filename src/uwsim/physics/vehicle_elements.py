@@ -43,6 +43,10 @@ class BodyElement:
     size: str = ""
     """Of the shape: radius; three half-axes; three edges; radius and length along z. Without:
     the sphere of that volume [m]."""
+    drag_law: Literal["axes", "speed", "x", "y", "z"] | None = None
+    """What 6 numbers of quadratic damping go with: by ``axes`` each component's own speed, by
+    ``speed`` that of all three components, about ``x``, ``y`` or ``z`` that of the two across the
+    axis. Without: ``speed`` where the first three numbers are equal, else ``axes``."""
     implicitness: float = element(default=0.5, minimum=0.0, maximum=1.0)
     """Share of the drag taken at the end of a step; 1 for light things with much drag [1]."""
 

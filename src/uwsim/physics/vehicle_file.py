@@ -260,13 +260,15 @@ def _body(one: BodyElement, node: etree._Element, faults: Faults) -> BodyHydrody
     zeros = (0.0,) * 6
     shape = node.find("shape")
     has_known_shape = shape is None or (shape.text or "").strip() in SIZES  # others are said
+    quadratic = _numbers(one.quadratic_damping, "quadraticDamping", node, faults) or zeros
+    is_isotropic = len(quadratic) == 6 and len(set(quadratic[:3])) == 1 and quadratic[0] > 0.0
     found = BodyHydrodynamics(
         link=one.link,
         reference=one.reference,
         added_mass=_numbers(one.added_mass, "addedMass", node, faults) or zeros,
         linear_damping=_numbers(one.linear_damping, "linearDamping", node, faults) or zeros,
-        quadratic_damping=_numbers(one.quadratic_damping, "quadraticDamping", node, faults)
-        or zeros,
+        quadratic_damping=quadratic,
+        drag_law=one.drag_law or ("speed" if is_isotropic else "axes"),
         volume=one.volume,
         centre_of_buoyancy=one.centre_of_buoyancy,
         shape=one.shape,

@@ -127,7 +127,7 @@ class Search:
         dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
         given = {body.link: body.mass for body in dynamics.bodies}
         names = [one.name for one in robot.links if not (given.get(one.name) or one.mass)]
-        if names:
+        if names and len(names) < len(robot.links):  # of one without any mass all is said
             shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
             self._say(
                 f"{len(names)} links of the vehicle {vehicle!r} have no mass and are given "

@@ -28,10 +28,12 @@ KIND, THETA, DISPLACED = 0, 1, 2  # [0 dry, 1 diagonal matrices, 2 full], [1], [
 CENTRE, SHAPE, SIZE = 3, 6, 7  # (3,) [m] from the reference point, 0..4, (3,) [m]
 REFERENCE = 10  # (3,) [m] in the body: the point the matrices are about
 REACH = 13  # distance from the centre of buoyancy that no point of the shape exceeds [m]
+LAW = 14  # of the drag; only where the matrices are diagonal
 ADDED, LINEAR, QUADRATIC = 16, 52, 88  # (6, 6) each, row by row
 
 DRY, DIAGONAL, FULL = 0.0, 1.0, 2.0
 SPHERE, ELLIPSOID, BOX, CYLINDER, SHRINKING_SPHERE = 0.0, 1.0, 2.0, 3.0, 4.0
+BY_AXIS, BY_SPEED, ABOUT_X, ABOUT_Y, ABOUT_Z = 0.0, 1.0, 2.0, 3.0, 4.0
 
 # a thruster
 IS_THRUSTER, DEAD_ZONE, LEAST, MOST, TORQUE, RADIUS, LAG, FORWARD, BACKWARD = (

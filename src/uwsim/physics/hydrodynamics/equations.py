@@ -12,8 +12,25 @@ After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), 
 
 from __future__ import annotations
 
+import math
+
 from ...jit import njit
-from .columns import ADDED, CENTRE, LINEAR, QUADRATIC, REACH, REFERENCE, SHAPE, SIZE, TURN
+from .columns import (
+    ABOUT_X,
+    ABOUT_Y,
+    ABOUT_Z,
+    ADDED,
+    BY_SPEED,
+    CENTRE,
+    LAW,
+    LINEAR,
+    QUADRATIC,
+    REACH,
+    REFERENCE,
+    SHAPE,
+    SIZE,
+    TURN,
+)
 from .memory import Floats
 from .submersion import submerged
 
@@ -160,26 +177,67 @@ def diagonal_momentum(table: Floats, nu: Six) -> Six:
 
 
 @njit
-def diagonal_force(table: Floats, nu: Six, rate: Six, step: float) -> Six:
+def paces(table: Floats, nu: Six) -> Six:
+    """The speeds that go with each component in the quadratic drag; see `BodyHydrodynamics`."""
+    u, v, w, p, q, r = nu
+    law = table[LAW]
+    if law == BY_SPEED:
+        speed, spin = math.sqrt(u * u + v * v + w * w), math.sqrt(p * p + q * q + r * r)
+        return speed, speed, speed, spin, spin, spin
+    a, b, c, d, e, f = abs(u), abs(v), abs(w), abs(p), abs(q), abs(r)
+    if law == ABOUT_X:
+        b, e = math.sqrt(v * v + w * w), math.sqrt(q * q + r * r)
+        return a, b, b, d, e, e
+    if law == ABOUT_Y:
+        a, d = math.sqrt(u * u + w * w), math.sqrt(p * p + r * r)
+        return a, b, a, d, e, d
+    if law == ABOUT_Z:
+        a, d = math.sqrt(u * u + v * v), math.sqrt(p * p + q * q)
+        return a, a, c, d, d, f
+    return a, b, c, d, e, f
+
+
+@njit
+def _slope(table: Floats, i: int, speed: float, pace: float) -> float:
+    """How the drag of a component grows with it: linear + quadratic (s + u^2 / s)."""
+    own = abs(speed)
+    grows = 2.0 * own if pace == own else pace + own * own / pace
+    slope: float = table[LINEAR + 7 * i] + table[QUADRATIC + 7 * i] * grows
+    return slope
+
+
+@njit
+def slopes(table: Floats, nu: Six, pace: Six) -> Six:
+    """How the drag of each component grows with it."""
+    return (
+        _slope(table, 0, nu[0], pace[0]), _slope(table, 1, nu[1], pace[1]),
+        _slope(table, 2, nu[2], pace[2]), _slope(table, 3, nu[3], pace[3]),
+        _slope(table, 4, nu[4], pace[4]), _slope(table, 5, nu[5], pace[5]),
+    )  # fmt: skip
+
+
+@njit
+def diagonal_force(table: Floats, nu: Six, rate: Six, pace: Six, slope: Six, step: float) -> Six:
     r"""What added mass and drag do, all diagonal: :math:`-(M_A + h D')\dot\nu - D(\nu)\,\nu`.
 
     Drag is linear over a step, so that it answers to what is known of the rate as to the rest.
     """
     return (
-        _axis_force(table, 0, nu[0], rate[0], step),
-        _axis_force(table, 1, nu[1], rate[1], step),
-        _axis_force(table, 2, nu[2], rate[2], step),
-        _axis_force(table, 3, nu[3], rate[3], step),
-        _axis_force(table, 4, nu[4], rate[4], step),
-        _axis_force(table, 5, nu[5], rate[5], step),
+        _axis_force(table, 0, nu[0], rate[0], pace[0], step * slope[0]),
+        _axis_force(table, 1, nu[1], rate[1], pace[1], step * slope[1]),
+        _axis_force(table, 2, nu[2], rate[2], pace[2], step * slope[2]),
+        _axis_force(table, 3, nu[3], rate[3], pace[3], step * slope[3]),
+        _axis_force(table, 4, nu[4], rate[4], pace[4], step * slope[4]),
+        _axis_force(table, 5, nu[5], rate[5], pace[5], step * slope[5]),
     )
 
 
 @njit
-def _axis_force(table: Floats, i: int, speed: float, rate: float, step: float) -> float:
-    linear, steep = table[LINEAR + 7 * i], table[QUADRATIC + 7 * i] * abs(speed)
-    inertia = table[ADDED + 7 * i] + step * (linear + 2.0 * steep)
-    force: float = -inertia * rate - (linear + steep) * speed
+def _axis_force(
+    table: Floats, i: int, speed: float, rate: float, pace: float, change: float
+) -> float:
+    drag = (table[LINEAR + 7 * i] + table[QUADRATIC + 7 * i] * pace) * speed
+    force: float = -(table[ADDED + 7 * i] + change) * rate - drag
     return force
 
 
@@ -244,18 +302,14 @@ def buoyancy(displaced: float, water: Floats, gravity: Floats, weight: float) ->
 
 
 @njit
-def diagonal_inertia(table: Floats, nu: Six, wet: float, step: float) -> Six:
+def diagonal_inertia(table: Floats, slope: Six, wet: float, step: float) -> Six:
     """Added mass + step times the slope of the drag, of which a part is wet."""
-    u, v, w, p, q, r = nu
     h = wet * step
     return (
-        wet * table[ADDED] + h * (table[LINEAR] + 2.0 * table[QUADRATIC] * abs(u)),
-        wet * table[ADDED + 7] + h * (table[LINEAR + 7] + 2.0 * table[QUADRATIC + 7] * abs(v)),
-        wet * table[ADDED + 14] + h * (table[LINEAR + 14] + 2.0 * table[QUADRATIC + 14] * abs(w)),
-        wet * table[ADDED + 21] + h * (table[LINEAR + 21] + 2.0 * table[QUADRATIC + 21] * abs(p)),
-        wet * table[ADDED + 28] + h * (table[LINEAR + 28] + 2.0 * table[QUADRATIC + 28] * abs(q)),
-        wet * table[ADDED + 35] + h * (table[LINEAR + 35] + 2.0 * table[QUADRATIC + 35] * abs(r)),
-    )
+        wet * table[ADDED] + h * slope[0], wet * table[ADDED + 7] + h * slope[1],
+        wet * table[ADDED + 14] + h * slope[2], wet * table[ADDED + 21] + h * slope[3],
+        wet * table[ADDED + 28] + h * slope[4], wet * table[ADDED + 35] + h * slope[5],
+    )  # fmt: skip
 
 
 @njit

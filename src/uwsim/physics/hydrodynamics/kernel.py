@@ -71,9 +71,11 @@ from .equations import (
     move_diagonal_inertia,
     move_full_inertia,
     move_wrench,
+    paces,
     reference_point,
     relative_twist,
     six,
+    slopes,
     subtract,
     to_body,
     wet_part,
@@ -81,7 +83,7 @@ from .equations import (
 from .free_bodies import keep_energy
 from .memory import Floats, Ints64, floats, ints, real, small, word
 
-COMPILED_IN = "023bc0fcc94dc888"
+COMPILED_IN = "b86d1dcc80eb9b69"
 """Digest of the other modules: `columns` to `submersion`, by name."""
 
 _WET = 1e-300
@@ -335,10 +337,13 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         bias = six(work, base + f.BIAS)
         omega = to_body(axes, twist[0], twist[1], twist[2])
         rate = known_rate(axes, lever, bias, water, omega)
+        pace = paces(table, nu)
+        slope = slopes(table, nu, pace)
         if table[KIND] == FULL:
             force, momentum = full_force(table, nu, rate, step, work, scratch)
         else:
-            force, momentum = diagonal_force(table, nu, rate, step), diagonal_momentum(table, nu)
+            force = diagonal_force(table, nu, rate, pace, slope, step)
+            momentum = diagonal_momentum(table, nu)
         force = subtract(force, coriolis(nu, omega, momentum))
         wrench = move_wrench(axes, lever, wet, force)
         lift = buoyancy(wet * table[DISPLACED], water, gravity, weight)
@@ -353,5 +358,5 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         if table[KIND] == FULL:
             move_full_inertia(axes, lever, wet, work, scratch, ff, ft, tt)
         else:
-            inertia = diagonal_inertia(table, nu, wet, step)
+            inertia = diagonal_inertia(table, slope, wet, step)
             move_diagonal_inertia(axes, lever, inertia, work, ff, ft, tt)

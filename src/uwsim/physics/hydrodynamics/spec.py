@@ -19,6 +19,7 @@ from ...errors import UwsimError
 
 Triple = tuple[float, float, float]
 Numbers = tuple[float, ...]
+DragLaw = Literal["axes", "speed", "x", "y", "z"]
 Shape = Literal["sphere", "ellipsoid", "box", "cylinder", "shrinking-sphere"]
 
 ZERO: Triple = (0.0, 0.0, 0.0)
@@ -71,6 +72,11 @@ class BodyHydrodynamics:
     inertia: Numbers | None = None
     """Replaces the URDF's, about the centre of mass, link's axes: xx, yy, zz, xy, xz, yz
     [kg m2]."""
+    drag_law: DragLaw = "axes"
+    """What the quadratic drag of 6 numbers goes with: by ``axes`` each component's own speed,
+    |v_j| v_j, which for a ball would depend on how it is turned; by ``speed`` that of all three,
+    |v| v, for what has no axes; about ``x``, ``y`` or ``z`` that of both components across the
+    axis, for a body of revolution. 36 numbers go by ``axes``."""
     implicitness: float = 0.5
     """How much of the drag is taken at the end of a step: 0 explicit, 0.5 the trapezoidal rule, 1
     implicit (for light things with much drag). Not used by RK4."""

@@ -18,6 +18,9 @@ _SHAPES = {
     "sphere": c.SPHERE, "ellipsoid": c.ELLIPSOID, "box": c.BOX, "cylinder": c.CYLINDER,
     "shrinking-sphere": c.SHRINKING_SPHERE,
 }  # fmt: skip
+_LAWS = {
+    "axes": c.BY_AXIS, "speed": c.BY_SPEED, "x": c.ABOUT_X, "y": c.ABOUT_Y, "z": c.ABOUT_Z,
+}  # fmt: skip
 
 
 def prepare(
@@ -66,6 +69,7 @@ def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]
     is_full = any(np.any(m - np.diag(np.diag(m))) for m in (added, linear, quadratic))
     row[c.KIND] = c.FULL if is_full else c.DIAGONAL
     row[c.THETA] = body.implicitness
+    row[c.LAW] = _LAWS[body.drag_law]
     row[c.DISPLACED] = density * body.volume
     row[c.REFERENCE : c.REFERENCE + 3] = body.reference
     row[c.CENTRE : c.CENTRE + 3] = np.array(body.centre_of_buoyancy) - body.reference
