@@ -20,27 +20,18 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from paper.figures import picture_with_inset
+from paper.station_figures import Line, over_current, over_time
+from paper.station_keeping import Loop, Station, Swing, Track, measured, predicted, steady, track
+from uwsim.analysis.plots import save_plot
+from uwsim.assets.bundled import benchmark_file
 from uwsim.assets.find import find
-from uwsim.benchmark.figures import picture_with_inset
-from uwsim.benchmark.logs import load_log
-from uwsim.benchmark.plots import save_plot
-from uwsim.benchmark.result import Result
-from uwsim.benchmark.result_file import load
-from uwsim.benchmark.station_figures import Line, over_current, over_time
-from uwsim.benchmark.station_keeping import (
-    Loop,
-    Station,
-    Swing,
-    Track,
-    measured,
-    predicted,
-    steady,
-    track,
-)
 from uwsim.cli import main as uwsim
-from uwsim.cli.files import benchmark_file
 from uwsim.errors import ResultError
 from uwsim.geometry import Intrinsics, Pose
+from uwsim.results.log import load_log
+from uwsim.results.result import Result
+from uwsim.results.result_file import load
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 

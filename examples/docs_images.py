@@ -27,12 +27,12 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from uwsim.analysis.plots import compare_plot, save_plot
+from uwsim.analysis.report.overlay import overlay
 from uwsim.assets.find import find
-from uwsim.benchmark.overlay import overlay
-from uwsim.benchmark.plots import compare_plot, save_plot
-from uwsim.benchmark.result import Result
-from uwsim.benchmark.result_file import load
 from uwsim.cli import main as uwsim
+from uwsim.results.result import Result
+from uwsim.results.result_file import load
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 from uwsim.simulation.views import view_from

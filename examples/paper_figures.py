@@ -19,22 +19,22 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from uwsim.assets.find import find
-from uwsim.assets.mesh import Mesh, Model
-from uwsim.benchmark.figures import (
+from paper.figures import (
     picture_grid,
     picture_with_inset,
     visibility_over_distance,
     visibility_over_fog,
 )
-from uwsim.benchmark.overlay import overlay
-from uwsim.benchmark.plots import save_plot, value_plot
-from uwsim.benchmark.result import Result
-from uwsim.benchmark.result_file import load
+from uwsim.analysis.plots import save_plot, value_plot
+from uwsim.analysis.report.overlay import overlay
+from uwsim.assets.find import find
+from uwsim.assets.mesh import Mesh, Model
 from uwsim.cli import main as uwsim
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
+from uwsim.results.result import Result
+from uwsim.results.result_file import load
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 

@@ -27,14 +27,14 @@ from typing import Any
 
 import numpy as np
 
-from played import DATA, make_plan
-from uwsim.benchmark.bench import Bench
-from uwsim.benchmark.crew import Outcome, play_each
+from tests.played import DATA, make_plan
 from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
-from uwsim.benchmark.processes import Processes
-from uwsim.benchmark.result import Result
 from uwsim.bus import Node
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, floats
+from uwsim.results.result import Result
+from uwsim.runs.executors.executor import Outcome, play_each
+from uwsim.runs.executors.processes import Processes
+from uwsim.runs.run import Bench
 from uwsim.scene.reader import read_scene
 
 SERVICE = "<type>service</type> <target>startBench</target>"

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from uwsim.benchmark.comparison import Entry
-from uwsim.benchmark.result import Cell, Column, Missing, Result
-from uwsim.benchmark.result_file import save
+from uwsim.analysis.comparison import Entry
+from uwsim.results.result import Cell, Column, Missing, Result
+from uwsim.results.result_file import save
 
 Values = Mapping[float, Sequence[float | None]]
 """Fog -> the value of each seed; None: lost."""

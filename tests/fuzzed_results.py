@@ -11,21 +11,21 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from short_benchmark import bench_of, write_benchmark
-from uwsim.benchmark.bench import Bench
-from uwsim.benchmark.comparison import compare, differences, read_entries, remarks, shared_column
-from uwsim.benchmark.comparison.page import render as render_comparison
-from uwsim.benchmark.crew import play_all
-from uwsim.benchmark.interrupted import instead_of_a_result, resuming
-from uwsim.benchmark.journals import check_rows
-from uwsim.benchmark.provenance import machine, save_provenance
-from uwsim.benchmark.report.page import render
-from uwsim.benchmark.result_file import load
-from uwsim.benchmark.verify import finished, verify
+from tests.short_benchmark import bench_of, write_benchmark
+from uwsim.analysis.comparison import compare, differences, read_entries, remarks, shared_column
+from uwsim.analysis.comparison.page import render as render_comparison
+from uwsim.analysis.report.page import render
 from uwsim.cli.faults import one_line, printable
-from uwsim.cli.recorded import Given, check_inputs, plan_of
 from uwsim.cli.verify import head, made_otherwise
 from uwsim.errors import UwsimError
+from uwsim.results.interrupted import instead_of_a_result, resuming
+from uwsim.results.journal_check import check_rows
+from uwsim.results.provenance import machine, save_provenance
+from uwsim.results.result_file import load
+from uwsim.runs.executors.executor import play_all
+from uwsim.runs.run import Bench
+from uwsim.verify.recorded_plan import Given, check_inputs, plan_of
+from uwsim.verify.verify import finished, verify
 
 FILES = ("result.json", "units/00000.jsonl", "units/00001.jsonl", "provenance.json")
 """What is damaged."""

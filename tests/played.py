@@ -4,10 +4,10 @@ from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 
-from uwsim.benchmark.plan import Mode, Plan
-from uwsim.benchmark.play import Row, play
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.bus import Algorithm
+from uwsim.runs.plan import Mode, Plan
+from uwsim.runs.trial.trial import Row, play
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 

@@ -4,10 +4,10 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
-from uwsim.benchmark.bench import Bench, open_once
-from uwsim.benchmark.crew import play_all
-from uwsim.benchmark.result import Result
-from uwsim.cli.plan import make_plan
+from uwsim.results.result import Result
+from uwsim.runs.executors.executor import play_all
+from uwsim.runs.make_plan import make_plan
+from uwsim.runs.run import Bench, open_once
 
 BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="esm">
   <measures>

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from cheat_trials import CHEATS, GAINS, Bursts, Holds, bench_of, by_name, faults, trial
-from played import rows_of
+from tests.cheat_trials import CHEATS, GAINS, Bursts, Holds, bench_of, by_name, faults, trial
+from tests.played import rows_of
 
 
 @pytest.mark.slow

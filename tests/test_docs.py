@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 from typer.main import get_command
 
-from documented import commands
-from uwsim.cli import COMMANDS, reference
+from tests.documented import commands
+from uwsim.assets.bundled import bundled
+from uwsim.cli import COMMANDS
 from uwsim.cli.app import build
-from uwsim.cli.files import bundled
+from uwsim.reference import reference
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted(

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.benchmark.logs import load_log
+from uwsim.assets.bundled import benchmark_file, scene_file
 from uwsim.benchmark.reader import read_benchmark
-from uwsim.benchmark.result_file import load
-from uwsim.cli.files import benchmark_file, scene_file
 from uwsim.errors import BadSetting, FileError, UwsimError
 from uwsim.physics.vehicle_file import find_vehicle, read_vehicle
+from uwsim.results.log import load_log
+from uwsim.results.result_file import load
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.simulation import Simulation

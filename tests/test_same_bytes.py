@@ -33,7 +33,7 @@ MAKE_NO_NUMBERS = {
     "physics/hydrodynamics/faults.py": "says that a vehicle's file is wrong",
     "physics/hydrodynamics/passivity.py": "says that a vehicle's file is wrong",
     "physics/hydrodynamics/self_test.py": "says that MuJoCo is another",
-    "benchmark/station_keeping.py": "the theory beside the measurements in a report",
+    "examples/paper/station_keeping.py": "the theory beside the measurements in a report",
 }
 POSES = re.compile(r"_from_|[pP]ose|_before|\.now|motion|place|scaled")
 NO_POSES = re.compile(r"\.matrix|\.rotation|\.T\b|np\.|\(self\._water")

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
 
-from short_benchmark import fingerprint, run, write_benchmark
+from tests.short_benchmark import fingerprint, run, write_benchmark
 from uwsim.assets.model_cache import _make
 from uwsim.assets.stand_ins import STAND_INS
 from uwsim.benchmark.score import parse

@@ -18,11 +18,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from . import messages
     from .api import bench, check, compare, load, read_result
-    from .benchmark.result import Result
     from .bus import Algorithm, Node
     from .errors import UwsimError
     from .geometry import Pose
     from .rendering.renderer import Picture
+    from .results.result import Result
     from .simulation import Simulation
 
 __version__ = "0.1.0"
@@ -49,7 +49,7 @@ _HOMES = {
     "Node": "bus",
     "Picture": "rendering.renderer",
     "Pose": "geometry",
-    "Result": "benchmark.result",
+    "Result": "results.result",
     "Simulation": "simulation",
     "UwsimError": "errors",
     "bench": "api",

@@ -17,9 +17,9 @@ from .errors import BadSetting, Fault
 from .world import TIMESTEP
 
 if TYPE_CHECKING:
-    from .benchmark.comparison.findings import Comparison
-    from .benchmark.result import Result
+    from .analysis.comparison.findings import Comparison
     from .bus import Algorithm
+    from .results.result import Result
     from .scene.spec import SceneSpec
     from .simulation import Simulation
 
@@ -47,7 +47,7 @@ def load(
     Raises:
         UwsimError: a file, a name or a setting is wrong; names all faults of the file.
     """
-    from .cli.files import scene_file
+    from .assets.bundled import scene_file
     from .scene.reader import read_scene
     from .scene.settings import apply_setting
     from .simulation import Simulation
@@ -89,13 +89,13 @@ def bench(
     Raises:
         UwsimError: an input is wrong, or a run failed; finished rows are kept in ``out``.
     """
-    from .benchmark.bench import Bench, open_once
-    from .benchmark.crew import play_all
-    from .benchmark.directory import check as check_directory
-    from .benchmark.inputs import without_algorithm
-    from .benchmark.inputs_read import of_algorithm
     from .cli.crew import CALLBACK_LIMIT, crew_of
-    from .cli.plan import make_plan
+    from .results.directory import check as check_directory
+    from .results.inputs import without_algorithm
+    from .runs.executors.executor import play_all
+    from .runs.inputs_read import of_algorithm
+    from .runs.make_plan import make_plan
+    from .runs.run import Bench, open_once
 
     given = algorithm if isinstance(algorithm, str) or algorithm is None else None
     plan = make_plan(
@@ -143,7 +143,7 @@ def read_result(path: str | Path) -> Result:
     Raises:
         ResultError: it is not there, not whole, or not a result; says which.
     """
-    from .benchmark.result_file import load as load_result
+    from .results.result_file import load as load_result
 
     return load_result(path)
 
@@ -161,7 +161,7 @@ def compare(
     Raises:
         ResultError: a result cannot be read, or the results cannot be compared; says why.
     """
-    from .benchmark.comparison import compare_files
+    from .analysis.comparison import compare_files
 
     paths = [Path(path) for path in results]
     return compare_files(paths, column=column, higher_is_better=higher_is_better)

@@ -23,7 +23,7 @@ import numpy.typing as npt
 from numba.core.caching import FunctionCache, NullCache
 from numba.core.serialize import dumps
 
-from . import disk_cache
+from .files import disk_cache
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from fake_node import FakeNode
 
+from tests.algorithms.fake_node import FakeNode
 from uwsim.algorithms.control import PI, ControllerNode, P, StationKeeper
 from uwsim.messages import TwistStamped, floats
 

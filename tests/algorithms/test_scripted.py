@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from uwsim.algorithms.scripted import Scripted, twist_of
-from uwsim.benchmark.plan import Plan
-from uwsim.benchmark.play import Row, play
+from uwsim.assets.bundled import bundled
 from uwsim.benchmark.reader import read_benchmark
-from uwsim.cli.files import bundled
 from uwsim.errors import BadSetting, NeverStarted
+from uwsim.runs.plan import Plan
+from uwsim.runs.trial.trial import Row, play
 from uwsim.scene.reader import read_scene
 from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
 from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec

@@ -8,8 +8,8 @@ from typing import ClassVar
 import pytest
 
 from uwsim.devices import DEVICES
-from uwsim.dialect import slots
 from uwsim.scene.not_yet import limit_of
+from uwsim.schema import slots
 from uwsim.sensors import SENSORS
 from uwsim.sensors.sensor import measured_by
 from uwsim.topics import INTERFACES, InterfaceSpec, element_of

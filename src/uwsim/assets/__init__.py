@@ -10,7 +10,7 @@ import hashlib
 from pathlib import Path, PurePosixPath
 
 from ..errors import AssetError, AssetNotFound, did_you_mean
-from ..input_files import is_inside
+from ..files.input_files import is_inside
 from .find import UNDER, bundled_robot, candidates, find, folders_searched, plain_name, roots
 from .loaders import BY_OSGCONV, READABLE, can_read, read_model
 from .mesh import Mesh, Model, Texture

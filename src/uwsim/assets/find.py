@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from ..errors import AssetError
-from ..input_files import is_inside
+from ..files.input_files import is_inside
 
 UNDER = ("", "data", "data/scenes", "data/vehicles", "objects", "terrain", "robot", "textures")
 """Sub-folders that every folder is searched under."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ..dialect import Faults, parse
 from ..errors import Fault
 from ..scene.urdf import RobotSpec
+from ..schema import Faults, parse
 from .spec import BenchmarkSpec
 from .updaters import ArmMoveUpdaterSpec, chain
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 
 from lxml import etree
 
-from ..dialect import Faults
+from ..schema import Faults
 from .measures import MeasureSpec
 from .spec import FunctionSpec
 from .updaters import SceneUpdaterSpec, chain, interval

@@ -25,11 +25,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..dialect import element
 from ..geometry import Array
 from ..linear import placed, product, turned_back
+from ..schema import element
 from ..world import Body, Box, Camera, World
-from .rectangle import like_rectangle, rectangle
+from .metrics.min_area_rectangle import like_rectangle, rectangle
 
 BEHIND = "the target is behind the camera"
 CORNERS = ("nw_x", "nw_y", "ne_x", "ne_y", "se_x", "se_y", "sw_x", "sw_y")
@@ -214,9 +214,9 @@ class CornersFromCamera(_Seen):
     r"""The original's corners: those of the smallest rectangle round the projected bounding box.
 
     The eight corners of the body's local bounding box are projected; of their convex hull the
-    rectangle of smallest area is taken (`uwsim.benchmark.rectangle`); x, y of NW, NE, SE, SW.
-    It is *not* where the corners of a face are: the box has depth, and perspective makes its near
-    face larger; ``u:truth="face"`` gives those.
+    rectangle of smallest area is taken (`uwsim.benchmark.metrics.min_area_rectangle`); x, y of NW,
+    NE, SE, SW. It is *not* where the corners of a face are: the box has depth, and perspective
+    makes its near face larger; ``u:truth="face"`` gives those.
     """
 
     components = CORNERS

@@ -33,7 +33,6 @@ from pathlib import Path
 from types import CodeType, ModuleType
 
 from ..bus import Algorithm
-from ..dialect import slots
 from ..errors import (
     AssetError,
     BadSetting,
@@ -43,11 +42,12 @@ from ..errors import (
     UwsimError,
     did_you_mean,
 )
-from ..input_files import read_bytes
+from ..files.input_files import read_bytes
 from ..interrupts import is_of_user
+from ..schema import slots
 from ..world import Stage
-from .answers import WrongAnswer
 from .measures import Measure, MeasureSpec
+from .plugin_checks import WrongAnswer
 from .triggers import Trigger, TriggerSpec
 from .updaters import SceneUpdater, SceneUpdaterSpec
 

@@ -29,25 +29,15 @@ from typing import Any, TypeVar
 from lxml import etree
 
 from ..compatibility import COMPATIBILITY
-from ..dialect import (
-    NAMESPACE,
-    Faults,
-    advice,
-    check_head,
-    parse,
-    read,
-    shown_tag,
-    slots,
-    text_of,
-)
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
 from ..scene.variation import check_variations
+from ..schema import NAMESPACE, Faults, advice, check_head, parse, read, shown_tag, slots, text_of
 from ..world import TIMESTEP
 from . import score
 from .durations import too_short
+from .element_order import check_order
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
-from .original_grammar import check_order
 from .plugin import PREFIX
 from .spec import LONGEST_TASK, BenchmarkSpec, FunctionSpec
 from .start_notices import never_started

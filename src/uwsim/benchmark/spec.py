@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from ..dialect import element
 from ..scene.variation import DISTRIBUTIONS, VariationSpec
+from ..schema import element
 from .measures import MeasureSpec
 from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec, chain

@@ -11,15 +11,19 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..analysis.comparison.repeats_note import repeats_note
 from ..errors import AllErrors, BadSetting, RunFailed
-from ..file_names import file_names
-from ..input_files import InputFile, recorded
+from ..files.file_names import file_names
+from ..files.input_files import InputFile, recorded
 from ..interrupts import raise_from_now_on
+from ..runs.foreign_code import NoCodeOption, announce_code
+from ..runs.make_plan import make_plan, say_warnings
+from ..runs.tables import PluginOption
+from ..runs.timing import Stopwatch, Took
 from .completion import algorithm_names
 from .console import Console
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import running, warn
-from .foreign_code import NoCodeOption, announce_code
 from .options import (
     BenchmarkArgument,
     CompatOption,
@@ -28,19 +32,15 @@ from .options import (
     SceneOption,
     SetOption,
 )
-from .plan import make_plan, say_warnings
-from .plugins import PluginOption
 from .progress import progress
-from .repeats import repeats_note
 from .taught import INPUT, OUTPUT, RUN, in_group
-from .took import Stopwatch, Took
 
 if TYPE_CHECKING:
-    from ..benchmark.bench import Bench
-    from ..benchmark.beside import Beside
-    from ..benchmark.crew import Crew, Outcome
-    from ..benchmark.plan import Plan
-    from ..benchmark.result import Result
+    from ..results.result import Result
+    from ..runs.executors.background import Beside
+    from ..runs.executors.executor import Crew, Outcome
+    from ..runs.plan import Plan
+    from ..runs.run import Bench
 
 CONTROL = "frozen"
 ALGORITHM_ERROR = "algorithm error"
@@ -117,7 +117,7 @@ def bench(
     original's table), logs as CSV, plots, report.html. Same files and same seed: the same bytes. A
     run that was stopped goes on with --resume.
     """
-    from ..benchmark.directory import check, prepared
+    from ..results.directory import check, prepared
 
     wrong, crew, folders = AllErrors(), None, []
     with wrong.kept():
@@ -149,8 +149,8 @@ def bench(
     wrong.check()
     assert crew is not None
 
-    from ..benchmark.bench import Bench, open_once
-    from ..benchmark.inputs import without_algorithm
+    from ..results.inputs import without_algorithm
+    from ..runs.run import Bench, open_once
 
     watch = Stopwatch()
     announce_code(plans[0].scene)
@@ -179,8 +179,8 @@ def with_sources(bench: Bench, files: Sequence[InputFile]) -> Bench:
         bench: its inputs are those of scene and benchmark.
         files: the places of these.
     """
-    from ..benchmark.inputs_read import of_algorithm
-    from ..benchmark.watch import watchable
+    from ..runs.input_watch import watchable
+    from ..runs.inputs_read import of_algorithm
 
     with recorded() as sources:
         inputs = {**bench.inputs, **of_algorithm(bench.plan)}
@@ -207,8 +207,8 @@ def play_and_finish(
         UwsimError: what was the first to go wrong; the other algorithms are played and written.
         RunFailed: an algorithm broke in every row.
     """
-    from ..benchmark.beside import Beside
-    from ..benchmark.provenance import save_beginning
+    from ..results.provenance import save_beginning
+    from ..runs.executors.background import Beside
 
     for run in runs:
         if said := save_beginning(command, run.out):
@@ -248,7 +248,7 @@ def folders_of(algorithms: Sequence[str]) -> list[str]:
     for i, name in enumerate(algorithms):
         if name in algorithms[:i]:
             raise BadSetting(f"--algorithm {name}: is given twice.")
-    from ..benchmark.directory import FOLDERS
+    from ..results.directory import FOLDERS
 
     return list(file_names(algorithms, taken=FOLDERS).values())
 
@@ -279,7 +279,7 @@ def refuse_if_a_process_ended(runs: Sequence[Bench], results: Sequence[Result]) 
     Raises:
         RunFailed: names the algorithms, and why the first such row of each is as it is.
     """
-    from ..benchmark.verdict import ended_its_process
+    from ..runs.trial.status import ended_its_process
 
     ended = []
     for run, result in zip(runs, results, strict=True):
@@ -292,7 +292,7 @@ def refuse_if_a_process_ended(runs: Sequence[Bench], results: Sequence[Result]) 
 
 def play_with_progress(runs: Sequence[Bench], crew: Crew, at_once: int) -> Outcome:
     """Play one benchmark, with an algorithm each, and show how far it is."""
-    from ..benchmark.crew import play_each
+    from ..runs.executors.executor import play_each
 
     names = ", ".join(run.plan.algorithm_name for run in runs)
     title = f"{Path(runs[0].plan.benchmark.path).stem} ({names})"
@@ -306,9 +306,9 @@ def control_of(run: Bench) -> Bench:
     """Return the same with `frozen`, which looks at no image, into ``control/``."""
     from ..algorithms import load_algorithm
     from ..algorithms.tracker_node import INPUT
-    from ..benchmark.bench import Bench
-    from ..benchmark.directory import CONTROL as FOLDER_OF_CONTROL
-    from ..benchmark.inputs import without_algorithm
+    from ..results.directory import CONTROL as FOLDER_OF_CONTROL
+    from ..results.inputs import without_algorithm
+    from ..runs.run import Bench
 
     topic, usual = run.plan.told_topic, str(INPUT["image_topic"])
     is_usual = topic is None or topic.strip("/") == usual.strip("/")
@@ -336,9 +336,9 @@ def wait_for_controls(beside: Beside, controls: Sequence[Bench]) -> None:
 
 def finish(run: Bench, result: Result, beside: Beside, took: Took) -> None:
     """Write provenance, plots and report, and print the table."""
-    from ..benchmark.directory import REPORT
-    from ..benchmark.provenance import carried, save_provenance
-    from ..benchmark.table import table
+    from ..results.directory import REPORT
+    from ..results.provenance import carried, save_provenance
+    from ..results.table import table
 
     save_provenance({**took.provenance(run), **carried(run.out)}, run.out)
     beside.ask(run.out)

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..assets.bundled import bundled, scene_file
 from ..errors import BadSetting, Fault, FileError, PluginError, UwsimError
+from ..runs.tables import PluginOption, read_plugins
 from .completion import checked_names, scene_names
 from .faults import WRONG_INPUT, printable
-from .files import bundled, scene_file
 from .options import DataPathOption, JsonOption
-from .plugins import PluginOption, read_plugins
 from .taught import INPUT, in_group
 
 if TYPE_CHECKING:
@@ -112,8 +112,8 @@ def faults_of(
     A benchmark is held against ``scene``, or against the scene that it names itself; it may use
     what plugins have brought (``own``: they, and the tables with what they add).
     """
-    from ..dialect import parse, shown_tag
     from ..scene.reader import ROOT, check_robot, check_scene
+    from ..schema import parse, shown_tag
 
     try:
         node = parse(file).root
@@ -145,8 +145,8 @@ def faults_of(
 
 def faults_of_side_file(file: Path) -> list[Fault]:
     """Return everything wrong with a vehicle's side file; its links are looked up with a scene."""
-    from ..dialect import Faults
     from ..physics.vehicle_file import read_vehicle_into
+    from ..schema import Faults
 
     faults = Faults(file)
     read_vehicle_into(file, None, faults)
@@ -164,7 +164,7 @@ def faults_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fa
         or any(isinstance(interface, AutopilotTopicSpec) for interface in scene.ros_interfaces)
     ):
         return []
-    from ..simulation.scene_checks import check_simulated
+    from ..simulation.checks.scene_checks import check_simulated
 
     return check_simulated(scene, data_path)
 
@@ -215,11 +215,11 @@ def unknown_names(
 ) -> list[Fault]:
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
     from ..algorithms import load_algorithm
-    from ..benchmark import names
+    from ..benchmark import unknown_names as names
     from ..benchmark.arm_notices import arm_notices
     from ..benchmark.reader import read_benchmark
-    from ..dialect import Faults
     from ..scene.reader import read_scene
+    from ..schema import Faults
     from ..simulation import Simulation
 
     benchmark = read_benchmark(
@@ -259,7 +259,7 @@ def unknown_names(
 
 def root_line(file: Path) -> int:
     """Return the line of the root element, where a benchmark names scene and algorithm."""
-    from ..dialect import parse
+    from ..schema import parse
 
     return int(str(parse(file).root.sourceline))
 

@@ -78,11 +78,11 @@ def compare(
     differ are refused. Written: comparison.json, comparison.csv, comparison.html, plots as PNG and
     PDF. What the numbers mean: docs/statistics.md.
     """
-    from ..benchmark.comparison import compare_files, write_comparison
-    from ..benchmark.comparison.document import json_text
-    from ..benchmark.comparison.terminal import drawn
-    from ..benchmark.comparison.write import FOLDERS, OURS
-    from ..benchmark.directory import make_room
+    from ..analysis.comparison import compare_files, write_comparison
+    from ..analysis.comparison.document import json_text
+    from ..analysis.comparison.terminal import drawn
+    from ..analysis.comparison.write import FOLDERS, OURS
+    from ..results.directory import make_room
 
     paths, place = with_baseline(each_of(results), baseline)
     comparison = compare_files(
@@ -118,7 +118,7 @@ def with_baseline(results: list[Path], baseline: Path | None) -> tuple[list[Path
     """Return the results with the baseline among them, and its place."""
     if baseline is None:
         return results, None
-    from ..benchmark.result_file import file_of
+    from ..results.result_file import file_of
 
     files = [file_of(path).resolve() for path in results]
     if file_of(baseline).resolve() in files:

@@ -56,7 +56,7 @@ def one_of(names: Iterable[str]) -> Callable[[str], list[tuple[str, str]]]:
 
 
 def _bundled(kind: str, incomplete: str) -> list[tuple[str, str]]:
-    from .files import bundled
+    from ..assets.bundled import bundled
     from .list import head_comment
 
     return _matching({n: head_comment(p) for n, p in bundled(kind).items()}, incomplete)

@@ -10,7 +10,7 @@ from ..errors import BadSetting, did_you_mean
 from .taught import RUN, in_group
 
 if TYPE_CHECKING:
-    from ..benchmark.crew import Crew
+    from ..runs.executors.executor import Crew
 
 RAY = "ray"
 MOST_WORKERS = 1024
@@ -58,12 +58,12 @@ def crew_of(workers: str, callback_limit: float) -> Crew:
         BadSetting: neither a number nor ``ray``, or no time.
         MissingExtra: Ray is not installed.
     """
-    from ..benchmark.crew import Here
+    from ..runs.executors.executor import Here
 
     if not 0.0 <= callback_limit < math.inf:
         raise BadSetting(f"--callback-limit {callback_limit:g}: expected a time >= 0 [s].")
     if workers == RAY:
-        from ..benchmark.ray_cluster import RayCluster
+        from ..runs.executors.ray import RayCluster
 
         return RayCluster()
     number = int(workers) if workers.isascii() and workers.isdigit() else -1
@@ -74,6 +74,6 @@ def crew_of(workers: str, callback_limit: float) -> Crew:
         )
     if number == 0:
         return Here()
-    from ..benchmark.processes import Processes
+    from ..runs.executors.processes import Processes
 
     return Processes(number, callback_limit=callback_limit or None)

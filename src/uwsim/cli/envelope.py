@@ -9,27 +9,27 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..envelope.search_request import Question, question_of
 from ..errors import AllErrors, BadSetting
-from ..input_files import recorded
+from ..files.input_files import recorded
 from ..interrupts import raise_from_now_on
+from ..runs.foreign_code import NoCodeOption, announce_code
+from ..runs.make_plan import chosen_level, make_plan, say_warnings
+from ..runs.tables import PluginOption
+from ..runs.timing import Stopwatch
 from .bench import OTHER_CODE
 from .completion import algorithm_names
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import printable, running, warn
-from .foreign_code import NoCodeOption, announce_code
 from .options import BenchmarkArgument, CompatOption, DataPathOption, SceneOption, SetOption
-from .plan import chosen_level, make_plan, say_warnings
-from .plugins import PluginOption
 from .progress import progress
-from .question import Question, question_of
 from .taught import INPUT, OUTPUT, RUN, SEARCH, in_group
-from .took import Stopwatch
 
 if TYPE_CHECKING:
-    from ..benchmark.bench import Bench
-    from ..benchmark.crew import Crew
-    from ..benchmark.envelope import Envelope
-    from ..benchmark.plan import Plan
+    from ..envelope import Envelope
+    from ..runs.executors.executor import Crew
+    from ..runs.plan import Plan
+    from ..runs.run import Bench
 
 MAX_REPEATS = 1000
 
@@ -147,7 +147,7 @@ def envelope(
     runs in --out are used again, whatever criterion, range, tolerance or number of seeds is asked
     for now.
     """
-    from ..benchmark.envelope import plan_for
+    from ..envelope import plan_for
 
     wrong, crew, plan = AllErrors(), None, None
     with wrong.kept():
@@ -201,7 +201,7 @@ def check_numbers(confidence: float, repeat: int) -> None:
 
 def check_out(directory: Path, *, resume: bool, overwrite: bool) -> None:
     """Refuse a directory that may not be written into; raises BadSetting."""
-    from ..benchmark.directory import check_begun, check_room
+    from ..results.directory import check_begun, check_room
 
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
@@ -226,12 +226,12 @@ def play(
     command: Sequence[str],
 ) -> None:
     """Search, write and say what was found."""
-    from ..benchmark.bench import Bench, open_once
-    from ..benchmark.directory import alone_in, discard_drafts, empty
-    from ..benchmark.envelope import Asked, Envelope, Evaluations, strategy
-    from ..benchmark.envelope.plot import draw
-    from ..benchmark.provenance import carried, machine, save_beginning, save_provenance
-    from ..benchmark.watch import watchable
+    from ..envelope import Asked, Envelope, Evaluations, strategy
+    from ..envelope.plot import draw
+    from ..results.directory import alone_in, discard_drafts, empty
+    from ..results.provenance import carried, machine, save_beginning, save_provenance
+    from ..runs.input_watch import watchable
+    from ..runs.run import Bench, open_once
 
     announce_code(plan.scene)
     with recorded() as files:
@@ -300,7 +300,7 @@ FOLDERS = ("units", "pictures")
 
 def played(bench: Bench) -> dict[str, object]:
     """Say what was played and with what, as results do; seeds and levels stand elsewhere."""
-    from ..benchmark.plan import Unit
+    from ..runs.plan import Unit
 
     head = bench.head(Unit(index=0, repeat=0, seed=0, levels=(), is_alone=True))
     return {k: v for k, v in head["run"].items() if k not in ("seed", "repeats", "levels")}
@@ -308,7 +308,7 @@ def played(bench: Bench) -> dict[str, object]:
 
 def tell(envelope: Envelope, directory: Path) -> None:
     """Print what was found."""
-    from ..benchmark.envelope.criterion import reasons
+    from ..envelope.criterion import reasons
 
     lines = [envelope.sentence]
     by = reasons(e.judgement for e in envelope.evaluations)

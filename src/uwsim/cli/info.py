@@ -12,13 +12,13 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from ..assets.bundled import scene_file
 from ..errors import AllErrors
+from ..runs.make_plan import pairs_of
 from .check import faults_of
 from .console import Console
 from .faults import printable
-from .files import scene_file
 from .options import DataPathOption, JsonOption, SceneArgument, SetOption
-from .plan import pairs_of
 
 UNWRAPPED = 160
 """Columns for a reader that is a program."""

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..dialect.names import local
 from ..errors import Fault
 from ..scene.not_yet import READ_ONLY, limit_of
 from ..scene.spec import ObjectSpec, SceneSpec
 from ..scene.urdf import JointSpec
 from ..scene.variation import draw
 from ..scene.vehicle import VehicleSpec
+from ..schema.names import local
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
 from ..simulation.below import below_vehicle

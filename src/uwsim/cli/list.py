@@ -14,12 +14,12 @@ import typer
 from rich.table import Table
 from rich.text import Text
 
+from ..assets.bundled import bundled
 from ..errors import UnknownName
+from ..runs.tables import PluginOption, read_plugins
 from .completion import one_of
 from .console import Console
-from .files import bundled
 from .options import JsonOption
-from .plugins import PluginOption, read_plugins
 
 if TYPE_CHECKING:
     from ..benchmark.plugin import Tables
@@ -130,7 +130,7 @@ def sensors(tables: Tables) -> dict[str, str]:
 def devices(tables: Tables) -> dict[str, str]:
     """Devices that a scene file may use, and what else it may give a vehicle."""
     from ..devices import DEVICES
-    from ..dialect.names import local
+    from ..schema.names import local
 
     return {
         local(name): without_title(line) if name.startswith("{") else line
@@ -140,7 +140,7 @@ def devices(tables: Tables) -> dict[str, str]:
 
 def interfaces(tables: Tables) -> dict[str, str]:
     """Elements of ``<rosInterfaces>``: topics in and out of a scene."""
-    from ..dialect.names import local
+    from ..schema.names import local
     from ..topics import INTERFACES
 
     return {local(name): first_line(spec.__doc__) for name, spec in INTERFACES.items()}
@@ -148,7 +148,7 @@ def interfaces(tables: Tables) -> dict[str, str]:
 
 def clark(name: str) -> str:
     """Return a name as tables have it: ``u:lamp`` with its namespace written out."""
-    from ..dialect import NAMESPACE
+    from ..schema import NAMESPACE
 
     return f"{{{NAMESPACE}}}{name[2:]}" if name.startswith("u:") else name
 

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 from PIL import Image
 
+from ..assets.bundled import scene_file
 from ..errors import AllErrors, BadSetting
+from ..runs.foreign_code import NoCodeOption, announce_code, refuse_code
+from ..runs.make_plan import compatibility_of, pairs_of
+from ..runs.stand_ins import warn_of_stand_ins
 from .faults import say_notices
-from .files import scene_file
-from .foreign_code import NoCodeOption, announce_code, refuse_code
 from .options import CompatOption, DataPathOption, SceneArgument, SetOption
-from .plan import compatibility_of, pairs_of
-from .stand_ins import warn_of_stand_ins
 from .taught import INPUT, OUTPUT, in_group
 from .views import Wanted
 

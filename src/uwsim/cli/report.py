@@ -17,9 +17,9 @@ def report(result: ResultArgument, pdf: Pdf = False) -> None:
 
     Its rows are held against what its units have stored; where that is not there, it is said.
     """
-    from ..benchmark.journals import check_rows
-    from ..benchmark.report import write_report
-    from ..benchmark.result_file import file_of, load
+    from ..analysis.report import write_report
+    from ..results.journal_check import check_rows
+    from ..results.result_file import file_of, load
 
     unchecked = check_rows(load(result), file_of(result).parent)
     if unchecked is not None:

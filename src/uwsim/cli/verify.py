@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ResultError
-from ..input_files import recorded
+from ..files.input_files import recorded
 from ..interrupts import raise_from_now_on
+from ..runs.foreign_code import NoCodeOption, announce_code
+from ..runs.tables import PluginOption
+from ..verify.recorded_plan import NOT_DRAWN, Given, check_inputs, named_input, plan_of
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import RUN_FAILED, printable, running
-from .foreign_code import NoCodeOption, announce_code
 from .options import DataPathOption, ResultArgument
-from .plugins import PluginOption
 from .progress import progress
-from .recorded import NOT_DRAWN, Given, check_inputs, named_input, plan_of
 from .taught import FILES, RUN, in_group
 
 if TYPE_CHECKING:
-    from ..benchmark.result import Result
-    from ..benchmark.verify import Verification
+    from ..results.result import Result
+    from ..verify.verify import Verification
 
 SEEDS = 2**32
 """How many samples there are to draw from."""
@@ -115,12 +115,12 @@ def verify(
     from the fingerprints that every unit keeps, from which step on and in which body or picture.
     2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
     """
-    from ..benchmark.bench import Bench, open_once
-    from ..benchmark.interrupted import resuming
-    from ..benchmark.result_file import file_of, load
-    from ..benchmark.verify import choose, finished
-    from ..benchmark.verify import verify as compare
-    from ..benchmark.watch import watchable
+    from ..results.interrupted import resuming
+    from ..results.result_file import file_of, load
+    from ..runs.input_watch import watchable
+    from ..runs.run import Bench, open_once
+    from ..verify.verify import choose, finished
+    from ..verify.verify import verify as compare
 
     crew = crew_of(workers, callback_limit)
     stored = load(result)
@@ -188,9 +188,9 @@ def head(stored: Result, directory: Path, n_whole: int, n_units: int) -> str:
 
 def made_otherwise(stored: Result, directory: Path, run: Mapping[str, object]) -> dict[str, str]:
     """Say what differs between how the result was made and how it is replayed, and what holds."""
-    from ..benchmark.chosen_code import other_code
-    from ..benchmark.provenance import codes_of, load_provenance, machine
-    from ..benchmark.verify import ENVIRONMENT
+    from ..results.chosen_code import other_code
+    from ..results.provenance import codes_of, load_provenance, machine
+    from ..verify.verify import ENVIRONMENT
 
     pairs = {name: (stored.run.get(name), run.get(name)) for name in ENVIRONMENT}
     recorded, here = load_provenance(directory), machine()

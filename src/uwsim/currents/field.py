@@ -25,9 +25,9 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ..dialect import LARGEST, element, number
 from ..errors import AssetError
-from ..input_files import read_bytes
+from ..files.input_files import read_bytes
+from ..schema import LARGEST, element, number
 from .current import FASTEST, Array, Current, CurrentSpec, Place
 from .units import unit
 

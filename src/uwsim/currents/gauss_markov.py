@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..dialect import element
+from ..schema import element
 from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
 from .draws import Draws
 

@@ -32,9 +32,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..dialect import element
 from ..elementwise import log, power
 from ..errors import BadSetting
+from ..schema import element
 from .current import FASTEST, Array, Current, CurrentSpec, Place
 
 Triple = tuple[float, float, float]

@@ -22,10 +22,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..dialect import element
 from ..errors import BadSetting, did_you_mean
-from ..modules import located
-from ..python_sources import sources_of
+from ..files.modules import located
+from ..files.python_sources import sources_of
+from ..schema import element
 from .current import FASTEST, Array, Current, CurrentSpec, Place
 
 Function = Callable[[Array, float, str], Sequence[float]]

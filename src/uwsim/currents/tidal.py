@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from ..dialect import element
+from ..schema import element
 from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
 
 DEGREES_PER_HOUR = {"M2": 28.9841042, "S2": 30.0, "K1": 15.0410686, "O1": 13.9430356}

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from ..dialect import cut
+from ..schema import cut
 
 LENGTHS: Mapping[str, float] = {
     name: factor

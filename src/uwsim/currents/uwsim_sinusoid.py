@@ -17,7 +17,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..schema import element
 from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
 from .draws import Draws
 

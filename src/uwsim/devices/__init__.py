@@ -1,6 +1,6 @@
 """Devices: what acts, touches or talks, one file each."""
 
-from ..dialect import NAMESPACE
+from ..schema import NAMESPACE
 from .comms import AcousticCommsDeviceSpec, CustomCommsDeviceSpec
 from .dredge_tool import DredgeToolSpec
 from .echo import EchoSpec

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..schema import element
 
 
 @dataclass(frozen=True, kw_only=True)

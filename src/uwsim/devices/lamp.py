@@ -14,8 +14,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..dialect import element
 from ..geometry import Pose
+from ..schema import element
 from ..sensors.sensor import DIRECTIONS, LookAt
 from ..world import Body, Stage
 from .device import Device, DeviceSpec, DeviceVehicle

@@ -16,8 +16,8 @@ from typing import Literal
 
 import numpy as np
 
-from ..dialect import element
 from ..geometry import Pose, rotation_from_xyz
+from ..schema import element
 from ..world import Stage
 from .device import Device, DeviceSpec, DeviceVehicle
 

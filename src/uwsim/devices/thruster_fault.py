@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..schema import element
 from ..world import Stage
 from .device import Device, DeviceSpec, DeviceVehicle
 

@@ -16,9 +16,10 @@ from ..scene.kinematics import joint_positions
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..world import Contact
-from .actuators import Actuators
-from .allocation import thrusters_on_base
-from .autopilot import Autopilot
+from .actuation.actuators import Actuators
+from .actuation.allocation import thrusters_on_base
+from .actuation.autopilot import Autopilot
+from .actuation.servos import Servos
 from .balance import balance_of
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .contacts import contacts_of
@@ -27,7 +28,6 @@ from .falling import Falling
 from .hydrodynamics import VehicleHydrodynamics
 from .motion import Motion
 from .scaled import ScaledLinks, stretched_axes
-from .servos import Servos
 from .shapes import Shape
 
 if TYPE_CHECKING:

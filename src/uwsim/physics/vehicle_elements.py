@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from ..dialect import element
+from ..schema import element
 from .hydrodynamics.faults import LEAST_RADIUS, LIQUIDS, SLOWEST_ROTOR
 from .hydrodynamics.spec import BEST_EFFICIENCY
 

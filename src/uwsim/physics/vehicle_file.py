@@ -38,9 +38,10 @@ from pathlib import Path
 from lxml import etree
 
 from ..assets.find import roots
-from ..dialect import LARGEST, Faults, cut, number, parse, read
 from ..errors import FileError, UnknownName, choices
-from ..input_files import is_inside
+from ..files.input_files import is_inside
+from ..schema import LARGEST, Faults, cut, number, parse, read
+from .actuation.power import power_faults
 from .hydrodynamics.faults import body_faults, thruster_faults
 from .hydrodynamics.spec import (
     SIZES,
@@ -50,7 +51,6 @@ from .hydrodynamics.spec import (
     ThrusterSpec,
     VehicleHydrodynamics,
 )
-from .power import power_faults
 from .vehicle_elements import BodyElement, HydrodynamicsElement, ThrusterElement
 
 MOST_NUMBERS = 36

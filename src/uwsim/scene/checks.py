@@ -12,7 +12,7 @@ from itertools import chain
 
 from ..devices.force_sensor import ForceSensorSpec
 from ..devices.lamp import MOST_LAMPS, LampSpec
-from ..dialect import Faults
+from ..schema import Faults
 from ..topics import InterfaceSpec, element_of
 from ..topics.interface import VehiclePublisherSpec
 from ..topics.simulated_device_ros import SimulatedDeviceROSSpec

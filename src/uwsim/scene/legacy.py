@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from ..dialect import NAMESPACE, Faults, number
+from ..schema import NAMESPACE, Faults, number
 
 U = f"{{{NAMESPACE}}}"
 BEAM_RANGE = "10"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
-from ..dialect import Faults, uses_extensions
+from ..schema import Faults, uses_extensions
 from ..sensors.sensor import Mounted
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec

@@ -5,7 +5,7 @@ from __future__ import annotations
 from lxml import etree
 
 from ..devices import DEVICES
-from ..dialect import NAMESPACE, Faults
+from ..schema import NAMESPACE, Faults
 from ..sensors import SENSORS
 from ..topics import INTERFACES, InterfaceSpec
 

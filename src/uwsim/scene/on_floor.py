@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..dialect import element
+from ..schema import element
 
 FARTHEST_CLEARANCE = 1e4
 """[m]"""

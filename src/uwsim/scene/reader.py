@@ -8,8 +8,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
 
-from ..dialect import Document, Faults, check_head, parse, read
 from ..errors import AssetError, Fault, SceneError
+from ..schema import Document, Faults, check_head, parse, read
 from .angle_checks import check_angles, remember_twins
 from .checks import check_names
 from .legacy import upgrade

@@ -17,7 +17,7 @@ from typing import Any, TypeVar, cast
 
 from lxml import etree
 
-from .. import dialect
+from .. import schema
 from ..errors import BadSetting, UnknownName, did_you_mean
 
 T = TypeVar("T")
@@ -32,7 +32,7 @@ class Place:
     """From the whole down to the spec that has the value."""
     leaf: Any
     """That spec."""
-    slot: dialect.Slot
+    slot: schema.Slot
     """The value's field in it."""
     rest: tuple[str, ...]
     """What the path says behind it: a letter of a triple."""
@@ -171,8 +171,8 @@ def _parts(path: str) -> list[tuple[str, str | None]]:
     return parts
 
 
-def _slot(cls: type, name: str) -> dialect.Slot:
-    slots = {slot.shown.removeprefix("u:"): slot for slot in dialect.slots(cls)}
+def _slot(cls: type, name: str) -> schema.Slot:
+    slots = {slot.shown.removeprefix("u:"): slot for slot in schema.slots(cls)}
     slot = slots.get(name.removeprefix("u:"))
     if slot is None:
         raise BadSetting(
@@ -182,7 +182,7 @@ def _slot(cls: type, name: str) -> dialect.Slot:
 
 
 def _inside(name: str, cls: type) -> str:
-    names = ", ".join(slot.shown for slot in dialect.slots(cls))
+    names = ", ".join(slot.shown for slot in schema.slots(cls))
     return f"<{name}> is not a value; what stands in it: {names}."
 
 
@@ -217,9 +217,9 @@ def _key(entries: Sequence[Any], index: int) -> str:
     return name if name and is_first else str(1 + [id(o) for o in same].index(id(entry)))
 
 
-def _with_value(spec: Any, slot: dialect.Slot, rest: list[str], text: str) -> Any:
+def _with_value(spec: Any, slot: schema.Slot, rest: list[str], text: str) -> Any:
     """Let the dialect read the value as if it stood in a file."""
-    node = etree.Element(dialect.camel(type(spec).__name__.removesuffix("Spec")))
+    node = etree.Element(schema.camel(type(spec).__name__.removesuffix("Spec")))
     if slot.kind == "triple" and not rest and text in slot.xml.words:
         etree.SubElement(node, slot.tag).text = text
     elif slot.kind == "triple":
@@ -240,13 +240,13 @@ def _with_value(spec: Any, slot: dialect.Slot, rest: list[str], text: str) -> An
             etree.SubElement(listed, slot.xml.item).text = word
     else:
         etree.SubElement(node, slot.tag).text = text
-    faults = dialect.Faults("")
+    faults = schema.Faults("")
     given = {
         field.name: getattr(spec, field.name)
         for field in dataclasses.fields(spec)
         if field.init and field.name != slot.field
     }
-    changed = dialect.read(type(spec), node, faults, given=given)
+    changed = schema.read(type(spec), node, faults, given=given)
     if changed is None or faults.all():
         raise BadSetting("; ".join(fault.message for fault in faults.all()) or "no value.")
     return changed
@@ -255,7 +255,7 @@ def _with_value(spec: Any, slot: dialect.Slot, rest: list[str], text: str) -> An
 def _write_triple(
     node: etree._Element,
     current: tuple[float, float, float] | str | None,
-    slot: dialect.Slot,
+    slot: schema.Slot,
     rest: list[str],
     text: str,
 ) -> None:

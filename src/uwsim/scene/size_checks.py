@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..dialect import Faults
+from ..schema import Faults
 from ..sensors.multibeam_sensor import MultibeamSensorSpec
 from ..sensors.profiling_sonar import ProfilingSonarSpec
 from ..sensors.virtual_camera import VirtualCameraSpec

@@ -25,10 +25,10 @@ from typing import Literal, get_args
 
 from ..currents import CURRENTS, CurrentSpec
 from ..devices.comms import AcousticCommsChannelSpec, CustomCommsChannelSpec
-from ..dialect import FARTHEST, NAMESPACE, element
 from ..errors import BadSetting
 from ..geometry import Pose, rotation_from_xyz
 from ..linear import product
+from ..schema import FARTHEST, NAMESPACE, element
 from ..topics import INTERFACES, InterfaceSpec
 from .doubts import ObjectDoubt
 from .on_floor import OnFloorSpec

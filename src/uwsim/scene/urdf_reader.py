@@ -21,8 +21,8 @@ from typing import cast
 
 from lxml import etree
 
-from ..dialect import FARTHEST, Faults, number, parse
 from ..errors import SceneError
+from ..schema import FARTHEST, Faults, number, parse
 from .angle_checks import MORE_THAN_A_TURN, degrees_for_radians
 from .urdf import (
     ZERO,

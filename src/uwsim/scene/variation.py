@@ -28,8 +28,8 @@ from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
 from ..chance import stream
-from ..dialect import NAMESPACE, Faults, element
 from ..errors import BadSetting
+from ..schema import NAMESPACE, Faults, element
 from .settings import Place, locate, overlaps
 
 T = TypeVar("T")

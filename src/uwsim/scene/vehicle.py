@@ -27,8 +27,8 @@ from ..devices.led_array import LedArraySpec
 from ..devices.object_picker import ObjectPickerSpec
 from ..devices.sway import SwaySpec
 from ..devices.thruster_fault import ThrusterFaultSpec
-from ..dialect import FARTHEST, element, slots
 from ..geometry import Pose
+from ..schema import FARTHEST, element, slots
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.gps_sensor import GpsSensorSpec
 from ..sensors.imu import ImuSpec

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ..dialect import NAMESPACE, write
+from ..schema import NAMESPACE, write
 from .reader import ROOT
 from .spec import SceneSpec
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..dialect import FARTHEST, element
+from ..schema import FARTHEST, element
 from .sensor import SensorSpec
 
 

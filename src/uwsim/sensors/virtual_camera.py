@@ -19,9 +19,9 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..dialect import FARTHEST, element
 from ..geometry import Intrinsics, Pose
 from ..messages import CameraInfo, Image, RegionOfInterest, header, image
+from ..schema import FARTHEST, element
 from ..world import Body, SensorWorld
 from .sensor import DIRECTIONS, Carrier, LookAt, SensorSpec
 

@@ -13,8 +13,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..dialect import FARTHEST, element
 from ..geometry import Intrinsics
+from ..schema import FARTHEST, element
 from .sensor import DIRECTIONS, LookAt, SensorSpec
 from .virtual_camera import CameraParametersSpec
 

@@ -13,7 +13,6 @@ from typing import Literal
 
 from ..chance import stream
 from ..currents import Place, PythonFunctionSpec
-from ..dialect import NAMESPACE, Faults
 from ..errors import Fault, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import LEAST_MASS
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
@@ -21,10 +20,11 @@ from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle_into
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.vehicle import VehicleSpec
+from ..schema import NAMESPACE, Faults
 from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec
 from .bodies import find_file
-from .scene_lines import SceneLines
+from .checks.scene_lines import SceneLines
 
 Severity = Literal["fault", "notice"]
 U = f"{{{NAMESPACE}}}"

@@ -25,8 +25,8 @@ from ..scene.on_floor import OnFloorSpec
 from ..scene.spec import ObjectSpec, PhysicsSpec, SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.vehicle import VehicleSpec
+from .checks.scene_lines import SceneLines
 from .collision_shapes import collision_shapes, standing_faces
-from .scene_lines import SceneLines
 
 HULL = PhysicsSpec(collision_shape_type="trimesh")
 """What an object without ``<physics>`` stands on: the hulls of its materials."""

@@ -23,10 +23,10 @@ from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact
 from .bodies import SceneBody, find_body, find_file, name_bodies, read_robots
+from .checks.plausibility import doubts_about
 from .collision_shapes import simulated_shapes
 from .dynamics import read_dynamics
 from .floor import set_on_floor
-from .plausibility import doubts_about
 from .scenery import Scenery
 from .studio import Studio
 from .touch import Touch

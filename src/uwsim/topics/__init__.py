@@ -34,7 +34,7 @@ commands until the next of any of them; so do its joints' servos with theirs.
 
 from __future__ import annotations
 
-from ..dialect import NAMESPACE
+from ..schema import NAMESPACE
 from .arm_to_ros_joint_state import ArmToROSJointStateSpec
 from .contact_sensor_to_ros import ContactSensorToROSSpec
 from .depth_images import RangeCameraToPCLSpec, RangeImageSensorToROSImageSpec

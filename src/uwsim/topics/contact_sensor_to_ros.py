@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..dialect import element
 from ..errors import UnknownName
 from ..messages import Bool
+from ..schema import element
 from .interface import InterfaceSpec, TopicWorld
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..dialect import element
+from ..schema import element
 from .interface import InterfaceSpec
 
 

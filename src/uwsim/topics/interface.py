@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Protocol, runtime_checkable
 
-from ..dialect import element
+from ..schema import element
 from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..vehicle import Vehicle

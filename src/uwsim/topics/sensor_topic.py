@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..devices import DEVICES
-from ..dialect import element
+from ..schema import element
 from ..sensors import SENSORS
 from ..sensors.sensor import Sensor, measured_by
 from .interface import InterfaceSpec, TopicWorld

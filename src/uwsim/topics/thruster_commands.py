@@ -13,10 +13,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..dialect import element
 from ..errors import BadMessage, UnknownName
 from ..geometry import Array
 from ..messages import Float64MultiArray, WrenchStamped
+from ..schema import element
 from ..vehicle import Autopilot
 from .interface import TopicWorld, VehicleTopicSpec
 

@@ -10,10 +10,10 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..dialect import element
 from ..errors import UnknownName
 from ..messages import CameraInfo, Image, image
 from ..sampling import SampleTimer
+from ..schema import element
 from ..sensors.virtual_camera import VirtualCamera
 from .interface import InterfaceSpec, TopicWorld
 

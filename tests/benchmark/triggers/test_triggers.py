@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fakes import FakeBody, FakeWorld
+from tests.fakes import FakeBody, FakeWorld
 from uwsim.benchmark.triggers import (
     NeverSpec,
     OnInitSpec,

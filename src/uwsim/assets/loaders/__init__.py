@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...errors import AssetError
-from ...input_files import read_bytes, record, recorded
+from ...files.input_files import read_bytes, record, recorded
 from ..mesh import Model
 from .by_trimesh import READABLE, read_meshes
 from .openscenegraph import BY_OSGCONV, converted, has_osgconv, without_osgconv

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import AssetError
-from ...input_files import read_bytes
+from ...files.input_files import read_bytes
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
 from . import collada_limits, gltf_limits

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ...errors import AssetError
-from ...scratch import scratch_folder
+from ...files.scratch import scratch_folder
 
 BY_OSGCONV = (".osg", ".osgt", ".osgb", ".ive", ".wrl", ".3ds")
 """Formats that need `osgconv`."""

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
 
 from ...errors import AssetError
-from ...input_files import is_inside
+from ...files.input_files import is_inside
 
 
 class References:

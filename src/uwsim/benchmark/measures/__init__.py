@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..metrics.signal import Signal
 from .collision import Collision, CollisionSpec
 from .control import Control, ControlSpec
 from .distance import Distance, DistanceSpec
@@ -12,7 +13,6 @@ from .object_centered_on_cam import ObjectCenteredOnCam, ObjectCenteredOnCamSpec
 from .path_following import PathFollowing, PathFollowingSpec
 from .position_error import PositionError, PositionErrorSpec
 from .reconstruction_3d import Reconstruction3D, Reconstruction3DSpec
-from .signal import Signal
 from .time import Time, TimeSpec
 
 MEASURES: dict[str, type[MeasureSpec]] = {

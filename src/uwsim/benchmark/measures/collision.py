@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...dialect import element
+from ...schema import element
 from ...world import Contact, World
 from .measure import Measure, MeasureSpec
 

@@ -21,14 +21,14 @@ from typing import Any, Literal
 import numpy as np
 
 from ...bus import Inbox
-from ...dialect import element
 from ...errors import BadSetting, UnknownName
 from ...geometry import Array
 from ...messages import Float32MultiArray, Float64, Float64MultiArray
+from ...schema import element
 from ...world import Body, World
-from .commands import FIXED, READERS, Figure, HeldCommands
+from ..metrics.held_commands import FIXED, READERS, Figure, HeldCommands
+from ..metrics.step_response import INTEGRALS, UNITS, StepResponse
 from .measure import Measure, MeasureSpec
-from .step_response import INTEGRALS, UNITS, StepResponse
 
 OF_COMMANDS = ("variation", "effort", "max")
 """Quantities that need a topic of commands; the others need an error."""
@@ -118,7 +118,7 @@ class ControlSpec(MeasureSpec):
 
 
 class Control(Measure):
-    """Commands as `uwsim.benchmark.measures.commands` counts them, and the shape of an error.
+    """Commands as `uwsim.benchmark.metrics.held_commands` counts them, and the shape of an error.
 
     *Commands.* A command holds until the next. What is in force when the measure goes on counts
     for effort and largest value, not as a change. Details: ``variation``, ``effort`` and ``max``
@@ -127,7 +127,7 @@ class Control(Measure):
 
     *Error.* Either the body's: ``position`` less where its origin is, in L, at every step; or
     what comes on the error topic, held from message to message. Details: those of
-    `uwsim.benchmark.measures.step_response`. Time counts from the first error.
+    `uwsim.benchmark.metrics.step_response`. Time counts from the first error.
 
     What passes while the measure is off does not count. A message that is not finite, or not of
     the kind and size of those before, is passed over, and a note says so.

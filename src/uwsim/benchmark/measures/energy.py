@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ...dialect import element
+from ...schema import element
 from ...world import Actuators, World
 from .measure import Measure, MeasureSpec
 

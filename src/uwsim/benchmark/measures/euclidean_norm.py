@@ -21,14 +21,14 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from ...dialect import element
 from ...geometry import Array
 from ...linear import length
 from ...messages import Float32MultiArray, GTpublish
+from ...schema import element
 from ...world import World
 from ..ground_truth import GroundTruth, GroundTruthSpec
+from ..metrics.signal import VALUES, Signal
 from .measure import Measure, MeasureSpec
-from .signal import VALUES, Signal
 
 PATIENCE = 1.0
 """An estimate older than this is never scored [s]."""

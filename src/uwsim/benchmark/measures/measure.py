@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
-from ...dialect import element
+from ...schema import element
 from ...world import World
 from ..triggers import NeverSpec, OnInitSpec, TriggerSpec
 

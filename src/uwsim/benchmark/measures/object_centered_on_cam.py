@@ -15,8 +15,8 @@ from typing import ClassVar
 
 from ...world import World
 from ..ground_truth import CentroidFromCamera
+from ..metrics.signal import VALUES, Signal
 from .measure import Measure, MeasureSpec
-from .signal import VALUES, Signal
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,14 +16,14 @@ from typing import ClassVar
 import numpy as np
 
 from ...bus import Inbox
-from ...dialect import element
 from ...geometry import Array
 from ...linear import turned_back
 from ...messages import Path
+from ...schema import element
 from ...world import Body, World
-from ..polyline import Polyline
+from ..metrics.polyline import Polyline
+from ..metrics.signal import VALUES, Signal
 from .measure import Measure, MeasureSpec
-from .signal import VALUES, Signal
 
 PARTS = {"iae": "m s", "distance": "m", "waypoint": "1", "ise": "m^2 s", "share": "1"}
 """Details -> unit; first the original's three, in its order."""

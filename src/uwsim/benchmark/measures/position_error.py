@@ -19,13 +19,13 @@ from typing import ClassVar
 import numpy as np
 
 from ...bus import Inbox
-from ...dialect import element
 from ...geometry import Array, Pose
 from ...linear import turned
 from ...messages import PoseStamped
+from ...schema import element
 from ...world import Body, World
+from ..metrics.signal import VALUES, Signal
 from .measure import Measure, MeasureSpec
-from .signal import VALUES, Signal
 
 TURN = ("rx", "ry", "rz", "rw")
 

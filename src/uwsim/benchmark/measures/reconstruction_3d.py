@@ -15,14 +15,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...dialect import element
 from ...errors import BadSetting
 from ...geometry import Array, Pose
 from ...linear import product
 from ...messages import PointCloud2, points
+from ...schema import element
 from ...world import Body, Box, World
-from ..coverage import Coverage
-from ..reconstruction import Reconstruction, turned_box, upright
+from ..metrics.coverage import Coverage
+from ..metrics.reconstruction import Reconstruction, turned_box, upright
 from .measure import Measure, MeasureSpec
 
 ORIGINAL_FIELDS = {
@@ -90,8 +90,8 @@ class Reconstruction3D(Measure):
 
     Each cloud is brought from the frame ``from`` to the body's as both stand at the step at which
     it arrives; the message's frame_id is not looked at, and points of which a coordinate is NaN,
-    infinite or beyond 1e9 m are skipped. `uwsim.benchmark.reconstruction` says which points are
-    ground, outliers and inliers: only inliers have an error. The box is the body's own bounding
+    infinite or beyond 1e9 m are skipped. `uwsim.benchmark.metrics.reconstruction` says which points
+    are ground, outliers and inliers: only inliers have an error. The box is the body's own bounding
     box, however it lies; its top is the side that looks most upwards when the level begins.
 
     There is no value when no cloud came, or none of its points was an inlier. Clouds add up until
@@ -99,10 +99,10 @@ class Reconstruction3D(Measure):
 
     Details: ``mean_error`` (the value) [m]; ``error_variance`` over n - 1, None with one inlier
     [m^2]; ``coverage``, the share of the nodes on the five faces above ground that a point lies
-    near [1] (`uwsim.benchmark.coverage`); ``outlier_share``, outliers among outliers and inliers
-    [1]; and how many points and clouds there were of each kind. An error of 0 needs a perfect
-    *box*: what of the body's shape lies within its bounding box counts as error. Repeating one
-    good point makes the mean small: look at the coverage beside it.
+    near [1] (`uwsim.benchmark.metrics.coverage`); ``outlier_share``, outliers among outliers and
+    inliers [1]; and how many points and clouds there were of each kind. An error of 0 needs a
+    perfect *box*: what of the body's shape lies within its bounding box counts as error. Repeating
+    one good point makes the mean small: look at the coverage beside it.
 
     Compatibility ``reconstruction-transform``: clouds are brought to the body's frame as both
     stood when the level began. ``reconstruction-box``: two corners of the box are turned into W

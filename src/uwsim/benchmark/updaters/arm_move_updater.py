@@ -18,8 +18,8 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ...dialect import element
 from ...errors import BadSetting, UnknownName
+from ...schema import element
 from ...world import Stage
 from .updater import MAX_LEVELS, SceneUpdater, SceneUpdaterSpec
 

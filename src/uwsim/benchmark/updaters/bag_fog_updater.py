@@ -32,12 +32,12 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ...dialect import element
 from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
 from ...linear import dot
 from ...messages import CameraInfo, Image, image, time_from_seconds
+from ...messages.bag_camera import Frame, Picture, Recording, camera_info
+from ...schema import element
 from ...world import Stage
-from ..recording import Frame, Picture, Recording, camera_info
 from .fog_sweep import FogSweepSpec
 from .updater import SceneUpdater
 

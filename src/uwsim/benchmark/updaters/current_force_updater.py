@@ -28,9 +28,9 @@ from ...currents import (
     TargetCurrent,
     UwsimSinusoidSpec,
 )
-from ...dialect import element
 from ...errors import BadSetting, UnknownName
 from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
+from ...schema import element
 from ...world import Flow, Stage
 from .sweep import SweepSpec
 from .updater import SceneUpdater

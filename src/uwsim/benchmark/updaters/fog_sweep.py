@@ -29,7 +29,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ...dialect import element
+from ...schema import element
 from .sweep import SweepSpec, endless
 from .updater import MAX_LEVELS
 

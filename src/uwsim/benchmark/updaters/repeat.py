@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...dialect import element
+from ...schema import element
 from ...world import Stage
 from .updater import MAX_LEVELS, SceneUpdater, SceneUpdaterSpec
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...dialect import element
+from ...schema import element
 from ...world import Stage
 from .sweep import Knob, SweepSpec
 

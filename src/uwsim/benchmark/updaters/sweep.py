@@ -8,8 +8,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...dialect import element
 from ...errors import BadSetting
+from ...schema import element
 from .updater import MAX_LEVELS, SceneUpdater, SceneUpdaterSpec
 
 

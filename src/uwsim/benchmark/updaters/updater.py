@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from ...dialect import element
 from ...errors import BadSetting
+from ...schema import element
 from ...world import Stage
 
 MAX_LEVELS = 100_000

@@ -111,7 +111,8 @@ class ThrusterSpec:
     radius: float = 0.05
     """Of the propeller, for the loss of thrust at the surface and the power it draws [m]."""
     efficiency: float = 0.4
-    """From the battery to the ideal propeller of that radius (`uwsim.physics.power`) [1]."""
+    """From the battery to the ideal propeller of that radius (`uwsim.physics.actuation.power`)
+    [1]."""
     power: Numbers | None = None
     """What it draws instead: c1 |T| + c2 |T|^2 + ... of its thrust T, up to nine [W]."""
     power_backward: Numbers | None = None
@@ -120,7 +121,7 @@ class ThrusterSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class JointDrive:
-    """What the motor of a joint draws (`uwsim.physics.power`)."""
+    """What the motor of a joint draws (`uwsim.physics.actuation.power`)."""
 
     name: str
     """Of the joint."""

@@ -1,0 +1,109 @@
+"""Figures of station keeping: errors over time and over the current, theory beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from uwsim.analysis.plots import FAINT, MARKERS, PALETTE, styled_figure
+from uwsim.geometry import Array
+from uwsim.statistics import mean_interval
+
+from .station_keeping import Loop, Station, Swing, predicted
+
+NOTE = "thin lines: theory (closed forms)"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Line:
+    """One curve over time, and what theory says of it."""
+
+    name: str
+    """What the legend calls it."""
+    time: Array
+    """(n,) [s]."""
+    values: Array
+    """(n,); NaN is a gap."""
+    theory: Array | None = None
+    """(n,) at the same times; NaN where theory says nothing."""
+
+
+def over_time(
+    panels: Mapping[str, Sequence[Line]], *, label: str, note: str = "", theory: str = NOTE
+) -> Figure:
+    """Draw panels side by side with one scale: title -> its lines.
+
+    Args:
+        panels: what stands in each.
+        label: of the upright axis, with unit.
+        note: small print.
+        theory: small print where any theory is drawn, instead of ``note``.
+    """
+    every = [line.theory for lines in panels.values() for line in lines]
+    if any(each is not None and np.isfinite(each).any() for each in every):
+        note = theory
+    with styled_figure((7.0, 2.7)) as figure:
+        grid = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
+        for axes, (title, lines) in zip(grid, panels.items(), strict=True):
+            for i, line in enumerate(lines):
+                colour = PALETTE[i % len(PALETTE)]
+                axes.plot(line.time, line.values, color=colour, label=line.name, linewidth=1.2)
+                if line.theory is not None:
+                    axes.plot(line.time, line.theory, color="black", linewidth=0.6)
+            axes.set(xlabel="time [s]", xlim=(0.0, max(float(line.time[-1]) for line in lines)))
+            axes.text(0.5, 1.02, title, transform=axes.transAxes, ha="center", va="bottom")
+        grid[0].set_ylabel(label)
+        handles, names = grid[0].get_legend_handles_labels()
+        figure.legend(handles, names, loc="outside right upper")
+        figure.text(0.995, 0.004, note, ha="right", va="bottom", fontsize=5.5, color=FAINT)
+    return figure
+
+
+def over_current(
+    kept: Mapping[str, Mapping[float, Sequence[Station]]], loops: Mapping[str, Loop]
+) -> Figure:
+    """Draw the mean error along and the amplitude across over the current.
+
+    Args:
+        kept: controller -> current [m/s] -> how the station was kept, one a seed.
+        loops: controller -> its gains, for theory.
+    """
+    columns = {
+        "mean error along the current [m]": "along_mean",
+        "amplitude across, 30 s [m]": "across_amplitude",
+    }
+    most = max(len(found) for levels in kept.values() for found in levels.values())
+    with styled_figure((7.0, 2.9)) as figure:
+        grid = figure.subplots(1, 2)
+        for axes, (label, name) in zip(grid, columns.items(), strict=True):
+            for i, (controller, levels) in enumerate(kept.items()):
+                colour = PALETTE[i % len(PALETTE)]
+                currents = sorted(levels)
+                limits = [
+                    mean_interval([getattr(station, name) for station in levels[current]])
+                    for current in currents
+                ]
+                means = np.array([found.mean for found in limits], dtype=np.float64)
+                spread = np.array(
+                    [
+                        (0.0, 0.0)
+                        if found.mean is None or found.low is None or found.high is None
+                        else (found.mean - found.low, found.high - found.mean)
+                        for found in limits
+                    ]
+                )
+                axes.errorbar(
+                    currents, means, yerr=spread.T if most > 1 else None, capsize=2.5,
+                    fmt=MARKERS[i % len(MARKERS)], color=colour, label=controller, zorder=3,
+                )  # fmt: skip
+                line = np.linspace(0.0, max(currents), 50)
+                theory = [predicted(loops[controller], Swing(speed=f)) for f in line]
+                axes.plot(line, [getattr(t, name) for t in theory], color=colour, linewidth=0.7)
+            axes.set(xlabel="current [m/s]", ylabel=label)
+        grid[0].legend(loc="upper left")
+        seeds = f"bars: 95 % intervals over {most} seeds; " if most > 1 else "one seed; "
+        figure.text(0.995, 0.004, seeds + NOTE, ha="right", va="bottom", fontsize=5.5, color=FAINT)
+    return figure

@@ -1,0 +1,142 @@
+"""The page of a comparison: one HTML file that loads nothing and runs nothing."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from ... import __version__
+from ...results.inputs import files_by_role
+from ...results.per_level import rows_by_level, success_per_level
+from ...results.result import Result
+from ...statistics import Interval
+from ..pages import template
+from ..plots import written_unit
+from .findings import Comparison, Versus
+from .matrix import matrix, note, too_few
+from .matrix import title as matrix_title
+from .terminal import heading, lines
+from .words import sentences, told_apart
+
+CAPTIONS = {
+    "curves": "Mean over the repeats of each result, with its 95 % interval.",
+    "differences": "Paired differences with their 95 % intervals; a filled marker is a level at "
+    "which one is better after Holm's correction.",
+    "success": "Share of repeats that ended ok, with its exact 95 % interval; the results stand a "
+    "little apart, so that none hides another.",
+}
+
+
+def render(comparison: Comparison, plots: Sequence[Path]) -> str:
+    """Return the page's HTML."""
+    return template("comparison.html.j2").render(
+        title=_title(comparison),
+        names=[entry.name for entry in comparison.entries],
+        lead=_lead(comparison),
+        cards=[_card(versus, comparison.column.unit) for versus in comparison.versus],
+        matrix=matrix(comparison),
+        matrix_title=matrix_title(comparison),
+        matrix_note=note(comparison),
+        forced=comparison.forced,
+        remarks=comparison.remarks,
+        plots=[(CAPTIONS[plot.stem], _data_url(plot.read_bytes())) for plot in plots],
+        pairs=[
+            {
+                "heading": heading(comparison, versus),
+                "first": versus.first.name,
+                "second": versus.second.name,
+                "words": sentences(comparison, versus),
+                "levels": [
+                    (column.name, column.unit) for column in versus.first.result.of_kind("level")
+                ],
+                "lines": lines(comparison, versus),
+            }
+            for versus in comparison.versus
+        ],
+        results=[
+            {
+                "name": entry.name,
+                "source": entry.source,
+                "sha256": entry.sha256,
+                "rows": _about(entry.result),
+            }
+            for entry in comparison.entries
+        ],
+        inputs=[*files_by_role(comparison.entries[0].result.inputs)],
+        version=__version__,
+    )
+
+
+def _title(comparison: Comparison) -> str:
+    benchmark = comparison.entries[0].result.inputs.get("benchmark")
+    name = str(benchmark[0]) if isinstance(benchmark, tuple) and benchmark else "benchmark"
+    return name.removesuffix(".xml")
+
+
+def _lead(comparison: Comparison) -> str:
+    column = comparison.column
+    unit = f" [{written_unit(column.unit)}]" if column.unit else ""
+    function = f" = {column.expression}" if column.expression else ""
+    better = "higher" if comparison.higher_is_better else "lower"
+    against = f"; {comparison.baseline.name} is the baseline" if comparison.baseline else ""
+    levels = len(rows_by_level(comparison.entries[0].result))
+    repeats = max(len(at.seeds) for versus in comparison.versus for at in versus.levels)
+    return (
+        f"{column.name}{unit}{function}, {better} is better; {_many(levels, 'level')}, "
+        f"{_many(repeats, 'repeat')}{against}."
+    )
+
+
+def _many(n: int, word: str) -> str:
+    return f"{n} {word}" + ("s" if n != 1 else "")
+
+
+def _card(versus: Versus, unit: str | None) -> dict[str, str]:
+    d = versus.overall.value
+    said = {
+        "first": f"{versus.first.name} better",
+        "second": f"{versus.second.name} better",
+        "equal": "equal",
+        "one repeat": "one repeat: no inference",
+        "no pair": "not compared",
+        "too few": too_few(d)[0].lower() + too_few(d)[1:],
+    }.get(d.verdict, "no difference shown")
+    return {
+        "label": f"{versus.second.name} against {versus.first.name}, the sweep as a whole",
+        "value": said,
+        "note": _spread(d.difference, unit),
+    }
+
+
+def _spread(d: Interval, unit: str | None) -> str:
+    if d.mean is None:
+        return ""
+    behind = f" {written_unit(unit)}" if unit else ""
+    text = f"difference {d.mean:.3g}{behind}"
+    if d.low is not None and d.high is not None:
+        low, high = told_apart(d.low, d.high)
+        text += f", 95 % interval {low} to {high}{behind}"
+    return text.replace("-", "−")
+
+
+def _about(result: Result) -> list[tuple[str, str]]:
+    """What differs from result to result: parameters, seeds, versions."""
+    run = result.run
+    seeds = sorted({s for at in success_per_level(result) for s in at.seeds if s is not None})
+    parameters = run.get("parameters")
+    pairs = parameters.items() if isinstance(parameters, Mapping) else ()
+    return [
+        ("algorithm", str(run.get("algorithm", ""))),
+        *((f"parameter {name}", _word(value)) for name, value in pairs),
+        ("seeds", " ".join(map(str, seeds))),
+        *((name, _word(run[name])) for name in ("mode", "version", "renderer") if name in run),
+    ]
+
+
+def _word(value: object) -> str:
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def _data_url(data: bytes) -> str:
+    return f"data:image/png;base64,{base64.b64encode(data).decode('ascii')}"

@@ -1,0 +1,32 @@
+"""How many repeats a planned comparison needs, said before the time is spent."""
+
+from __future__ import annotations
+
+
+def repeats_note(n_results: int, n_levels: int, repeats: int) -> str | None:
+    """Return what `uwsim bench` says at the start; None where nobody seems to plan a comparison.
+
+    One algorithm is planned for against one other.
+
+    Args:
+        n_results: algorithms that are played together.
+        n_levels: of the sweep.
+        repeats: seeds of each.
+    """
+    from .repeats import fewest_repeats
+
+    is_alone = n_results < 2
+    sweep, level = fewest_repeats(n_results, n_levels)
+    if is_alone and (repeats == 1 or repeats >= level):
+        return None
+    what = "comparing this result with one other" if is_alone else f"comparing {n_results} results"
+    needs = f"needs at least {sweep} repeats"
+    if n_levels > 1:
+        needs += f" for the sweep as a whole and {level} for single levels"
+    played = f"{repeats} repeat{'s' if repeats > 1 else ''} (--repeat)"
+    enough = "enough for both" if n_levels > 1 else "enough"
+    if repeats < sweep:
+        enough = "too few"
+    elif repeats < level:
+        enough = "enough for the sweep alone"
+    return f"note: {what} {needs}; {played}: {enough}."

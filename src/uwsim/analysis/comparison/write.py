@@ -1,0 +1,27 @@
+"""The directory of a comparison: what stands in it, and how it is written."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from ...results.atomic_file import write_whole
+from .document import csv_text, json_text
+from .findings import Comparison
+from .page import render
+from .plots import draw_comparison
+
+OURS = re.compile(r"(comparison\.(json|csv|html)|plots/(curves|differences|success)\.(png|pdf))")
+"""Files that uwsim writes into the directory of a comparison."""
+FOLDERS = ("plots",)
+PAGE = "comparison.html"
+
+
+def write_comparison(comparison: Comparison, directory: Path) -> Path:
+    """Write numbers, plots and page into ``directory``; return the page."""
+    directory.mkdir(parents=True, exist_ok=True)
+    write_whole(directory / "comparison.json", json_text(comparison))
+    write_whole(directory / "comparison.csv", csv_text(comparison))
+    plots = draw_comparison(comparison, directory / "plots")
+    write_whole(directory / PAGE, render(comparison, plots))
+    return directory / PAGE

@@ -1,0 +1,78 @@
+"""Captions: what a figure shows, and what its marks mean, as it could be said in a paper."""
+
+from __future__ import annotations
+
+from ...results.per_level import seeds_of
+from ...results.result import Column, Result
+from ..plots import curves_of, is_fog_swept, label_of, repeats_of
+
+STATISTICS = {
+    "mean": "mean over each level",
+    "rms": "root mean square over each level",
+    "max": "greatest value of each level",
+}
+"""Detail of a measure -> what it says of a level."""
+
+
+def caption(result: Result, column: Column) -> str:
+    """Say what one figure shows: ``corners [px], mean over each level``."""
+    if column.kind == "score":
+        return f"{label_of(result, column)} = {column.expression}" if column.expression else (
+            label_of(result, column)
+        )  # fmt: skip
+    statistic = statistic_of(result, column.name)
+    return label_of(result, column) + (f", {statistic}" if statistic else "")
+
+
+def statistic_of(result: Result, measure: str) -> str:
+    """Say which of its details a measure's values are; empty where the rows do not tell."""
+    names = {column.name for column in result.columns}
+    values = result.values(measure)
+    details = [key for key in STATISTICS if f"{measure}.{key}" in names]
+    if not details or all(value is None for value in values):
+        return ""
+    same = [key for key in details if result.values(f"{measure}.{key}") == values]
+    if len(same) > 1:
+        return ""
+    return STATISTICS[same[0]] if same else "last value of each level"
+
+
+def marks(result: Result, *, has_control: bool) -> str:
+    """Say what points, bands, lines and crosses of the figures mean."""
+    n_repeats = len(set(repeats_of(result)))
+    columns = result.of_kind("score", "measure")
+    curves = curves_of(result, columns[0].name) if columns else []
+    said = ["Points: one value a level."]
+    if n_repeats > 1:
+        said = [
+            f"Points: means over {n_repeats} repeats ({seeds_text(result)}).",
+            "Bands: 95 % intervals of that mean (smoothed bootstrap-t over the repeats).",
+            "Hollow points: levels at which not every repeat has a value.",
+        ]
+    if any(curve.losses for curve in curves):
+        over = ", over the repeats from the first to the last" if n_repeats > 1 else ""
+        said.append(
+            f"Solid vertical line: first level that did not end ok{over}."
+            if len(curves) == 1
+            else "Cross: last value before the first level that did not end ok."
+        )
+    if result.fact("f_star") is not None and is_fog_swept(result):
+        said.append("Dotted: f*, where a tracker that compares by ZNCC should lose the patch.")
+    if has_control:
+        said.append(
+            "Dashed: the control frozen, which never looks at a picture; "
+            "where it lies far above, the legend names its values."
+        )
+    return " ".join(said)
+
+
+def seeds_text(result: Result) -> str:
+    """Return ``seed 1``, ``seeds 1 to 3`` or ``seeds 1, 5, 9``."""
+    seeds = sorted({seed for seed in seeds_of(result) if seed is not None})
+    if not seeds:
+        return "no seed is known"
+    if len(seeds) == 1:
+        return f"seed {seeds[0]}"
+    if seeds == list(range(seeds[0], seeds[-1] + 1)):
+        return f"seeds {seeds[0]} to {seeds[-1]}"
+    return "seeds " + ", ".join(map(str, seeds))

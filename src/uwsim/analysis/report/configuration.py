@@ -1,0 +1,206 @@
+"""What was run: the command, settings, versions, hashes, constants of the scene, provenance."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from ...results.chosen_code import names_text
+from ...results.result import FLOOR, Result
+from ..plots import algorithm_of, repeats_of, written_unit
+
+FACTS = {
+    "S": "contrast S of the patch: standard deviation, no noise, fog 0",
+    "sigma": "noise σ of a colour channel",
+    "sigma_grey": "noise σ of the grey picture",
+    "d": "mean distance d from camera to patch",
+    "z": "threshold z of the ZNCC",
+    "f_star": "predicted loss f*, with the noise of a channel",
+    "f_star_grey": "predicted loss f*, with the noise of the grey picture",
+    "shift": "how far the target moved in the picture",
+}
+"""Constant of a scene -> what it is (`uwsim.runs.trial.visibility`)."""
+SAID_ELSEWHERE = ("notes", "levels", "settings", "compatibility", "units")
+"""Parts of ``run`` that stand in sentences above the table."""
+CODE = ("code", "code_before")
+"""Parts of the provenance: what libraries chose for the processor."""
+NOT_OF_THE_RESULT = {"--out": 1, "--workers": 1, "--resume": 0, "--overwrite": 0}
+"""Options of ``bench`` that change nothing of what is found, and how many words each takes."""
+
+
+def command(result: Result, provenance: Mapping[str, object]) -> str:
+    """Return what to type to have this result again, as it was typed if that is known."""
+    typed = provenance.get("command")
+    if isinstance(typed, list) and typed:
+        return shlex.join(["uwsim", *_of_the_result([str(word) for word in typed])])
+    run = result.run
+    words = ["uwsim", "bench", title(result)]
+    if algorithm_of(result):
+        words += ["--algorithm", algorithm_of(result)]
+    words += ["--seed", str(run.get("seed", 0))]
+    if (n_repeats := len(set(repeats_of(result)))) > 1:
+        words += ["--repeat", str(n_repeats)]
+    if run.get("mode"):
+        words += ["--mode", str(run["mode"])]
+    for option, key in (("--set", "settings"), ("--level", "levels")):
+        words += [word for pair in pairs_of(run.get(key)) for word in (option, pair)]
+    if names := _words(run.get("compatibility")):
+        words += ["--compat", ",".join(names)]
+    return shlex.join(words)
+
+
+def title(result: Result) -> str:
+    """Return the benchmark's name, without its ending."""
+    benchmark = result.inputs.get("benchmark")
+    name = str(benchmark[0]) if isinstance(benchmark, tuple) and benchmark else "benchmark"
+    return name.removesuffix(".xml")
+
+
+def remarks(result: Result, unchecked: str | None = None) -> list[str]:
+    """Say what a reader must know first: what is unfinished, left out, changed, not checked."""
+    run, said = result.run, []
+    units = run.get("units")
+    if isinstance(units, tuple) and len(units) == 2 and units[0] != units[1]:
+        said.append(f"Not finished: {units[0]} of {units[1]} parts are played. --resume goes on.")
+    if unchecked is not None:
+        said.append(f"{unchecked[0].upper()}{unchecked[1:]}.")
+    if chosen := pairs_of(run.get("levels")):
+        said.append(f"Only these levels of the sweep were played: {', '.join(chosen)}.")
+    if settings := pairs_of(run.get("settings")):
+        said.append(f"Changed for this run: {', '.join(settings)}.")
+    if names := _words(run.get("compatibility")):
+        said.append(f"Played with slips of the original: {', '.join(names)}.")
+    return said + [f"{note}." for note in _words(run.get("notes"))]
+
+
+def pairs_of(value: object) -> list[str]:
+    """Return ``name=value`` of (name, value) pairs."""
+    found = []
+    for pair in value if isinstance(value, tuple) else ():
+        if isinstance(pair, tuple) and len(pair) == 2:
+            found.append(f"{pair[0]}={_word(pair[1])}")
+    return found
+
+
+def settings(result: Result) -> list[tuple[str, str]]:
+    """Return everything else that was said about the run."""
+    run = {name: value for name, value in result.run.items() if name not in SAID_ELSEWHERE}
+    found = flat(run)
+    return [(_setting(name), text) for name, text in found]
+
+
+def flat(mapping: Mapping[str, object], prefix: str = "") -> list[tuple[str, str]]:
+    """Flatten nested mappings into (dotted name, text); (value, unit) becomes one text.
+
+    What is empty is left out.
+    """
+    found: list[tuple[str, str]] = []
+    for name, value in mapping.items():
+        if isinstance(value, Mapping):
+            found += flat(value, f"{prefix}{name}.")
+        else:
+            words = [_word(v) for v in (value if isinstance(value, tuple | list) else (value,))]
+            found.append((f"{prefix}{name}", " ".join(words)))
+    return [(name, text) for name, text in found if text]
+
+
+def machine(provenance: Mapping[str, object]) -> list[tuple[str, str]]:
+    """Return where and when it was played, numbers and lists of code short."""
+    code = provenance.get("code")
+    shown = {library: names_text(names) for library, names in _lists(code)}
+    others = {name: _rounded(value) for name, value in provenance.items() if name not in CODE}
+    return flat({**others, "code": shown})
+
+
+def hashes(inputs: Mapping[str, object]) -> list[tuple[str, str, str]]:
+    """Return (what, file, hash) of every input."""
+    found: list[tuple[str, str, str]] = []
+    for what, value in inputs.items():
+        if isinstance(value, Mapping):
+            found += [(what, str(name), str(digest)) for name, digest in value.items()]
+        elif isinstance(value, tuple) and value and all(isinstance(v, tuple) for v in value):
+            found += [entry for part in value for entry in hashes({what: part})]
+        elif isinstance(value, tuple) and len(value) == 2:
+            found.append((what, str(value[0]), str(value[1])))
+        else:
+            found.append((what, str(value), ""))
+    return found
+
+
+def facts(result: Result) -> list[tuple[str, str]]:
+    """Return the constants of the scene, in words, with units."""
+    found = []
+    for name in result.facts:
+        fact = result.fact(name)
+        unit = "" if fact is None or fact[1] == "1" else f" {written_unit(fact[1])}"
+        text = str(result.facts[name]) if fact is None else f"{fact[0]:.4g}{unit}"
+        found.append((_meaning(name), text))
+    return found
+
+
+def _meaning(name: str) -> str:
+    if name.startswith(FLOOR):
+        return f"floor of {name.removeprefix(FLOOR)}: what a perfect tracker scores"
+    return FACTS.get(name, name)
+
+
+def variations(result: Result) -> list[tuple[str, str, str]]:
+    """Return what varies: which value, drawn from what, and what was drawn.
+
+    Of several seeds the least and the largest value are shown.
+    """
+    found = []
+    for each in result.variations:
+        unit = "" if each.unit == "1" else f" {written_unit(each.unit)}"
+        drawn = [value for _, value in each.values]
+        ends = dict.fromkeys(f"{value:.4g}" for value in (min(drawn), max(drawn))) if drawn else []
+        found.append((each.path, each.drawn_from + unit, " to ".join(ends) + unit))
+    return found
+
+
+def logs_text(logs: Sequence[Path]) -> list[tuple[str, str]]:
+    """Return name and size of files beside the report."""
+    return [(log.name, f"{log.stat().st_size / 1000:.0f} kB") for log in logs]
+
+
+def _of_the_result(words: Sequence[str]) -> list[str]:
+    kept: list[str] = []
+    skip = 0
+    for word in words:
+        option, _, joined = word.partition("=")
+        if skip:
+            skip -= 1
+        elif option in NOT_OF_THE_RESULT:
+            skip = 0 if joined else NOT_OF_THE_RESULT[option]
+        else:
+            kept.append(word)
+    return kept
+
+
+def _lists(value: object) -> list[tuple[str, list[object]]]:
+    pairs = value.items() if isinstance(value, Mapping) else ()
+    return [(str(name), each) for name, each in pairs if isinstance(each, list)]
+
+
+def _setting(name: str) -> str:
+    if name.startswith("parameters."):
+        return f"parameter {name.removeprefix('parameters.')}"
+    return {"version": "uwsim"}.get(name, name)
+
+
+def _words(value: object) -> list[str]:
+    return [str(word) for word in value] if isinstance(value, tuple) else []
+
+
+def _word(value: object) -> str:
+    """A value as a person writes it: ``3`` for 3.0."""
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    return "" if value is None else str(value)
+
+
+def _rounded(value: object) -> object:
+    if isinstance(value, float):
+        return float(f"{value:.4g}")
+    return [_rounded(v) for v in value] if isinstance(value, list) else value

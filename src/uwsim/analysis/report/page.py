@@ -1,0 +1,240 @@
+"""The page: everything a report says, put into its template.
+
+Drawn from the result directory alone (``result.json``, logs, pictures, ``provenance.json``), so an
+old run can be drawn again. The file holds its pictures and its style in itself, loads nothing, runs
+no script (a content security policy forbids both), and every name that came from a file is text.
+
+A directory ``control`` inside it, the same benchmark played by `frozen`, gives every plot its
+dashed line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...errors import ResultError
+from ...results.atomic_file import write_whole
+from ...results.directory import CONTROL, REPORT
+from ...results.journal_check import check_rows
+from ...results.log import logs_of
+from ...results.per_level import LevelInterval, per_level, rows_by_level
+from ...results.provenance import load_provenance
+from ...results.result import Result
+from ...results.result_file import file_of, load
+from ...results.table import number_text, sensible_decimals, unit_of
+from ..pages import template
+from ..plots import (
+    LEVEL_WORDS,
+    MOST_INSIDE,
+    OVERVIEW,
+    algorithm_of,
+    draw_plots,
+    is_fog_swept,
+    repeats_of,
+    written_unit,
+)
+from .captions import caption, marks, seeds_text, statistic_of
+from .configuration import (
+    command,
+    facts,
+    hashes,
+    logs_text,
+    machine,
+    remarks,
+    settings,
+    title,
+    variations,
+)
+from .endings import Ending, breaks, endings, named_level
+from .pictures import data_url, pictures_text, shown_pictures
+from .rows import all_cells, heads, level_rows
+from .trust import floor, is_static, optics
+
+MAX_CARDS = 12
+SHORT_LIST = 6
+"""Image streams up to which their list stands open."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Card:
+    """A number worth reading first."""
+
+    label: str
+    """What it is."""
+    value: str
+    """The number with its unit."""
+    note: str = ""
+    """How it was found."""
+
+
+def write_report(path: Path, *, pdf: bool = False) -> Path:
+    """Draw plots and ``report.html`` of a result directory (or its ``result.json``).
+
+    Args:
+        path: the directory, or the file in it.
+        pdf: also draw every plot as PDF.
+
+    Raises:
+        ResultError: there is no result, it cannot be read, or it says other than its units.
+    """
+    directory = file_of(path).parent
+    result = load(path)
+    unchecked = check_rows(result, directory)
+    control = _control(directory)
+    plots = draw_plots(result, directory / "plots", control=control, pdf=pdf)
+    target = directory / REPORT
+    page = render(result, directory, plots=plots, control=control, unchecked=unchecked)
+    write_whole(target, page)
+    return target
+
+
+def render(
+    result: Result,
+    directory: Path,
+    *,
+    plots: Iterable[Path],
+    control: Result | None = None,
+    unchecked: str | None = None,
+) -> str:
+    """Return the report's HTML; ``unchecked`` is what `check_rows` has said."""
+    found = endings(result)
+    provenance = load_provenance(directory)
+    columns = result.of_kind("score") + result.of_kind("measure")
+    n_repeats = len(set(repeats_of(result))) or 1
+    n_levels = len(rows_by_level(result))
+    drawn = [plot for plot in plots if plot.stem != OVERVIEW and n_levels * n_repeats != 1]
+    pictures = shown_pictures(result, directory)
+    return template("report.html.j2").render(
+        title=title(result),
+        algorithm=algorithm_of(result) or "no algorithm",
+        lead=_lead(result),
+        remarks=remarks(result, unchecked),
+        command=command(result, provenance),
+        cards=_cards(result, found),
+        heads=heads(result),
+        table=level_rows(result),
+        n_levels=n_levels,
+        values=_values(result),
+        repeats=n_repeats,
+        full=all_cells(result),
+        n_rows=len(result.rows),
+        plots=[
+            (caption(result, column), data_url(plot.read_bytes(), "png"))
+            for column, plot in zip(columns, drawn, strict=False)
+        ],
+        are_wide=_n_curves(result) > MOST_INSIDE,
+        marks=marks(result, has_control=control is not None),
+        pictures=pictures,
+        which_pictures=pictures_text(result, len(pictures)),
+        endings=found,
+        breaks=breaks(result),
+        settings=settings(result),
+        inputs=hashes(result.inputs),
+        facts=facts(result),
+        variations=variations(result),
+        streams=[
+            (
+                f"seed {stream.seed}"
+                + (f", {named_level(result, stream.level)}" if stream.level else ""),
+                stream,
+            )
+            for stream in result.image_streams
+        ],
+        short_list=SHORT_LIST,
+        logs=logs_text(logs_of(directory)),
+        is_static=is_static(result),
+        floor=floor(result),
+        optics=optics(result, found),
+        provenance=machine(provenance),
+        version=str(result.run.get("version", "?")),
+    )
+
+
+def _lead(result: Result) -> str:
+    """One sentence: what was swept, over what, how often."""
+    levels = rows_by_level(result)
+    spans, counts = [], []
+    for i, column in enumerate(result.of_kind("level")):
+        values = sorted({level[i] for level in levels})
+        word = LEVEL_WORDS.get(column.name, column.name)
+        if word and values:
+            span = f"{values[0]:g}" + (f" to {values[-1]:g}" if len(values) > 1 else "")
+            spans.append(f"{word} {span}{_space(column.unit)}")
+            counts.append(len(values))
+    over = " and ".join(spans) or "one scene"
+    n_repeats = len(set(repeats_of(result)))
+    many = f", {n_repeats} repeats" if n_repeats > 1 else ""
+    count = f"{len(levels)} level" + ("s" if len(levels) != 1 else "")
+    if len(counts) > 1:
+        count += f" ({' × '.join(map(str, counts))})"
+    mode = result.run.get("mode", "sequential")
+    return f"{count}, {over}{many}; {mode}, {seeds_text(result)}."
+
+
+def _cards(result: Result, found: Sequence[Ending]) -> list[Card]:
+    n_ok = sum(ending.n for ending in found if ending.status == "ok")
+    played = f"{n_ok} of {len(result.rows)}"
+    cards = [Card(label="rows that ended ok", value=played, note="a row: one level of one repeat")]
+    for ending in found:
+        if ending.status != "ok" and ending.n:
+            note = ending.reasons[0][1] if ending.reasons else "no reason was given"
+            cards.append(Card(label=f"first {ending.status}", value=ending.first, note=note))
+    star = result.fact("f_star")
+    if star is not None and is_fog_swept(result):
+        note = "fog at which the patch's ZNCC should fall to its threshold"
+        value = f"{star[0]:.3f}{_space(star[1])}"
+        cards.append(Card(label="loss predicted at f*", value=value, note=note))
+    for column in result.of_kind("score") + result.of_kind("measure"):
+        known = [e for e in per_level(result, column.name) if e.interval.mean is not None]
+        if not known:
+            continue
+        first, last = known[0], known[-1]
+        value, at = _short(first, last), ""
+        if len(known) > 1:
+            value += f" to {_short(last, first)}"
+            at = f"at {named_level(result, first.level)} and {named_level(result, last.level)}"
+        unit = _space(unit_of(result, column))
+        cards.append(Card(label=column.name, value=value + unit, note=at))
+    return cards[:MAX_CARDS]
+
+
+def _short(entry: LevelInterval, other: LevelInterval) -> str:
+    """A mean in three digits; in those of the other one where it is nothing against that."""
+    value, against = entry.interval.mean or 0.0, other.interval.mean or 0.0
+    measure = against if abs(value) < 1e-3 * abs(against) else value
+    decimals = sensible_decimals([measure])
+    shown = 0.0 if abs(value) < 0.5 * 10**-decimals and measure is not value else value
+    return number_text(shown, decimals).replace("-", "−")
+
+
+def _values(result: Result) -> list[str]:
+    """Say what the values in the table are: the statistic of each measure, the score, the time."""
+    by_statistic: dict[str, list[str]] = {}
+    for column in result.of_kind("measure"):
+        if statistic := statistic_of(result, column.name):
+            by_statistic.setdefault(statistic, []).append(column.name)
+    said = [f"{', '.join(names)}: {statistic}" for statistic, names in by_statistic.items()]
+    said += [f"total = {c.expression}" for c in result.of_kind("score") if c.expression]
+    if result.of_kind("time"):
+        said.append("ended_at: running time when the level ended, summed over the levels")
+    return said
+
+
+def _n_curves(result: Result) -> int:
+    """How many curves stand in one plot: a curve for each combination of the outer levels."""
+    return len({level[:-1] for level in rows_by_level(result)})
+
+
+def _space(unit: str | None) -> str:
+    return f" {written_unit(unit)}" if unit else ""
+
+
+def _control(directory: Path) -> Result | None:
+    try:
+        control = load(directory / CONTROL)
+    except ResultError:
+        return None
+    check_rows(control, directory / CONTROL)
+    return control

@@ -1,0 +1,78 @@
+"""The order in which the original wants the elements of a benchmark file."""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from ..schema import Faults
+
+GATE = ("log", "startOn", "stopOn")
+SWEEP = ("initialValue", "finalValue", "step", "interval")
+ORDER: dict[str, tuple[str, ...]] = {
+    "benchmark": ("measures", "startOn", "stopOn", "function", "sceneUpdater"),
+    "measures": (
+        "time",
+        "collision",
+        "positionError",
+        "distance",
+        "euclideanNorm",
+        "objectCenteredOnCam",
+        "reconstruction3D",
+        "pathFollowing",
+    ),
+    "time": ("name", *GATE),
+    "collision": ("name", "target", *GATE),
+    "positionError": ("name", "target", "position", "topic", *GATE),
+    "distance": ("name", "target", *GATE),
+    "euclideanNorm": ("name", "groundTruth", "target", *GATE),
+    "objectCenteredOnCam": ("name", "target", "camera", *GATE),
+    "reconstruction3D": ("name", "target", "topic", "from", "levelOfDetail", *GATE),
+    "pathFollowing": ("name", "target", "topic", "from", *GATE),
+    "startOn": ("type", "target", "position"),
+    "stopOn": ("type", "target", "position"),
+    "position": ("x", "y", "z"),
+    "groundTruth": ("value", "camera", "target", "publishOn", "from", "to"),
+    "sceneFogUpdater": (*SWEEP, "sceneUpdater"),
+    "sceneLightUpdater": (*SWEEP, "sceneUpdater"),
+    "cameraNoiseUpdater": (*SWEEP, "sceneUpdater"),
+    "repeat": ("iterations", "interval", "sceneUpdater"),
+    "armMoveUpdater": ("armPosition", "step", "interval", "target", "sceneUpdater"),
+    "bagFogUpdater": (
+        *SWEEP, "bag", "imageTopic", "infoTopic", "imageDepth", "imagePub", "infoPub",
+        "sceneUpdater",
+    ),
+    "currentForceUpdater": (
+        "initialValue", "finalValue", "sphericalDirection", "forceVariation", "forcePeriod",
+        "directionVariation", "directionPeriod", "random", "step", "interval", "target",
+        "sceneUpdater",
+    ),
+    "sphericalDirection": ("theta", "phi"),
+    "directionVariation": ("theta", "phi"),
+    "directionPeriod": ("theta", "phi"),
+}  # fmt: skip
+"""Element -> its children in order."""
+
+REQUIRED: dict[str, tuple[str, ...]] = {
+    measure: ("startOn", "stopOn") for measure in ORDER["measures"]
+}
+"""Children that the original wants although they have a meaning when absent."""
+
+
+def check_order(root: etree._Element, faults: Faults) -> None:
+    """Say what the original's grammar refuses though we read it."""
+    for node in root.iter("*"):
+        order = ORDER.get(str(node.tag), ())
+        last, shown = -1, ""
+        present = set()
+        for child in node.iterchildren("*"):
+            tag = str(child.tag)
+            present.add(tag)
+            if tag not in order:
+                continue
+            if order.index(tag) < last:
+                faults.add(child, f"<{tag}> stands behind <{shown}>; the original wants it before")
+            else:
+                last, shown = order.index(tag), tag
+        for tag in REQUIRED.get(str(node.tag), ()):
+            if tag not in present:
+                faults.add(node, f"<{node.tag}> lacks <{tag}>; the original wants it")

@@ -1,0 +1,176 @@
+"""Playing single levels with single seeds, each once: what is on disk is not played again.
+
+Each is a unit of work of the independent mode (DESIGN 5): the algorithm settles at the updaters'
+initial values, then the level is ramped in. The pictures and the noise of a level depend on the
+seed and on the level's values, never on what was played before.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..benchmark.updaters import Level
+from ..results import journal
+from ..results.journal import Record
+from ..runs.executors.executor import Crew, Job, OnLevel, Roster
+from ..runs.plan import Plan, Unit
+from ..runs.run import Bench
+from .criterion import Criterion, Judgement
+from .search import Search, Strategy, Task
+
+STRIDE = 10_000
+"""Numbers of unit files that a seed has for itself."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evaluation:
+    """One run."""
+
+    seed: int
+    """Seed of every random stream."""
+    level: float
+    """Value of the updater that is searched over."""
+    judgement: Judgement
+    """Whether it is broken, and why."""
+    row: Record
+    """As it is stored."""
+
+
+def plan_for(plan: Plan) -> Plan:
+    """Return the plan that single levels are played with, whatever the seeds and the search."""
+    return replace(plan, mode="independent", seed=0, repeats=1, chosen=())
+
+
+class Evaluations:
+    """Runs asked for, from disk or played now.
+
+    Args:
+        bench: where they are kept; its plan is one of `plan_for`.
+        at: the levels of all updaters, outermost first; that of ``over`` is replaced.
+        over: the reference that is searched over.
+        criterion: what counts as broken.
+    """
+
+    def __init__(self, bench: Bench, *, at: Level, over: str, criterion: Criterion) -> None:
+        self.bench = bench
+        """Where they are kept."""
+        self._at, self._over, self._criterion = at, over, criterion
+        self._units: dict[tuple[int, tuple[float, ...]], Unit] = {}
+        self._taken: set[int] = set()  # indices of unit files
+        self.made: dict[tuple[int, float], Evaluation] = {}
+        """Every run that was asked for."""
+        for path in sorted((bench.out / journal.FOLDER).glob("*.jsonl")):
+            self._remember(int(path.stem), journal.head_of(path))
+
+    def run(self, strategy: Strategy, crew: Crew, on_run: OnLevel = lambda: None) -> Search:
+        """Follow a strategy to its end, playing what is not on disk.
+
+        Raises:
+            ResultError: what is stored belongs to another run.
+            UwsimError: a run could not be played.
+        """
+        roster = _Roster(self, strategy, on_run)
+        crew.play(roster)
+        if roster.failure is not None:
+            raise roster.failure
+        assert roster.found is not None
+        return roster.found
+
+    def look(self, seed: int, value: float) -> bool | None:
+        """Tell whether a run is broken; None if it was not played yet."""
+        if (seed, value) not in self.made:
+            unit = self.unit(seed, value)
+            stored = journal.read(self.bench.out, unit.index, self.bench.head(unit))
+            if stored.end is None or not stored.rows:
+                return None
+            row = stored.rows[0]
+            self.made[seed, value] = Evaluation(
+                seed=seed, level=value, judgement=self._criterion.judge(row), row=row
+            )
+        return self.made[seed, value].judgement.is_broken
+
+    def unit(self, seed: int, value: float) -> Unit:
+        """Return the unit of work of a run. Its number follows from its seed and what it asked."""
+        level = Level(
+            tuple((name, value if name == self._over else v) for name, v in self._at.values)
+        )
+        key = (seed, tuple(v for _, v in level.values))
+        if key not in self._units:
+            index = next(i for i in itertools.count(seed * STRIDE) if i not in self._taken)
+            self._add(Unit(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
+        return self._units[key]
+
+    def _add(self, unit: Unit) -> None:
+        self._taken.add(unit.index)
+        self._units[unit.seed, tuple(v for _, v in unit.levels[0].values)] = unit
+
+    def _remember(self, index: int, head: Record | None) -> None:
+        """Know a run that is on disk by its seed and its level."""
+        self._taken.add(index)
+        match head:
+            case {"seed": int(seed), "levels": [[*values]]} if len(values) == len(self._at.values):
+                names = [name for name, _ in self._at.values]
+                level = Level(tuple(zip(names, values, strict=True)))
+                self._add(Unit(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
+
+
+class _Roster(Roster):
+    """Runs that a strategy wants next; each that is done leads to others, or to the end."""
+
+    def __init__(self, runs: Evaluations, strategy: Strategy, on_run: OnLevel) -> None:
+        super().__init__([], on_run)
+        self._runs, self._strategy = runs, strategy
+        self._tasks: list[Task[Any]] = []
+        self._results: dict[int, Any] = {}
+        self._awaited: dict[tuple[int, float], list[int]] = {}
+        self.found: Search | None = None
+        """What the strategy found in the end."""
+        self._begin(next(strategy))
+
+    def done(self, job: Job) -> None:
+        """Give the answer to whoever waits for it."""
+        super().done(job)
+        values = dict(job.unit.levels[0].values)
+        key = (job.unit.seed, values[self._runs._over])
+        answer = self._runs.look(*key)
+        assert answer is not None
+        for task in self._awaited.pop(key):
+            self._go_on(task, answer)
+        self._end_if_done()
+
+    def _begin(self, tasks: list[Task[Any]]) -> None:
+        self._tasks, self._results = tasks, {}
+        for i in range(len(tasks)):
+            self._go_on(i, None)
+        self._end_if_done()
+
+    def _go_on(self, i: int, answer: bool | None) -> None:
+        """Let a task go on until it has to wait for a run."""
+        task = self._tasks[i]
+        try:
+            while True:
+                # None begins a generator
+                level = task.questions.send(answer)  # type: ignore[arg-type]
+                answer = self._runs.look(task.seed, level)
+                if answer is None:
+                    self._await(i, (task.seed, level))
+                    return
+        except StopIteration as end:
+            self._results[i] = end.value
+
+    def _await(self, i: int, key: tuple[int, float]) -> None:
+        waiting = self._awaited.setdefault(key, [])
+        waiting.append(i)
+        if len(waiting) == 1 and self.failure is None:
+            self.add(Job(self._runs.bench, self._runs.unit(*key)))
+
+    def _end_if_done(self) -> None:
+        if self.found is None and len(self._results) == len(self._tasks):
+            try:
+                tasks = self._strategy.send([self._results[i] for i in range(len(self._tasks))])
+            except StopIteration as end:
+                self.found = end.value
+            else:
+                self._begin(tasks)

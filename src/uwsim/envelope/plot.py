@@ -1,0 +1,138 @@
+"""The plot of an envelope: every run, each seed's breaking point, and what was found."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+
+from ..analysis.plots import (
+    FAINT,
+    INK,
+    LEVEL_WORDS,
+    PALETTE,
+    save_plot,
+    styled_figure,
+    written_unit,
+)
+from .criterion import parse_criterion
+from .envelope import Envelope
+from .evaluate import Evaluation
+
+FILE = "envelope.png"
+HOLDS, BROKEN = PALETTE[0], PALETTE[1]
+SIZE = (5.4, 4.2)  # [inch]
+
+
+def draw(envelope: Envelope, directory: Path) -> Path:
+    """Draw ``envelope.png``."""
+    asked = envelope.asked
+    path = directory / FILE
+    with styled_figure() as figure:
+        figure.set_size_inches(*SIZE)
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+        _draw_measure(above, envelope)
+        _draw_seeds(below, envelope)
+        for axes in (above, below):
+            _draw_found(axes, envelope)
+        unit = "" if asked.unit == "1" else f" [{written_unit(asked.unit)}]"
+        below.set_xlabel(f"{LEVEL_WORDS.get(asked.over) or asked.over}{unit}")
+        span = abs(asked.where.stop - asked.where.start)
+        ends = sorted((asked.where.start, asked.where.stop))
+        below.set_xlim(ends[0] - 0.02 * span, ends[1] + 0.02 * span)
+        return save_plot(figure, path)
+
+
+def _draw_measure(axes: Axes, envelope: Envelope) -> None:
+    """Draw the criterion's first measure over the level; runs without a value stand at the top."""
+    rows = [e.row for e in envelope.evaluations]
+    names = list(rows[0]["measures"]) if rows else []
+    criterion = parse_criterion(envelope.asked.until, names)
+    name = (criterion.measures or ("total",))[0]
+    units = {m: unit for row in rows for m, (_, unit) in row["measures"].items()}
+    unit = units.get(name, "1")
+    for is_broken, colour, marker, word in (
+        (False, HOLDS, "o", "holds"),
+        (True, BROKEN, "X", "broken"),
+    ):
+        here = [e for e in envelope.evaluations if e.judgement.is_broken == is_broken]
+        known = [(e.level, v) for e in here if (v := _value(e, name)) is not None]
+        _dots(axes, [x for x, _ in known], [y for _, y in known], marker, colour, word)
+        lost = [e.level for e in here if _value(e, name) is None]
+        top = axes.get_xaxis_transform()
+        _dots(axes, lost, [0.95] * len(lost), "x", colour, f"{word}, no value", transform=top)
+    limit = _limit(envelope.asked.until, name, names)
+    if limit is not None:
+        axes.axhline(limit, color=FAINT, linewidth=0.8, linestyle=":")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.12 * (high - low))  # room for those without a value
+    axes.set_ylabel(name if unit == "1" else f"{name} [{written_unit(unit)}]")
+    axes.plot([], [], color=INK, linewidth=1.0, label=envelope.sentence)
+    axes.legend(loc="best")
+
+
+def _dots(
+    axes: Axes,
+    x: list[float],
+    y: list[float],
+    marker: str,
+    colour: str,
+    word: str,
+    **options: Any,
+) -> None:
+    if x:
+        label = f"{word} ({len(x)} run{'s' * (len(x) > 1)})"
+        axes.plot(
+            x, y, marker, color=colour, markersize=4, alpha=0.8,
+            markeredgewidth=0.9 if marker == "x" else 0, label=label, **options,
+        )  # fmt: skip
+
+
+def _draw_seeds(axes: Axes, envelope: Envelope) -> None:
+    """Draw each seed's runs on a line of its own, and its breaking point."""
+    lines = {seed: i for i, seed in enumerate(envelope.asked.seeds)}
+    for is_broken, colour, marker in ((False, HOLDS, "o"), (True, BROKEN, "X")):
+        here = [e for e in envelope.evaluations if e.judgement.is_broken == is_broken]
+        axes.plot(
+            [e.level for e in here], [lines[e.seed] for e in here], marker, color=colour,
+            markersize=2.6, alpha=0.7, markeredgewidth=0,
+        )  # fmt: skip
+    for one in envelope.found.thresholds:
+        if one.held is not None and one.broken is not None:
+            middle = (one.held + one.broken) / 2
+            axes.plot([middle], [lines[one.seed]], "|", color=INK, markersize=9)
+    axes.set_ylabel("seed")
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=6))
+    axes.yaxis.set_major_formatter(
+        lambda y, _: str(envelope.asked.seeds[int(y)]) if 0 <= y < len(lines) else ""
+    )
+    axes.set_ylim(-0.7, max(len(lines) - 0.3, 0.7))
+
+
+def _draw_found(axes: Axes, envelope: Envelope) -> None:
+    median, where = envelope.median, envelope.asked.where
+    ends = sorted((where.start, where.stop))
+    if median.low is not None and median.high is not None:
+        axes.axvspan(max(median.low, ends[0]), min(median.high, ends[1]), color="#e9e9e9", zorder=0)
+    if median.value is not None:
+        axes.axvline(median.value, color=INK, linewidth=1.0)
+    fold = envelope.found.fold
+    if fold is not None:
+        axes.axvline(fold.holds, color=BROKEN, linewidth=0.8, linestyle="--")
+
+
+def _value(evaluation: Evaluation, name: str) -> float | None:
+    row = evaluation.row
+    value = row["total"] if name == "total" else row["measures"][name][0]
+    return None if value is None or not math.isfinite(value) else float(value)
+
+
+def _limit(until: str, name: str, names: list[str]) -> float | None:
+    """The number in ``name > number``; None where the criterion is anything else."""
+    steps = parse_criterion(until, names).expression.steps
+    if len(steps) == 3 and steps[0].name == name and steps[1].constant is not None:
+        return steps[1].constant
+    return None

@@ -1,0 +1,125 @@
+"""Input files: the one place where what a scene, a benchmark or a model names is opened.
+
+Every byte that goes into a result comes through `read_bytes`, so that inside `recorded` nothing is
+read without its hash:
+
+.. code-block:: python
+
+    with recorded() as files:
+        simulation = Simulation(scene)
+    for file in files: print(file.name, file.sha256)
+"""
+
+from __future__ import annotations
+
+import hashlib
+import stat
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath, PureWindowsPath
+
+from ..errors import AssetError
+
+LARGEST = 512 * 2**20
+"""Files above this size [bytes] are refused, unless the reader knows a smaller limit."""
+PIECE = 1 << 20
+
+
+@dataclass(frozen=True, order=True)
+class InputFile:
+    """A file as it was when it was read."""
+
+    name: str
+    """What the file that names it calls it; never a folder of this machine."""
+    sha256: str
+    """``sha256:`` and the digest of its bytes, in hexadecimal."""
+    path: Path = field(default=Path(), compare=False)
+    """Where it is here and now."""
+
+
+_records: ContextVar[tuple[list[InputFile], ...]] = ContextVar("records", default=())
+
+
+@contextmanager
+def recorded() -> Iterator[list[InputFile]]:
+    """Give the list of the input files that are read inside, each once; may be nested."""
+    files: list[InputFile] = []
+    token = _records.set((*_records.get(), files))
+    try:
+        yield files
+    finally:
+        _records.reset(token)
+
+
+def record(files: Iterable[InputFile]) -> None:
+    """Say that these files were read: what is kept in memory tells anew what it is made of."""
+    for file in files:
+        for known in _records.get():
+            if file not in known:
+                known.append(file)
+
+
+def read_bytes(path: Path, *, name: str | Path = "", at_most: int = LARGEST) -> bytes:
+    """Read a whole input file, and record its hash.
+
+    Args:
+        path: The file.
+        name: What it is called by whatever names it; the name of the file unless it is said.
+        at_most: The largest size [bytes].
+
+    Raises:
+        OSError: It cannot be read.
+        AssetError: It is larger, or no regular file: a folder, a pipe, a device.
+    """
+    facts = path.stat()
+    if not stat.S_ISREG(facts.st_mode):
+        raise AssetError(f"{path}: is not a regular file.", name=str(name))
+    if facts.st_size > at_most:
+        raise AssetError(f"{path}: is larger than {at_most / 2**20:.3g} MiB.", name=str(name))
+    with path.open("rb") as stream:
+        data = stream.read(facts.st_size + 1)
+    if len(data) != facts.st_size:
+        raise AssetError(f"{path}: changed while it was read.", name=str(name))
+    digest = f"sha256:{hashlib.sha256(data).hexdigest()}"
+    record([InputFile(portable(name or path.name), digest, path)])
+    return data
+
+
+def is_inside(path: Path, folders: Iterable[Path]) -> bool:
+    """Whether a file lies under one of the folders, links followed."""
+    whole = path.resolve()
+    return any(whole.is_relative_to(folder.resolve()) for folder in folders)
+
+
+def hash_of(path: Path) -> str:
+    """Hash a file; or a folder, by the names and the bytes of its files."""
+    digest = hashlib.sha256()
+    for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
+        if path.is_dir():
+            digest.update(f"{file.relative_to(path).as_posix()}\0".encode())
+        if file.is_file():
+            with file.open("rb") as stream:
+                while piece := stream.read(PIECE):
+                    digest.update(piece)
+    return f"sha256:{digest.hexdigest()}"
+
+
+def portable(name: str | Path) -> str:
+    """Return a file's name as a result may say it: of an absolute path the last part alone."""
+    text = str(name).strip().replace("\\", "/")
+    is_local = text.startswith(("/", "~")) or bool(PureWindowsPath(text).drive)
+    return PurePosixPath(text).name if is_local else str(PurePosixPath(text))
+
+
+def by_name(files: Iterable[InputFile]) -> dict[str, str]:
+    """Return name -> hash, sorted; of several files of one name the second is ``NAME (2)``."""
+    found: dict[str, str] = {}
+    for file in sorted(set(files)):
+        name, n = file.name, 1
+        while name in found:
+            n += 1
+            name = f"{file.name} ({n})"
+        found[name] = file.sha256
+    return dict(sorted(found.items()))

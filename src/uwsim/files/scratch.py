@@ -1,0 +1,71 @@
+"""A temporary folder that is gone with its process, however that comes to its end.
+
+A process that is killed cannot clear up after itself. So another one, which does nothing else,
+makes the folder and reads from a pipe: when nobody holds the other end any more, it removes the
+folder.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import RunFailed
+
+OWNER = "UWSIM_SCRATCH"
+"""Environment variable with a folder's name: who has it is ended with the folder's process."""
+REMOVER = """
+import contextlib, os, shutil, sys, tempfile, time
+folder = tempfile.mkdtemp(prefix=sys.argv[1], dir=sys.argv[2] or None)
+mark = f"{sys.argv[3]}={folder}".encode()
+try:
+    print(folder, flush=True)
+    is_over = sys.stdin.read()
+except (OSError, KeyboardInterrupt):
+    is_over = ""
+for _ in range(1 if is_over else 30):  # what a killed process has started may still be starting
+    for process in [] if is_over else filter(str.isdigit, os.listdir("/proc")):
+        with contextlib.suppress(OSError), open(f"/proc/{process}/environ", "rb") as variables:
+            if mark in variables.read().split(b"\\0"):
+                os.kill(int(process), 9)
+    shutil.rmtree(folder, ignore_errors=True)
+    time.sleep(0 if is_over else 0.1)
+"""
+
+
+@contextmanager
+def scratch_folder(prefix: str, where: Path | None = None) -> Iterator[Path]:
+    """Lend an empty folder, and remove it with all that is in it.
+
+    Should this process be killed, those that have `OWNER` in their environment are killed, too.
+
+    Args:
+        prefix: how its name begins.
+        where: the folder that it is made in; without one, the system's for temporary files.
+
+    Raises:
+        RunFailed: it cannot be made.
+    """
+    command = [sys.executable, "-I", "-S", "-c", REMOVER, prefix, str(where or ""), OWNER]
+    with subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,  # what a terminal sends to the process is not for it
+    ) as remover:
+        assert remover.stdin is not None
+        assert remover.stdout is not None
+        assert remover.stderr is not None
+        folder = remover.stdout.readline().rstrip("\n")
+        if not folder:
+            why = remover.stderr.read().strip().splitlines()[-1:] or ["its process was killed"]
+            raise RunFailed(f"No temporary folder can be made: {why[0]}.")
+        try:
+            yield Path(folder)
+        finally:
+            remover.communicate("over")

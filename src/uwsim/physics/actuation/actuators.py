@@ -1,0 +1,121 @@
+"""Actuators: what the thrusters and joints of a simulated vehicle do now, and what they draw.
+
+Read from the engine's state after a step, not integrated: the thrust that the rotors, as they
+turn now, give in the water around them, and the effort of the servos in that step. Joints that
+mimic have a servo and so a motor of their own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from ...geometry import Array
+from ...scene.urdf import RobotSpec
+from ..compile import vehicle_joint, vehicle_thruster
+from ..hydrodynamics import VehicleHydrodynamics
+from ..hydrodynamics.columns import WATER_COLUMNS
+from .power import power_table
+
+if TYPE_CHECKING:
+    from ..hydrodynamics.hydrodynamics import Hydrodynamics
+
+
+class Actuators:
+    """The thrusters of a vehicle in the order of its side file, then its joints in the URDF's."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        water: Hydrodynamics,
+        vehicle: VehicleHydrodynamics,
+        robot: RobotSpec,
+        index: int,
+        refresh: Callable[[], None],
+    ) -> None:
+        """Find them in the model.
+
+        Args:
+            model: the engine's.
+            data: its state.
+            water: around the vehicle.
+            vehicle: what its side file says.
+            robot: its links and joints.
+            index: number of the vehicle.
+            refresh: brings the places in ``data`` up to date.
+        """
+        from . import power_law
+
+        self._law, self._refresh = power_law, refresh
+        moving = [joint for joint in robot.joints if joint.moves]
+        self.thrusters = tuple(spec.name for spec in vehicle.thrusters)
+        """Names of its thrusters."""
+        self.joints = tuple(joint.name for joint in moving)
+        """Names of its joints, those that mimic included."""
+        rotors = [model.actuator(vehicle_thruster(index, name)).id for name in self.thrusters]
+        sites = model.actuator_trnid[rotors, 0]
+        controls = model.actuator_ctrladr[rotors]
+        losses = WATER_COLUMNS * model.nbody + np.array(rotors, dtype=np.int64)
+        addresses = [model.actuator_actadr[rotors], controls, sites, model.site_bodyid[sites]]
+        radii = [spec.radius for spec in vehicle.thrusters]
+        ends = model.actuator_ctrlrange[controls].T
+        terms = max((power_table(one, 1.0).shape[1] - 1 for one in vehicle.thrusters), default=0)
+        self._tables = np.array(
+            [power_table(one, water.density, terms) for one in vehicle.thrusters]
+        ).reshape(-1, 2, 1 + terms)
+        names = [vehicle_joint(index, name) for name in self.joints]
+        joints = [model.joint(name).id for name in names]
+        servos = [model.actuator(f"{name}/servo").id for name in names]
+        places = [model.jnt_qposadr[joints], model.jnt_dofadr[joints]]
+        is_limited = model.actuator_forcelimited[servos].astype(bool)
+        strongest = np.where(is_limited, model.actuator_forcerange[servos, 1], math.inf)
+        drives = [vehicle.drive(joint.name) for joint in moving]
+        efficiencies = [one.efficiency for one in drives]
+        losses_of_copper = [one.copper_loss for one in drives]
+        # What the laws take. Views into the engine's memory: servos are switched off and on there.
+        self._rotors = (
+            _columns([*addresses, losses, rotors], np.int64),
+            _columns([*ends, radii], np.float64),
+            model.actuator_user,
+            water.surface,
+            data.ctrl,
+            data.act,
+            data.userdata,
+            data.site_xpos,
+        )
+        self._motors = (
+            float(model.opt.timestep),
+            _columns([*places, model.actuator_ctrladr[servos], servos], np.int64),
+            _columns([strongest, efficiencies, losses_of_copper], np.float64),
+            model.actuator_gainprm,
+            model.actuator_biasprm,
+            data.ctrl,
+            data.qpos,
+            data.qvel,
+            data.qfrc_applied,
+        )
+
+    def thrusts(self) -> Array:
+        """Along their directions, as the water has it, (n,) [N]."""
+        self._refresh()
+        return self._law.thrusts(*self._rotors)
+
+    def efforts(self) -> Array:
+        """Of the joints' servos, or what was commanded where those are off, (m,) [N m or N]."""
+        return self._law.efforts(*self._motors)
+
+    def powers(self) -> Array:
+        """What the thrusters draw now, then the joints, (n + m,) [W]."""
+        self._refresh()
+        return self._law.powers(self._tables, self._rotors, self._motors)
+
+
+def _columns(columns: list[Any], dtype: type) -> npt.NDArray[Any]:
+    """The columns side by side, (n, k); n may be 0."""
+    return np.array([np.asarray(column) for column in columns], dtype=dtype).T.copy()

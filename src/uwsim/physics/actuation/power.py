@@ -1,0 +1,92 @@
+r"""Power: what the thrusters and joints of a vehicle draw from its battery.
+
+*Thruster.* A propeller that does not advance must give the water of its disc the power of momentum
+theory (Rankine and Froude; Carlton, *Marine Propellers and Propulsion*, ch. 8):
+
+.. math:: P = \frac{|T|^{3/2}}{\eta \sqrt{2 \rho A}}, \qquad A = \pi r^2
+
+where :math:`\eta` is the *efficiency* from the battery to that ideal: motor and its electronics
+times the propeller's figure of merit. A duct may lift the figure of merit up to
+:math:`\sqrt 2`. Instead of the law a file may give measured power as a polynomial of the thrust,
+
+.. math:: P = c_1 |T| + c_2 |T|^2 + \dots
+
+T is the thrust given: a dead thruster draws nothing, one that lost half of its thrust what a
+healthy one draws for that half.
+
+*Joint.* A motor with a gear pays for the work it does and for the current that makes its torque
+(Spong, Hutchinson and Vidyasagar, *Robot Modeling and Control*, ch. 6: copper loss
+:math:`R i^2`, with :math:`i` in proportion to the torque):
+
+.. math:: P = \frac{\max(0, \tau \omega)}{\eta} + k \tau^2
+
+What the load gives back is lost: there is no regeneration.
+
+Not modelled: inflow (a thruster that advances draws otherwise), idling current, the voltage of the
+battery and its own losses, friction of gears at rest.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...geometry import Array
+from ..hydrodynamics.spec import Numbers, ThrusterSpec
+
+
+def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array:
+    """Return what `power_law.thruster_power` computes with, (2, 1 + n).
+
+    Args:
+        thruster: what the file says of it.
+        density: of the water [kg/m3].
+        terms: the polynomials have room for so many at least.
+    """
+    forward, backward = thruster.power, thruster.power_backward or thruster.power
+    terms = max(terms, len(forward or ()), len(backward or ()))
+    table = np.zeros((2, 1 + terms))
+    disc = math.pi * thruster.radius**2
+    for row, curve in enumerate((forward, backward)):
+        if curve is None:
+            table[row, 0] = 1.0 / (thruster.efficiency * math.sqrt(2.0 * density * disc))
+        else:
+            table[row, 1 : 1 + len(curve)] = curve
+    return table
+
+
+def power_faults(thruster: ThrusterSpec) -> list[str]:
+    """Say where the power that a file gives would be below 0."""
+    faults = []
+    for name, curve, forward in (
+        ("power", thruster.power, True),
+        ("powerBackward", thruster.power_backward, False),
+    ):
+        if curve is None:
+            continue
+        thrusts = np.linspace(0.0, _greatest(thruster, forward=forward), 201)
+        powers = _polynomial(curve, thrusts)
+        worst = int(np.argmin(powers))
+        if powers[worst] < -1e-9:
+            faults.append(
+                f"thruster {thruster.name!r}: {name} is {powers[worst]:.3g} W at "
+                f"{thrusts[worst]:.3g} N; expected none below 0"
+            )
+    return faults
+
+
+def _greatest(thruster: ThrusterSpec, *, forward: bool) -> float:
+    """The greatest thrust in a direction [N]."""
+    backward = thruster.forward if thruster.backward is None else thruster.backward
+    end = thruster.limits[1] if forward else -thruster.limits[0]
+    commands = np.maximum(np.linspace(0.0, end, 201) - thruster.dead_zone, 0.0)
+    most = float(_polynomial(thruster.forward if forward else backward, commands).max())
+    if thruster.saturation is not None:
+        most = min(most, thruster.saturation[1] if forward else -thruster.saturation[0])
+    return max(most, 0.0)
+
+
+def _polynomial(coefficients: Numbers, x: Array) -> Array:
+    """``c1 x + c2 x^2 + ...``."""
+    return np.asarray(np.polynomial.polynomial.polyval(x, (0.0, *coefficients)), dtype=np.float64)

@@ -1,0 +1,265 @@
+"""``docs/*dialect.md`` and ``docs/grammar/*.rng``: the dialects, as the specs have them.
+
+All are made from the same table that reads the files (`uwsim.schema.slots`), so that none can
+say what the reader does not do.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+from ..cli.list import clark
+from ..schema import Slot, slots
+from ..schema.names import local
+from .relax_ng import benchmark_grammar, scene_grammar
+
+HEAD = """\
+# The dialect
+
+What may stand in a scene file, made from the specs that read it by `scripts/docs`. Elements may
+stand in any order; what equals its default may be left out. Numbers may be `M_PI`, `M_PI_2`,
+`M_PI_4` and their negatives. Flags are 0 or 1. `u:` is the namespace `urn:uwsim:1`: a file that
+uses it carries no DOCTYPE, and what stands in it must say something: an empty element of `u:` that
+holds a value is a fault, where one of the original's is as good as none. [Old names](#old-names)
+that older UWSim files use are read, too, with a notice; `uwsim check FILE.xml` names them.
+What is marked as *read, not simulated yet* may stand in a file and does nothing.
+
+The grammar for editors is [uwsim-scene.rng](grammar/uwsim-scene.rng) (RELAX NG). It knows today's
+names only.
+"""
+
+BENCHMARK_HEAD = """\
+# The dialect of benchmarks
+
+What may stand in a benchmark file, made from the specs that read it by `scripts/docs`. Elements may
+stand in any order; what equals its default may be left out. Numbers may be `M_PI`, `M_PI_2`,
+`M_PI_4` and their negatives. `u:` is the namespace `urn:uwsim:1`: a file that uses it carries no
+DOCTYPE. What it all means: [measures](measures.md), [levels](levels.md). `uwsim check FILE.xml`
+holds a file against it, `--strict` also against the original's order. In a file with the original's
+DOCTYPE what stands behind a number (`2 s`) is passed over with a notice; a decimal comma is a
+fault.
+
+The grammar for editors is [uwsim-benchmark.rng](grammar/uwsim-benchmark.rng) (RELAX NG). It knows
+today's names only, and neither the limits of numbers nor the parts of a plugin.
+"""
+
+
+def page() -> str:
+    """Return ``docs/dialect.md``."""
+    from ..scene.not_yet import limit_of
+    from ..scene.reader import ROOT
+    from ..scene.spec import SceneSpec
+
+    parts = [HEAD]
+    done: set[type] = set()
+    for parent, name, cls in _specs("", ROOT, SceneSpec):
+        if cls not in done:
+            done.add(cls)
+            limit = limit_of(parent, clark(name))
+            parts.append(_section(name, cls, limit=limit, homes=_scene_homes()))
+    return "\n".join([*parts, _doubts(), _old_names()])
+
+
+def _doubts() -> str:
+    """What `uwsim check` asks about."""
+    from ..scene.doubts import DOUBTS
+
+    lines = [
+        "## Doubts", "",
+        "What `uwsim check` asks about, and `uwsim bench` and `uwsim render` before they begin, "
+        "though it may be meant. A vehicle with `<u:accept>NAME</u:accept>` is not asked about it "
+        "again, nor an object with `<u:accept>start</u:accept>`. All but `passable`, `size` and "
+        "`start` is asked about simulated vehicles only.", "",
+        "| name | asked about when |", "|---|---|",
+    ]  # fmt: skip
+    return "\n".join([*lines, *(f"| `{name}` | {when} |" for name, when in DOUBTS.items()), ""])
+
+
+def _old_names() -> str:
+    """What files of 2011 to 2019 may say besides."""
+    from ..scene.legacy import ANYWHERE, RULES
+
+    by_parent: dict[str, list[str]] = {}
+    for parent, element in RULES:
+        by_parent.setdefault(parent, []).append(element)
+    lines = [
+        "## Old names", "",
+        "Elements that UWSim or its forks once had. They are read as what they are called today, "
+        "or passed over; `uwsim check` says which.", "",
+        "| in | old elements |", "|---|---|",
+    ]  # fmt: skip
+    for parent, elements in [*sorted(by_parent.items()), ("anything", list(ANYWHERE))]:
+        where = parent if parent == "anything" else f"`{parent}`"
+        lines.append(f"| {where} | " + ", ".join(f"`{each}`" for each in sorted(elements)) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def benchmark_page() -> str:
+    """Return ``docs/benchmark-dialect.md``."""
+    from ..benchmark.ground_truth import GROUND_TRUTHS
+    from ..benchmark.measures import MEASURES
+    from ..benchmark.spec import BenchmarkSpec, FunctionSpec
+    from ..benchmark.triggers import TRIGGERS
+    from ..benchmark.updaters import UPDATERS
+
+    families: tuple[tuple[str, str, Mapping[str, type]], ...] = (
+        ("Measures", "<{}>", MEASURES),
+        ("Ground truths", '<groundTruth type="{}">', GROUND_TRUTHS),
+        ("Triggers", "<type> {} </type>", TRIGGERS),
+        ("Scene updaters", "<{}>", UPDATERS),
+    )
+    homes = {cls: f"dialect.md{home}" for cls, home in _scene_homes().items()}
+    parts = [BENCHMARK_HEAD, _section("benchmark", BenchmarkSpec, homes=homes)]
+    parts.append(_section("function", FunctionSpec))
+    for title, form, table in families:
+        parts.append(f"## {title}\n")
+        for name, cls in table.items():
+            parts.append(_section(name, cls, title=form.format(name)))
+            parts += [
+                _section(slot.shown, slot.type, title=f"<{slot.shown}>")
+                for slot in slots(cls)
+                if slot.kind == "spec"
+            ]
+    return "\n".join(parts)
+
+
+def _scene_homes() -> dict[type, str]:
+    """Where the section of each spec of a scene is: that of the first name it has in files."""
+    from ..scene.reader import ROOT
+    from ..scene.spec import SceneSpec
+
+    homes: dict[type, str] = {}
+    for _, name, cls in _specs("", ROOT, SceneSpec):
+        homes.setdefault(cls, f"#{_anchor(name)}")
+    return homes
+
+
+def _specs(parent: str, name: str, cls: type) -> Iterator[tuple[str, str, type]]:
+    """Every spec below a spec with its parent and name, itself first, in the order of the files."""
+    yield parent, name, cls
+    for slot in slots(cls):
+        if slot.kind == "spec":
+            yield from _specs(name, slot.shown, slot.type)
+        elif slot.kind == "choice":
+            for child, spec in slot.type.items():
+                yield from _specs(slot.shown, local(child), spec)
+
+
+def _section(
+    name: str,
+    cls: type,
+    *,
+    title: str | None = None,
+    limit: str = "",
+    homes: Mapping[type, str] = MappingProxyType({}),
+) -> str:
+    """One element: what it is, how it looks, what stands in it.
+
+    Args:
+        name: of the element.
+        cls: its spec.
+        title: of a member of a family, whose file is about it alone.
+        limit: how far it is simulated; empty: wholly.
+        homes: where the sections of specs are; of others under their own name on this page.
+    """
+    from ..scene.not_yet import limit_of
+
+    doc = (inspect.getdoc(cls) or "").strip()
+    module = sys.modules[cls.__module__].__doc__ or ""
+    lines = [f"## `<{name}>`" if title is None else f"### `{title}`", "", _markdown(doc), ""]
+    if limit:
+        lines += [f"*{_markdown(limit)[0].upper()}{_markdown(limit)[1:]}.*", ""]
+    block = re.search(r"\.\. code-block:: xml\n\n((?:    .*\n|\n)+)", module)
+    begins = rf"<{re.escape(name)}[ >/]|<(start|stop)On>.*<type>{name}<"
+    if block and re.search(begins, " ".join(block[1].split("\n")[: 1 if title is None else 2])):
+        lines += ["```xml", inspect.cleandoc(block[1]).rstrip(), "```", ""]
+    if not slots(cls):
+        return "\n".join(lines)
+    lines += ["| element | what stands there | default | meaning |", "|---|---|---|---|"]
+    for slot in slots(cls):
+        mark = " (attribute)" if slot.xml.attribute else ""
+        part = "" if title is not None else limit_of(name, clark(slot.shown))
+        meaning = _markdown(slot.doc) + (f" *({part})*" if part else "")
+        cells = (f"`{slot.shown}`{mark}", _kind(slot, homes), _default(slot), meaning)
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def _kind(slot: Slot, homes: Mapping[type, str]) -> str:
+    what = slot.expected
+    if slot.kind == "spec":
+        what = f"[`<{slot.shown}>`]({homes.get(slot.type, f'#{_anchor(slot.shown)}')})"
+    elif slot.kind == "choice":
+        names = {local(child): cls for child, cls in slot.type.items()}
+        what = "any of " + ", ".join(
+            f"[`{name}`]({homes.get(cls, f'#{_anchor(name)}')})" for name, cls in names.items()
+        )
+    elif slot.kind == "triple":
+        unit = f" [{slot.unit}]" if slot.unit else ""
+        what = " ".join(f"`<{part}>`" for part in slot.xml.parts) + unit
+        if slot.xml.words:
+            what += ", or one of " + ", ".join(f"`{word}`" for word in slot.xml.words)
+    elif slot.kind == "hand":
+        what = _family(slot)
+    elif slot.xml.item:
+        each = "a number" if slot.kind == "list" else what
+        what = f"`<{slot.xml.item}>`, any number: {each}"
+    return f"{what}, any number" if slot.repeated and slot.kind in ("spec", "list") else what
+
+
+def _family(slot: Slot) -> str:
+    """Where the members of a benchmark's family stand."""
+    kind = slot.type.__name__.removesuffix("Spec")
+    title = {"SceneUpdater": "Scene updaters", "GroundTruth": "Ground truths"}.get(kind, f"{kind}s")
+    which = "any of" if slot.repeated else "one of"
+    return f"{which} the [{title.lower()}](#{title.lower().replace(' ', '-')})"
+
+
+def _anchor(name: str) -> str:
+    """Where a link to an element leads."""
+    return name.lower().replace(":", "")
+
+
+def _default(slot: Slot) -> str:
+    default = slot.default
+    if default is dataclasses.MISSING:
+        return "must be there"
+    if default is None or default in ((), "") or slot.kind == "spec":
+        return "-"
+    if isinstance(default, bool):
+        return str(default).lower() if slot.xml.attribute else str(int(default))
+    if isinstance(default, tuple):
+        return " ".join(f"{value:g}" for value in default)
+    return f"{default:g}" if isinstance(default, float) else str(default)
+
+
+def _markdown(text: str) -> str:
+    return " ".join(text.replace("``", "`").split())
+
+
+def pages() -> Mapping[str, str]:
+    """Return what is generated: file below ``docs`` -> text."""
+    return {
+        "dialect.md": page(),
+        "benchmark-dialect.md": benchmark_page(),
+        "grammar/uwsim-benchmark.rng": benchmark_grammar(),
+        "grammar/uwsim-scene.rng": scene_grammar(),
+    }
+
+
+def main() -> None:
+    """Write the generated files below the folder given."""
+    folder = Path(sys.argv[1])
+    for name, text in pages().items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+
+
+if __name__ == "__main__":
+    main()

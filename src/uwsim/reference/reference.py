@@ -1,0 +1,50 @@
+"""``docs/command-line.md``: the help of every command, as the program itself prints it."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import unittest.mock
+
+from ..cli.app import COMMANDS, main
+
+HEAD = """\
+# The command line
+
+This page is what `uwsim --help` and `uwsim COMMAND --help` print; `scripts/docs` writes it.
+
+Exit status: 0 done; 2 wrong input, with one line on stderr for each fault; 3 the run failed,
+partial results kept; 130 interrupted, what was finished kept.
+
+`uwsim --install-completion` once, and Tab completes commands, options, and the names of scenes,
+benchmarks and algorithms; `python -m uwsim` is the same command. With `--json`, `list`, `info`,
+`check` and `compare` print for programs.
+
+A file is looked for as given; beside the file that names it and in each of its parent folders; in
+every `--data-path`; in `~/.uwsim/data` and `~/.uwsim`; in the package; each also under `data`,
+`data/scenes`, `objects`, `terrain`, `robot` and `textures`. Bundled scenes and benchmarks are
+called by their bare name.
+
+A PATH in `--set PATH=VALUE` is element names joined by dots; `[name]` chooses among equals:
+`vehicle[girona500].virtualCamera[bowtech1].std=0.016`.
+"""
+
+
+def page() -> str:
+    """Return the page as Markdown."""
+    parts = [HEAD, section("uwsim", "--help")]
+    parts += [section(f"uwsim {name}", name, "--help") for name in COMMANDS]
+    return "\n".join(parts)
+
+
+def section(title: str, *arguments: str) -> str:
+    """Return one section: the title and what ``uwsim ARGUMENTS`` prints."""
+    printed = io.StringIO()
+    with unittest.mock.patch.dict(os.environ, COLUMNS="80"), contextlib.redirect_stdout(printed):
+        main(arguments)
+    return f"## {title}\n\n```text\n{printed.getvalue().strip()}\n```\n"
+
+
+if __name__ == "__main__":
+    print(page(), end="")

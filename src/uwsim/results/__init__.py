@@ -1,0 +1,1 @@
+"""Results as they are kept on disk; read and written without MuJoCo."""

@@ -1,0 +1,101 @@
+"""What lies in a directory that holds no result, and how to go on with it.
+
+A run that was killed leaves the rows it had finished, how it was begun (`save_beginning`), and no
+``result.json``. Where a program has played, and no command is known, it is put together from what
+the first line of a unit's file says of the run.
+"""
+
+from __future__ import annotations
+
+import shlex
+from importlib import resources
+from pathlib import Path
+
+from .directory import CONTROL
+from .journal import FOLDER, Record, head_of
+from .provenance import load_provenance
+
+ENVELOPE = "envelope.json"
+"""What `uwsim envelope` writes in its own directory."""
+RESULT = "result.json"
+
+
+def instead_of_a_result(path: Path) -> str:
+    """Say what a path is that was taken for a result, as a sentence without its full stop."""
+    if not path.exists():
+        return "no result here (there is no such file or directory)"
+    if (path / ENVELOPE).exists():
+        return "no result here but an envelope: its runs stand in envelope.json"
+    names = sorted(file.parent.name for file in path.glob(f"*/{RESULT}"))
+    command = resuming(path)
+    if names and not (command and names == [CONTROL]):  # the control may be over long before
+        said = f"holds {len(names)} results ({', '.join(names)}); name one, as {path / names[0]}"
+        return said if len(names) > 1 else f"no result here, but in {path / names[0]}"
+    if command:
+        what = "yet: its run"
+        if command.startswith("uwsim envelope "):
+            what = "but the runs of an envelope: its search"
+        return f"no result here {what} was interrupted. Go on with: {command}"
+    return "no result here (no result.json)"
+
+
+def resuming(directory: Path) -> str | None:
+    """Return the command that goes on with an interrupted run; None where there is none."""
+    alone = _head(directory)
+    heads = {"": alone} if alone is not None else _heads_below(directory)
+    if not heads:
+        return None
+    typed = load_provenance(directory / next(iter(heads))).get("command")
+    if isinstance(typed, list) and typed:
+        words = [str(word) for word in typed if word not in ("--overwrite", "--resume")]
+        return shlex.join(["uwsim", *words, "--resume"])
+    first = next(iter(heads.values()))
+    run, inputs = _mapping(first.get("run")), _mapping(first.get("inputs"))
+    words = ["uwsim", "bench", _benchmark(inputs)]
+    for head in heads.values():
+        words += ["--algorithm", str(_mapping(head.get("run")).get("algorithm"))]
+    words += ["--seed", str(run.get("seed", 0))]
+    if run.get("repeats", 1) != 1:
+        words += ["--repeat", str(run["repeats"])]
+    words += ["--mode", str(run.get("mode"))]
+    for option, key in (("--set", "settings"), ("--level", "levels")):
+        for pair in _pairs(run.get(key)):
+            words += [option, "=".join(pair)]
+    if isinstance(names := run.get("compatibility"), list) and names:
+        words += ["--compat", ",".join(map(str, names))]
+    for name, _ in _pairs(inputs.get("plugins")):
+        words += ["--plugin", name]
+    return shlex.join([*words, "--out", str(directory), "--resume"])
+
+
+def _heads_below(directory: Path) -> dict[str, Record]:
+    """The heads of the algorithms that were played together."""
+    below = sorted(folder.parent.name for folder in directory.glob(f"*/{FOLDER}"))
+    heads = {name: _head(directory / name) for name in below if name != CONTROL}
+    return {name: head for name, head in heads.items() if head is not None}
+
+
+def _head(directory: Path) -> Record | None:
+    """What the first unit that can be read says of its run."""
+    for file in sorted((directory / FOLDER).glob("*.jsonl")):
+        head = head_of(file)
+        if isinstance(head.get("run"), dict):
+            return head
+    return None
+
+
+def _benchmark(inputs: Record) -> str:
+    """The benchmark's file; by its bare name where it is bundled."""
+    given = inputs.get("benchmark")
+    name = str(given[0]) if isinstance(given, list) and given else "BENCHMARK"
+    folder = Path(str(resources.files("uwsim"))) / "data" / "benchmarks"
+    return Path(name).stem if (folder / name).is_file() else name
+
+
+def _mapping(value: object) -> Record:
+    return value if isinstance(value, dict) else {}
+
+
+def _pairs(value: object) -> list[tuple[str, str]]:
+    pairs = value if isinstance(value, list) else []
+    return [(str(p[0]), str(p[1])) for p in pairs if isinstance(p, list) and len(p) == 2]

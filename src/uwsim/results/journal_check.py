@@ -1,0 +1,159 @@
+"""Rows held against the journals of their units, before a report or a comparison believes them.
+
+``result.json`` is put together from what each unit has stored (`unit_file`). Where its journals
+lie beside it, every row has to say what they say. A result without them can be read, but is not
+checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import ResultError
+from ..verify.differences import leaves
+from .journal import FOLDER, Record, read_any
+from .result import Cell, Column, Result
+
+Key = tuple[Cell, ...]
+"""The seed of a row, then its levels."""
+SHOWN = 3
+"""So many contradictions are said in full."""
+
+
+@dataclass(frozen=True)
+class Journals:
+    """What is stored of all units of a result."""
+
+    rows: dict[Key, Record]
+    """What is stored of each level; ``ended_at`` as the result counts it."""
+    ended: tuple[Key, ...]
+    """Those of finished units."""
+    n_ended: int
+    """How many units are finished."""
+
+
+def check_rows(result: Result, directory: Path) -> str | None:
+    """Hold every row of a result against the journal of its unit.
+
+    Args:
+        result: as it was read.
+        directory: where it was read.
+
+    Returns:
+        What was not checked, and why; None where every row agrees with its journal.
+
+    Raises:
+        ResultError: a row says other than its journal.
+    """
+    if not (directory / FOLDER).is_dir():
+        return f"rows are not checked: there is no {FOLDER}/ beside them" if result.rows else None
+    said, without = _compare(result, read_journals(directory))
+    if said:
+        more = f"; and {len(said) - SHOWN} more" if len(said) > SHOWN else ""
+        raise ResultError(
+            f"{directory / 'result.json'}: not what its units have stored: "
+            f"{'; '.join(said[:SHOWN])}{more}. uwsim verify says what else differs; "
+            "uwsim bench --resume writes it anew."
+        )
+    if without:
+        n = len(result.rows)
+        return f"{without} of {n} rows are not checked: their units are not in {FOLDER}/"
+    return None
+
+
+def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
+    """Return what contradicts the journals, and how many rows they do not have."""
+    told = _n_ended(result)
+    keys = tuple(_keys(result))
+    said, without = [], 0
+    for row, key in enumerate(keys):
+        record = journals.rows.get(key)
+        if record is not None:
+            counts_time = len(journals.rows) == len(result.rows)
+            said += [f"row {row}, {what}" for what in _apart(result, row, record, counts_time)]
+        elif journals.n_ended >= told:
+            said.append(f"row {row}: {FOLDER}/ has no such level")
+        else:
+            without += 1
+    if journals.n_ended == told:
+        there = set(keys)
+        for seed, *level in (key for key in journals.ended if key not in there):
+            said.append(f"it has no row of seed {seed}, level {', '.join(map(str, level))}")
+    return said, without
+
+
+def read_journals(directory: Path) -> Journals:
+    """Read what is stored of all units, in their order."""
+    rows: dict[Key, Record] = {}
+    ended: list[Key] = []
+    elapsed: dict[Cell, float] = {}
+    n_ended = 0
+    for path in sorted((directory / FOLDER).glob("*.jsonl"), key=lambda p: (len(p.name), p.name)):
+        head, stored = read_any(path)
+        n_ended += stored.end is not None
+        seed = None if head is None else head.get("seed")
+        for record in stored.rows:
+            elapsed[seed] = elapsed.get(seed, 0.0) + record["duration"]
+            key = (seed, *record["values"])
+            rows[key] = {**record, "ended_at": elapsed[seed]}
+            if stored.end is not None:
+                ended.append(key)
+    return Journals(rows, tuple(ended), n_ended)
+
+
+def _n_ended(result: Result) -> int:
+    """How many units a result says are finished."""
+    match result.run.get("units"):
+        case (int(ended), _):
+            return ended
+    return 0
+
+
+def _keys(result: Result) -> Iterator[Key]:
+    names = [column.name for column in result.columns]
+    levels = [i for i, column in enumerate(result.columns) if column.kind == "level"]
+    for row in result.rows:
+        seed = row[names.index("seed")] if "seed" in names else result.run.get("seed")
+        yield (seed if isinstance(seed, int) else None, *(row[i] for i in levels))
+
+
+def _apart(result: Result, row: int, record: Record, counts_time: bool) -> Iterator[str]:
+    """Say which cells of a row, and which reasons, are not those of its record."""
+    for column, cell in zip(result.columns, result.rows[row], strict=True):
+        if column.kind in ("run", "level") or (column.kind == "time" and not counts_time):
+            continue
+        stored = _stored(record, column)
+        if leaves(cell) != leaves(stored):
+            yield f"column {column.name}: {cell!r} there, {stored!r} by {FOLDER}/"
+        unit = _unit(record, column)
+        if unit is not None and unit != (column.unit or "1"):
+            yield f"column {column.name}: in {column.unit or '1'} there, in {unit} by {FOLDER}/"
+    names = [column.name for column in result.columns]
+    for name in (*record["measures"], *record["details"], "total"):
+        if name not in names:
+            yield f"there is no column {name}"
+    reasons = {note.column: note.why for note in result.missing if note.row == row}
+    for name in dict.fromkeys([*reasons, *record["missing"]]):
+        before, after = reasons.get(name), record["missing"].get(name)
+        if before != after:
+            yield f"why {name} is missing: {before!r} there, {after!r} by {FOLDER}/"
+
+
+def _stored(record: Record, column: Column) -> object:
+    match column.kind:
+        case "measure" | "detail":
+            value, _ = record[f"{column.kind}s"].get(column.name, (None, ""))
+            return value
+        case "score" | "status":
+            return record["total" if column.kind == "score" else "status"]
+    return record["ended_at"]
+
+
+def _unit(record: Record, column: Column) -> str | None:
+    """The unit of a value that is there; of none it need not be known."""
+    if column.kind not in ("measure", "detail"):
+        return None
+    value, unit = record[f"{column.kind}s"].get(column.name, (None, None))
+    return None if value is None else str(unit)

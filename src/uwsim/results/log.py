@@ -1,0 +1,99 @@
+"""Logs: what a measure was while it was on, one CSV file a measure.
+
+.. code-block:: text
+
+    fog [1/m],time [s],total [px],nw_x [px],nw_y [px]
+    0.0,0.1,1.83,0.2,-0.1
+    0.0,0.2,,,
+
+Numbers are written with as many digits as they need to be read back exactly; an empty field had
+nothing to measure. A log is a pure function of inputs, seed and versions, as a result is.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import ResultError
+from ..files.file_names import file_name
+from .atomic_file import write_whole
+from .result import MOST
+
+Sample = tuple[float | int | None, ...]
+
+TIME = "time [s]"
+"""The column between the levels and the values."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Log:
+    """The samples of one measure, through all levels."""
+
+    measure: str
+    """Name of the measure."""
+    header: tuple[str, ...]
+    """What stands in a sample, with units: levels, ``time [s]``, value, components."""
+    samples: tuple[Sample, ...] = ()
+    """In the order taken; time is that since the benchmark began."""
+
+
+def save_log(log: Log, directory: Path, file: str = "") -> Path:
+    """Write ``measure-<file>.csv``, whole or not at all; the file is called after the measure."""
+    path = directory / f"measure-{file or file_name(log.measure)}.csv"
+    write_whole(path, log_text(log))
+    return path
+
+
+def log_text(log: Log) -> str:
+    """Return the text of a log; raises ResultError when a sample does not fit the header."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(log.header)
+    for i, sample in enumerate(log.samples):
+        if len(sample) != len(log.header):
+            raise ResultError(
+                f"log of {log.measure}: sample {i} has {len(sample)} values, "
+                f"the header {len(log.header)}."
+            )
+        writer.writerow(["" if v is None else repr(v) for v in _plain(sample)])
+    return stream.getvalue()
+
+
+def load_log(path: Path | str) -> Log:
+    """Read a log back; raises ResultError when it is no log."""
+    path = Path(path)
+    try:
+        with path.open(encoding="utf-8", newline="") as stream:
+            header, *rows = csv.reader(stream, strict=True)
+        samples = tuple(tuple(_value(cell) for cell in row) for row in rows)
+    except (OSError, ValueError, csv.Error) as error:
+        raise ResultError(f"{path}: cannot be read as a log: {error}.") from None
+    if any(len(sample) != len(header) for sample in samples):
+        raise ResultError(f"{path}: a line has not as many fields as the header.")
+    for line, sample in enumerate(samples, start=2):
+        if any(value is not None and not abs(value) <= MOST for value in sample):
+            raise ResultError(f"{path}:{line}: expected numbers up to {MOST:g}.")
+    name = re.sub(r"^measure-", "", path.stem)
+    return Log(measure=name, header=tuple(header), samples=samples)
+
+
+def logs_of(directory: Path) -> tuple[Path, ...]:
+    """Return the logs in a result directory, by name."""
+    return tuple(sorted(directory.glob("measure-*.csv")))
+
+
+def _plain(sample: Sample) -> Iterable[float | int | None]:
+    """Numpy's scalars as Python's, whose ``repr`` is the number alone."""
+    for value in sample:
+        yield value if value is None or isinstance(value, int) else float(value)
+
+
+def _value(cell: str) -> float | int | None:
+    if cell == "":
+        return None
+    return int(cell) if re.fullmatch(r"-?\d+", cell) else float(cell)

@@ -1,0 +1,95 @@
+"""Provenance: where, when and how fast a result came about.
+
+``provenance.json`` holds what differs between two runs that found the same: host, CPU, load, dates,
+wall time, workers, resumes, the achieved real-time factor, versions of the packages, what code
+libraries chose for the processor. Nothing here is ever part of a score.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from ..errors import ResultError
+from .atomic_file import write_whole
+from .chosen_code import chosen_code, other_code
+from .stored_shapes import PROVENANCE
+
+BEFORE = "code_before"
+"""What libraries had chosen on other machines, on which the run was begun."""
+
+
+def save_provenance(provenance: Mapping[str, object], directory: Path) -> Path:
+    """Write ``provenance.json`` into the result directory."""
+    path = directory / "provenance.json"
+    write_whole(path, json.dumps(provenance, indent=2, ensure_ascii=False) + "\n")
+    return path
+
+
+def save_beginning(command: Sequence[str], directory: Path) -> str:
+    """Write how a run was begun, unless it goes on with another: so an interrupted one can go on.
+
+    Args:
+        command: what was typed behind ``uwsim``.
+        directory: of the result, or of the envelope.
+
+    Returns:
+        What libraries had chosen for the processor when it was begun, and have not now; nothing
+        where that is the same. Both are recorded.
+    """
+    before = load_provenance(directory)
+    if not before:
+        save_provenance({"command": list(command), **machine()}, directory)
+        return ""
+    said = other_code(before.get("code"))
+    if said:
+        codes = {BEFORE: [*codes_of(before)[1:], before["code"]]}
+        save_provenance({**before, **machine(), **codes}, directory)
+    return said
+
+
+def codes_of(provenance: Mapping[str, object]) -> list[object]:
+    """Return what libraries had chosen: last, and before that wherever else the run was played."""
+    before = provenance.get(BEFORE)
+    return [provenance.get("code"), *(before if isinstance(before, list) else [])]
+
+
+def carried(directory: Path) -> dict[str, object]:
+    """Return what the provenance of a run keeps when it is over."""
+    return {name: value for name, value in load_provenance(directory).items() if name == BEFORE}
+
+
+def machine() -> dict[str, object]:
+    """Say what this process runs on."""
+    return {
+        "host": platform.node(),
+        "system": platform.platform(),
+        "cpu": _cpu_name(),
+        "cores": os.cpu_count(),
+        "load": os.getloadavg(),
+        "python": platform.python_version(),
+        "code": chosen_code(),
+    }
+
+
+def _cpu_name() -> str:
+    """Return the processor's name as the system gives it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return platform.processor()
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return models[0] if models else platform.processor()
+
+
+def load_provenance(directory: Path) -> dict[str, object]:
+    """Read ``provenance.json``; empty when it is not there, not whole, or of another shape."""
+    try:
+        provenance = json.loads((directory / "provenance.json").read_text(encoding="utf-8"))
+        PROVENANCE(provenance, "")
+    except (OSError, ValueError, RecursionError, ResultError):
+        return {}
+    return dict(provenance)

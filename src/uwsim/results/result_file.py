@@ -1,0 +1,170 @@
+r"""``result.json``: a result in one file that explains itself.
+
+The format's history, newest first:
+
+``uwsim-result/1`` (uwsim 0.1.0)
+    ``inputs``, ``run``, ``columns``, ``rows``, ``missing``; and, read as empty where they are not
+    there, ``facts``, ``variations``, ``image_streams``, ``pictures``. ``docs/result-format.md``
+    describes them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import TypeVar, cast
+
+from ..errors import ResultError, did_you_mean
+from .atomic_file import write_whole
+from .interrupted import instead_of_a_result
+from .result import Column, ImageStream, Missing, Result, TakenPicture, Variation
+from .stored_shapes import RESULT
+
+FORMAT = "uwsim-result/1"
+T = TypeVar("T")
+
+
+def file_of(path: Path) -> Path:
+    """Return the ``result.json`` meant by itself or by its directory."""
+    return path / "result.json" if path.is_dir() else path
+
+
+def save(result: Result, path: Path) -> Path:
+    """Write a result, whole or not at all, into ``path`` (a directory or ``.../result.json``)."""
+    path = file_of(path) if path.suffix == ".json" or path.is_dir() else path / "result.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, dumps(result))
+    return path
+
+
+def load(path: Path | str) -> Result:
+    """Read a result directory or its ``result.json``.
+
+    Raises:
+        ResultError: it is not there, not whole, or not in this format; says which.
+    """
+    path = Path(path)
+    file = file_of(path)
+    try:
+        text = file.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ResultError(f"{path}: {instead_of_a_result(path)}.") from None
+    except UnicodeDecodeError as error:
+        raise ResultError(f"{file}: not a result: not UTF-8 at byte {error.start}.") from None
+    except OSError as error:
+        raise ResultError(f"{file}: cannot be read: {error.strerror}.") from None
+    try:
+        return loads(text)
+    except ResultError as error:
+        raise ResultError(f"{file}: {error}") from None
+
+
+def dumps(result: Result) -> str:
+    """Return the text of ``result.json``: one column, row or reason a line, floats exact."""
+    parts = {
+        "format": _json(FORMAT),
+        "inputs": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.inputs.items()]),
+        "run": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.run.items()]),
+        "facts": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.facts.items()]),
+        **_variations(result),
+        "columns": _block("[]", [_json(_given(column)) for column in result.columns]),
+        "rows": _block("[]", [_json(row) for row in result.rows]),
+        "missing": _block("[]", [_json(asdict(missing)) for missing in result.missing]),
+        "image_streams": _block("[]", [_json(asdict(stream)) for stream in result.image_streams]),
+        "pictures": _block("[]", [_json(asdict(picture)) for picture in result.pictures]),
+    }
+    return "{\n" + ",\n".join(f"  {_json(k)}: {text}" for k, text in parts.items()) + "\n}\n"
+
+
+def loads(text: str) -> Result:
+    """Read the text of a ``result.json``; raises ResultError."""
+    try:
+        document = json.loads(text, parse_constant=_refuse_constant)
+    except json.JSONDecodeError as error:
+        whole = not text.strip() or error.pos >= len(text.rstrip()) - 1
+        hint = " It ends in the middle: was it cut off?" if whole else ""
+        raise ResultError(
+            f"not JSON at line {error.lineno}, column {error.colno}: {error.msg}.{hint}"
+        ) from None
+    except (ValueError, RecursionError) as error:
+        raise ResultError(f"not a result: {error}.") from None
+    if not isinstance(document, dict):
+        raise ResultError(f"not a result: expected an object, found {repr(document)[:60]}.")
+    found = document.pop("format", None)
+    if found != FORMAT:
+        raise ResultError(f"its format is {repr(found)[:60]}; this uwsim reads {FORMAT!r}.")
+    RESULT({name: part for name, part in document.items() if part is not None}, "")
+    result = Result(
+        inputs=_take(document, "inputs", dict),
+        run=_take(document, "run", dict),
+        columns=tuple(_take_each(document, "columns", Column)),
+        rows=tuple(_take(document, "rows", list)),
+        missing=tuple(_take_each(document, "missing", Missing)),
+        facts=_take(document, "facts", dict, {}),
+        variations=tuple(_take_each(document, "variations", Variation, [])),
+        image_streams=tuple(_take_each(document, "image_streams", ImageStream, [])),
+        pictures=tuple(_take_each(document, "pictures", TakenPicture, [])),
+    )
+    for name in document:
+        known = [f.name for f in fields(Result)]
+        raise ResultError(f"unknown key {name!r}.{did_you_mean(name, known)}")
+    return result
+
+
+# ---------------------------------------------------------------------------- values -> text
+
+
+def _json(value: object) -> str:
+    return json.dumps(value, allow_nan=False, ensure_ascii=False)
+
+
+def _block(brackets: str, lines: Iterable[str]) -> str:
+    text = ",\n    ".join(lines)
+    return f"{brackets[0]}\n    {text}\n  {brackets[1]}" if text else brackets
+
+
+def _variations(result: Result) -> dict[str, str]:
+    """The key is only there where something varies."""
+    lines = [_json(asdict(each)) for each in result.variations]
+    return {"variations": _block("[]", lines)} if lines else {}
+
+
+def _given(column: Column) -> dict[str, object]:
+    return {key: value for key, value in asdict(column).items() if value is not None}
+
+
+# ---------------------------------------------------------------------------- text -> values
+
+
+def _refuse_constant(text: str) -> object:
+    raise ResultError(f"it contains {text}; a missing value is null.")
+
+
+def _take(document: dict[str, object], name: str, kind: type[T], default: T | None = None) -> T:
+    value = document.pop(name, default)
+    if not isinstance(value, kind):
+        wanted = "an object" if kind is dict else "a list"
+        found = "nothing" if value is None else repr(value)[:60]
+        raise ResultError(f'"{name}" should be {wanted}, found {found}.')
+    return value
+
+
+def _take_each(
+    document: dict[str, object], name: str, kind: type[T], default: list[object] | None = None
+) -> Iterator[T]:
+    """Read a list of objects as dataclasses whose fields are its keys."""
+    known = [f.name for f in fields(cast("type[Column]", kind))]
+    for i, node in enumerate(_take(document, name, list, default)):
+        if not isinstance(node, dict):
+            raise ResultError(f"{name}[{i}] should be an object, found {repr(node)[:60]}.")
+        for key in node:
+            if key not in known:
+                hint = did_you_mean(key, known)
+                raise ResultError(f"{name}[{i}]: unknown key {key!r}.{hint}.")
+        try:
+            yield kind(**{k: tuple(v) if isinstance(v, list) else v for k, v in node.items()})
+        except TypeError as error:
+            what = str(error).split("__init__() ")[-1]
+            raise ResultError(f"{name}[{i}] is incomplete: {what}.") from None

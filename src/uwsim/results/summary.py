@@ -1,0 +1,59 @@
+"""Summary: every level over all repeats, in one table that a paper can be written from.
+
+.. code-block:: text
+
+    fog [1/m],column,unit,n,mean,std,low,high,n_missing,n_ok,n_repeats,rate_low,rate_high,seeds
+    0.0,corners,px,10,0.138,0.002,0.137,0.14,0,10,10,0.692,1.0,1 2 3 4 5 6 7 8 9 10
+
+A line for each measure and the total at each level. ``low`` and ``high`` are 95 % limits of the
+mean, ``rate_low`` and ``rate_high`` those of the share of repeats that ended ``ok``
+(``docs/statistics.md``). An empty field says nothing, as one repeat says nothing of its spread.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+
+from .atomic_file import write_whole
+from .per_level import per_level, success_per_level
+from .result import Result
+from .table import unit_of
+
+FILE = "summary.csv"
+HEADER = (
+    "column", "unit", "n", "mean", "std", "low", "high", "n_missing",
+    "n_ok", "n_repeats", "rate_low", "rate_high", "seeds",
+)  # fmt: skip
+
+
+def summary_text(result: Result) -> str:
+    """Return the text of ``summary.csv``."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow([*(column.label for column in result.of_kind("level")), *HEADER])
+    endings = success_per_level(result)
+    columns = result.of_kind("score") + result.of_kind("measure")
+    found = [per_level(result, column.name) for column in columns]
+    for i, ending in enumerate(endings):
+        success = ending.success
+        end: tuple[object, ...] = ("", len(ending.seeds), "", "")
+        if success is not None:
+            end = (success.successes, success.n, success.low, success.high)
+        seeds = " ".join(str(seed) for seed in ending.seeds if seed is not None)
+        for column, entries in zip(columns, found, strict=True):
+            entry = entries[i].interval
+            numbers = (entry.n, entry.mean, entry.std, entry.low, entry.high)
+            cells = (unit_of(result, column), *numbers, entries[i].n_missing, *end, seeds)
+            writer.writerow(
+                [*map(repr, ending.level), column.name, *("" if c is None else c for c in cells)]
+            )
+    return stream.getvalue()
+
+
+def save_summary(result: Result, directory: Path) -> Path:
+    """Write ``summary.csv`` into the result directory, whole or not at all."""
+    path = directory / FILE
+    write_whole(path, summary_text(result))
+    return path

@@ -1,0 +1,102 @@
+"""A second process beside a run: it plays the control and draws the report.
+
+Both need no picture and no OpenGL, and a run in one process leaves a core half idle. Started early,
+this one has loaded what it needs by the time it is asked. Should it die, the run does its jobs.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections import deque
+from contextlib import suppress
+from multiprocessing.connection import Connection
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from ...benchmark.plugin import raised
+from ...errors import RunFailed, UwsimError
+from ..run import Bench
+from .executor import play_all
+from .parent_watch import put_on, start_deaf
+
+Job = Bench | Path
+"""A benchmark is played; of a result directory the report is drawn."""
+
+
+class Beside:
+    """Does jobs one after the other in a process of its own, which ends with this one.
+
+    A context manager: whatever the process was about when the block is left, it is stopped.
+    """
+
+    def __init__(self) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._here, there = context.Pipe()
+        leash, self._leash = context.Pipe(duplex=False)
+        self._process = context.Process(target=_serve, args=(there, leash), daemon=True)
+        start_deaf(self._process)
+        self._asked: deque[Job] = deque()
+        there.close()
+        leash.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._process.kill()
+        self._process.join()
+        self._here.close()
+        self._leash.close()
+
+    def ask(self, job: Job) -> None:
+        """Give it something to do."""
+        self._asked.append(job)
+        with suppress(OSError):  # it is gone: `wait` sees to the job
+            self._here.send(job)
+
+    def wait(self) -> None:
+        """Wait until the oldest job that was not waited for is done; do it here if it is lost.
+
+        Raises:
+            RunFailed: it could not be done.
+        """
+        job = self._asked.popleft()
+        try:
+            why = self._here.recv()
+        except (EOFError, OSError):  # the process died
+            why = _done(job)
+        if why is not None:
+            raise RunFailed(why)
+
+
+def _serve(there: Connection, leash: Connection) -> None:
+    """Do what comes, until the parent is gone or wants no more."""
+    put_on(leash)
+    with suppress(Exception):  # heavy, and loaded while the levels are played; below it is told
+        from ...analysis import report  # noqa: F401
+    with suppress(EOFError, OSError):  # the parent has gone
+        while True:
+            there.send(_done(there.recv()))
+
+
+def _done(job: Job) -> str | None:
+    """Do it; returns why it could not be done."""
+    try:
+        if isinstance(job, Bench):
+            play_all([job])
+        else:
+            from ...analysis.report import write_report
+
+            write_report(job)
+    except UwsimError as error:
+        return str(error)
+    except Exception as error:  # a full disk, a number that no plot can show
+        what = "The control" if isinstance(job, Bench) else "The report"
+        return f"{what} failed: {raised(error)}. Finished rows are kept; go on with --resume."
+    return None

@@ -1,0 +1,260 @@
+"""Who plays what: the units to be played, and the protocol of those who play them.
+
+A crew takes units from the roster and tells it what became of them. The roster knows how often a
+unit has lost its worker, and whose units are not worth playing any more; a crew knows processors.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter, deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import chdir
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from ...errors import RUN_ERRORS, RunFailed, UwsimError
+from ...interrupts import is_of_user
+from ...results.journal import path_of
+from ...results.result import Result
+from ...simulation import Calls, Cut, Studio
+from ..plan import Plan, Unit
+from ..run import Bench
+from ..trial.status import PROCESS_ENDED
+from .worker import Event, Keeper, perform, portable
+
+OnLevel = Callable[[], None]
+MOST_RETRIES = 3
+"""How often a unit is played again after it has lost its worker."""
+ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
+"""Of a worker, where the user has not said otherwise: no threads beside its own, for there is one
+worker a core."""
+
+
+@dataclass(eq=False)
+class Job:
+    """A unit of one of the benchmarks that are played together."""
+
+    bench: Bench
+    """Whose unit it is."""
+    unit: Unit
+    """What is to be played."""
+    cut: Cut | None = None
+    """The call into the algorithm that it did not survive, or did not come back from."""
+
+    def __str__(self) -> str:
+        levels = self.unit.levels
+        which = ", ".join(f"{name}={value:g}" for name, value in levels[0].values)
+        played = which if len(levels) == 1 else f"{len(levels)} levels"
+        name = self.bench.plan.algorithm_name
+        return f"unit {self.unit.index} ({name}, seed {self.unit.seed}, {played})"
+
+
+class Crew(Protocol):
+    """Whoever plays units."""
+
+    def play(self, roster: Roster) -> None:
+        """Take jobs from the roster until there are none, and report each."""
+
+
+class Roster:
+    """Jobs that are waiting, in order, and what became of the others.
+
+    Where a unit fails, the rest of its benchmark is not played: it would fail alike. The other
+    benchmarks go on.
+
+    Args:
+        jobs: what is to be played.
+        on_level: called for every level that was not on disk before.
+    """
+
+    def __init__(self, jobs: Sequence[Job], on_level: OnLevel = lambda: None) -> None:
+        self.failures: list[tuple[Bench, Exception]] = []
+        """What went wrong first with whom, in that order."""
+        self._waiting = deque(jobs)
+        self._on_level = on_level
+        self._losses: Counter[Job] = Counter()
+        self._calls_lost: set[tuple[Job, int]] = set()
+        self._to_come = {job: len(job.unit.levels) - job.bench.n_rows(job.unit) for job in jobs}
+
+    @property
+    def failure(self) -> Exception | None:
+        """The first of all failures."""
+        return self.failures[0][1] if self.failures else None
+
+    def add(self, job: Job) -> None:
+        """Put one more job at the end; it may be one that another has led to."""
+        self._waiting.append(job)
+        self._to_come[job] = len(job.unit.levels) - job.bench.n_rows(job.unit)
+
+    def __len__(self) -> int:
+        """How many jobs are waiting."""
+        return len(self._waiting)
+
+    def plans(self) -> tuple[Plan, ...]:
+        """Whose jobs are waiting."""
+        return tuple({id(job.bench): job.bench.plan for job in self._waiting}.values())
+
+    def take(self) -> Job | None:
+        """Take the next job; None when there is none now."""
+        return self._waiting.popleft() if self._waiting else None
+
+    def level(self, job: Job) -> None:
+        """A level of it has ended that was not on disk before."""
+        if self._to_come[job] > 0:
+            self._to_come[job] -= 1
+            self._on_level()
+
+    def done(self, job: Job) -> None:
+        """It is over, and on disk."""
+        while self._to_come[job] > 0:
+            self.level(job)
+
+    def lost(self, job: Job, why: str, call: int | None = None) -> None:
+        """Its worker is gone: it is played again, and next, unless that has happened too often.
+
+        Where it goes in the same ``call`` once more that is the algorithm's doing: from then on the
+        unit is played without that call.
+        """
+        if call is not None and (job, call) in self._calls_lost:
+            self.stopped(job, Cut(call, f"{PROCESS_ENDED} ({why})"))
+            return
+        if call is not None:
+            self._calls_lost.add((job, call))
+        job.bench.n_lost += 1
+        self._losses[job] += 1
+        if self._losses[job] <= MOST_RETRIES:
+            self._waiting.appendleft(job)
+            return
+        times = self._losses[job]
+        self.failed(
+            job,
+            RunFailed(
+                f"{job} lost its worker {times} times, the last time {why}. "
+                "Finished rows are kept; go on with --resume."
+            ),
+        )
+
+    def stopped(self, job: Job, cut: Cut) -> None:
+        """A call into the algorithm cannot be made: the unit is played again without it."""
+        job.bench.n_lost += 1
+        job.cut = cut
+        self._waiting.appendleft(job)
+
+    def failed(self, job: Job, error: Exception) -> None:
+        """It cannot be played."""
+        if all(bench is not job.bench for bench, _ in self.failures):
+            self.failures.append((job.bench, found_by_running(error)))
+        self._waiting = deque(other for other in self._waiting if other.bench is not job.bench)
+
+
+def found_by_running(error: Exception) -> Exception:
+    """Return what a job raised as the failure of a run, whatever it was: no file was wrong before.
+
+    All files were read, and all names looked up, before the first job; an error of the same kind
+    that comes now is one of the run (exit status 3, not 2).
+    """
+    if isinstance(error, UwsimError) and not isinstance(error, RUN_ERRORS):
+        failed = RunFailed(str(error))
+    elif isinstance(error, OSError) and error.filename is not None:
+        failed = RunFailed(f"{error.strerror}: {error.filename}")
+    else:
+        return error
+    failed.__cause__ = error
+    return failed
+
+
+class Here:
+    """This process, one unit after the other."""
+
+    def play(self, roster: Roster) -> None:
+        """Play everything."""
+        studio = Studio()
+        try:
+            while (job := roster.take()) is not None:
+                try:
+                    for _ in play_and_keep(job, studio, Calls()):
+                        roster.level(job)
+                except Exception as error:
+                    roster.failed(job, error)
+                except BaseException as error:
+                    if is_of_user(error):
+                        raise
+                    roster.failed(job, portable(error))
+                else:
+                    roster.done(job)
+        finally:
+            studio.close()
+
+
+def play_and_keep(job: Job, studio: Studio, calls: Calls) -> Iterator[Event]:
+    """Play a unit where its result is; yields the levels that were not on disk before."""
+    keeper = Keeper(job.bench, job.unit)
+    here = Path.cwd()  # an algorithm may go elsewhere
+    try:
+        for event in perform(job.bench.plan, job.unit, studio, calls):
+            with chdir(here):
+                is_new = keeper.keep(event)
+            if is_new:
+                yield event
+    finally:
+        os.chdir(here)
+        keeper.close()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """What became of benchmarks that were played together."""
+
+    results: tuple[Result, ...]
+    """One each, as far as it was played; on disk, too."""
+    failures: tuple[tuple[Bench, Exception], ...]
+    """Who could not be played to the end, and why, in the order in which it happened."""
+
+
+def play_each(
+    benches: Sequence[Bench], crew: Crew | None = None, *, on_level: OnLevel = lambda: None
+) -> Outcome:
+    """Play what is not finished yet of some benchmarks, and write their results.
+
+    Args:
+        benches: what is to be played; their units are spread over the same workers.
+        crew: who plays; without one, this process.
+        on_level: called for every level that was not on disk before.
+    """
+    jobs = [Job(bench, unit) for bench in benches for unit in bench.begin()]
+    roster = Roster(jobs, on_level)
+    try:
+        (crew or Here()).play(roster)
+        _miss_what_is_gone(benches, roster)
+    finally:
+        results = tuple(bench.write() for bench in benches)
+    return Outcome(results=results, failures=tuple(roster.failures))
+
+
+def _miss_what_is_gone(benches: Sequence[Bench], roster: Roster) -> None:
+    """Hold it against a benchmark if a unit that was played is not on disk any more."""
+    for bench in benches:
+        for unit in bench.unfinished()[:1]:
+            name = path_of(bench.out, unit.index)
+            said = "was played, but is not whole there any more. Go on with --resume."
+            job = Job(bench, unit)
+            roster.failed(job, RunFailed(f"{name}: {job} {said}"))
+
+
+def play_all(
+    benches: Sequence[Bench], crew: Crew | None = None, *, on_level: OnLevel = lambda: None
+) -> tuple[Result, ...]:
+    """Play as `play_each`, to the end or not at all well.
+
+    Raises:
+        NeverStarted: a start trigger never went on.
+        ResultError: what is stored belongs to another run, or cannot be reproduced.
+        RunFailed: a unit lost its worker too often.
+        UwsimError: whatever else was the first to go wrong. What is finished is kept, and written.
+    """
+    outcome = play_each(benches, crew, on_level=on_level)
+    for _, error in outcome.failures:
+        raise error
+    return outcome.results

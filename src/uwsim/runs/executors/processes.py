@@ -1,0 +1,226 @@
+"""A crew of processes on this machine, each with its own graphics context and one thread a library.
+
+They are started with ``spawn`` and write rows where the result is; what they say through their pipe
+is only how far they are. A worker that dies takes nothing with it but the level it was in: a fresh
+one plays its unit again, and has to reproduce the rows that are on disk. No process sees two
+algorithms. A call into an algorithm that kills its process twice, or does not come back, is left
+out when its unit is played again, and its row says so.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import multiprocessing
+import signal
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+
+from ...environment import environment
+from ...interrupts import is_of_user
+from ...simulation import BEFORE, Calls, Counter, Cut, Studio, open_call
+from .executor import ENVIRONMENT, Here, Job, Roster, play_and_keep
+from .parent_watch import put_on, start_deaf
+from .worker import UnitFailed, portable
+
+PATIENCE = 10.0
+"""How long a worker without work may take to leave, before it is made to [s]."""
+GLANCE = 1.0
+"""The longest time between two looks at the calls [s]."""
+
+
+TOO_LONG = "a callback took longer than --callback-limit"
+"""The reason of a row whose algorithm did not come back."""
+
+
+@dataclass(frozen=True)
+class LevelKept:
+    """A level is on disk that was not there before."""
+
+
+@dataclass(frozen=True)
+class UnitDone:
+    """A unit is on disk."""
+
+
+News = LevelKept | UnitDone | UnitFailed
+
+
+class Processes:
+    """So many processes; a unit that loses its worker is played again by a fresh one.
+
+    An algorithm of uwsim's own that is alone, with one worker or one unit, is played here: a
+    process would only cost its start.
+
+    Args:
+        n: how many at most.
+        callback_limit: how long a call into an algorithm may take [s of wall time]; None: for ever.
+    """
+
+    def __init__(self, n: int, *, callback_limit: float | None = None) -> None:
+        self._n, self._limit = n, callback_limit
+        self._glance = None if callback_limit is None else min(GLANCE, callback_limit / 4)
+
+    def play(self, roster: Roster) -> None:
+        """Play everything; stops all workers when it is interrupted."""
+        n = min(self._n, len(roster))
+        plans = roster.plans()
+        if n <= 1 and len(plans) <= 1 and all(plan.is_bundled for plan in plans):
+            Here().play(roster)
+            return
+        settings = ENVIRONMENT if n > 1 else {}
+        workers = [Worker(settings) for _ in range(n)]
+        try:
+            while True:
+                for i, worker in enumerate(workers):
+                    if worker.job is None and (job := roster.take()) is not None:
+                        if not worker.may_play(job):
+                            worker.kill()
+                            workers[i] = Worker(settings)
+                        workers[i].give(job)
+                busy = [worker for worker in workers if worker.job is not None]
+                if not busy:
+                    break
+                self._attend(busy, roster)
+            for worker in workers:
+                worker.dismiss()
+        finally:
+            for worker in workers:
+                worker.kill()
+
+    def _attend(self, busy: list[Worker], roster: Roster) -> None:
+        """Wait until one of them has something to say, or for the time of a glance."""
+        began = time.monotonic()
+        wait([handle for worker in busy for handle in worker.handles], self._glance)
+        waited = time.monotonic() - began
+        for worker in busy:
+            worker.report(roster)
+            if self._limit is not None and self._glance is not None:
+                # of a time in which this process itself was stopped only so much counts
+                worker.watch(roster, min(waited, 2 * self._glance), self._limit)
+
+
+class Worker:
+    """A process as its employer sees it.
+
+    Args:
+        settings: what the environment says to it, where the user has not said otherwise.
+    """
+
+    def __init__(self, settings: Mapping[str, str]) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._pipe, theirs = context.Pipe()
+        leash, self._leash = context.Pipe(duplex=False)
+        self._counter: Counter = context.RawValue(ctypes.c_longlong, BEFORE)
+        self._process = context.Process(target=work, args=(theirs, leash, self._counter))
+        with environment(settings):
+            start_deaf(self._process)
+        for end in (theirs, leash):
+            end.close()  # so that a pipe ends when the process at its other end does
+        self.job: Job | None = None
+        """What it is playing."""
+        self._algorithm: str | None = None  # the only one that it plays
+        self._seen, self._seen_for = BEFORE, 0.0  # the counter, and for how long it has stood [s]
+
+    @property
+    def handles(self) -> tuple[Connection, int]:
+        """What becomes ready when it has something to say, or dies."""
+        return self._pipe, self._process.sentinel
+
+    def may_play(self, job: Job) -> bool:
+        """Whether it can be given a job: it lives, and has played no other algorithm."""
+        name = job.bench.plan.algorithm_name
+        return self._process.is_alive() and self._algorithm in (None, name)
+
+    def give(self, job: Job) -> None:
+        """Have it play a job; should it be gone, the next `report` says so."""
+        self.job, self._algorithm = job, job.bench.plan.algorithm_name
+        with suppress(OSError):
+            self._pipe.send(job)
+
+    def report(self, roster: Roster) -> None:
+        """Tell the roster what has happened since the last report."""
+        assert self.job is not None
+        is_alive = self._process.is_alive()  # asked first: what it said before it died is heard
+        for news in self._news():
+            if isinstance(news, LevelKept):
+                roster.level(self.job)
+                continue
+            if isinstance(news, UnitDone):
+                roster.done(self.job)
+            else:
+                roster.failed(self.job, news.error)
+            self.job = None
+            return
+        if not is_alive:
+            self._process.join()
+            roster.lost(self.job, how(self._process.exitcode), open_call(self._counter.value))
+            self.job = None
+
+    def watch(self, roster: Roster, waited: float, limit: float) -> None:
+        """End it if the call into the algorithm has taken longer than ``limit`` [s].
+
+        Args:
+            roster: is told.
+            waited: time since the last look [s].
+            limit: how long a call may take [s].
+        """
+        count = self._counter.value
+        self._seen_for = self._seen_for + waited if count == self._seen else 0.0
+        self._seen = count
+        call = open_call(count)
+        if self.job is None or call is None or self._seen_for <= limit:
+            return
+        self._process.kill()
+        self._process.join()
+        roster.stopped(self.job, Cut(call, TOO_LONG))
+        self.job = None
+
+    def dismiss(self) -> None:
+        """Tell it that there is no more to do, and wait until it has gone."""
+        with suppress(OSError):
+            self._pipe.send(None)
+        self._process.join(PATIENCE)
+
+    def kill(self) -> None:
+        """End it, whatever it is doing; nothing happens if it has gone."""
+        self._process.kill()
+        self._process.join()
+        self._process.close()
+        self._pipe.close()
+        self._leash.close()
+
+    def _news(self) -> Iterator[News]:
+        with suppress(EOFError, OSError):
+            while self._pipe.poll():
+                yield self._pipe.recv()
+
+
+def how(exit_code: int | None) -> str:
+    """Say how a process ended."""
+    if exit_code is not None and exit_code < 0:
+        return f"killed by {signal.Signals(-exit_code).name}"
+    return f"with exit status {exit_code}"
+
+
+def work(pipe: Connection, leash: Connection, counter: Counter) -> None:
+    """Play what comes through the pipe until ``None`` comes, or until nobody holds the leash."""
+    put_on(leash)
+    studio = Studio()
+    try:
+        while (job := pipe.recv()) is not None:
+            try:
+                for _ in play_and_keep(job, studio, Calls(counter, job.cut)):
+                    pipe.send(LevelKept())
+            except BaseException as error:
+                if is_of_user(error):
+                    raise
+                pipe.send(UnitFailed(portable(error)))
+            else:
+                pipe.send(UnitDone())
+    except (EOFError, OSError):
+        pass  # the employer has gone
+    finally:
+        studio.close()

@@ -1,0 +1,274 @@
+"""A crew on a Ray cluster: the one that ``RAY_ADDRESS`` names, else one made here for the run.
+
+No file system is shared. Rows and pictures come back level by level and are kept here, as though
+they had been played here; a worker whose machine has other files, versions or another renderer
+says so before it plays. What is played must be there already: uwsim, and a user's own files under
+the same paths (``ray job submit --working-dir`` brings them).
+"""
+
+from __future__ import annotations
+
+import importlib
+import io
+import os
+import platform
+import secrets
+import signal
+import socket
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...environment import environment, not_chosen
+from ...errors import BadSetting, MissingExtra, RunFailed, UwsimError
+from ...files.scratch import OWNER, scratch_folder
+from ...results import journal
+from ...simulation import Studio
+from ..plan import Unit
+from ..run import Bench, open_once
+from .executor import ENVIRONMENT, Job, Roster
+from .worker import Event, Keeper, UnitEnded, UnitFailed, perform, portable
+
+ADDRESS = "RAY_ADDRESS"
+STORE = 256 * 2**20
+"""Memory for what travels within a cluster of our own: rows and pictures [bytes]."""
+QUIET = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0"}
+"""No telemetry, no advice."""
+
+
+class RayCluster:
+    """Workers on a Ray cluster, one for each of its processors.
+
+    A worker that is lost, with its machine or alone, loses its unit to a fresh one. A cluster made
+    here listens to this machine alone, has a token of its own, and leaves nothing behind.
+
+    Args:
+        cpus: processors of a cluster made here; without it all that this process may use.
+
+    Raises:
+        MissingExtra: Ray is not installed.
+        BadSetting: nobody answers at ``RAY_ADDRESS``.
+    """
+
+    def __init__(self, cpus: int | None = None) -> None:
+        self._address = address()
+        if self._address is None and "ray" not in sys.modules and "RAY_AUTH_MODE" not in os.environ:
+            # For good: Ray reads this when it is imported, and once in a process.
+            os.environ["RAY_AUTH_MODE"] = "token"
+            os.environ["RAY_AUTH_TOKEN"] = secrets.token_hex(32)
+        try:
+            self._ray: Any = importlib.import_module("ray")
+        except ImportError:
+            raise MissingExtra(
+                "--workers ray: Ray is not installed. Install it with: pip install uwsim[ray]"
+            ) from None
+        self._cpus = cpus or len(os.sched_getaffinity(0))
+
+    def play(self, roster: Roster) -> None:
+        """Play everything."""
+        ray = self._ray
+        # Ray prints on standard output what the roster tells better.
+        with self._cluster(), redirect_stdout(io.StringIO()):
+            n_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
+            remote = ray.remote(num_cpus=1, max_restarts=0)(Worker)
+            remote = remote.options(runtime_env={"env_vars": not_chosen(ENVIRONMENT)})
+            idle: list[tuple[Any, str]] = []  # and the only algorithm that it plays
+            tasks: dict[Any, Task] = {}
+            try:
+                while True:
+                    while len(tasks) < n_workers and (job := roster.take()) is not None:
+                        name = job.bench.plan.algorithm_name
+                        while idle and idle[-1][1] != name:  # no process sees two algorithms
+                            ray.kill(idle.pop()[0])
+                        task = Task(job, idle.pop()[0] if idle else remote.remote())
+                        tasks[task.begin(ray)] = task
+                    for worker, _ in idle:  # there is nothing left for them
+                        ray.kill(worker)
+                    idle.clear()
+                    if not tasks:
+                        break
+                    ready, _ = ray.wait(list(tasks), num_returns=1)
+                    for events in ready:
+                        if self._is_over(events, tasks[events], roster):
+                            task = tasks.pop(events)
+                            task.keeper.close()
+                            if task.is_alive:
+                                idle.append((task.worker, task.job.bench.plan.algorithm_name))
+            finally:
+                for task in tasks.values():
+                    task.keeper.close()
+
+    def _is_over(self, events: Any, task: Task, roster: Roster) -> bool:
+        """Take the next event of a task; returns whether it was the last."""
+        errors = self._ray.exceptions
+        try:
+            event = self._ray.get(next(events))
+            if isinstance(event, UnitFailed):
+                roster.failed(task.job, event.error)
+            elif task.keeper.keep(event):
+                roster.level(task.job)
+            elif isinstance(event, UnitEnded):
+                roster.done(task.job)
+            return False
+        except StopIteration:
+            return True
+        except errors.RayTaskError as error:
+            roster.failed(task.job, RunFailed(f"{task.job}: {error.cause!r}"))
+        except errors.RayError as error:
+            task.is_alive = False
+            roster.lost(task.job, f"with {type(error).__name__}")
+        except UwsimError as error:  # what came differs from what is on disk
+            self._ray.kill(task.worker)
+            task.is_alive = False
+            roster.failed(task.job, error)
+        return True
+
+    @contextmanager
+    def _cluster(self) -> Iterator[None]:
+        """Be connected; what was made for the run is gone after it."""
+        if self._ray.is_initialized():
+            yield
+            return
+        with scratch_folder("uwsim-ray-", _short_folder()) as folder:
+            try:
+                with environment({**QUIET, OWNER: str(folder)}), _signals_kept():
+                    self._connect(str(folder))
+                yield
+            finally:
+                self._ray.shutdown()
+
+    def _connect(self, folder: str) -> None:
+        quiet = {"logging_level": "ERROR", "log_to_driver": False}
+        try:
+            if self._address is not None:
+                self._ray.init(address=self._address, **quiet)
+            else:
+                self._ray.init(
+                    address="local",
+                    _node_ip_address="127.0.0.1",
+                    num_cpus=self._cpus,
+                    object_store_memory=STORE,
+                    include_dashboard=False,
+                    _temp_dir=folder,
+                    **quiet,
+                )
+        except SystemExit:  # what Ray makes of SIGTERM while it starts
+            raise KeyboardInterrupt from None
+        except Exception as error:  # of many kinds
+            where = "a cluster here" if self._address is None else f"{ADDRESS}={self._address}"
+            said = " ".join(str(error).split())
+            raise RunFailed(f"--workers ray: {where} cannot be used ({said[:300]}).") from error
+
+
+def address() -> str | None:
+    """Return where the cluster is; None for one of our own.
+
+    Raises:
+        BadSetting: no address, or nobody answers there; Ray itself would try for minutes.
+    """
+    given = os.environ.get(ADDRESS, "").strip()
+    if given in ("", "local"):
+        return None
+    if given == "auto":
+        return given
+    host, colon, port = given.rpartition(":")
+    if not colon or not port.isdigit() or "/" in host:
+        raise BadSetting(f"{ADDRESS}={given}: expected HOST:PORT of a cluster's head, or auto.")
+    try:
+        socket.create_connection((host.strip("[]"), int(port)), timeout=5.0).close()
+    except (OSError, OverflowError, UnicodeError) as error:
+        raise BadSetting(f"{ADDRESS}={given}: nobody answers there ({error}).") from None
+    return given
+
+
+@dataclass
+class Task:
+    """A job in the hands of a worker."""
+
+    job: Job
+    worker: Any
+    """Ray's handle of a `Worker`."""
+    is_alive: bool = True
+    """Whether the worker can be given another."""
+
+    def begin(self, ray: Any) -> Any:
+        """Have it played; returns the events to come."""
+        bench, unit = self.job.bench, self.job.unit
+        self.keeper = Keeper(bench, unit)
+        play = self.worker.play.options(num_returns="streaming")
+        return play.remote(bench, unit, bench.head(unit))
+
+
+class Worker:
+    """A process somewhere in the cluster, with a renderer that lasts."""
+
+    def __init__(self) -> None:
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # for its employer alone
+        self._studio = Studio()
+        self._known: list[journal.Record] = []
+
+    def play(self, bench: Bench, unit: Unit, head: journal.Record) -> Iterator[Event | UnitFailed]:
+        """Play a unit, if this machine is like the one that asks; yields what is to be kept."""
+        try:
+            self._check(bench, unit, head)
+            yield from perform(bench.plan, unit, self._studio)
+        except Exception as error:
+            yield UnitFailed(portable(error))
+
+    def _check(self, bench: Bench, unit: Unit, head: journal.Record) -> None:
+        """See to it that the unit would be the same if the driver played it.
+
+        Args:
+            bench: whose unit it is.
+            unit: what is to be played.
+            head: the unit's head as the driver wrote it.
+
+        Raises:
+            RunFailed: files, versions or the renderer are not the driver's.
+        """
+        asked = {name: head[name] for name in ("inputs", "run")}
+        if asked in self._known:
+            return
+        try:
+            inputs, renderer = open_once(bench.plan, self._studio)
+        except UwsimError as error:
+            raise RunFailed(f"Worker on {platform.node()}: {error}") from error
+        if bench.plan.is_blind:
+            renderer = bench.renderer
+        here = Bench(plan=bench.plan, out=bench.out, inputs=inputs, renderer=renderer).head(unit)
+        differences = list(_differences({name: here[name] for name in asked}, asked))
+        if differences:
+            raise RunFailed(
+                f"Worker on {platform.node()} would not play the same: {'; '.join(differences)}."
+            )
+        self._known.append(asked)
+
+
+def _differences(here: object, there: object, name: str = "") -> Iterator[str]:
+    """Name what differs between two heads."""
+    if isinstance(here, dict) and isinstance(there, dict):
+        for key in {**there, **here}:
+            yield from _differences(here.get(key), there.get(key), f"{name}.{key}".lstrip("."))
+    elif here != there:
+        yield f"{name} is {here!r}, not {there!r}"
+
+
+def _short_folder() -> Path | None:
+    """Where a folder with sockets in it can be: their paths may have 107 characters."""
+    return short if (short := Path("/tmp")).is_dir() else None
+
+
+@contextmanager
+def _signals_kept() -> Iterator[None]:
+    """Keep the handler of a signal that Ray would replace."""
+    is_main = threading.current_thread() is threading.main_thread()
+    handler = signal.getsignal(signal.SIGTERM)
+    try:
+        yield
+    finally:
+        if is_main:
+            signal.signal(signal.SIGTERM, handler)

@@ -1,0 +1,169 @@
+"""One unit of work in two halves: performed where there is a processor, kept where the result is.
+
+The two may be on different machines: what goes from one to the other is numbers, text and the bytes
+of pictures, never a path.
+"""
+
+from __future__ import annotations
+
+import pickle
+import traceback
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import RunFailed
+from ...files.file_names import file_names
+from ...results import journal
+from ...simulation import Calls, Studio
+from ..input_watch import Watch
+from ..plan import Plan, Unit
+from ..run import Bench
+from ..trial.trial import Row, UnitEnd, play
+
+PICTURES = "pictures"
+
+
+@dataclass(frozen=True, kw_only=True)
+class LevelEnded:
+    """A level is over: its row as it is stored, and its pictures."""
+
+    record: journal.Record
+    """The row."""
+    pictures: tuple[tuple[str, bytes], ...]
+    """Name in the result directory, and PNG."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitEnded:
+    """A unit is over."""
+
+    record: journal.Record
+    """What it knows beside its rows."""
+
+
+@dataclass(frozen=True)
+class UnitFailed:
+    """A unit cannot be played."""
+
+    error: Exception
+    """Why, as it was raised over there."""
+
+
+Event = LevelEnded | UnitEnded
+
+
+def perform(plan: Plan, unit: Unit, studio: Studio, calls: Calls | None = None) -> Iterator[Event]:
+    """Play a unit; yields each level as it ends, and at last the end of the unit.
+
+    Args:
+        plan: what is played.
+        unit: one of its units.
+        studio: lends the renderer.
+        calls: counts those into the algorithm.
+
+    Raises:
+        NeverStarted: the start trigger did not go on within the benchmark's patience.
+    """
+    for n, played in enumerate(play(plan, unit, studio=studio, calls=calls)):
+        if isinstance(played, UnitEnd):
+            yield UnitEnded(record=_end(played))
+        else:
+            row = unit.index * len(unit.levels) + n
+            files = file_names(shot.camera for shot in played.shots)
+            pictures = {
+                camera: f"{PICTURES}/{row:05d}-{file}.png" for camera, file in files.items()
+            }
+            yield LevelEnded(
+                record=_record(played, pictures),
+                pictures=tuple((pictures[shot.camera], _png(shot.pixels)) for shot in played.shots),
+            )
+
+
+class Keeper:
+    """Puts on disk what a unit yields, and holds what is there already against it.
+
+    Raises:
+        ReplayDiffers: a row played again differs from the one stored.
+        RunFailed: a file of the run was changed.
+    """
+
+    def __init__(self, bench: Bench, unit: Unit) -> None:
+        self._out = bench.out
+        self._watch = Watch(bench.files)
+        self._file = journal.UnitFile(bench.out, unit.index, bench.head(unit))
+
+    def keep(self, event: Event) -> bool:
+        """Keep it; returns whether it is a level that was not on disk before."""
+        self._watch.check()
+        if isinstance(event, UnitEnded):
+            self._file.finish(event.record)
+            return False
+        for name, png in event.pictures:
+            (self._out / PICTURES).mkdir(exist_ok=True)
+            draft = self._out / f"{name}.part"
+            draft.write_bytes(png)
+            draft.replace(self._out / name)
+        return self._file.add(event.record)
+
+    def close(self) -> None:
+        """Close the unit's file; what was kept is on disk."""
+        self._file.close()
+
+
+def portable(error: BaseException) -> Exception:
+    """Return the error with its traceback as a note, or one that says the same and travels."""
+    error.add_note("".join(traceback.format_exception(error)).rstrip())
+    try:
+        back = pickle.loads(pickle.dumps(error))
+        same = type(back) is type(error) and str(back) == str(error)
+        if same and isinstance(error, Exception):
+            return error
+    except Exception:
+        pass
+    stand_in = RunFailed(f"{type(error).__name__}: {error}")
+    stand_in.add_note(error.__notes__[-1])
+    return stand_in
+
+
+def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
+    _, png = cv2.imencode(".png", np.ascontiguousarray(pixels[..., ::-1]))
+    return bytes(png.tobytes())
+
+
+def _record(played: Row, pictures: dict[str, str]) -> journal.Record:
+    return {
+        "values": [value for _, value in played.values],
+        "measures": played.measures,
+        "details": played.details,
+        "total": played.total,
+        "status": played.status,
+        "missing": played.missing,
+        "ended_at": played.ended_at,
+        "duration": played.duration,
+        "logs": played.logs,
+        "log_headers": played.log_headers,
+        "pictures": [
+            {
+                "camera": shot.camera,
+                "file": pictures[shot.camera],
+                "truth": shot.truth,
+                "estimate": shot.estimate,
+            }
+            for shot in played.shots
+        ],
+        "fingerprint": played.fingerprint,
+    }
+
+
+def _end(played: UnitEnd) -> journal.Record:
+    return {
+        "facts": {name: list(fact) for name, fact in played.facts.items()},
+        "parameters": played.parameters,
+        "streams": [list(stream) for stream in played.streams],
+        "notes": list(played.notes),
+        "trace": played.trace.plain(),
+    }

@@ -1,0 +1,56 @@
+"""Python code that files name, told before it runs, or refused."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+from ..cli.faults import printable
+from ..cli.taught import FILES, in_group
+from ..errors import BadSetting
+from ..files.modules import located
+
+if TYPE_CHECKING:
+    from ..scene.spec import SceneSpec
+
+NoCodeOption = Annotated[
+    bool,
+    in_group(
+        FILES,
+        "--no-code",
+        help="Refuse files that name Python code (u:pythonFunction of a scene, module:Class of a "
+        "benchmark or a result) instead of running it.",
+    ),
+]
+
+
+def refuse_code(scene: SceneSpec) -> None:
+    """Refuse a scene that names Python code; raises BadSetting."""
+    for code in _codes(scene):
+        raise refused(code, scene.path)
+
+
+def announce_code(scene: SceneSpec) -> None:
+    """Tell which Python code a scene runs, before it does."""
+    for code in _codes(scene):
+        announce(code, scene.path)
+
+
+def refused(code: str, file: str) -> BadSetting:
+    """Say that ``module:name``, which a file names, may not run."""
+    return BadSetting(f"{file}: names the Python code {code!r}, which --no-code refuses.")
+
+
+def announce(code: str, file: str) -> None:
+    """Tell that ``module:name``, which a file names, is going to run."""
+    try:
+        place = located(code.partition(":")[0])
+    except (ModuleNotFoundError, ValueError):
+        return  # which is said where it is imported
+    said = f"uwsim: {file} runs Python code: {code} in {place or 'Python'} (--no-code refuses it)"
+    print(printable(said), file=sys.stderr)
+
+
+def _codes(scene: SceneSpec) -> list[str]:
+    found = dict.fromkeys(current.code for current in scene.ocean_state.currents)
+    return [code for code in found if code]

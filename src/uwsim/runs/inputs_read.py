@@ -1,0 +1,67 @@
+"""Gathering the ``inputs`` of a result: what was read, and the sources of an algorithm."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from ..benchmark.plugin import blamed, hashes
+from ..benchmark.plugin_checks import files_of
+from ..benchmark.updaters import chain
+from ..files.input_files import InputFile, by_name, hash_of, portable, record
+from ..files.python_sources import sources_of
+from ..results.inputs import ALGORITHM
+from ..simulation import Simulation
+from .plan import Plan
+
+
+def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> dict[str, object]:
+    """Gather what a plan is made of; what was not read yet is recorded now.
+
+    Args:
+        plan: what is played.
+        simulation: its scene.
+        read: the input files that were read to make it (`uwsim.files.input_files.recorded`).
+    """
+    benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
+    robots = {
+        Path(simulation.world.robots[i].path): vehicle.file
+        for i, vehicle in enumerate(plan.scene.vehicles)
+    }
+    assets = [
+        InputFile(portable(robots[file.path]), file.sha256) if file.path in robots else file
+        for file in read
+        if file.path not in (benchmark, scene)
+    ]
+    known = {file.path for file in read}
+    others = dict(simulation.world.files)
+    for updater in chain(plan.benchmark.scene_updater):
+        with blamed(plan.plugins):
+            others |= files_of(updater, simulation.world)
+    assets += _hashed({name: path for name, path in others.items() if path not in known})
+    assets += [
+        InputFile(name, f"sha256:{digest}")
+        for name, digest in simulation.world.scenery.made_hashes.items()
+    ]
+    return {
+        "benchmark": [benchmark.name, hash_of(benchmark)],
+        "scene": [scene.name, hash_of(scene)],
+        "assets": by_name(assets),
+        **({"plugins": hashes(plan.plugins)} if plan.plugins else {}),
+        **of_algorithm(plan),
+    }
+
+
+def of_algorithm(plan: Plan) -> dict[str, object]:
+    """Hash and record the sources of a ``module:Class``, not those bundled or of a plugin."""
+    module, colon, _ = plan.algorithm_name.partition(":")
+    if not colon:
+        return {}
+    return {ALGORITHM: by_name(_hashed(sources_of(module)))}
+
+
+def _hashed(files: Mapping[str, Path]) -> list[InputFile]:
+    """Hash and record files that are read later, or by others."""
+    found = [InputFile(portable(name), hash_of(path), path) for name, path in files.items()]
+    record(found)
+    return found

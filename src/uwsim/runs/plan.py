@@ -1,0 +1,197 @@
+"""What is to be played: a plan, cut into units of work.
+
+A unit is a sequence that must be played in one go: one seed's whole sweep when the benchmark is
+sequential, one seed's one level when it is independent (DESIGN 5).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any, Literal
+
+from ..benchmark.measures import EuclideanNormSpec
+from ..benchmark.plugin import Plugin
+from ..benchmark.spec import BenchmarkSpec
+from ..benchmark.updater_settings import updater_draws
+from ..benchmark.updaters import Level, chain
+from ..benchmark.updaters import levels as levels_of
+from ..bus import Algorithm
+from ..errors import BadSetting, did_you_mean
+from ..scene.spec import SceneSpec
+from ..scene.variation import Draw, draw
+from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
+from ..world import TIMESTEP
+
+Mode = Literal["sequential", "independent"]
+PATIENCE = 10.0
+"""How long a start is waited for, in simulation time, unless the file says otherwise [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unit:
+    """One sequence: its seed, and its levels."""
+
+    index: int
+    """Place in the plan, from 0."""
+    repeat: int
+    """Number of the repeat, from 0."""
+    seed: int
+    """Seed of every random stream."""
+    levels: tuple[Level, ...]
+    """Levels to play, in order."""
+    is_alone: bool
+    """Whether this is one level of an independent benchmark."""
+
+    @property
+    def stream_prefix(self) -> str:
+        """What stands in front of the name of every random stream."""
+        if not self.is_alone:
+            return ""
+        values = ",".join(f"{value:.12g}" for _, value in self.levels[0].values)
+        return f"level/{values}/"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """A benchmark with everything it is played with; a value, sent to workers as it is."""
+
+    benchmark: BenchmarkSpec
+    """The benchmark file."""
+    scene: SceneSpec
+    """The scene, with ``--set`` applied."""
+    algorithm: type[Algorithm]
+    """Class of the algorithm under test."""
+    algorithm_name: str
+    """The name it was asked for by."""
+    parameters: Mapping[str, float | str] = field(default_factory=dict)
+    """What ``--set algorithm.NAME=VALUE`` said."""
+    settings: tuple[tuple[str, str], ...] = ()
+    """Every ``--set``, as given; those of scene and updaters are already in these."""
+    mode: Mode = "sequential"
+    """How levels follow each other."""
+    seed: int = 0
+    """Seed of the first repeat."""
+    repeats: int = 1
+    """Number of repeats; they use seeds ``seed ... seed + repeats - 1``."""
+    chosen: tuple[tuple[str, float], ...] = ()
+    """``--level``: only levels whose reference has one of these values."""
+    compatibility: frozenset[str] = frozenset()
+    """The original's slips asked for."""
+    timestep: float = TIMESTEP
+    """Length of a physics step [s]."""
+    data_path: tuple[Path, ...] = ()
+    """Folders in which files are looked for."""
+    is_blind: bool = False
+    """Whether images are black: for a control that does not look at them."""
+    plugins: tuple[Plugin, ...] = ()
+    """What was read with ``--plugin``."""
+
+    def __reduce__(self) -> tuple[Callable[..., Plan], tuple[object, ...]]:
+        """Travel with the plugins first: what comes behind them may be of their classes."""
+        others = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "plugins"}
+        return _unpacked, (self.plugins, others)
+
+    @property
+    def is_bundled(self) -> bool:
+        """Whether the algorithm is uwsim's own, and nothing runs beside it that is not."""
+        return self.algorithm.__module__.startswith("uwsim.") and not self.plugins
+
+    @property
+    def wants_control(self) -> bool:
+        """Whether `frozen` is worth playing beside it: a tracker is told where its target is.
+
+        Where a current drives the vehicle the algorithm steers, and `frozen` is no control.
+        """
+        drifts = any(updater.name == "current" for updater in chain(self.benchmark.scene_updater))
+        return not drifts and any(
+            isinstance(spec, EuclideanNormSpec) and spec.ground_truth.publish_on is not None
+            for spec in self.benchmark.measures
+        )
+
+    @property
+    def told_topic(self) -> str | None:
+        """Topic of the pictures of the camera by which a tracker is told where its target is."""
+        told = [
+            spec.ground_truth.camera
+            for spec in self.benchmark.measures
+            if isinstance(spec, EuclideanNormSpec) and spec.ground_truth.publish_on is not None
+        ]
+        topics = {
+            interface.camera_name: interface.image_topic
+            for interface in self.scene.ros_interfaces
+            if isinstance(interface, VirtualCameraToROSImageSpec)
+        }
+        return next((topics[camera] for camera in told if camera in topics), None)
+
+    @property
+    def patience(self) -> float:
+        """How long a start is waited for [s of simulation time]."""
+        return PATIENCE if self.benchmark.patience is None else self.benchmark.patience
+
+    def draws(self, seed: int) -> tuple[Draw, ...]:
+        """Return what varies under a seed: in the scene, then in the benchmark."""
+        return (*draw(self.scene, seed), *updater_draws(self.benchmark, seed))
+
+    def levels(self) -> tuple[Level, ...]:
+        """Return the levels to play.
+
+        Raises:
+            BadSetting: ``--level`` names no reference, or a value the sweep does not have.
+        """
+        return chosen_levels(levels_of(self.benchmark.scene_updater), self.chosen)
+
+    def units(self) -> tuple[Unit, ...]:
+        """Cut the plan into its units, repeat by repeat, level by level."""
+        levels = self.levels()
+        groups = [levels] if self.mode == "sequential" else [(level,) for level in levels]
+        return tuple(
+            Unit(
+                index=repeat * len(groups) + i,
+                repeat=repeat,
+                seed=self.seed + repeat,
+                levels=group,
+                is_alone=self.mode == "independent",
+            )
+            for repeat in range(self.repeats)
+            for i, group in enumerate(groups)
+        )
+
+
+def chosen_levels(
+    levels: Sequence[Level], chosen: Sequence[tuple[str, float]]
+) -> tuple[Level, ...]:
+    """Return those of the levels whose references have one of the values chosen for them.
+
+    Raises:
+        BadSetting: a name is no reference, or a value is not in the sweep.
+    """
+    kept = tuple(levels)
+    for name in dict.fromkeys(name for name, _ in chosen):
+        wanted = [value for other, value in chosen if other == name]
+        has = {value for level in kept for n, value in level.values if n == name}
+        if not has:
+            known = [n for n, _ in kept[0].values]
+            near = did_you_mean(name, known)
+            raise BadSetting(f"--level {name}: this benchmark sweeps {', '.join(known)}.{near}")
+        for value in wanted:
+            if not any(_same(value, other) for other in has):
+                nearest = min(has, key=lambda other: abs(other - value))
+                raise BadSetting(
+                    f"--level {name}={value:.12g} is not a level; the nearest is {nearest:.12g}."
+                )
+        kept = tuple(
+            level
+            for level in kept
+            if any(_same(dict(level.values)[name], value) for value in wanted)
+        )
+    return kept
+
+
+def _unpacked(plugins: tuple[Plugin, ...], others: dict[str, Any]) -> Plan:
+    return Plan(plugins=plugins, **others)
+
+
+def _same(a: float, b: float) -> bool:
+    return abs(a - b) < 1e-9

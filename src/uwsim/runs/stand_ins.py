@@ -1,0 +1,20 @@
+"""What stands for files that are nowhere, told before anything is drawn or played."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..cli.faults import warn
+
+if TYPE_CHECKING:
+    from ..scene.spec import SceneSpec
+
+
+def warn_of_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...]) -> None:
+    """Tell which robots of a scene are the bundled ones in the place of files that are nowhere."""
+    from ..simulation.bodies import robot_stand_ins
+
+    for name, path in robot_stand_ins(scene, data_path).items():
+        place = f"{scene.path}: " if scene.path else ""
+        warn(f"{place}robot file {name!r} is nowhere; the bundled {path.name} is used")

@@ -1,0 +1,51 @@
+"""What can be named in a benchmark: what is bundled, and what ``--plugin`` adds to it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from ..cli.taught import FILES, in_group
+from ..errors import AllErrors
+
+if TYPE_CHECKING:
+    from ..benchmark.plugin import Plugin, Tables
+
+PluginOption = Annotated[
+    list[Path] | None,
+    in_group(
+        FILES,
+        "--plugin",
+        metavar="FILE.py",
+        help="Measures, triggers, updaters or algorithms of your own; may be repeated.",
+    ),
+]
+
+
+def bundled_tables() -> Tables:
+    """Return everything that comes with uwsim."""
+    from ..algorithms import ALGORITHMS
+    from ..benchmark.measures import MEASURES
+    from ..benchmark.plugin import Tables
+    from ..benchmark.triggers import TRIGGERS
+    from ..benchmark.updaters import UPDATERS
+
+    return Tables(measures=MEASURES, triggers=TRIGGERS, updaters=UPDATERS, algorithms=ALGORITHMS)
+
+
+def read_plugins(files: Sequence[Path] | None) -> tuple[tuple[Plugin, ...], Tables]:
+    """Read the plugins; returns them and the tables with what they add.
+
+    Raises:
+        PluginError: a plugin is wrong; with everything that is.
+        BadSetting: a plugin is given twice.
+    """
+    from ..benchmark.plugin import read_plugin, with_plugins
+
+    wrong, plugins = AllErrors(), []
+    for file in files or ():
+        with wrong.kept():
+            plugins.append(read_plugin(file))
+    wrong.check()
+    return tuple(plugins), with_plugins(bundled_tables(), plugins)

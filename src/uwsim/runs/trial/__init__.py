@@ -1,0 +1,1 @@
+"""One trial: a task at all its levels with one seed."""

@@ -1,0 +1,46 @@
+"""What a tracker may know of its target where nobody calls ``autoInit``: the constants of the file.
+
+A benchmark of the original may say once and for all where its target is seen:
+
+.. code-block:: xml
+
+    <euclideanNorm> <name>corners</name>
+      <groundTruth type="constant"> <value>215</value> <value>149</value> ... </groundTruth>
+      <target>cornersTopic</target> ...
+    </euclideanNorm>
+
+Whoever ran it there handed these numbers to the tracker by hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...benchmark.ground_truth import ConstantSpec
+from ...benchmark.measures import EuclideanNormSpec
+from ..plan import Plan
+
+PARAMETER = "corners"
+"""Of the algorithm: x, y of four corners [px], eight numbers separated by blanks."""
+TOPIC = "cornersTopic"
+"""Where its estimates of them go."""
+
+
+def known_corners(plan: Plan) -> dict[str, str]:
+    """Return the parameter that tells an algorithm the constant corners of the file.
+
+    It is empty when a measure initialises the algorithm itself (``publishOn``), when the file has
+    no eight constants for the topic of the corners, or when the algorithm has no such parameter.
+    """
+    norms = [each for each in plan.benchmark.measures if isinstance(each, EuclideanNormSpec)]
+    defaults: object = getattr(plan.algorithm, "PARAMETERS", None)
+    is_told = any(norm.ground_truth.publish_on is not None for norm in norms)
+    if is_told or not isinstance(defaults, Mapping) or PARAMETER not in defaults:
+        return {}
+    for norm in norms:
+        truth = norm.ground_truth
+        if not isinstance(truth, ConstantSpec) or norm.target.strip().lstrip("/") != TOPIC:
+            continue
+        if len(truth.values) == 8:
+            return {PARAMETER: " ".join(f"{value:.12g}" for value in truth.values)}
+    return {}

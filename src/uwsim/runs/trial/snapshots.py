@@ -1,0 +1,70 @@
+"""What the cameras saw last when a level ended, kept for the report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ...benchmark.ground_truth import CornersFromCameraSpec
+from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, Measure, MeasureSpec
+from ...simulation import Simulation
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Shot:
+    """A camera's last image, with the corners that were true and those that were estimated."""
+
+    camera: str
+    """Name of the camera."""
+    pixels: npt.NDArray[np.uint8]
+    """(h, w, 3)."""
+    truth: tuple[float, ...] | None
+    """x, y of four corners [px from the top left corner]."""
+    estimate: tuple[float, ...] | None
+    """The same of the algorithm's last estimate; None if it has none."""
+
+
+def shoot(
+    simulation: Simulation,
+    measures: Sequence[tuple[MeasureSpec, Measure]],
+    *,
+    is_tracking: bool,
+) -> tuple[Shot, ...]:
+    """Collect the last image of every camera that published one.
+
+    An estimate is kept only if the algorithm ``is_tracking`` still: an old one is no estimate.
+    """
+    shots: dict[str, Shot] = {}
+    for images in simulation.images.values():
+        name = images.camera.name
+        if images.last is not None and name not in shots:
+            truth, estimate = _corners(name, measures)
+            shots[name] = Shot(
+                camera=name,
+                pixels=images.last,
+                truth=truth,
+                estimate=estimate if is_tracking else None,
+            )
+    return tuple(shots.values())
+
+
+def _corners(
+    camera: str, measures: Sequence[tuple[MeasureSpec, Measure]]
+) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
+    """True and estimated corners of the first measure that compares them in this camera."""
+    for spec, measure in measures:
+        if not isinstance(spec, EuclideanNormSpec) or not isinstance(measure, EuclideanNorm):
+            continue
+        truth = spec.ground_truth
+        if isinstance(truth, CornersFromCameraSpec) and truth.camera == camera:
+            return _eight(measure.ground_truth), _eight(measure.estimate)
+    return None, None
+
+
+def _eight(values: npt.NDArray[np.float64] | None) -> tuple[float, ...] | None:
+    if values is None or values.shape != (8,) or not np.isfinite(values).all():
+        return None
+    return tuple(values.tolist())

@@ -1,0 +1,438 @@
+"""Playing one unit of work: an algorithm, a seed, and one level after the other.
+
+*Sequential*: algorithm and scene live on from level to level. *Independent*: a level stands alone
+and begins with a prelude at the updaters' initial values: the algorithm starts, is told where its
+target is and runs 1 s; then the level's values are ramped in over 1 s; only then is measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import dataclass
+
+from ...benchmark.plugin import blamed
+from ...benchmark.plugin_checks import check_answers, parameters_of
+from ...benchmark.score import parse
+from ...benchmark.spec import LONGEST_TASK
+from ...benchmark.updater_settings import benchmark_of_seed
+from ...benchmark.updaters import (
+    Level,
+    apply_level,
+    begin_level,
+    bind_updaters,
+    blend,
+    initial_level,
+    interval,
+    ramp_level,
+    settling_time,
+)
+from ...bus import Algorithm
+from ...errors import NeverStarted, RunFailed, UwsimError
+from ...interrupts import is_of_user
+from ...messages import String
+from ...simulation import Calls, Simulation, Studio, what_broke
+from ..plan import Plan, Unit
+from .fingerprint import Trace, Tracer
+from .floor import Floor
+from .known_corners import known_corners
+from .level_triggers import Gate
+from .live_topics import LiveTopics
+from .log_columns import log_columns
+from .snapshots import Shot, shoot
+from .status import Verdict, legible
+from .triggered_measure import Gated, Sample, finite
+from .visibility import Fact, Shift, visibility_facts
+
+STATUS_TOPIC = "algorithmStatus"
+SETTLING = 1.0
+"""How long an independent level runs at the initial values before the ramp [s]."""
+RAMP = 1.0
+"""How long the values of an independent level are ramped in [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """What one level leaves behind."""
+
+    values: tuple[tuple[str, float], ...]
+    """The level: updaters' references and values, outermost first."""
+    measures: dict[str, tuple[float | None, str]]
+    """Measure -> value and unit."""
+    details: dict[str, tuple[float | None, str]]
+    """``measure.detail`` -> value and unit."""
+    total: float | None
+    """The score."""
+    status: str
+    """``ok``, or the first of DESIGN 5 that applies."""
+    missing: dict[str, str]
+    """Column -> why it is null."""
+    ended_at: float
+    """Simulation time at the end of the level [s]."""
+    duration: float
+    """How long the level was measured [s]."""
+    logs: dict[str, list[Sample]]
+    """Measure -> samples: time in the level [s], then `log_headers`."""
+    log_headers: dict[str, tuple[str, ...]]
+    """Measure -> what stands in its samples after the time, with units."""
+    fingerprint: str
+    """Of every body's motion and of every picture, since the unit began (`trace`)."""
+    shots: tuple[Shot, ...]
+    """The cameras' last pictures."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitEnd:
+    """What a unit knows when it is done, beside its rows."""
+
+    facts: dict[str, Fact]
+    """Constants of the scene, and how far the target moved in the picture."""
+    parameters: dict[str, float | str]
+    """Parameters of the algorithm, defaults included."""
+    streams: tuple[tuple[str, int, str], ...]
+    """Topic, number of images, SHA-256 over their pixels."""
+    notes: tuple[str, ...]
+    """What the reader of the result should know, besides the values."""
+    trace: Trace
+    """Fingerprints on the way."""
+
+
+def play(
+    plan: Plan, unit: Unit, *, studio: Studio | None = None, calls: Calls | None = None
+) -> Iterator[Row | UnitEnd]:
+    """Play a unit; yields a Row as each level ends, and at last the UnitEnd.
+
+    Args:
+        plan: what is played.
+        unit: one of its units.
+        studio: lends the renderer; without one the unit has a renderer of its own.
+        calls: counts those into the algorithm.
+
+    Raises:
+        NeverStarted: the start trigger did not go on within the benchmark's patience.
+    """
+    simulation = Simulation(
+        plan.scene,
+        seed=unit.seed,
+        stream_prefix=unit.stream_prefix,
+        timestep=plan.timestep,
+        data_path=plan.data_path,
+        compatibility=plan.compatibility,
+        is_blind=plan.is_blind,
+        studio=studio,
+    )
+    try:
+        with (
+            blamed(plan.plugins, is_running=True),
+            closing(_Playing(plan, unit, simulation, calls or Calls())) as playing,
+        ):
+            yield from playing.rows()
+    finally:
+        simulation.close()
+
+
+def bind_all(plan: Plan, simulation: Simulation) -> None:
+    """Look up every name of the benchmark once, so that none can fail after hours.
+
+    Raises:
+        UnknownName: a body, a camera or a link is not there.
+    """
+    benchmark = plan.benchmark
+    bind_updaters(benchmark.scene_updater, simulation.world)
+    for gated in [Gated(spec, simulation.world) for spec in benchmark.measures]:
+        gated.close()
+    Gate(benchmark, simulation.world).close()
+
+
+class _Playing:
+    """A unit while it is played."""
+
+    def __init__(self, plan: Plan, unit: Unit, simulation: Simulation, calls: Calls) -> None:
+        self._plan, self._unit, self._simulation = plan, unit, simulation
+        benchmark = benchmark_of_seed(plan.benchmark, unit.seed)
+        self._updater = benchmark.scene_updater
+        self._tracer = Tracer(simulation)
+        self._updaters = bind_updaters(self._updater, simulation.world)
+        self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
+        self._measures = benchmark.measures  # as they are bound for the next level
+        ramp_level(self._updaters, initial_level(self._updater))
+        for gated in self._bind_measures():
+            gated.close()  # the bus now keeps what they want to find when they start
+        self._gate = Gate(benchmark, simulation.world)
+        self._live = LiveTopics(benchmark.function, self._expression, simulation)
+        status = simulation.bus.inbox(STATUS_TOPIC, String)
+        self._calls = calls
+        self._algorithm = _make(plan, calls)
+        self._parameters = {**known_corners(plan), **plan.parameters}
+        self._node = simulation.attach(
+            self._algorithm,
+            name=plan.algorithm_name,
+            parameters=self._parameters,
+            raises=False,
+            calls=calls,
+        )
+        self._verdict = Verdict(self._node, status)
+        self._notes: dict[str, None] = {}
+        self._n_measured = 0  # steps of the levels so far
+
+    def rows(self) -> Iterator[Row | UnitEnd]:
+        """Play the levels."""
+        plan, simulation = self._plan, self._simulation
+        simulation.open()
+        facts: dict[str, Fact] = {}
+        shift: Shift | None = None
+        floor: Floor | None = None
+        parameters = self._parameters_said()
+        if not plan.is_blind:
+            facts = visibility_facts(simulation, plan, parameters)
+        self._wait("The benchmark never started")
+        if not plan.is_blind:
+            shift = Shift(simulation, plan)
+            floor = Floor(simulation, plan)
+        before: Level | None = None
+        for level in self._unit.levels:
+            if self._unit.is_alone:
+                if floor is not None:
+                    floor.start()
+                self._prelude(level)
+            self._begin(level, before)
+            self._settle(settling_time(self._updater, level, after=before))
+            if floor is not None:
+                floor.begin()
+            row = self._play(level)
+            if floor is not None:
+                floor.end()
+            yield row
+            before = level
+        yield UnitEnd(
+            facts=facts
+            | (shift.facts if shift is not None else {})
+            | (floor.facts if floor is not None else {}),
+            parameters=parameters,
+            streams=() if plan.is_blind else self._streams(),
+            notes=tuple(self._notes),
+            trace=self._tracer.trace(),
+        )
+
+    def _parameters_said(self) -> dict[str, float | int | str]:
+        """Return the parameters that the algorithm says it runs with.
+
+        Raises:
+            RunFailed: it says none that a result can hold, or breaks.
+        """
+        try:
+            with self._calls:
+                return parameters_of(self._algorithm, self._parameters)
+        except UwsimError:
+            raise
+        except BaseException as error:
+            if is_of_user(error):
+                raise
+            plan = self._plan
+            said = legible(what_broke(error, plan.algorithm))
+            raise RunFailed(
+                f"Algorithm {plan.algorithm_name!r} cannot say its parameters: {said}"
+            ) from error
+
+    def close(self) -> None:
+        """Close what updaters hold open."""
+        for updater in self._updaters:
+            updater.close()
+
+    def _streams(self) -> tuple[tuple[str, int, str], ...]:
+        """Topic, number and SHA-256 of the pictures published, by topic."""
+        cameras = [
+            (topic, images.n_frames, images.sha256)
+            for topic, images in self._simulation.images.items()
+        ]
+        return tuple(sorted([*cameras, *(s for u in self._updaters for s in u.streams)]))
+
+    def _wait(self, never: str) -> bool:
+        """Let time pass until a level may begin; return whether it had to.
+
+        Raises:
+            NeverStarted: it did not within the benchmark's patience, or the algorithm raised.
+        """
+        simulation, node, patience = self._simulation, self._node, self._plan.patience
+        began = simulation.time
+        while not self._gate.may_begin():
+            if node.error is not None:
+                raise NeverStarted(
+                    f"{never}: algorithm {node.name!r} {node.how} before: {legible(node.error)}"
+                )
+            if simulation.time - began >= patience:
+                raise NeverStarted(
+                    " ".join(
+                        [
+                            f"{never}: {self._gate.why_not(patience)}. Does algorithm "
+                            f"{node.name!r} see to it?",
+                            *node.unfed(),
+                        ]
+                    )
+                )
+            simulation.advance()
+        return simulation.time > began
+
+    def _prelude(self, level: Level) -> None:
+        """Let the algorithm settle at the initial values, then ramp in the level's."""
+        plan, simulation = self._plan, self._simulation
+        measures = self._bind_measures()
+        settling, ramp = round(SETTLING / plan.timestep), round(RAMP / plan.timestep)
+        initial = initial_level(self._updater)
+        _tick(measures)
+        for _ in range(settling):
+            ramp_level(self._updaters, initial)
+            simulation.advance()
+            _tick(measures)
+        for i in range(1, ramp + 1):
+            ramp_level(self._updaters, blend(self._updater, level, i / ramp))
+            simulation.advance()
+        self._close_measures(measures)
+
+    def _bind_measures(self) -> list[Gated]:
+        """Bind every measure afresh."""
+        return [Gated(spec, self._simulation.world) for spec in self._measures]
+
+    def _close_measures(self, measures: list[Gated]) -> None:
+        """Let go of them, and remember whom they have initialised."""
+        self._measures = tuple(
+            gated.spec.once_initialised if gated.measure.has_initialised else gated.spec
+            for gated in measures
+        )
+        for gated in measures:
+            gated.close()
+
+    def _step_to(self, level: Level, before: Level | None) -> None:
+        """Bring the scene to a level; the first of a sequence is no step."""
+        if before is None and not self._unit.is_alone:
+            begin_level(self._updaters, level)
+        else:
+            apply_level(self._updaters, level, after=before)
+
+    def _begin(self, level: Level, before: Level | None) -> None:
+        """Bring the scene to a level, and wait until it may begin."""
+        self._step_to(level, before)
+        from_initial = initial_level(self._updater) if self._unit.is_alone else before
+        self._live.changed(level, after=from_initial)
+        self._gate.arm()
+        if self._wait(f"Level {level} never began"):
+            self._step_to(level, before)
+            self._gate.arm()
+
+    def _settle(self, seconds: float) -> None:
+        """Let time pass that neither measures nor the interval see."""
+        for _ in range(round(seconds / self._plan.timestep)):
+            self._simulation.advance()
+            self._verdict.listen(self._simulation.time)
+
+    def _play(self, level: Level) -> Row:
+        """Play one level, with triggers and measures that have seen nothing before."""
+        plan, simulation, verdict = self._plan, self._simulation, self._verdict
+        began = simulation.step
+        verdict.begin_level()
+        measures = self._bind_measures()
+        length = interval(self._updater)
+        n_steps = round((LONGEST_TASK if length is None else length) / plan.timestep)
+        stopped, ended = False, None
+        _tick(measures)
+        verdict.listen(simulation.time)
+        for _ in range(n_steps):
+            simulation.advance()
+            self._n_measured += 1
+            _tick(measures)
+            self._live.update(level, self._n_measured * plan.timestep, measures)
+            verdict.listen(simulation.time)
+            stopped = not self._gate.is_open()
+            ended = _end_of_level(measures)
+            if stopped or ended is not None:
+                break
+        for gated in measures:
+            gated.end()
+            check_answers(gated.measure)
+        overran = LONGEST_TASK if length is None and not stopped and ended is None else None
+        status, why = verdict.status(measures, overran=overran, ended=ended)
+        for gated in measures:
+            self._notes.update((f"{gated.spec.name}: {note}", None) for note in gated.measure.notes)
+        row = self._row(level, measures, status, why, began)
+        self._close_measures(measures)
+        return row
+
+    def _row(
+        self, level: Level, measures: list[Gated], status: str, why: str | None, began: int
+    ) -> Row:
+        simulation = self._simulation
+        values: dict[str, float | None] = {}
+        units: dict[str, str] = {}
+        details: dict[str, tuple[float | None, str]] = {}
+        missing: dict[str, str] = {}
+        for gated in measures:
+            name, measure = gated.spec.name, gated.measure
+            blank = status != "ok" and measure.fed_by_algorithm
+            units[name] = measure.unit
+            values[name], slip = (None, why) if blank else finite(gated.value)
+            if values[name] is None:
+                missing[name] = slip or measure.why or "nothing to measure"
+            for detail, value in measure.details.items():
+                unit = "1" if detail.split(".")[-1] == "n" else measure.unit
+                unit = measure.detail_units.get(detail, unit)
+                number, slip = (None, None) if blank else finite(value)
+                details[f"{name}.{detail}"] = (number, unit)
+                if number is None and gated.has_start_value:
+                    slip = measure.why
+                if slip is not None:
+                    missing[f"{name}.{detail}"] = slip
+            if not blank:
+                missing |= {f"{name}.{detail}": said for detail, said in measure.reasons.items()}
+        score = self._expression.score(values)
+        total, slip = finite(score.value if status == "ok" else None)
+        if total is None:
+            missing["total"] = why or score.why or f"the function: {slip}"
+        logged = [gated for gated in measures if gated.spec.log is not None]
+        return Row(
+            values=level.values,
+            measures={name: (value, units[name]) for name, value in values.items()},
+            details=details,
+            total=total,
+            status=status,
+            missing=missing,
+            ended_at=simulation.time,
+            duration=(simulation.step - began) * simulation.timestep,
+            logs={gated.spec.name: gated.log for gated in logged},
+            log_headers={gated.spec.name: log_columns(gated.measure) for gated in logged},
+            fingerprint=self._tracer.fingerprint,
+            shots=()
+            if self._plan.is_blind
+            else shoot(
+                simulation,
+                [(gated.spec, gated.measure) for gated in measures],
+                is_tracking=status == "ok",
+            ),
+        )
+
+
+def _make(plan: Plan, calls: Calls) -> Algorithm:
+    """Make the algorithm; what its constructor raises keeps the benchmark from starting."""
+    try:
+        with calls:
+            return plan.algorithm()
+    except BaseException as error:
+        if is_of_user(error):
+            raise
+        raise NeverStarted(
+            f"Algorithm {plan.algorithm_name!r} cannot be made: "
+            f"{legible(what_broke(error, plan.algorithm))}"
+        ) from error
+
+
+def _tick(measures: list[Gated]) -> None:
+    """Let every measure see the world as it is now."""
+    for gated in measures:
+        gated.tick()
+
+
+def _end_of_level(measures: list[Gated]) -> str | None:
+    """Why a measure ends the level now; None if it goes on."""
+    for gated in measures:
+        if why := gated.measure.ends_level:
+            return why
+    return None

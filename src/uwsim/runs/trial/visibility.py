@@ -1,0 +1,157 @@
+r"""What decides when a tracker that compares by ZNCC loses its patch in fog.
+
+With the contrast of the patch S (standard deviation in grey levels, no noise, fog 0), the noise
+sigma, the threshold z and the mean distance d from camera to patch, fog of density f
+leaves the contrast :math:`S e^{-(fd)^2}`, and the ZNCC with a noise-free template is
+
+.. math:: \rho = \left(1 + \sigma^2 / (S e^{-(fd)^2})^2\right)^{-1/2}
+
+which falls below z at
+
+.. math:: f^* = \frac{1}{d} \sqrt{\ln\left(\frac{S}{\sigma}\sqrt{1/z^2 - 1}\right)}
+
+The noise of a camera is that of each of its channels, ``255 std`` grey levels. Grey is a weighted
+sum of three of them, so its noise is smaller by the norm of the weights, 0.669; ``f_star_grey`` is
+the limit with that, nearer to what a tracker of grey pictures meets. Not modelled: noise in the
+template, 8-bit quantisation, the tracker's own error.
+
+Whether the target moves in the picture is measured too: a tracker of what stands still has nothing
+to track.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from ...benchmark.ground_truth import CornersFromCameraSpec, GroundTruth
+from ...benchmark.measures import EuclideanNormSpec
+from ...geometry import Array
+from ...linear import length, product
+from ...simulation import Simulation
+from ..plan import Plan
+
+GREY = np.array([0.299, 0.587, 0.114])
+"""Weights of red, green and blue in grey (ITU-R BT.601)."""
+Fact = tuple[float, str]
+
+
+def visibility_facts(
+    simulation: Simulation, plan: Plan, parameters: Mapping[str, float | str]
+) -> dict[str, Fact]:
+    """Measure S, sigma, d and f* of the first target whose corners are tracked in a camera.
+
+    Returns:
+        ``S``, ``sigma`` and ``sigma_grey`` [grey level], ``d`` [m], ``z``, ``f_star`` and
+        ``f_star_grey`` [1/m]: with the camera's noise and with that of the grey picture.
+        The last three only of an algorithm that has the rule, by its parameter
+        ``zncc_threshold``. Empty when no measure asks for corners.
+    """
+    for spec in plan.benchmark.measures:
+        if not isinstance(spec, EuclideanNormSpec):
+            continue
+        truth = spec.ground_truth
+        if not isinstance(truth, CornersFromCameraSpec):
+            continue
+        corners = truth.bind(simulation.world, spec.truth).read()
+        if corners is None:
+            continue
+        camera = simulation.world.camera(truth.camera)
+        picture = simulation.world.scenery.picture(
+            camera.world_from_camera, camera.intrinsics, fog=0.0
+        )
+        assert picture.range is not None
+        assert picture.colour is not None
+        inside = quad_mask(corners.reshape(4, 2), picture.range.shape)
+        inside &= np.isfinite(picture.range)
+        if not inside.any():
+            continue
+        grey = product(picture.colour[..., :3].astype(np.float64), GREY)
+        contrast = float(grey[inside].std())
+        distance = float(picture.range[inside].mean())
+        sigma = 255.0 * camera.std
+        sigma_grey = sigma * length(GREY)
+        given = parameters.get("zncc_threshold")
+        facts: dict[str, Fact] = {
+            "S": (contrast, "grey level"),
+            "sigma": (sigma, "grey level"),
+            "sigma_grey": (sigma_grey, "grey level"),
+            "d": (distance, "m"),
+        }
+        if not isinstance(given, float | int):
+            return facts
+        threshold = float(given)
+        facts["z"] = (threshold, "1")
+        for name, noise in (("f_star", sigma), ("f_star_grey", sigma_grey)):
+            limit = fog_of_loss(contrast, noise, distance, threshold)
+            if limit is not None:
+                facts[name] = (limit, "1/m")
+        return facts
+    return {}
+
+
+class Shift:
+    """How far the first target whose corners are tracked moves in its picture, while it is watched.
+
+    Sampled every 16th step.
+    """
+
+    EVERY = 16
+
+    def __init__(self, simulation: Simulation, plan: Plan) -> None:
+        self._truth = _first_truth(simulation, plan)
+        self._low = self._high = np.zeros(0)  # least and largest of each number so far [px]
+        self._steps = 0
+        if self._truth is not None:
+            simulation.watch(self.tick)
+
+    def tick(self) -> None:
+        """Look at the picture after one more step."""
+        self._steps += 1
+        if self._steps % self.EVERY or self._truth is None:
+            return
+        corners = self._truth.read()
+        if corners is not None:
+            self._low = np.minimum(self._low, corners) if self._low.size else corners
+            self._high = np.maximum(self._high, corners) if self._high.size else corners
+
+    @property
+    def facts(self) -> dict[str, Fact]:
+        """``shift`` [px]: the widest range of a corner's x or y; empty if there was no corner."""
+        if not self._low.size:
+            return {}
+        return {"shift": (float((self._high - self._low).max()), "px")}
+
+
+def _first_truth(simulation: Simulation, plan: Plan) -> GroundTruth | None:
+    for spec in plan.benchmark.measures:
+        if isinstance(spec, EuclideanNormSpec) and isinstance(
+            spec.ground_truth, CornersFromCameraSpec
+        ):
+            return spec.ground_truth.bind(simulation.world, spec.truth)
+    return None
+
+
+def fog_of_loss(contrast: float, noise: float, distance: float, threshold: float) -> float | None:
+    """Fog density f* [1/m] at which the ZNCC falls to the threshold; None if it never does."""
+    if noise <= 0.0 or distance <= 0.0 or not 0.0 < threshold < 1.0 or contrast <= 0.0:
+        return None
+    ratio = contrast * math.sqrt(1.0 / threshold**2 - 1.0) / noise
+    return math.sqrt(math.log(ratio)) / distance if ratio > 1.0 else 0.0
+
+
+def quad_mask(corners: Array, shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
+    """Pixels whose centre lies inside a convex quadrangle (4, 2) [px], (h, w) bool."""
+    v, u = np.mgrid[0 : shape[0], 0 : shape[1]] + 0.5
+    sides = [
+        (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0])
+        for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)
+    ]
+    stacked = np.stack(sides)
+    inside: npt.NDArray[np.bool_] = np.logical_or(
+        (stacked >= 0.0).all(axis=0), (stacked <= 0.0).all(axis=0)
+    )
+    return inside

@@ -1,0 +1,206 @@
+r"""The original's files: its result, here ``result.dat``, and its logs, ``benchmark-<name>.data``.
+
+.. code-block:: text
+
+    Fog\tcorners\tcentroid\tTOTAL\tSimTime\t
+    0\t1.83\t0.41\t2.24\t2\t
+    0.05\tnan\tnan\tnan\t4\t
+
+Every field is followed by a tab, numbers have C++'s default format (``%g``, six digits). A value
+that is missing is ``nan`` and no row is dropped; the compatibility ``rows`` has the original back:
+a row with a measure in error is left out, and a function that fails leaves its field out. In error
+are only a `euclideanNorm` without an estimate and a `pathFollowing` without a path; what else has
+measured nothing has the value that it starts with. The original sums the errors of a row, and a
+path that is not there counts -1: with one missing estimate beside it the row stays, and -1 and 0
+stand for the two.
+
+A measure with ``<log>`` has a file of its own, beside our CSV of the same samples. Its first column
+has the outermost updater's name and holds, in the original too, the running time; the details of
+the measure follow, and one blank line at the end. Levels are not told apart.
+
+.. code-block:: text
+
+    Fog\tcorners_total\tcorners[]\tcorners[]\t
+    0.1\t1.83\t0.2\t-0.1\t
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from ..benchmark.measures import (
+    CollisionSpec,
+    DistanceSpec,
+    EuclideanNormSpec,
+    MeasureSpec,
+    ObjectCenteredOnCamSpec,
+    PathFollowingSpec,
+    PositionErrorSpec,
+    Reconstruction3DSpec,
+    TimeSpec,
+)
+from ..benchmark.plugin_checks import sample_of
+from ..benchmark.score import parse
+from ..files.file_names import file_name
+from ..results.atomic_file import write_whole
+from ..results.log import TIME, Log
+from ..results.result import Cell, Column, Result
+from .trial.triggered_measure import Gated, finite
+
+LEVEL_NAMES = {
+    "none": "None",
+    "armPosition": "ArmPosition",
+    "current": "Current",
+    "fog": "Fog",
+    "iteration": "Iteration",
+    "light": "Light",
+    "noise": "Noise",
+}
+"""Reference of an updater -> the original's name of it."""
+
+
+def dat_text(
+    result: Result,
+    *,
+    compatibility: frozenset[str] = frozenset(),
+    measures: Sequence[MeasureSpec] = (),
+) -> str:
+    """Return the text of ``result.dat``; ``repeat`` and ``seed`` lead when there are several.
+
+    Args:
+        result: what was found.
+        compatibility: slips of the original; ``rows`` matters here.
+        measures: of the benchmark; one that is not given has one field, its value.
+    """
+    specs = {spec.name: spec for spec in measures}
+    fields = list(_fields(result, specs))
+    lines = ["".join(f"{name}\t" for name, _ in fields)]
+    for row in result.rows:
+        cells = [(column, row[result.index(column.name)]) for _, column in fields]
+        if "rows" in compatibility:
+            measured = [column.name for column in result.of_kind("measure")]
+            missing = [name for name in measured if row[result.index(name)] is None]
+            if sum(specs[name].error_flag if name in specs else 1 for name in missing):
+                continue
+            cells = list(_as_the_original(result, row, cells, specs))
+        lines.append("".join(f"{_number(cell)}\t" for _, cell in cells))
+    return "\n".join(lines) + "\n"
+
+
+def _as_the_original(
+    result: Result,
+    row: Sequence[Cell],
+    cells: Sequence[tuple[Column, Cell]],
+    specs: Mapping[str, MeasureSpec],
+) -> Iterator[tuple[Column, Cell]]:
+    """Yield the fields of a row with start values for what is missing, and the score of those."""
+    values: dict[str, float | None] = {}
+    for column in result.of_kind("measure"):
+        cell = row[result.index(column.name)]
+        spec = specs.get(column.name)
+        start = None if spec is None else spec.start_value
+        values[column.name] = float(cell) if isinstance(cell, int | float) else start
+    for column, cell in cells:
+        measure = column.name.partition(".")[0]
+        if cell is None and measure in values and row[result.index(measure)] is None:
+            yield column, values[measure]
+        elif column.kind != "score" or cell is not None:
+            yield column, cell
+        elif column.expression and (total := _score(column.expression, values)) is not None:
+            yield column, total
+
+
+def _score(expression: str, values: Mapping[str, float | None]) -> float | None:
+    """Return the score of these values; None where the function fails."""
+    return finite(parse(expression, list(values)).evaluate(values))[0]
+
+
+def save_dat(
+    result: Result,
+    directory: Path,
+    *,
+    compatibility: frozenset[str] = frozenset(),
+    measures: Sequence[MeasureSpec] = (),
+) -> Path:
+    """Write ``result.dat`` into the result directory, whole or not at all."""
+    path = directory / "result.dat"
+    write_whole(path, dat_text(result, compatibility=compatibility, measures=measures))
+    return path
+
+
+def _fields(result: Result, specs: Mapping[str, MeasureSpec]) -> Iterator[tuple[str, Column]]:
+    """Names of the fields, and the columns that they show."""
+    for kind in ("run", "level", "measure", "score", "time"):
+        for column in result.columns:
+            if column.kind != kind:
+                continue
+            if kind != "measure" or column.name not in specs:
+                yield _name(column), column
+                continue
+            for name, shown in specs[column.name].original_fields.items():
+                yield name, result.columns[result.index(shown)]
+
+
+def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
+    """Return what the original calls the details of a measure: its log's columns after the time.
+
+    Args:
+        spec: the measure; one that the original does not have gives all that it logs.
+        n_logged: number of values in a sample of its log.
+    """
+    name = spec.name
+    match spec:
+        case TimeSpec() | DistanceSpec() | CollisionSpec():
+            names: tuple[str, ...] = (name,)
+        case EuclideanNormSpec():
+            names = (f"{name}_total", *[f"{name}[]"] * (n_logged - 1))
+        case ObjectCenteredOnCamSpec():
+            names = (f"{name}_total", f"{name}_x", f"{name}_y")
+        case PositionErrorSpec():
+            names = ("total", "x", "y", "z", "rx", "ry", "rz", "rw")
+        case Reconstruction3DSpec():
+            names = ("mean error", "error variance", "coverage %", "outliers %")
+        case PathFollowingSpec():
+            names = ("ISE", "distanceToPath", "waypoint")
+        case _:
+            names = (name, *(f"{name}[]" for _ in range(n_logged - 1)))
+    return names[:n_logged]
+
+
+def details(gated: Gated) -> tuple[float | None, ...]:
+    """Return the details of a measure as of now, in the order of `detail_names`."""
+    values = [finite(value)[0] for value in sample_of(gated.measure)]
+    if gated.has_start_value:
+        values = [gated.spec.start_value, *(0.0 for _ in values[1:])]
+    return tuple(values[: len(detail_names(gated.spec, len(values)))])
+
+
+def data_text(log: Log, spec: MeasureSpec) -> str:
+    """Return the text of ``benchmark-<name>.data``; ``repeat`` and ``seed`` lead as in the CSV."""
+    time = log.header.index(TIME)
+    led = [name for name in log.header[:time] if name in ("repeat", "seed")]
+    reference = log.header[len(led)].partition(" ")[0]
+    outermost = LEVEL_NAMES.get(reference, reference)
+    names = detail_names(spec, len(log.header) - time - 1)
+    lines = ["".join(f"{field}\t" for field in (*led, outermost, *names))]
+    for sample in log.samples:
+        cells = (*sample[: len(led)], *sample[time : time + 1 + len(names)])
+        lines.append("".join(f"{_number(cell)}\t" for cell in cells))
+    return "\n".join(lines) + "\n\n"
+
+
+def save_data(log: Log, spec: MeasureSpec, directory: Path, file: str = "") -> Path:
+    """Write ``benchmark-<file>.data``, called after the measure, whole or not at all."""
+    path = directory / f"benchmark-{file or file_name(spec.name)}.data"
+    write_whole(path, data_text(log, spec))
+    return path
+
+
+def _name(column: Column) -> str:
+    fixed = {"score": "TOTAL", "time": "SimTime"}
+    return fixed.get(column.kind) or LEVEL_NAMES.get(column.name, column.name)
+
+
+def _number(cell: Cell) -> str:
+    return "nan" if cell is None else format(cell, "g")

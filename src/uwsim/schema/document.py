@@ -1,0 +1,162 @@
+"""Files to trees: no DTD, no entities, no network, bounded in size, depth and number."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from dataclasses import dataclass
+from pathlib import Path
+
+from lxml import etree
+
+from ..errors import AssetError, FileError
+from ..files.input_files import read_bytes
+from .faults import Faults
+from .names import NAMESPACE, shown_tag
+
+MAX_BYTES = 16 * 2**20
+"""Largest file that is read."""
+MAX_DEPTH = 256
+"""Deepest nesting that is read; the parser's own bound."""
+MAX_NODES = 50_000
+"""Most elements, attributes and character references that are read."""
+
+_DECLARATION = re.compile(rb"<!(ENTITY|ATTLIST|ELEMENT|NOTATION)\b")
+_ENCODING = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
+_ENCODINGS = re.compile(r"utf-?8|us-ascii|ascii|iso-?8859-\d+|latin-?1|windows-125\d", re.I)
+
+STRAY = {
+    "xmlParseEntityRef: no name": "a bare '&'; write &amp;",
+    "EntityRef: expecting ';'": "a bare '&'; write &amp;",
+    "StartTag: invalid element name": "a '<' that begins no element; for 'less than' write &lt;",
+}
+"""What the parser says of a sign of the score language, and what we say."""
+_NICKNAME = re.compile(r"latin-?1", re.I)
+
+
+@dataclass(frozen=True, eq=False)
+class Document:
+    """A well-formed file."""
+
+    path: Path
+    """The file as the user named it."""
+    root: etree._Element
+    """Its root element."""
+    has_doctype: bool
+    """Whether it names a DTD (which is never loaded)."""
+
+
+def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
+    """Read a file as XML: no DTD, no entities, no network, bounded in size, depth and number.
+
+    Raises:
+        FileError: (or the ``error`` asked for) it cannot be read or is not well-formed.
+    """
+    faults = Faults(path)
+    data = _bytes(path, faults)
+    faults.check(error)
+    parser = etree.XMLParser(
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        dtd_validation=False,
+        attribute_defaults=False,
+        huge_tree=False,
+        encoding="utf-8" if data[:1] == b"\xff" else None,
+    )
+    root: etree._Element | None = None
+    try:
+        root = etree.fromstring(data, parser)
+    except etree.XMLSyntaxError as problem:
+        said: dict[int, str] = {}  # of several in a line the others follow from the first
+        for entry in parser.error_log:
+            said.setdefault(entry.line, _said(entry, data))
+        for line, message in list(said.items())[:10]:
+            faults.add(line, f"not well-formed XML: {message}")
+        if not faults.any:
+            faults.add(problem.lineno, f"not well-formed XML: {str(problem)[:200]}")
+    except (ValueError, LookupError) as problem:
+        faults.add(None, f"not well-formed XML: {str(problem)[:200]}")
+    faults.check(error)
+    assert root is not None
+    return Document(path, root, root.getroottree().docinfo.internalDTD is not None)
+
+
+def _said(entry: etree._LogEntry, data: bytes) -> str:
+    """What the parser found wrong, in whole words."""
+    text = data.rstrip()
+    if (
+        entry.line > text.count(b"\n")
+        and not text.endswith(b">")
+        and not entry.message.startswith(("Extra content", "Start tag expected"))
+    ):
+        return "the file ends in the middle; it was cut off"
+    for found, meant in STRAY.items():
+        if found in entry.message:
+            return meant
+    message = re.sub(r",? (use|try) XML_PARSE_HUGE( option)?", "", entry.message)
+    return textwrap.shorten(message, 200, placeholder=" ...")
+
+
+def _not_there(path: Path) -> str:
+    """Why a path is not a file that can be read."""
+    if path.is_dir():
+        return "is a folder, not a file"
+    return "is not a regular file" if path.exists() else "there is no such file"
+
+
+def _bytes(path: Path, faults: Faults) -> bytes:
+    """The bytes of a file that may be handed to the parser, or faults."""
+    try:
+        if not path.is_file():
+            faults.add(None, _not_there(path))
+            return b""
+        data = read_bytes(path, at_most=MAX_BYTES)
+    except AssetError:
+        faults.add(None, f"larger than {MAX_BYTES // 2**20} MB; no scene or benchmark is")
+        return b""
+    except (OSError, ValueError) as problem:
+        faults.add(None, f"cannot be read: {getattr(problem, 'strerror', None) or problem}")
+        return b""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        data = data.decode("utf-16", errors="replace").encode("utf-8")
+        data = re.sub(rb"^\s*<\?xml.*?\?>", b"", data, count=1, flags=re.S)
+    declared = _ENCODING.match(data[:200])
+    if declared and not _ENCODINGS.fullmatch(declared[1].decode("ascii")):
+        name = declared[1].decode("ascii")
+        if name.lower() != "utf-16":
+            faults.add(1, f"the encoding {name!r} is not read; write the file as UTF-8")
+    if declared and _NICKNAME.fullmatch(declared[1].decode("ascii")):  # unknown to the parser
+        data = data[: declared.start(1)] + b"ISO-8859-1" + data[declared.end(1) :]
+    if b"\0" in data:
+        faults.add(None, "holds zero bytes; not a text file in UTF-8")
+    if declaration := _DECLARATION.search(data):
+        line = data.count(b"\n", 0, declaration.start()) + 1
+        word = declaration[1].decode("ascii")
+        faults.add(line, f"<!{word}> declarations are not read; a DOCTYPE may only name the DTD")
+    for mark, what in ((b"<", "elements"), (b"=", "attributes"), (b"&", "references")):
+        if data.count(mark) > 2 * MAX_NODES:
+            faults.add(None, f"has more than {MAX_NODES} {what}; no scene or benchmark has")
+    return data
+
+
+def check_head(document: Document, root: str, faults: Faults) -> None:
+    """Check the name of the root, and that a file with extensions carries no DOCTYPE."""
+    tag = document.root.tag
+    if tag != root:
+        faults.add(document.root, f"the root element is {shown_tag(str(tag))}; expected <{root}>")
+    if document.has_doctype and (use := _first_extension(document.root)) is not None:
+        faults.add(
+            use,
+            f"uses {NAMESPACE} and names a DOCTYPE; drop the DOCTYPE, so that the original "
+            "refuses the file instead of playing something else",
+        )
+
+
+def _first_extension(root: etree._Element) -> etree._Element | None:
+    mark = f"{{{NAMESPACE}}}"
+    for node in root.iter("*"):
+        names = [str(node.tag), *map(str, node.attrib)]
+        if any(name.startswith(mark) for name in names):
+            return node
+    return None

@@ -1,0 +1,107 @@
+"""What of a scene seems not to be meant, each with its line and how to say that it is.
+
+`uwsim check` says it, and `uwsim bench` and `uwsim render` before anything moves. All are notices:
+no run is refused for them. `uwsim.scene.doubts` has their names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Literal
+
+from ...errors import Fault, UwsimError
+from ...physics.hydrodynamics.spec import VehicleHydrodynamics
+from ...scene.doubts import VehicleDoubt, unless_meant
+from ...scene.reader import angle_notices
+from ...scene.spec import SceneSpec
+from ...scene.urdf import RobotSpec
+from ..bodies import read_robots
+from ..dynamics import read_dynamics
+from ..hull import hull_of
+from .scene_lines import SceneLines
+from .start_doubts import Starts
+from .thrust_warnings import thrust_said
+from .vehicle_doubts import OF_SIMULATED, candidate_of, size_said
+
+MOST_VEHICLES = 50
+"""So many vehicles of a scene are looked at."""
+MOST_LOOSE = 200
+"""So many loose objects, too."""
+
+
+def doubts_about(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    dynamics: Mapping[int, VehicleHydrodynamics],
+    data_path: tuple[Path, ...] = (),
+) -> list[Fault]:
+    """Say everything about a scene that seems not to be meant.
+
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle, by its number.
+        dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
+        data_path: folders in which files are looked for.
+    """
+    lines = SceneLines(scene)
+    vehicles = sorted(robots)[:MOST_VEHICLES]
+    found = []
+    for index in vehicles:
+        vehicle = scene.vehicles[index]
+        for doubt, child, said in _of_vehicle(scene, index, robots, dynamics, data_path):
+            if said and doubt not in vehicle.accepts:
+                message = f"the vehicle {vehicle.name!r}: {said}. {unless_meant(doubt)}"
+                found.append(lines.fault(message, "vehicle", index, child, severity="notice"))
+    for kind, index, said in _of_starts(scene, vehicles, robots, data_path):
+        name = (scene.vehicles if kind == "vehicle" else scene.objects)[index].name
+        if said:
+            message = f"the {kind} {name!r}: {said}. {unless_meant('start')}"
+            found.append(lines.fault(message, kind, index, "position", severity="notice"))
+    return found
+
+
+def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fault]:
+    """The same of a scene that nobody has opened yet, and what is asked about its angles."""
+    robots = read_robots(scene, data_path)
+    dynamics = read_dynamics(scene, robots, data_path)
+    return [*angle_notices(scene), *doubts_about(scene, robots, dynamics, data_path)]
+
+
+def _of_vehicle(
+    scene: SceneSpec,
+    index: int,
+    robots: Mapping[int, RobotSpec],
+    dynamics: Mapping[int, VehicleHydrodynamics],
+    data_path: tuple[Path, ...],
+) -> Iterator[tuple[VehicleDoubt, str, str]]:
+    """Each doubt about a vehicle, the element that it is said of, and what is said, if anything."""
+    hull = None
+    with suppress(UwsimError):  # said where models are checked
+        hull = hull_of(scene, robots, index, data_path)
+    if hull is not None:
+        yield "size", "file", size_said(hull, robots[index])
+    if index in dynamics:
+        one = candidate_of(scene, index, robots[index], dynamics[index], hull)
+        for doubt, say in OF_SIMULATED.items():
+            yield doubt, "u:dynamics", say(one)
+        yield "thrust", "u:dynamics", thrust_said(scene, index, robots[index], dynamics[index])
+
+
+def _of_starts(
+    scene: SceneSpec,
+    vehicles: Sequence[int],
+    robots: Mapping[int, RobotSpec],
+    data_path: tuple[Path, ...],
+) -> Iterator[tuple[Literal["vehicle", "object"], int, str]]:
+    """What begins at an odd place: its kind, its number, and what is said, if anything."""
+    loose = [index for index, solid in scene.solid_objects.items() if solid.is_loose]
+    with suppress(UwsimError):  # said where models are checked
+        starts = Starts(scene, robots, data_path)
+        for index in vehicles:
+            if "start" not in scene.vehicles[index].accepts:
+                yield "vehicle", index, starts.of_vehicle(index)
+        for index in loose[:MOST_LOOSE]:
+            if "start" not in scene.objects[index].accepts:
+                yield "object", index, starts.of_object(index)

@@ -1,0 +1,55 @@
+"""Everything wrong, or worth asking about, with what of a scene is simulated."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from contextlib import suppress
+from pathlib import Path
+
+from ...errors import Fault, SceneError, UwsimError
+from ...scene.spec import SceneSpec
+from ...scene.urdf import RobotSpec
+from ...scene.urdf_reader import read_urdf
+from ..bodies import find_robot
+from ..collision_shapes import collision_shapes, simulated_solids
+from ..dynamics import Search
+from ..floor import set_on_floor
+from .plausibility import doubts_about
+from .scene_lines import SceneLines
+
+
+def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Fault]:
+    """Hold what of a scene is simulated against everything that is known about it.
+
+    Args:
+        scene: what the file says.
+        data_path: folders in which files are looked for.
+    """
+    robots: dict[int, RobotSpec] = {}
+    for index, vehicle in enumerate(scene.vehicles):
+        with suppress(UwsimError):  # said where robots are checked
+            robots[index] = read_urdf(find_robot(vehicle.file, scene.path, data_path))
+    search = Search(scene, robots, data_path, is_thorough=True)
+    found = search.found
+    if not any(fault.severity == "fault" for fault in found):
+        found += doubts_about(scene, robots, search.dynamics, data_path)
+    try:
+        set_on_floor(scene, robots, data_path)
+    except SceneError as error:
+        found += error.faults
+    except UwsimError:  # said where robots and models are checked
+        pass
+    return found + _untouchable(scene, search.dynamics, data_path)
+
+
+def _untouchable(
+    scene: SceneSpec, dynamics: Collection[int], data_path: tuple[Path, ...]
+) -> list[Fault]:
+    """Say of which objects the engine can make no shape that is touched."""
+    lines, found = SceneLines(scene), []
+    for index, physics in simulated_solids(scene, dynamics).items():
+        try:
+            collision_shapes(scene, {}, (), {index: physics}, data_path)
+        except UwsimError as error:
+            found.append(lines.fault(str(error).removesuffix("."), "object", index, "physics"))
+    return found

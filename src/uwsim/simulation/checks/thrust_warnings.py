@@ -1,0 +1,96 @@
+"""What the autopilots of a scene cannot do, said before anything moves."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...linear import length, product
+from ...physics.actuation.allocation import (
+    AXES,
+    HEAVE,
+    LEAN,
+    LEAST_LEVER,
+    PITCH,
+    SURGE,
+    SWAY,
+    UNITS,
+    YAW,
+    Allocation,
+    allocate,
+    thrusters_on_base,
+)
+from ...physics.balance import Balance, balance_of
+from ...physics.hydrodynamics.spec import VehicleHydrodynamics
+from ...scene.spec import SceneSpec
+from ...scene.urdf import RobotSpec
+
+WANTED = (SURGE, SWAY, HEAVE, YAW)
+"""What an autopilot holds a place with."""
+HELD_BY = {SWAY: "sway", HEAVE: "depth (heave)", YAW: "heading (yaw)", SURGE: "surge"}
+
+
+def thrust_said(
+    scene: SceneSpec, index: int, robot: RobotSpec, dynamics: VehicleHydrodynamics
+) -> str:
+    """Say which axes the thrusters of a simulated vehicle cannot drive; nothing without any."""
+    return limits_said(allocation_of(scene, index, robot, dynamics))
+
+
+def allocation_of(
+    scene: SceneSpec, index: int, robot: RobotSpec, dynamics: VehicleHydrodynamics
+) -> Allocation:
+    """What the thrusters of a vehicle can do as it begins."""
+    values = scene.vehicles[index].joint_values
+    body = dynamics.body(robot.root)
+    reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
+    stiffness = righting(scene, index, balance_of(robot, dynamics, values))
+    return allocate(thrusters_on_base(robot, dynamics.thrusters, values), reference, stiffness)
+
+
+def righting(scene: SceneSpec, index: int, balance: Balance) -> float:
+    """With what moment per angle a vehicle rights itself as it begins [N m/rad]."""
+    vehicle = scene.vehicles[index]
+    world_from_base = scene.world_from_localized @ vehicle.localized_from_base
+    return balance.stiffness(world_from_base.rotation[2])
+
+
+def limits_said(found: Allocation) -> str:
+    """What thrusters cannot do, in words; nothing where they can do all."""
+    if not found.wrenches.shape[1]:
+        return "it has no thrusters: it drifts"
+    missing = [axis for axis in WANTED if axis not in found.axes]
+    short = [axis for axis in found.axes if found.reach(axis) != found.full_reach(axis)]
+    said = []
+    if missing:
+        reached = [_reach(found, axis) for axis in found.axes]
+        said.append(
+            f"its thrusters ({found.wrenches.shape[1]}) drive {', '.join(reached) or 'nothing'}; "
+            "expected surge, sway, heave and yaw. "
+            f"Not held: {', '.join(HELD_BY[axis] for axis in missing)}"
+        )
+        said += [_together(found, axis) for axis in missing if _is_coupled(found, axis)]
+    if HEAVE in missing and PITCH in found.axes:
+        said.append("depth is held by pitching while it moves ahead")
+    for axis in short:
+        there, full = max(found.reach(axis)), max(found.full_reach(axis))
+        said.append(
+            f"{AXES[axis]} is asked for up to {there:.3g} N of {full:.3g} N, beyond which the hull "
+            f"would lean by more than {np.degrees(LEAN):.0f} degrees"
+        )
+    return "; ".join(said)
+
+
+def _reach(found: Allocation, axis: int) -> str:
+    least, greatest = found.reach(axis)
+    return f"{AXES[axis]} ({least:.3g} to {greatest:.3g} {UNITS[axis]})"
+
+
+def _is_coupled(found: Allocation, axis: int) -> bool:
+    return bool(length(found.wrenches[axis]) > LEAST_LEVER)
+
+
+def _together(found: Allocation, axis: int) -> str:
+    """Which driven axes an axis is bound to."""
+    shares = product(found.wrenches[axis], found.share)  # of each driven axis
+    bound = [AXES[a] for a, share in zip(found.axes, shares, strict=True) if abs(share) > 1e-3]
+    return f"{AXES[axis]} comes only together with {' and '.join(bound)}"

@@ -1,0 +1,237 @@
+"""What of a vehicle's numbers is worth asking about: slips of units, signs and powers of ten.
+
+Nothing here is wrong for certain: a lander sinks, a spar buoy is 60 m long. What a vehicle's
+``<u:accept>`` names is not asked.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...linear import dot
+from ...physics.actuation.allocation import curve, thrusters_on_base
+from ...physics.balance import Balance, balance_of
+from ...physics.compile import LEAST_INERTIA
+from ...physics.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
+from ...scene.doubts import VehicleDoubt
+from ...scene.spec import SceneSpec
+from ...scene.urdf import LinkSpec, RobotSpec
+from ...world import TIMESTEP
+from ..hull import Hull
+
+UNEVEN = 0.1
+"""Difference between mass and displaced water, as a share of the greater, that is asked about."""
+ROOM = 2.0
+"""So many times the volume of its boxes nothing displaces [1]."""
+HOLLOW = 0.005
+"""A share of the volume of its boxes that is too little for a hull [1]."""
+LOW = 1e-3
+"""Height of the centre of buoyancy under the centre of mass [m]."""
+LARGEST, SMALLEST = 50.0, 0.05
+"""Of a vehicle [m]."""
+OFF = 0.5
+"""How far off its hull a part of a vehicle lies, as a share of its length."""
+STRONGEST = 50.0
+"""Acceleration by one thruster [m/s2]."""
+SPEED = 1.0
+"""At which quadratic drag is looked at [m/s]."""
+GYRATION = (0.03, 2.0)
+"""Radius of gyration as a share of the link's length: least and greatest."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Candidate:
+    """A vehicle that is simulated, with all that is known about it."""
+
+    robot: RobotSpec
+    """Its links."""
+    dynamics: VehicleHydrodynamics
+    """What the water does to them."""
+    joint_values: tuple[float, ...]
+    """Its joints as it begins [rad or m]."""
+    balance: Balance
+    """Its weight and buoyancy."""
+    height: float
+    """Of its centre of buoyancy over its centre of mass as it begins [m]."""
+    hull: Hull | None
+    """How large it is; None without a shape."""
+
+
+def size_said(hull: Hull, robot: RobotSpec) -> str:
+    """Say that a vehicle is as large as a ship, or smaller than a hand."""
+    if SMALLEST <= hull.size <= LARGEST:
+        return ""
+    link, box = max(hull.links.items(), key=lambda each: float(each[1].extent.max()))
+    spec = robot.link(link)
+    solids = () if spec is None else spec.solids
+    file = next((shape.file for shape in solids if shape.file), "")
+    named = f"{link!r} ({file})" if file else repr(link)
+    return (
+        f"it is {hull.size:.4g} m long, its link {named} {box.extent.max():.4g} m; expected "
+        f'{SMALLEST:g} to {LARGEST:g} m (a mesh in millimetres needs scale="0.001 0.001 0.001" in '
+        "the URDF)"
+    )
+
+
+def candidate_of(
+    scene: SceneSpec,
+    index: int,
+    robot: RobotSpec,
+    dynamics: VehicleHydrodynamics,
+    hull: Hull | None,
+) -> Candidate:
+    """Gather what is known about a simulated vehicle."""
+    vehicle = scene.vehicles[index]
+    balance = balance_of(robot, dynamics, vehicle.joint_values)
+    up = (scene.world_from_localized @ vehicle.localized_from_base).rotation[2]
+    return Candidate(
+        robot=robot,
+        dynamics=dynamics,
+        joint_values=vehicle.joint_values,
+        balance=balance,
+        height=dot(balance.centre_of_buoyancy - balance.centre_of_mass, up),
+        hull=hull,
+    )
+
+
+def buoyancy_said(one: Candidate) -> str:
+    """Hold what a vehicle weighs against what it displaces, and that against its shape."""
+    mass, displaced = one.balance.mass, one.balance.displaced
+    said = []
+    if abs(displaced - mass) > UNEVEN * max(displaced, mass):
+        way = "sinks" if mass > displaced else "rises"
+        said.append(
+            f"it has {mass:.6g} kg and displaces {displaced:.6g} kg of water: it {way} with "
+            f"{abs(one.balance.buoyancy):.3g} N; expected nearly the same (<mass> in kg and "
+            f"<volume> in m3 of the set {one.dynamics.name!r})"
+        )
+    volume = displaced / one.dynamics.density
+    if one.hull is not None and not HOLLOW * one.hull.volume <= volume <= ROOM * one.hull.volume:
+        said.append(
+            f"it displaces {volume:.3g} m3 and the boxes around its links hold "
+            f"{one.hull.volume:.3g} m3; expected {HOLLOW:g} to {ROOM:g} times that"
+        )
+    return "; ".join(said)
+
+
+def balance_said(one: Candidate) -> str:
+    """Say that it turns over."""
+    if one.height > -LOW or not one.balance.displaced > 0.0:
+        return ""
+    return (
+        f"its centre of buoyancy lies {-one.height:.3g} m below its centre of mass as it begins: "
+        "it turns over; expected above (or it begins upside down: a vehicle whose z points up, in "
+        "a file whose z points down, has the roll M_PI)"
+    )
+
+
+def places_said(one: Candidate) -> str:
+    """Say what lies far off the hull."""
+    if one.hull is None:
+        return ""
+    thrusters = thrusters_on_base(one.robot, one.dynamics.thrusters, one.joint_values)
+    places = [(f"thruster {each.name!r}", np.array(each.position)) for each in thrusters]
+    places.append(("centre of mass", one.balance.centre_of_mass))
+    places.append(("centre of buoyancy", one.balance.centre_of_buoyancy))
+    size = one.hull.size
+    far = [
+        f"its {name} {distance:.3g} m"
+        for name, place in places
+        if (distance := one.hull.distance(place)) > OFF * size
+    ]
+    if not far:
+        return ""
+    more = f" and {len(far) - 3} more" if len(far) > 3 else ""
+    return (
+        f"far off its hull, which is {size:.3g} m long, lies {', '.join(far[:3])}{more}; expected "
+        "on it (<position> is in metres, in the frame of the link)"
+    )
+
+
+def strength_said(one: Candidate) -> str:
+    """Say which thrusters no such vehicle has."""
+    strong = []
+    for thruster in one.dynamics.thrusters:
+        thrusts, _ = curve(thruster)
+        greatest = float(max(-thrusts[0], thrusts[-1]))
+        if thruster.saturation is not None:
+            greatest = min(greatest, max(map(abs, thruster.saturation)))
+        if greatest > STRONGEST * one.balance.mass:
+            strong.append(f"{thruster.name!r} gives {greatest:.3g} N")
+    if not strong:
+        return ""
+    return (
+        f"its thruster {strong[0]} for {one.balance.mass:.4g} kg; expected less than "
+        f"{STRONGEST:g} m/s2 (<forward> and <backward> in N)"
+    )
+
+
+def inertia_said(one: Candidate) -> str:
+    """Say which links turn otherwise than a body of their mass and size."""
+    said = []
+    for link, mass, body in _links(one):
+        box = None if one.hull is None else one.hull.links.get(link.name)
+        if mass <= 0.0 or box is None:
+            continue
+        given = link.inertia if body is None or body.inertia is None else body.inertia
+        moments = given[:3]
+        is_said = min(moments) > 0.0
+        used = max(moments) if is_said else LEAST_INERTIA
+        edges = np.sort(box.extent)
+        least, greatest = (share * edges[2] for share in GYRATION)
+        if least <= math.sqrt(used / mass) <= greatest and min(moments) >= 0.0:
+            continue
+        usual = mass / 12.0 * float(edges[1] ** 2 + edges[2] ** 2)  # the greatest of its box
+        said.append(
+            f"its link {link.name!r} has {mass:.4g} kg and the inertia {_list(moments)}"
+            + ("" if is_said else f" (it is simulated with {LEAST_INERTIA:g})")
+            + f"; a box of its size, {_list(box.extent)} m, has {usual:.2g} kg m2 at most"
+        )
+    return "; ".join(said[:3])
+
+
+def drag_said(one: Candidate) -> str:
+    """Say which links are too light for their drag."""
+    said = []
+    moving = {joint.child for joint in one.robot.joints if joint.moves} | {one.robot.root}
+    for link, mass, body in _links(one):
+        if body is None or link.name not in moving:
+            continue
+        drag = np.diag(matrix(body.linear_damping) + SPEED * matrix(body.quadratic_damping))[:3]
+        if not drag.any():
+            continue
+        added = np.diag(matrix(body.added_mass))[:3]
+        steps = float((TIMESTEP * drag / np.maximum(mass + added, 1e-9)).max())
+        if mass <= 0.0:
+            said.append(f"its link {link.name!r} has drag and no mass")
+        elif steps > 1.0 and body.implicitness < 1.0:
+            said.append(
+                f"its link {link.name!r} has {mass:.3g} kg and a drag of {drag.max():.3g} N at 1 "
+                "m/s, which stops it within a step; expected <implicitness> 1, or less drag"
+            )
+    return "; ".join(said[:3])
+
+
+def _links(one: Candidate) -> Iterator[tuple[LinkSpec, float, BodyHydrodynamics | None]]:
+    for link in one.robot.links:
+        body = one.dynamics.body(link.name)
+        yield link, link.mass if body is None or body.mass is None else body.mass, body
+
+
+def _list(values: object) -> str:
+    return " ".join(f"{value:.3g}" for value in np.asarray(values).tolist())
+
+
+OF_SIMULATED: Mapping[VehicleDoubt, Callable[[Candidate], str]] = {
+    "buoyancy": buoyancy_said,
+    "balance": balance_said,
+    "places": places_said,
+    "strength": strength_said,
+    "inertia": inertia_said,
+    "drag": drag_said,
+}
+"""What is asked about a simulated vehicle."""

@@ -1,0 +1,1 @@
+"""Executes a stored result again and compares what comes out."""

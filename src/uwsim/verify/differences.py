@@ -1,0 +1,173 @@
+"""Where two tellings of one unit differ: every cell, the first sample of a log, the first step.
+
+What is stored as JSON is taken apart into its leaves, each with its path, and compared leaf by leaf
+as text: -0.0 is not 0.0, and a record that was tampered with is compared like any other.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from ..results.journal import Record, Stored
+from ..runs.trial.fingerprint import Trace, parting
+
+Leaves = dict[tuple[str | int, ...], str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Difference:
+    """One thing that is not the same."""
+
+    where: str
+    """File, or unit and level."""
+    what: str
+    """Column, sample, topic or steps; what is stored, what came out."""
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.what}"
+
+
+def leaves(value: Any) -> Leaves:
+    """Return path -> text of every number, word and null in a JSON value."""
+    found: Leaves = {}
+    todo: list[tuple[tuple[str | int, ...], Any]] = [((), value)]
+    while todo:
+        path, node = todo.pop()
+        if isinstance(node, dict) and node:
+            todo += [((*path, str(key)), child) for key, child in reversed(node.items())]
+        elif isinstance(node, list | tuple) and node:
+            todo += [((*path, i), node[i]) for i in reversed(range(len(node)))]
+        else:
+            found[path] = json.dumps(node, ensure_ascii=False)
+    return found
+
+
+def apart(stored: Any, again: Any) -> Iterator[tuple[tuple[str | int, ...], str, str]]:
+    """Yield path, stored text and new text of every leaf that differs; ``nothing`` for none."""
+    one, other = leaves(stored), leaves(again)
+    for path in dict.fromkeys([*one, *other]):
+        before, after = one.get(path, "nothing"), other.get(path, "nothing")
+        if before != after:
+            yield path, before, after
+
+
+def of_row(stored: Record, again: Record) -> list[str]:
+    """Say what differs in a level's record, a line a column and a line a log."""
+    said: dict[str, str] = {}
+    for path, before, after in apart(stored, again):
+        name = _name(path, stored, again)
+        if name is not None:
+            group = " ".join(map(str, path[:2])) if path[0] == "logs" else name
+            said.setdefault(group, f"{name}: stored {before}, replayed {after}")
+    return list(said.values())
+
+
+def _name(path: tuple[str | int, ...], stored: Record, again: Record) -> str | None:
+    """How a reader of the result knows a leaf of a record."""
+    match path:
+        case ("fingerprint",):
+            return None  # the trace says more
+        case ("measures" | "details", name, 0, *_):
+            return f"column {name}"
+        case ("measures" | "details", name, *_):
+            return f"unit of column {name}"
+        case ("missing", name, *_):
+            return f"why column {name} is null"
+        case ("total" | "status" | "ended_at" as name, *_):
+            return f"column {name}"
+        case ("logs", name, int(sample), *_):
+            n_before, n_after = (len(_log(record, name)) for record in (stored, again))
+            lengths = "" if n_before == n_after else f" ({n_before} samples stored, {n_after} now)"
+            return f"log of {name}, first at sample {sample}{_time(again, name, sample)}{lengths}"
+    return " ".join(map(str, path[:2]))
+
+
+def _log(record: Record, name: str | int) -> list[Any]:
+    logs = record.get("logs")
+    log = logs.get(name) if isinstance(logs, dict) else None
+    return log if isinstance(log, list) else []
+
+
+def _time(record: Record, name: str | int, sample: int) -> str:
+    log = _log(record, name)
+    taken = log[sample] if sample < len(log) else None
+    return f" ({taken[0]:g} s)" if isinstance(taken, list) and taken else ""
+
+
+def of_end(stored: Record, again: Record) -> list[str]:
+    """Say what differs in the end of a unit: pictures, constants, parameters; not its trace."""
+    said: dict[str, str] = {}
+    for path, before, after in apart(_without_trace(stored), _without_trace(again)):
+        name = " ".join(map(str, path[:2]))
+        if path[0] == "streams" and isinstance(path[-1], int):
+            topics = [s[0] for s in again.get("streams", []) if isinstance(s, list) and s]
+            number = int(path[1]) if len(path) > 1 else 0
+            topic = topics[number] if number < len(topics) else number
+            name = f"pictures on {topic}"
+            if path[-1] == 1:
+                before, after = f"{before} frames", f"{after} frames"
+        said.setdefault(name, f"{name}: stored {before}, replayed {after}")
+    return list(said.values())
+
+
+def _without_trace(end: Record) -> Record:
+    return {key: value for key, value in end.items() if key != "trace"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motion:
+    """What the fingerprints of a unit say."""
+
+    said: str | None
+    """Where two runs part, in words; None if they do not."""
+    parts: tuple[str, ...] = ()
+    """What differs first."""
+    is_known: bool = True
+    """Whether both have fingerprints."""
+
+
+def of_trace(stored: Stored, again: Stored, timestep: float) -> Motion:
+    """Compare the fingerprints of two tellings of one unit."""
+    ends = [record.end or {} for record in (stored, again)]
+    one, other = (Trace.of(end.get("trace")) for end in ends)
+    if one is None or other is None:
+        return Motion(said=None, is_known=False)
+    found = parting(one, other)
+    if found is None:
+        told = [[row.get("fingerprint") for row in each.rows] for each in (stored, again)]
+        differs = [n for n, pair in enumerate(zip(*told, strict=False)) if pair[0] != pair[1]]
+        if not differs:
+            return Motion(said=None)
+        return Motion(said=f"the fingerprint of its level {differs[0]} differs, no mark does")
+    span = (
+        f"the same up to step {found.after} ({found.after * timestep:g} s), "
+        f"no more at step {found.until} ({found.until * timestep:g} s)"
+    )
+    what = f"; first differs: {', '.join(found.parts)}" if found.parts else ""
+    return Motion(said=f"motion and pictures are {span}{what}", parts=found.parts)
+
+
+def of_text(stored: str, again: str) -> str | None:
+    """Say where two tables of text first differ, by line and column; None if they are equal."""
+    if stored == again:
+        return None
+    before, after = stored.split("\n"), again.split("\n")
+    separator = "\t" if "\t" in after[0] else ","
+    header = after[0].split(separator)
+    for number, (one, other) in enumerate(zip(before, after, strict=False), start=1):
+        if one == other:
+            continue
+        cells = [
+            next(csv.reader(io.StringIO(line), delimiter=separator), []) for line in (one, other)
+        ]
+        for i, (a, b) in enumerate(zip(*cells, strict=False)):
+            if a != b:
+                column = f", column {header[i]}" if i < len(header) and number > 1 else ""
+                return f"line {number}{column}: {a!r} there, {b!r} expected"
+        return f"line {number}: {one[:80]!r} there, {other[:80]!r} expected"
+    return f"{len(before)} lines there, {len(after)} expected"

@@ -1,0 +1,242 @@
+"""From a result back to what it was made from: its files, found by name and known by hash."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..assets.bundled import bundled
+from ..errors import AssetNotFound, ResultError
+from ..runs.make_plan import make_plan
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+    from ..runs.plan import Plan
+
+NOT_DRAWN = "none"
+"""The renderer of a control, which looks at no picture."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Given:
+    """Where the user says that files are."""
+
+    benchmark: Path | None = None
+    """The benchmark."""
+    scene: Path | None = None
+    """The scene."""
+    plugins: tuple[Path, ...] = ()
+    """Plugins, in any order."""
+    data_path: tuple[Path, ...] = ()
+    """Folders in which files are looked for."""
+    no_code: bool = False
+    """Whether code that the files name is refused."""
+
+
+def plan_of(result: Result, directory: Path, given: Given) -> Plan:
+    """Put together the plan that a result was made with.
+
+    Raises:
+        ResultError: the result does not say, or a file is not the one that was played.
+        AssetNotFound: a file is nowhere.
+    """
+    run = _Run(result.run)
+    typed = typed_words(directory)
+    benchmark = find_input(
+        "benchmark", named_input(result, "benchmark"), given.benchmark, directory, given, typed
+    )
+    typed += [str(benchmark.parent / name) for name in scene_named_by(benchmark)]
+    scene = find_input("scene", named_input(result, "scene"), given.scene, directory, given, typed)
+    is_blind = run.text("renderer") == NOT_DRAWN
+    settings = [f"{name}={value}" for name, value in run.pairs("settings")]
+    plan = make_plan(
+        str(benchmark),
+        scene=str(scene),
+        algorithm=run.text("algorithm"),
+        seed=run.number("seed"),
+        repeat=run.number("repeats"),
+        mode=run.text("mode"),
+        levels=[f"{name}={value!r}" for name, value in run.pairs("levels")],
+        settings=[s for s in settings if not (is_blind and s.startswith("algorithm."))],
+        compat=list(run.names("compatibility")),
+        data_path=given.data_path,
+        plugins=_plugins(result, given.plugins),
+        no_code=given.no_code,
+        algorithm_is_from=str(directory),
+    )
+    return replace(plan, is_blind=is_blind)
+
+
+def check_inputs(recorded: Mapping[str, Any], found: Mapping[str, Any]) -> None:
+    """Refuse to go on with other assets or another algorithm than those that were played.
+
+    Benchmark, scene and plugins are found by their hashes.
+
+    Raises:
+        ResultError: names each that differs.
+    """
+    from ..results.inputs import ALGORITHM, ASSETS, differing
+
+    before, now = (
+        {role: each[role] for role in (ASSETS, ALGORITHM) if role in each}
+        for each in (recorded, found)
+    )
+    if wrong := differing(before, now):
+        raise ResultError(
+            f"The result was made with other files: {'; '.join(wrong)}. "
+            "Give the folder with those files with --data-path, and that of an algorithm with "
+            "PYTHONPATH."
+        )
+
+
+def find_input(
+    kind: str,
+    recorded: tuple[str, str],
+    chosen: Path | None,
+    directory: Path,
+    given: Given,
+    typed: Sequence[str] = (),
+) -> Path:
+    """Find a file by its name and its hash.
+
+    Args:
+        kind: benchmark or scene: the option that names it.
+        recorded: name and hash.
+        chosen: the file that the user gave, if any; no other is looked at.
+        directory: the result's; its folder and those above it are searched.
+        given: folders to search.
+        typed: words among which may be the file, as it was named then.
+
+    Raises:
+        ResultError: there are files of that name, but with other hashes.
+        AssetNotFound: there is none.
+    """
+    from ..assets.find import candidates, folders_searched
+
+    name, wanted = recorded
+    if chosen is not None:
+        files = [bundled(f"{kind}s").get(str(chosen), chosen)] if not chosen.is_file() else [chosen]
+    else:
+        names = [*(word for word in typed if Path(word).name == name), name]
+        above = (directory.absolute(), *directory.absolute().parents)
+        files = list(candidates(names, data_path=(*above, *given.data_path)))
+        files += [path for path in bundled(f"{kind}s").values() if path.name == name]
+    others = []
+    for file in dict.fromkeys(path.resolve() if path.exists() else path for path in files):
+        found = "sha256:" + hashlib.sha256(file.read_bytes()).hexdigest()
+        if found == wanted:
+            return file
+        others.append(f"{file} ({_short(found)})")
+    if others:
+        raise ResultError(
+            f"The {kind} is not the one that was played, {name} ({_short(wanted)}): "
+            f"{', '.join(others)}. Give the right one with --{kind}."
+        )
+    searched = folders_searched(beside=directory.absolute(), data_path=given.data_path)
+    folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
+    raise AssetNotFound(
+        f"The {kind} {name!r} ({_short(wanted)}) was not found; give it with --{kind}. "
+        f"Folders searched: {folders}."
+    )
+
+
+def typed_words(directory: Path) -> list[str]:
+    """Return the words of the command that a result was made with; of a control, of its result."""
+    from ..results.directory import CONTROL
+    from ..results.provenance import load_provenance
+
+    place = directory.absolute()
+    typed = load_provenance(place.parent if place.name == CONTROL else place).get("command")
+    words = [str(word) for word in typed] if isinstance(typed, list) else []
+    return [word.partition("=")[2] if word.startswith("--") else word for word in words]
+
+
+def scene_named_by(benchmark: Path) -> list[str]:
+    """Return the scene that a benchmark file names (u:scene), if it does."""
+    from ..schema import NAMESPACE, parse
+
+    named = parse(benchmark).root.get(f"{{{NAMESPACE}}}scene")
+    return [] if named is None else [str(named).strip()]
+
+
+def _plugins(result: Result, given: Sequence[Path]) -> list[Path]:
+    """Return the plugins that were used, in the order in which they were."""
+    recorded = result.inputs.get("plugins", ())
+    named = [entry for entry in _entries(recorded) if len(entry) == 2]
+    hashes = {path: "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest() for path in given}
+    found = []
+    for name, wanted in named:
+        right = [path for path, digest in hashes.items() if digest == wanted]
+        if not right:
+            alike = [str(path) for path in given if path.name == name]
+            what = f"; {alike[0]} is another" if alike else f"; give it with --plugin {name}"
+            raise ResultError(
+                f"The result was made with the plugin {name} ({_short(wanted)}){what}."
+            )
+        found.append(right[0])
+    if extra := [str(path) for path in given if path not in found]:
+        raise ResultError(f"The result was made without the plugin {', '.join(extra)}.")
+    return found
+
+
+def _entries(value: object) -> list[tuple[str, ...]]:
+    return [tuple(map(str, entry)) for entry in value] if isinstance(value, list | tuple) else []
+
+
+def named_input(result: Result, kind: str) -> tuple[str, str]:
+    """Return name and hash of the benchmark or the scene of a result; ResultError if not there."""
+    entry = result.inputs.get(kind)
+    if (
+        isinstance(entry, list | tuple)
+        and len(entry) == 2
+        and all(isinstance(e, str) for e in entry)
+    ):
+        return str(entry[0]), str(entry[1])
+    raise ResultError(f'The result does not name its {kind}: "inputs" has {entry!r} for it.')
+
+
+def _short(digest: str) -> str:
+    return digest[: len("sha256:") + 12]
+
+
+class _Run:
+    """What ``run`` of a result says, with faults for what it does not."""
+
+    def __init__(self, run: Mapping[str, object]) -> None:
+        self._run = run
+
+    def text(self, name: str) -> str:
+        """A word."""
+        value = self._run.get(name)
+        if isinstance(value, str):
+            return value
+        raise self._fault(name)
+
+    def number(self, name: str) -> int:
+        """A whole number."""
+        value = self._run.get(name)
+        if isinstance(value, int) and value >= 0:
+            return value
+        raise self._fault(name)
+
+    def names(self, name: str) -> tuple[str, ...]:
+        """A list of words."""
+        value = self._run.get(name, ())
+        if isinstance(value, tuple):
+            return tuple(map(str, value))
+        raise self._fault(name)
+
+    def pairs(self, name: str) -> list[tuple[str, Any]]:
+        """A list of pairs."""
+        value = self._run.get(name, ())
+        if isinstance(value, tuple) and all(isinstance(p, tuple) and len(p) == 2 for p in value):
+            return [(str(first), second) for first, second in value]
+        raise self._fault(name)
+
+    def _fault(self, name: str) -> ResultError:
+        return ResultError(
+            f'The result cannot be replayed: "run" has {self._run.get(name)!r} for {name}.'
+        )

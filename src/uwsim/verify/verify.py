@@ -1,0 +1,294 @@
+"""Verifying a result: what is stored is held against itself, and units are played again.
+
+First, without playing anything, every total is worked out from its row, and every file of the
+result is made anew from what its units stored and compared. Then whole units are replayed from the
+recorded inputs and compared with what is stored: every cell, every sample, every picture, byte for
+byte; where they differ, the fingerprints on the way (`trace`) say from which step on and in which
+body or picture.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from ..chance import stream
+from ..files.scratch import scratch_folder
+from ..results import journal
+from ..results.result import Result
+from ..results.result_file import dumps
+from ..runs.executors.executor import Crew, Here, Job, OnLevel, Roster
+from ..runs.executors.worker import PICTURES
+from ..runs.plan import Plan, Unit
+from ..runs.run import Bench
+from . import differences
+from .derived import contradictions
+from .differences import Difference
+
+ENVIRONMENT = ("version", "physics", "renderer", "numpy")
+"""Of ``run``: what a result was made with."""
+
+
+@dataclass(kw_only=True)
+class Verification:
+    """What came out."""
+
+    differences: list[Difference] = field(default_factory=list)
+    """Everything that is not the same."""
+    parts: list[str] = field(default_factory=list)
+    """Bodies and topics in which replays part from what is stored."""
+    is_steady: bool = True
+    """Whether every replay moved, and saw, what the stored run did."""
+    is_replayed: bool = True
+    """Whether every replay gave what its unit stored."""
+    not_compared: list[str] = field(default_factory=list)
+    """What is not there to be compared."""
+    n_files: int = 0
+    """Files that were made anew from the stored units."""
+    units: tuple[Unit, ...] = ()
+    """Units that were replayed."""
+
+    def add(self, where: str, what: str) -> None:
+        """Take note of a difference."""
+        self.differences.append(Difference(where=where, what=what))
+
+
+def finished(directory: Path, plan: Plan, result: Result) -> list[Unit]:
+    """Return the units that are whole: by their files or, without those, by their rows."""
+    units = plan.units()
+    if _has_units(directory):
+        files = [journal.path_of(directory, unit.index) for unit in units]
+        stored = [journal.read_any(file)[1] for file in files]
+        return [unit for unit, found in zip(units, stored, strict=True) if found.end is not None]
+    rows = _rows_by_level(result, plan)
+    return [unit for unit in units if all(key in rows for key in _keys(unit, plan))]
+
+
+def choose(units: Sequence[Unit], sample: int | None, seed: int) -> tuple[Unit, ...]:
+    """Choose ``sample`` units by chance (None: all), in their order."""
+    if sample is None or sample >= len(units):
+        return tuple(units)
+    picked = stream(seed, "verify").choice(len(units), size=sample, replace=False)
+    return tuple(units[i] for i in sorted(picked.tolist()))
+
+
+def verify(
+    directory: Path,
+    result: Result,
+    bench: Bench,
+    units: Sequence[Unit],
+    *,
+    crew: Crew | None = None,
+    on_level: OnLevel = lambda: None,
+) -> Verification:
+    """Hold a stored result against itself and against replays.
+
+    Args:
+        directory: the result's.
+        result: as it was read.
+        bench: the same run anew, from the recorded inputs; its directory is not used.
+        units: what to replay.
+        crew: who plays; without one, this process.
+        on_level: called for every level played.
+
+    Raises:
+        UwsimError: a replay could not be played.
+    """
+    found = Verification(units=tuple(units))
+    found.differences += contradictions(result, bench.plan.benchmark)
+    with scratch_folder("uwsim-verify-") as scratch:
+        if _has_units(directory):
+            _check_files(found, directory, result, replace(bench, out=scratch / "stored"))
+        else:
+            found.not_compared.append("units/: rows are compared with result.json alone")
+        again = replace(bench, out=scratch / "replayed")
+        again.out.mkdir()
+        roster = Roster([Job(again, unit) for unit in units], on_level)
+        (crew or Here()).play(roster)
+        if roster.failure is not None:
+            raise roster.failure
+        if _has_units(directory):
+            for unit in units:
+                _check_unit(found, directory, again, unit)
+        else:
+            _check_rows(found, result, again)
+        _check_pictures(found, directory, again.out)
+    return found
+
+
+def _has_units(directory: Path) -> bool:
+    return (directory / journal.FOLDER).is_dir()
+
+
+def _check_files(found: Verification, directory: Path, result: Result, bench: Bench) -> None:
+    """Make every file anew from the stored units, and compare, if they are all there."""
+    gone = _gone(directory, result, bench.plan)
+    for unit, what in gone.items():
+        name = journal.path_of(directory, unit.index).name
+        found.add(f"{journal.FOLDER}/{name}", what)
+    if gone:
+        found.not_compared.append("result.json and the files beside it: units/ is not whole")
+    for unit in bench.plan.units():
+        path = journal.path_of(directory, unit.index)
+        head, stored = journal.read_any(path)
+        if head is None or unit in gone:
+            continue
+        expected = _head(result, bench.head(unit))
+        _check_head(found, f"{journal.FOLDER}/{path.name}", head, expected)
+        file = journal.UnitFile(bench.out, unit.index, bench.head(unit))
+        for row in stored.rows:
+            file.add(row)
+        if stored.end is not None:
+            file.finish(stored.end)
+        file.close()
+    if gone:
+        return
+    try:
+        made = bench.write()
+    except Exception as error:
+        found.add(journal.FOLDER, f"what is stored makes no result: {error}")
+        return
+    for path in sorted(bench.out.glob("*.*")):
+        there = directory / path.name
+        found.n_files += 1
+        if path.name == "result.json":
+            _check_result(found, result, made)
+        elif not there.is_file():
+            found.not_compared.append(f"{path.name}: is not there")
+        else:
+            text = there.read_text(encoding="utf-8", errors="replace")
+            if said := differences.of_text(text, path.read_text(encoding="utf-8")):
+                found.add(path.name, f"{said} by units/")
+
+
+def _gone(directory: Path, result: Result, plan: Plan) -> dict[Unit, str]:
+    """Units whose rows are in the result but not in their files: what is the matter with each."""
+    rows = _rows_by_level(result, plan)
+    gone = {}
+    for unit in plan.units():
+        file = journal.path_of(directory, unit.index)
+        n_stored = len(journal.read_any(file)[1].rows) if file.is_file() else 0
+        n_told = sum(key in rows for key in _keys(unit, plan))
+        if n_stored < n_told:
+            name = f"unit {unit.index} (seed {unit.seed})"
+            what = f"{n_stored} rows can be read" if file.exists() else "is not there"
+            gone[unit] = f"{name}: {what}; result.json has {n_told} of it"
+    return gone
+
+
+def _head(result: Result, replayed: journal.Record) -> journal.Record:
+    """The head that a unit of a result should have: what it shares with result.json is from there.
+
+    The parameters of a head are those given; result.json says those that the algorithm ran with.
+    """
+    said = json.loads(json.dumps(result.run))
+    run = {
+        key: said.get(key) if key != "parameters" else now for key, now in replayed["run"].items()
+    }
+    return {**replayed, "inputs": json.loads(json.dumps(result.inputs)), "run": run}
+
+
+def _check_head(
+    found: Verification, where: str, head: journal.Record, expected: journal.Record
+) -> None:
+    """Compare what a unit says of its run with what result.json does, a line a value."""
+    seen: set[tuple[str | int, ...]] = set()
+    for path, before, after in differences.apart(head, expected):
+        if path[:2] not in seen:
+            seen.add(path[:2])
+            found.add(where, f"{' '.join(map(str, path))}: {before} there, {after} by result.json")
+
+
+def _check_result(found: Verification, result: Result, made: Result) -> None:
+    documents = []
+    for each in (result, made):
+        document = json.loads(dumps(each))
+        document["run"] = {k: v for k, v in document["run"].items() if k not in ENVIRONMENT}
+        documents.append(document)
+    names = [column.name for column in made.columns]
+    seen: set[tuple[str | int, ...]] = set()
+    for path, before, after in differences.apart(*documents):
+        group = path if path[0] == "rows" else path[:2]
+        if group in seen:
+            continue
+        seen.add(group)
+        match path:
+            case ("rows", int(row), int(column)) if column < len(names):
+                where = f"row {row}, column {names[column]}"
+            case _:
+                where = " ".join(map(str, path))
+        found.add("result.json", f"{where}: {before} there, {after} by units/")
+
+
+def _check_unit(found: Verification, directory: Path, again: Bench, unit: Unit) -> None:
+    """Compare a replayed unit with the stored one, level by level."""
+    stored, played = (
+        journal.read_any(journal.path_of(folder, unit.index))[1]
+        for folder in (directory, again.out)
+    )
+    name = f"unit {unit.index} (seed {unit.seed})"
+    before = len(found.differences)
+    for n, level in enumerate(unit.levels):
+        rows = [each.rows[n] if n < len(each.rows) else {} for each in (stored, played)]
+        for said in differences.of_row(*rows):
+            found.add(f"{name}, level {level}", said)
+    for said in differences.of_end(stored.end or {}, played.end or {}):
+        found.add(name, said)
+    motion = differences.of_trace(stored, played, again.plan.timestep)
+    if len(found.differences) > before or motion.said is not None:
+        found.is_replayed = False
+    if not motion.is_known:
+        found.not_compared.append(f"{name}: has no fingerprints of motion")
+    elif motion.said is not None:
+        found.is_steady = False
+        found.parts += [part for part in motion.parts if part not in found.parts]
+        found.differences.insert(before, Difference(where=name, what=motion.said))
+
+
+def _check_rows(found: Verification, result: Result, again: Bench) -> None:
+    """Compare replayed rows with those of result.json, where that is all there is."""
+    made = again.write()
+    expected = _rows_by_level(result, again.plan)
+    names = {column.name for column in result.columns}
+    for key, row in _rows_by_level(made, again.plan).items():
+        for column, cell in zip(made.columns, made.rows[row], strict=True):
+            if column.name == "ended_at" and len(made.rows) < len(result.rows):
+                continue  # counts what was played before, too
+            there = result.values(column.name)[expected[key]] if column.name in names else None
+            if differences.leaves(there) != differences.leaves(cell):
+                found.is_replayed = False
+                where = f"row {expected[key]}, column {column.name}"
+                found.add("result.json", f"{where}: stored {there!r}, replayed {cell!r}")
+    for stream_again in made.image_streams:
+        if stream_again not in result.image_streams:
+            found.add("result.json", f"pictures on {stream_again.topic}: others than in the replay")
+
+
+def _check_pictures(found: Verification, directory: Path, again: Path) -> None:
+    for path in sorted((again / PICTURES).glob("*.png")):
+        there = directory / PICTURES / path.name
+        if not (directory / PICTURES).is_dir():
+            found.not_compared.append(f"{PICTURES}/: is not there")
+            return
+        if not there.is_file():
+            found.not_compared.append(f"{PICTURES}/{path.name}: is not there")
+        elif there.read_bytes() != path.read_bytes():
+            found.add(f"{PICTURES}/{path.name}", "another picture than in the replay")
+
+
+def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
+    """Return repeat and level -> number of the row."""
+    wanted = [c.name for c in result.columns if c.kind == "level" or c.name == "repeat"]
+    columns = [result.numbers(name) for name in wanted]
+    found: dict[tuple[float, ...], int] = {}
+    for row in range(len(result.rows)):
+        key = tuple(value for column in columns if (value := column[row]) is not None)
+        found[key if plan.repeats > 1 else (0.0, *key)] = row
+    return found
+
+
+def _keys(unit: Unit, plan: Plan) -> list[tuple[float, ...]]:
+    """The keys of `_rows_by_level` for a unit."""
+    return [(float(unit.repeat), *(value for _, value in level.values)) for level in unit.levels]

@@ -1,0 +1,279 @@
+"""What plots promise."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from tests.synthetic_results import (
+    F_STAR,
+    WHY,
+    frozen,
+    nested,
+    nothing_measured,
+    one_level,
+    visibility,
+)
+from uwsim.analysis.plots import (
+    compare_plot,
+    curves_of,
+    draw_plots,
+    save_plot,
+    small_multiples,
+    value_plot,
+)
+from uwsim.analysis.plots.drawing import MOST_NAMED
+from uwsim.errors import ResultError
+from uwsim.results.result import Column, Result
+
+
+def words(figure: Figure) -> str:
+    return "\n".join(text.get_text() for text in figure.findobj(Text))
+
+
+def vertical_lines(figure: Figure) -> list[float]:
+    lines = [line.get_xdata() for line in figure.axes[0].lines]
+    return sorted(float(x[0]) for x in lines if len(x) == 2 and x[0] == x[1])
+
+
+def test_axes_carry_names_and_units() -> None:
+    axes = value_plot(visibility(), "corners").axes[0]
+    assert axes.get_xlabel() == "fog density [m⁻¹]"
+    assert axes.get_ylabel() == "corners [px]"
+    assert axes.get_title() == ""
+    assert value_plot(visibility(), "total").axes[0].get_ylabel() == "total [px]"
+
+
+def test_a_loss_and_its_prediction_are_vertical_lines_with_labels() -> None:
+    figure = value_plot(visibility(lost_at=1.2), "corners")
+    assert vertical_lines(figure) == pytest.approx([F_STAR, 1.2])
+    assert "lost at 1.2" in words(figure)
+    assert f"$f^*$ = {F_STAR:.2f} m⁻¹" in words(figure)
+
+
+def test_a_sweep_of_lengths_shows_the_prediction_as_a_length() -> None:
+    result = visibility(lost_at=1.2)
+    fog, *others = result.columns
+    length = replace(fog, name="attenuationLength", unit="m")
+    rows = tuple((1.0 / max(row[0], 0.05), *row[1:]) for row in result.rows)  # type: ignore[type-var]
+    figure = value_plot(replace(result, columns=(length, *others), rows=rows), "corners")
+    assert figure.axes[0].get_xlabel() == "attenuation length [m]"
+    assert vertical_lines(figure)[-1] == pytest.approx(1.0 / F_STAR)
+    assert f"predicted at {1.0 / F_STAR:.2f} m, $f^*$ = {F_STAR:.2f} m⁻¹" in words(figure)
+
+
+def test_without_a_loss_and_without_facts_there_is_no_such_line() -> None:
+    result = replace(frozen(), facts={})
+    assert vertical_lines(value_plot(result, "corners")) == []
+
+
+def test_the_losses_of_repeats_are_a_span() -> None:
+    figure = value_plot(visibility(seeds=tuple(range(1, 11))), "corners")
+    assert "lost at 1.15 to 1.25" in words(figure)
+    assert "95 % intervals" in words(figure)
+
+
+def test_the_control_is_dashed_and_named() -> None:
+    axes = value_plot(visibility(), "corners", control=frozen()).axes[0]
+    styles = {str(line.get_label()): line.get_linestyle() for line in axes.lines}
+    assert styles["frozen"] == "--"
+    assert styles["esm"] == "-"
+
+
+def scaled(*factors: float) -> Result:
+    result = replace(frozen(), facts={})
+    rows = [
+        (row[0], *(1.0 * factor for _ in range(6)), "ok", 2.0)
+        for row, factor in zip(result.rows, factors, strict=False)
+    ]
+    return replace(result, rows=tuple(rows))
+
+
+@pytest.mark.parametrize(
+    ("values", "scale"), [((1.0, 49.0), "linear"), ((1.0, 100.0), "log"), ((1e-5, 2.0), "linear")]
+)
+def test_errors_far_apart_are_drawn_on_a_logarithmic_axis_but_nothing_is_not_an_error(
+    values: tuple[float, ...], scale: str
+) -> None:
+    assert value_plot(scaled(*values), "corners").axes[0].get_yscale() == scale
+
+
+def test_a_column_without_values_says_why() -> None:
+    said = words(value_plot(nothing_measured(), "corners"))
+    assert f"no data: {WHY}" in said.replace("\n", " ")
+
+
+def test_nested_levels_are_one_curve_for_each_outer_level() -> None:
+    curves = curves_of(nested(), "corners")
+    assert [curve.name for curve in curves] == [
+        "current 0 m/s",
+        "current 0.1 m/s",
+        "current 0.2 m/s",
+    ]
+    assert [len(curve.x) for curve in curves] == [27, 27, 27]
+    assert [(round(x, 9), status) for x, status in curves[0].losses] == [(1.2, "lost")]
+
+
+def test_nested_curves_end_in_a_cross_and_the_legend_says_where() -> None:
+    figure = value_plot(nested(), "corners")
+    assert [line.get_marker() for line in figure.axes[0].lines].count("x") == 3
+    assert "current 0.1 m/s (lost at 1.2)" in words(figure)
+    assert vertical_lines(figure) == []
+
+
+def test_many_curves_look_all_different_and_stand_in_a_legend_beside_the_axes() -> None:
+    one = visibility(lost_at=2.0)
+    columns = (Column(name="current", kind="level", unit="m/s"), *one.columns)
+    rows = tuple((0.01 * i, *row) for i in range(30) for row in one.rows)
+    many = replace(one, columns=columns, rows=rows, facts={})
+    figure = value_plot(many, "corners")
+    named = [line for line in figure.axes[0].lines if not str(line.get_label()).startswith("_")]
+    assert len({line.get_color() for line in named}) == 30
+    assert figure.axes[0].get_legend() is None
+    (legend,) = figure.legends
+    shown = [text.get_text() for text in legend.get_texts()]
+    assert len(shown) == MOST_NAMED
+    assert (shown[0], shown[-1]) == ("current 0 m/s", "current 0.29 m/s")
+
+
+def test_a_control_far_above_is_named_and_does_not_press_the_curve_flat() -> None:
+    rows = tuple((row[0], *[48.6] * 6, *row[7:]) for row in frozen().rows)
+    figure = value_plot(visibility(), "corners", control=replace(frozen(), rows=rows))
+    assert "frozen: 48.6, above" in words(figure)
+    assert figure.axes[0].get_ylim()[1] < 10
+    near = tuple((row[0], *[4.0] * 6, *row[7:]) for row in frozen().rows)
+    figure = value_plot(visibility(), "corners", control=replace(frozen(), rows=near))
+    assert "above" not in words(figure)
+    assert figure.axes[0].get_ylim()[1] > 4
+
+
+def test_few_levels_have_a_tick_each_and_iterations_are_whole_numbers() -> None:
+    few = replace(frozen(), rows=frozen().rows[:3])
+    assert list(value_plot(few, "corners").axes[0].get_xticks()) == [0.0, 0.05, 0.1]
+    columns = (Column(name="iteration", kind="level"), *frozen().columns[1:])
+    rows = tuple((float(i), *row[1:]) for i, row in enumerate(frozen().rows[:9]))
+    counted = replace(frozen(), columns=columns, rows=rows, facts={})
+    assert all(x.is_integer() for x in value_plot(counted, "corners").axes[0].get_xticks())
+
+
+def test_very_long_names_leave_nothing_outside_the_figure() -> None:
+    base, long = visibility(), "a_measure_whose_name_tells_a_very_long_story_" * 2
+    columns = tuple(replace(c, name=long) if c.name == "corners" else c for c in base.columns)
+    result = replace(
+        base,
+        columns=columns,
+        missing=(),
+        inputs={"benchmark": (f"{long}.xml", "sha256:0")},
+        run={**base.run, "algorithm": f"package:{long}"},
+    )
+    for figure in (value_plot(result, long, control=frozen()), small_multiples(result)):
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        figure.draw(renderer)
+        for text in figure.findobj(Text):
+            if len(text.get_text()) > 20:
+                box = text.get_window_extent(renderer)
+                assert box.x0 >= 0
+                assert box.x1 <= figure.bbox.width + 1
+
+
+def test_several_results_are_one_curve_each_and_the_legend_says_where_they_end() -> None:
+    figure = compare_plot([visibility(), visibility("orb", lost_at=0.6), frozen()], "corners")
+    assert "esm (lost at 1.2)" in words(figure)
+    assert "orb (lost at 0.6)" in words(figure)
+    assert "frozen" in words(figure)
+
+
+def test_a_comparison_shows_the_predicted_loss_of_those_that_have_one() -> None:
+    no_rule = replace(frozen(), facts={})
+    figure = compare_plot([no_rule, visibility()], "corners")
+    assert vertical_lines(figure)[:1] == pytest.approx([F_STAR])
+    assert vertical_lines(compare_plot([no_rule, no_rule], "corners")) == []
+    stricter = replace(visibility(), facts={"f_star": (0.9 * F_STAR, "1/m")})
+    figure = compare_plot([visibility(), stricter], "corners")
+    assert "predicted" not in words(figure)  # one line would be wrong for one of them
+
+
+def test_the_same_algorithm_twice_is_told_apart_by_its_seed() -> None:
+    second = replace(visibility(), run={**visibility().run, "seed": 2})
+    assert "esm, seed 2 (lost at 1.2)" in words(compare_plot([visibility(), second], "corners"))
+
+
+def test_what_cannot_be_compared_is_an_error() -> None:
+    with pytest.raises(ResultError, match="sweep different things: fog and current, fog"):
+        compare_plot([visibility(), nested()], "corners")
+    with pytest.raises(ResultError, match="nothing to compare"):
+        compare_plot([], "corners")
+
+
+@pytest.mark.parametrize("make", [visibility, nothing_measured, one_level, nested, frozen])
+def test_any_result_can_be_drawn(make: Callable[[], Result], tmp_path: Path) -> None:
+    files = draw_plots(make(), tmp_path / "plots", control=frozen())
+    assert [f.name for f in files] == [
+        "total.png",
+        "corners.png",
+        "centroid.png",
+        "all-measures.png",
+    ]
+    assert all(f.read_bytes().startswith(b"\x89PNG") for f in files)
+
+
+def test_plots_come_as_pdf_too_when_asked(tmp_path: Path) -> None:
+    base = visibility()
+    kept = [base.index(name) for name in ("fog", "total", "status")]
+    result = replace(
+        base,
+        columns=tuple(base.columns[k] for k in kept),
+        rows=tuple(tuple(row[k] for k in kept) for row in base.rows),
+        missing=(),
+    )
+    draw_plots(result, tmp_path)
+    assert [file.name for file in tmp_path.iterdir()] == ["total.png"]
+    draw_plots(result, tmp_path, pdf=True)
+    first = (tmp_path / "total.pdf").read_bytes()
+    assert first.startswith(b"%PDF")
+    draw_plots(result, tmp_path, pdf=True)
+    assert (tmp_path / "total.pdf").read_bytes() == first
+
+
+def test_a_result_without_rows_can_be_drawn(tmp_path: Path) -> None:
+    empty = replace(visibility(), rows=(), missing=())
+    assert "no level was played" in words(small_multiples(empty))
+    save_plot(small_multiples(empty), tmp_path / "empty.png")
+
+
+@pytest.mark.parametrize(("n", "across"), [(8, 1), (9, 2), (16, 2), (17, 2)])
+def test_many_measures_stand_in_two_columns_with_levels_below_each(n: int, across: int) -> None:
+    base = visibility()
+    k = base.index("corners")
+    more = tuple(replace(base.columns[k], name=f"m{i}") for i in range(n - 3))
+    result = replace(
+        base,
+        columns=(*base.columns, *more),
+        rows=tuple((*row, *(row[k] for _ in more)) for row in base.rows),
+    )
+    figure = small_multiples(result)
+    panels = figure.get_axes()
+    assert len(panels) == n
+    lefts = {round(axes.get_position().x0, 1) for axes in panels}
+    assert len(lefts) == across
+    assert sum(axes.get_xlabel() != "" for axes in panels) == across
+    assert figure.get_size_inches()[1] <= 0.6 + 1.9 * max(8, math.ceil(n / 2))
+
+
+def test_a_plot_has_the_same_bytes_every_time(tmp_path: Path) -> None:
+    first = save_plot(value_plot(visibility(), "total"), tmp_path / "a.png").read_bytes()
+    assert save_plot(value_plot(visibility(), "total"), tmp_path / "b.png").read_bytes() == first
+
+
+def test_a_dollar_or_a_slash_in_a_name_is_no_mathematics_and_no_folder(tmp_path: Path) -> None:
+    result = visibility()
+    columns = [replace(c, name="$\\evil/$") if c.name == "corners" else c for c in result.columns]
+    files = draw_plots(replace(result, columns=tuple(columns), missing=()), tmp_path)
+    assert {f.parent for f in files} == {tmp_path}

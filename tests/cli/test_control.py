@@ -1,0 +1,49 @@
+"""The control that is played beside a tracker sees the pictures that the tracker is told of."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+
+import pytest
+
+from tests.short_benchmark import bench_of, write_benchmark
+from uwsim.cli import bench, main
+from uwsim.cli.bench import control_of
+from uwsim.runs.run import Bench
+
+SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
+
+
+@pytest.mark.parametrize(
+    ("topic", "parameters"),
+    [("/front/image", {"image_topic": "/front/image"}), ("uwsim/camera1", {})],
+)
+def test_the_control_waits_for_pictures_of_the_camera_of_the_truth(
+    topic: str, parameters: dict[str, str], tmp_path: Path
+) -> None:
+    scene = (SCENES / "visibility-scene.xml").read_text()
+    (tmp_path / "own.xml").write_text(scene.replace("/uwsim/camera1<", f"{topic}<"))
+    benchmark = write_benchmark(tmp_path, "0.2")
+    benchmark.write_text(benchmark.read_text().replace("visibility-scene.xml", "own.xml"))
+    run = bench_of(benchmark, tmp_path / "out")
+    assert run.plan.told_topic == topic
+    assert control_of(run).plan.parameters == parameters
+
+
+def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def bound_to_fail(run: Bench) -> Bench:
+        control = control_of(run)
+        no_images = replace(control.plan, parameters={"image_topic": "/uwsim/camera1_info"})
+        return replace(control, plan=no_images)
+
+    monkeypatch.setattr(bench, "control_of", bound_to_fail)
+    path, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
+    assert main(["bench", str(path), "--level", "fog=0", "--out", str(out)]) == 0
+    said = capsys.readouterr()
+    assert "warning: the report lacks the control 'frozen', which failed: Topic '" in said.err
+    assert f"report: {out}/report.html" in said.out
+    assert (out / "report.html").is_file()

@@ -1,0 +1,84 @@
+"""``uwsim info``: what a scene holds, in words and for programs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from uwsim.assets.bundled import bundled
+from uwsim.cli import main
+
+
+def said(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    assert main(["info", *arguments]) == 0
+    return capsys.readouterr().out
+
+
+def test_a_scene_is_told_before_anything_is_written_for_it(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    text = said(capsys, "currents-scene")
+    for part in (
+        "up is -z in the file's frame",
+        "simulated in water (g500_physical)",
+        "below it: blackbox 3.145 m down",
+        "terrain 3.295 m down, at (3, 1.5, 4.81) m",
+        "thrusters: surge_port, surge_starboard, heave_bow, heave_stern, sway",
+        "joint Elbow: continuous",
+        "640x480 px, 50° high, noise 0.02",
+        "publishes at 10 Hz  sensor_msgs/msg/Image",
+        "listens             geometry_msgs/msg/TwistStamped",
+        "object[blackbox].orientation.y: uniform -0.1 to 0.1 rad",
+        "waves (lines 10,",
+    ):
+        assert part in text
+
+
+@pytest.mark.parametrize("name", [name for name in bundled("scenes") if name != "cirs"])
+def test_every_bundled_scene_can_be_shown_and_json_says_the_same(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text, found = said(capsys, name), json.loads(said(capsys, name, "--json"))
+    assert list(found) == [
+        "file", "frame", "water", "vehicles", "cameras", "objects", "topics", "services",
+        "varies", "not_simulated", "notices",
+    ]  # fmt: skip
+    for kind in ("vehicles", "cameras", "objects"):
+        assert found[kind]
+        assert all(each["name"] in text for each in found[kind])
+    assert all(topic["topic"] in text for topic in found["topics"])
+    assert found["vehicles"][0]["below"][-1]["name"] == "terrain"
+
+
+def test_topics_have_type_direction_and_rate_and_those_that_do_nothing_say_so(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = bundled("scenes")["currents-scene"].read_text()
+    dvl = "<name>dvl</name> <relativeTo>base_link</relativeTo>"
+    text = text.replace("<virtualCamera>", f"<dvlSensor>{dvl}</dvlSensor><virtualCamera>", 1)
+    extra = "<DVLSensorToROS> <name>dvl</name> <topic>/dvl</topic> </DVLSensorToROS>"
+    file = tmp_path / "a.xml"
+    file.write_text(text.replace("</rosInterfaces>", f"{extra}</rosInterfaces>"))
+    topics = {t["interface"]: t for t in json.loads(said(capsys, str(file), "--json"))["topics"]}
+    assert topics["DVLSensorToROS"]["limit"] == "read, not simulated yet"
+    assert topics["VirtualCameraToROSImage"]["limit"] == ""
+    assert topics["VirtualCameraToROSImage"]["rate_hz"] == 10
+    assert topics["ROSTwistToPAT"]["direction"] == "listens"
+    assert topics["ROSTwistToPAT"]["rate_hz"] is None
+    assert "/dvl" in said(capsys, str(file))
+
+
+def test_a_setting_is_applied_before_it_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    text = said(capsys, "visibility-scene", "--set", "oceanState.fog.density=0.4")
+    assert "fog 0.4 1/m" in text
+
+
+def test_a_scene_with_faults_is_refused_with_its_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "a.xml"
+    file.write_text("<UWSimScene>\n<vehicle><name>x</name></vehicle></UWSimScene>")
+    assert main(["info", str(file)]) == 2
+    assert f"{file}:2: " in capsys.readouterr().err

@@ -1,0 +1,100 @@
+"""Ctrl-C, whenever it comes: one line, no traceback, exit status 130."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.short_benchmark import write_benchmark
+from uwsim import interrupts
+
+
+def pressed(arguments: list[str], when: float) -> tuple[int, str]:
+    """Start uwsim, press Ctrl-C after so many seconds, return its exit status and stderr."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", *arguments],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,  # a terminal sends it to every process of its foreground group
+    )
+    time.sleep(when)
+    os.killpg(process.pid, signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    return process.returncode, said
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("when", [0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0])
+def test_ctrl_c_in_the_first_seconds_of_a_run_shows_no_traceback(
+    when: float, tmp_path: Path
+) -> None:
+    benchmark = write_benchmark(tmp_path, "30")
+    call = ["uwsim", "bench", str(benchmark), "--out", str(tmp_path / "out")]
+    status, said = pressed(call, when)
+    assert "Traceback" not in said
+    assert "ignored" not in said
+    assert said.splitlines()[-1].startswith("uwsim: interrupted")
+    assert status == 130
+
+
+def test_ctrl_c_while_libraries_are_loaded_ends_a_command_with_one_line(tmp_path: Path) -> None:
+    slow = "import sys, time\nsys.stderr.write('loading\\n')\ntime.sleep(60)\n"
+    (tmp_path / "lxml").mkdir()
+    (tmp_path / "lxml" / "__init__.py").write_text(slow)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "uwsim", "check", "visibility"],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"},
+    )
+    assert process.stderr is not None
+    assert process.stderr.readline() == "loading\n"
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=30)
+    assert (process.returncode, said) == (130, "uwsim: interrupted.\n")
+
+
+def test_who_ignores_ctrl_c_goes_on_ignoring_it() -> None:
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        interrupts.end_at_once()
+        interrupts.raise_from_now_on()
+        assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_from_a_point_on_ctrl_c_is_an_error_that_can_be_handled() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    try:
+        interrupts.raise_from_now_on()
+        assert signal.getsignal(signal.SIGINT) is before  # nobody asked for the other
+        interrupts.end_at_once()
+        assert signal.getsignal(signal.SIGINT) is not before
+        interrupts.raise_from_now_on()
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGINT)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_what_else_ends_a_run_is_as_ctrl_c_unless_it_is_ignored(number: int) -> None:
+    before = signal.getsignal(number)
+    try:
+        signal.signal(number, signal.SIG_IGN)  # nohup
+        interrupts.raise_from_now_on()
+        assert signal.getsignal(number) is signal.SIG_IGN
+        signal.signal(number, signal.SIG_DFL)
+        interrupts.raise_from_now_on()
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), number)
+    finally:
+        signal.signal(number, before)

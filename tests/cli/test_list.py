@@ -1,0 +1,114 @@
+"""``uwsim list``."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from uwsim.algorithms import ALGORITHMS
+from uwsim.assets.bundled import bundled
+from uwsim.benchmark.measures import MEASURES
+from uwsim.cli import main
+from uwsim.cli.list import KINDS, first_line, head_comment, limit_in, without_title
+from uwsim.physics.vehicle_file import find_vehicle, read_vehicle
+from uwsim.runs.tables import bundled_tables
+from uwsim.scene.not_yet import not_simulated
+from uwsim.scene.urdf_reader import read_urdf
+from uwsim.schema import Faults
+from uwsim.simulation.bodies import find_file
+
+YOUR_OWN = Path(__file__).parents[2] / "docs" / "your-own-vehicle.md"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_everything_that_has_a_name_has_a_sentence_about_it(kind: str) -> None:
+    entries = KINDS[kind](bundled_tables())
+    assert entries
+    assert [name for name, said in entries.items() if not said.endswith(".")] == []
+
+
+def test_a_kind_lists_its_own_names_and_no_others(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list", "algorithms"]) == 0
+    listed = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
+    assert listed == sorted(ALGORITHMS)
+
+
+def test_without_a_kind_everything_is_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list"]) == 0
+    printed = capsys.readouterr().out
+    words = printed.split()
+    assert {*KINDS, *MEASURES, *bundled("scenes"), *bundled("benchmarks")} <= set(words)
+
+
+def test_a_misspelt_kind_is_told_the_right_one(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list", "sensor"]) == 2
+    assert "Did you mean 'sensors'?" in capsys.readouterr().err
+
+
+def test_what_is_read_and_not_simulated_is_marked(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list", "sensors"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert "[read, not simulated yet]" in lines["dvlSensor"]
+    assert "[" not in lines["virtualCamera"]
+    assert main(["list", "interfaces"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert "[read, not simulated yet]" in lines["DVLSensorToROS"]
+    assert "[" not in lines["u:ROSThrustersToPAT"] + lines["PATToROSOdom"]
+
+
+@pytest.mark.parametrize("kind", ["sensors", "devices", "interfaces"])
+def test_the_marks_are_those_that_check_gives_a_file(kind: str) -> None:
+    for name in KINDS[kind](bundled_tables()):
+        parent = "rosInterfaces" if kind == "interfaces" else "vehicle"
+        scene = etree.fromstring(
+            f"<UWSimScene xmlns:u='urn:uwsim:1'><{parent}><{name}/></{parent}></UWSimScene>"
+        )
+        faults = Faults("a.xml")
+        not_simulated(scene, faults)
+        assert bool(faults.all()) == bool(limit_in(kind, name)), name
+
+
+def test_json_lists_the_same_for_programs(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list", "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert list(said) == list(KINDS)
+    assert [each["name"] for each in said["algorithms"]] == sorted(ALGORITHMS)
+    limits = {each["name"]: each["limit"] for each in said["sensors"]}
+    assert limits["virtualCamera"] == ""
+    assert limits["imu"] == "read, not simulated yet"
+
+
+def test_a_sentence_is_the_first_line_without_marks_of_code() -> None:
+    assert first_line("``never``: always off.\n\nMore.") == "never: always off."
+    assert first_line(None) == ""
+
+
+def test_a_sentence_goes_without_the_title_that_its_name_is() -> None:
+    assert without_title("Distance: how far a body went.") == "How far a body went."
+    assert without_title("A fan of beams.") == "A fan of beams."
+
+
+def test_the_sentence_of_a_file_is_the_first_of_its_comment(tmp_path: Path) -> None:
+    file = tmp_path / "a.xml"
+    file.write_text("<?xml version='1.0'?>\n<!-- A tank,\n  1.3 m deep. And a box. -->\n<a/>")
+    assert head_comment(file) == "A tank, 1.3 m deep."
+    file.write_text("<a/>")
+    assert head_comment(file) == ""
+
+
+def test_every_bundled_robot_is_listed_documented_found_by_that_name_and_has_its_sets(
+    tmp_path: Path,
+) -> None:
+    package = Path(str(find_vehicle("rexrov"))).parents[2]
+    listed = KINDS["vehicles"](bundled_tables())
+    assert set(listed) == {path.name for path in package.glob("data/*/*.urdf")}
+    rows = re.findall(r"^\| `(\w+\.urdf)` \|.*\| (.*?) \|$", YOUR_OWN.read_text(), re.M)
+    assert {name for name, _ in rows} == set(listed)
+    for name, sets in rows:
+        robot = read_urdf(find_file(name, str(tmp_path / "scene.xml"), ()))
+        for one in re.findall(r"`(\w+)`", sets):
+            assert read_vehicle(find_vehicle(one), [link.name for link in robot.links]).bodies

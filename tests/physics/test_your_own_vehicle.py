@@ -1,0 +1,107 @@
+"""docs/your-own-vehicle.md does what it says: its files are written, its program run."""
+
+from __future__ import annotations
+
+import re
+import runpy
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from uwsim.cli.check import faults_of
+from uwsim.errors import SceneError
+from uwsim.physics.vehicle_elements import BodyElement, HydrodynamicsElement, ThrusterElement
+from uwsim.scene.reader import read_scene
+from uwsim.schema import slots
+from uwsim.simulation import Simulation
+
+PAGE = Path(__file__).parents[2] / "docs" / "your-own-vehicle.md"
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name, text in zip(
+        ("my_rov.urdf", "my_rov.xml", "my_scene.xml"), blocks("xml"), strict=True
+    ):
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+@pytest.fixture
+def said_by(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[[str], str]:
+    """Run a program in the folder, as ``python program.py`` would; return what it prints."""
+
+    def run(program: str) -> str:
+        (folder / "program.py").write_text(program)
+        monkeypatch.chdir(folder)
+        runpy.run_path("program.py", run_name="__main__")
+        return capsys.readouterr().out
+
+    return run
+
+
+def test_a_newcomers_vehicle_swims_as_the_page_shows(said_by: Callable[[str], str]) -> None:
+    assert said_by("".join(blocks("python")[:2])) in blocks("text")
+
+
+def test_it_swims_in_a_scene_as_the_page_shows(said_by: Callable[[str], str]) -> None:
+    assert said_by(blocks("python")[2]) in blocks("text")
+
+
+def test_a_topic_that_leads_nowhere_is_said_as_the_page_shows(
+    said_by: Callable[[str], str],
+) -> None:
+    said = said_by(blocks("python")[2].replace('publisher("/twist"', 'publisher("/twst"'))
+    assert said.splitlines(keepends=True)[0] in blocks("text")
+
+
+@pytest.mark.parametrize("where", ["start(self, node)", "look(self, message)"])
+def test_what_the_program_of_the_page_raises_is_seen(
+    where: str, said_by: Callable[[str], str]
+) -> None:
+    program = blocks("python")[2].replace(f"def {where}:", f"def {where}:\n        1 / 0")
+    with pytest.raises(ZeroDivisionError):
+        said_by(program)
+
+
+def test_the_page_names_every_element() -> None:
+    text = PAGE.read_text()
+    for element in (BodyElement, ThrusterElement, HydrodynamicsElement):
+        for slot in slots(element):
+            assert (
+                f"`{slot.shown}`" in text
+                or f"<{slot.shown}" in text
+                or (f'{slot.shown}="..."' in text)
+            ), slot.shown
+
+
+def test_a_vehicle_without_any_mass_is_a_fault_of_its_scene(folder: Path) -> None:
+    side_file = folder / "my_rov.xml"
+    side_file.write_text(side_file.read_text().replace("<mass>20</mass>", ""))
+    said = [str(fault) for fault in faults_of(folder / "my_scene.xml")]
+    assert len(said) == 1
+    assert "my_scene.xml:10: the vehicle 'my_rov' has no mass" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("volume", "severity"),
+    [("1e9", "fault"), ("20.1", "fault"), ("0.2", "notice"), ("0.0001", "notice")],
+)
+def test_a_vehicle_far_from_floating_is_said(volume: str, severity: str, folder: Path) -> None:
+    side_file = folder / "my_rov.xml"
+    side_file.write_text(side_file.read_text().replace("0.0201", volume))
+    (fault,) = faults_of(folder / "my_scene.xml")
+    assert (fault.line, fault.severity) == (10, severity)
+    assert f"has 20 kg and displaces {float(volume) * 1000:g} kg of water" in fault.message
+    if severity == "notice":
+        Simulation(read_scene(folder / "my_scene.xml"), is_blind=True).close()
+    else:
+        with pytest.raises(SceneError, match="lighter than any foam"):
+            Simulation(read_scene(folder / "my_scene.xml"), is_blind=True)

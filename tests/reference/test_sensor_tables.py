@@ -1,0 +1,55 @@
+"""docs/sensors.md says what is simulated and what is not, as the code has it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from uwsim import messages
+from uwsim.cli.check import faults_of
+from uwsim.devices import DEVICES
+from uwsim.reference.sensor_tables import filled
+from uwsim.scene.not_yet import limit_of
+from uwsim.schema.names import local
+from uwsim.sensors import SENSORS
+from uwsim.topics import INTERFACES
+
+PAGE = (Path(__file__).parents[2] / "docs" / "sensors.md").read_text()
+SIMULATED, REST = PAGE.split("\n## Read, not simulated\n")
+SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
+  <vehicle> <name>girona500</name> <file>g500ARM5.urdf</file>
+    <jointValues> {} </jointValues> {} </vehicle>
+  <rosInterfaces> {} </rosInterfaces>
+</UWSimScene>"""
+
+
+def test_the_tables_are_what_the_code_says() -> None:
+    assert filled(PAGE) == PAGE, "run scripts/docs"
+
+
+@pytest.mark.parametrize("name", [*SENSORS, *DEVICES])
+def test_every_sensor_and_device_is_in_the_half_that_is_true(name: str) -> None:
+    part = REST if limit_of("vehicle", name) else SIMULATED
+    other = SIMULATED if part is REST else REST
+    assert f"| [`<{local(name)}>`]" in part
+    assert f"| [`<{local(name)}>`]" not in other
+
+
+def test_every_simulated_publisher_has_its_message_and_its_own_paragraph() -> None:
+    prose = re.sub(r"<!-- table.*?<!-- end of table -->", "", SIMULATED, flags=re.DOTALL)
+    for tag, spec in INTERFACES.items():
+        summary = (spec.__doc__ or "").split("\n")[0]
+        if summary.startswith("Publishes") and not limit_of("rosInterfaces", tag):
+            (package, message) = re.findall(r"as (\w+)/(\w+)", summary)[0]
+            assert hasattr(messages, message), message
+            assert f"`{package}/{message}`" in prose, message
+            assert f"<{local(tag)}>" in prose, tag
+
+
+def test_the_camera_of_the_page_is_one_that_a_scene_can_have(tmp_path: Path) -> None:
+    camera, topic = re.findall(r"^```xml\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+    scene = tmp_path / "scene.xml"
+    scene.write_text(SCENE.format(5 * "<joint>0</joint>", camera, topic))
+    assert [str(fault) for fault in faults_of(scene) if fault.severity == "fault"] == []

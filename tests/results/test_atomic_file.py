@@ -1,0 +1,37 @@
+"""A file is there whole or not at all, whoever else writes it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from uwsim.results.atomic_file import drafted, write_whole
+
+OTHER = """
+import sys
+from pathlib import Path
+from uwsim.results.atomic_file import write_whole
+write_whole(Path(sys.argv[1]), "other")
+"""
+
+
+def test_two_processes_may_write_one_file_at_once(tmp_path: Path) -> None:
+    file = tmp_path / "report.html"
+    with drafted(file) as draft:
+        draft.write_text("mine")
+        subprocess.run([sys.executable, "-c", OTHER, str(file)], check=True)
+        assert file.read_text() == "other"
+    assert file.read_text() == "mine"
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_what_could_not_be_written_leaves_the_old_file_and_no_draft(tmp_path: Path) -> None:
+    file = tmp_path / "result.dat"
+    write_whole(file, "old")
+    with pytest.raises(UnicodeEncodeError):
+        write_whole(file, "new \udcff")
+    assert file.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [file]

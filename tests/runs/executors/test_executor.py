@@ -1,0 +1,268 @@
+"""One worker, several, killed and resumed: the same bytes, and nothing lost or counted twice."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
+from tests.stored_rows import stored_end, stored_row
+from uwsim.bus import Node
+from uwsim.errors import NeverStarted, RunFailed
+from uwsim.messages import Empty, Image
+from uwsim.results.journal import UnitFile
+from uwsim.results.result_file import load
+from uwsim.runs.executors import executor as crew
+from uwsim.runs.executors.executor import Here, Job, Roster, play_all
+from uwsim.runs.executors.processes import Processes, portable
+from uwsim.simulation import Cut
+
+HERE = "tests.runs.executors.test_executor"
+
+
+class Mortal:
+    """Takes its process with it at the ninth picture, in level 2, unless a file is there."""
+
+    def start(self, node: Node) -> None:
+        self.n_pictures = 0
+        self.immortal = Path(str(node.parameters["immortal"]))
+        self.dies_once = node.parameters["dies"] == "once"
+        node.subscribe("/uwsim/camera1", Image, self.look)
+        node.call("startBench", Empty())
+
+    def look(self, image: Image) -> None:
+        self.n_pictures += 1
+        if self.n_pictures == 9 and not self.immortal.exists():
+            if self.dies_once:
+                self.immortal.touch()
+            os.kill(os.getpid(), signal.SIGKILL)
+
+
+@pytest.fixture
+def benchmark(tmp_path: Path) -> Path:
+    return write_benchmark(tmp_path, "0.2")
+
+
+def mortal(tmp_path: Path, dies: str) -> dict[str, object]:
+    immortal = f"algorithm.immortal={tmp_path / 'immortal'}"
+    return {"algorithm": f"{HERE}:Mortal", "settings": [immortal, f"algorithm.dies={dies}"]}
+
+
+def test_one_worker_and_two_give_the_same_bytes(benchmark: Path, tmp_path: Path) -> None:
+    n_levels: list[None] = []
+    run(benchmark, tmp_path / "one", repeat=2)
+    two = bench_of(benchmark, tmp_path / "two", repeat=2)
+    play_all([two], Processes(2), on_level=lambda: n_levels.append(None))
+    assert fingerprint(tmp_path / "one") == fingerprint(tmp_path / "two")
+    assert load(tmp_path / "one").values("seed") == (1, 1, 1, 2, 2, 2)
+    assert len(n_levels) == 6
+
+
+@pytest.mark.slow
+def test_a_worker_that_is_killed_leaves_the_same_bytes(benchmark: Path, tmp_path: Path) -> None:
+    """Its unit is sequential: the level that was over is played again and must be the same."""
+    n_levels: list[None] = []
+    disturbed = bench_of(benchmark, tmp_path / "a", repeat=2, **mortal(tmp_path, "once"))
+    play_all([disturbed], Processes(2), on_level=lambda: n_levels.append(None))
+    assert (tmp_path / "immortal").exists()
+    run(benchmark, tmp_path / "b", repeat=2, **mortal(tmp_path, "once"))
+    assert fingerprint(tmp_path / "a") == fingerprint(tmp_path / "b")
+    assert len(n_levels) == 6
+
+
+@pytest.mark.slow
+def test_what_kills_every_worker_is_said_in_its_row_and_tried_again_when_resumed(
+    benchmark: Path, tmp_path: Path
+) -> None:
+    deadly = bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))
+    good = bench_of(benchmark, tmp_path / "good", repeat=2)
+    result, _ = play_all([deadly, good], Processes(2))
+    assert result.values("status") == ("ok", "algorithm error", "algorithm error")
+    said = f"{HERE}:Mortal was stopped at 0.268 s: its process ended (killed by SIGKILL)"
+    assert result.why(1, "total") == result.why(2, "total") == said
+    assert load(tmp_path / "good").values("status") == ("ok",) * 6
+    (tmp_path / "immortal").touch()
+    play_all([bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))])
+    run(benchmark, tmp_path / "b", **mortal(tmp_path, "always"))
+    assert fingerprint(tmp_path / "deadly") == fingerprint(tmp_path / "b")
+
+
+class Absent:
+    """Never starts anything."""
+
+    def start(self, node: Node) -> None:
+        pass
+
+
+@pytest.mark.parametrize(
+    "crew", [Here(), pytest.param(Processes(2), marks=pytest.mark.slow)], ids=["here", "processes"]
+)
+def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
+    benchmark: Path, tmp_path: Path, crew: crew.Crew
+) -> None:
+    absent = bench_of(benchmark, tmp_path / "absent", algorithm=f"{HERE}:Absent", repeat=2)
+    good = bench_of(benchmark, tmp_path / "good")
+    with pytest.raises(NeverStarted, match="10 s of simulation time"):
+        play_all([absent, good], crew)
+    assert load(tmp_path / "absent").rows == ()
+    assert len(load(tmp_path / "good").rows) == 3
+
+
+def jobs(tmp_path: Path, *sizes: int) -> list[Job]:
+    """Jobs of one benchmark with so many levels each."""
+    plan = SimpleNamespace(algorithm_name="esm")
+    bench = SimpleNamespace(n_rows=lambda unit: 0, n_lost=0, plan=plan)
+    levels = [SimpleNamespace(values=(("fog", 0.5),))]
+    return [
+        Job(bench, SimpleNamespace(index=i, seed=0, levels=levels * size))  # type: ignore[arg-type]
+        for i, size in enumerate(sizes)
+    ]
+
+
+def test_a_lost_unit_is_the_next_to_be_played_and_three_times_at_most(tmp_path: Path) -> None:
+    roster = Roster(jobs(tmp_path, 1, 1))
+    first = roster.take()
+    assert first is not None
+    for _ in range(3):
+        roster.lost(first, "killed by SIGSEGV")
+        assert roster.take() is first
+        assert roster.failure is None
+    roster.lost(first, "killed by SIGSEGV")
+    assert str(roster.failure) == (
+        "unit 0 (esm, seed 0, fog=0.5) lost its worker 4 times, the last time killed by SIGSEGV. "
+        "Finished rows are kept; go on with --resume."
+    )
+    assert roster.take() is None
+    assert first.bench.n_lost == 4
+
+
+def test_a_unit_that_is_lost_twice_in_one_call_is_played_without_it(tmp_path: Path) -> None:
+    roster = Roster(jobs(tmp_path, 1))
+    first = roster.take()
+    assert first is not None
+    for call in (7, None, 8):
+        roster.lost(first, "with exit status 0", call)
+        assert roster.take() is first
+        assert first.cut is None
+    roster.lost(first, "with exit status 0", 7)
+    assert roster.take() is first
+    assert first.cut == Cut(7, "its process ended (with exit status 0)")
+    assert roster.failure is None
+
+
+@pytest.mark.parametrize(
+    ("why", "is_finished", "n_left"),
+    [
+        ("its process ended (killed by SIGSEGV)", True, 1),
+        ("a callback took longer than --callback-limit", True, 3),
+        ("a callback took longer than --callback-limit", False, 1),
+    ],
+)
+def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_back(
+    benchmark: Path, tmp_path: Path, why: str, is_finished: bool, n_left: int
+) -> None:
+    bench = bench_of(benchmark, tmp_path / "out")
+    [unit] = bench.plan.units()
+    file = UnitFile(bench.out, unit.index, bench.head(unit))
+    broken = stored_row(missing={"total": f"esm was stopped at 0.3 s: {why}"})
+    for row in (stored_row(), broken, broken):
+        file.add(row | {"ended_at": 2.0, "fingerprint": ""})
+    if is_finished:
+        file.finish(stored_end(trace={}))
+    file.close()
+    bench.begin()
+    assert bench.n_rows(unit) == n_left
+    assert (bench.unfinished() == []) == (n_left == 3)
+
+
+class Wanders:
+    """Goes to another folder."""
+
+    def start(self, node: Node) -> None:
+        node.subscribe("/uwsim/camera1", Image, lambda _: os.chdir(str(node.parameters["where"])))
+        node.call("startBench", Empty())
+
+
+def test_an_algorithm_that_changes_the_working_directory_takes_no_result_with_it(
+    benchmark: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "elsewhere").mkdir()
+    settings = [f"algorithm.where={tmp_path / 'elsewhere'}"]
+    algorithm = f"{HERE}:Wanders"
+    run(benchmark, Path("out"), algorithm=algorithm, settings=settings, repeat=2)
+    assert len(load(tmp_path / "out").rows) == 6
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+    assert Path.cwd() == tmp_path
+
+
+def test_every_level_is_told_once(tmp_path: Path) -> None:
+    told: list[None] = []
+    roster = Roster(jobs(tmp_path, 3), lambda: told.append(None))
+    job = roster.take()
+    assert job is not None
+    roster.level(job)
+    roster.lost(job, "killed by SIGKILL")  # with a second level on disk that it did not tell
+    roster.level(job)
+    roster.done(job)
+    assert len(told) == 3
+
+
+def test_a_unit_that_is_gone_when_all_are_played_is_missed_and_played_with_resume(
+    benchmark: Path, tmp_path: Path
+) -> None:
+    whole, out = tmp_path / "whole", tmp_path / "out"
+    play_all([bench_of(benchmark, whole, mode="independent")])
+    first, told = out / "units" / "00000.jsonl", []
+
+    def harm() -> None:
+        told.append(None)
+        if len(told) == 2:
+            first.unlink()
+
+    bench = bench_of(benchmark, out, mode="independent")
+    said = r"units/00000\.jsonl: unit 0 .* is not whole there any more\. Go on with --resume\.$"
+    with pytest.raises(RunFailed, match=said):
+        play_all([bench], on_level=harm)
+    assert len(load(out).rows) == 2
+    play_all([bench])
+    assert fingerprint(out) == fingerprint(whole)
+
+
+def test_an_error_that_cannot_travel_is_told_all_the_same() -> None:
+    class Odd(Exception):
+        def __reduce__(self) -> str:
+            raise TypeError("not me")
+
+    try:
+        raise Odd("out of focus")
+    except Odd as error:
+        back = portable(error)
+    assert str(back) == "Odd: out of focus"
+    assert "test_executor.py" in back.__notes__[-1]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("workers", ["1", "2"])
+def test_a_killed_run_that_is_resumed_ends_with_the_same_bytes(
+    tmp_path: Path, workers: str
+) -> None:
+    benchmark = write_benchmark(tmp_path, "2")
+    command = [sys.executable, "-m", "uwsim", "bench", str(benchmark), "--mode", "independent"]
+    whole, broken = tmp_path / "whole", tmp_path / "broken"
+    subprocess.run([*command, "--out", str(whole)], check=True, capture_output=True)
+    command += ["--workers", workers, "--out", str(broken), "--resume"]
+    chance = random.Random(20261121)
+    for _ in range(3):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(chance.uniform(1.0, 4.0))
+        os.kill(process.pid, signal.SIGKILL)
+        process.wait()
+    subprocess.run(command, check=True, capture_output=True)
+    assert fingerprint(broken) == fingerprint(whole)

@@ -1,0 +1,143 @@
+"""Fingerprints of a run: where two runs part, and in what."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from uwsim.runs.trial.fingerprint import EVERY, MAX_MARKS, Trace, Tracer, parting
+from uwsim.scene.spec import SceneSpec
+from uwsim.simulation import Simulation
+
+
+class FakeMotion:
+    """Two bodies, the second of one number."""
+
+    parts = (("rov", 2), ("box", 1))
+    size = 3
+
+    def __init__(self) -> None:
+        self.row = np.zeros(3)
+
+    def read(self, into: np.ndarray) -> None:
+        into[:] = self.row
+
+
+class FakePictures:
+    def __init__(self) -> None:
+        self.digest = hashlib.sha256()
+
+    @property
+    def sha256(self) -> str:
+        return self.digest.hexdigest()
+
+
+class FakeSimulation:
+    """Moves as ``bump`` says."""
+
+    def __init__(self) -> None:
+        self.motion, self.images = FakeMotion(), {"/camera": FakePictures()}
+        self.look: Callable[[], None] = lambda: None
+
+    def watch(self, look: Callable[[], None]) -> None:
+        self.look = look
+
+
+def traced(
+    n_steps: int, bump: Callable[[int, FakeSimulation], None] | None = None, *, flush: int = 0
+) -> Trace:
+    simulation = FakeSimulation()
+    tracer = Tracer(cast(Any, simulation))
+    for step in range(1, n_steps + 1):
+        simulation.motion.row[:] = (step, 2 * step, 5.0)
+        if bump is not None:
+            bump(step, simulation)
+        simulation.look()
+        if flush and step % flush == 0:
+            assert len(tracer.fingerprint) == 16
+    return tracer.trace()
+
+
+def test_the_same_motion_leaves_the_same_trace_however_often_it_is_asked() -> None:
+    assert traced(1000) == traced(1000)
+    assert traced(1000) == traced(1000, flush=7)
+    assert parting(traced(1000), traced(1000)) is None
+
+
+@pytest.mark.parametrize("n_steps", [1, 63, 64, 65, 4096, 4160, 4161, 100_000])
+def test_there_are_never_more_marks_than_fit_and_the_last_is_at_the_end(n_steps: int) -> None:
+    trace = traced(n_steps)
+    assert len(trace.marks) <= MAX_MARKS + 1
+    assert list(trace.by_step())[-1] == n_steps
+    assert trace.every * len(trace.marks) >= n_steps
+    assert n_steps < 1000 or len(trace.marks) >= MAX_MARKS // 4
+    assert {len(mark) for mark in trace.marks} == {8 * 3}
+
+
+def test_marks_that_are_kept_are_those_of_the_finer_trace() -> None:
+    fine, coarse = traced(4096), traced(8192)
+    assert coarse.every == 2 * fine.every
+    assert coarse.marks[: len(fine.marks) // 2] == fine.marks[1::2]
+
+
+@pytest.mark.parametrize("at", [EVERY, 160, 1600, 9984])
+def test_the_interval_and_the_body_of_a_difference_are_named(at: int) -> None:
+    def nudge(step: int, simulation: FakeSimulation) -> None:
+        if step == at:
+            simulation.motion.row[2] = np.nextafter(5.0, 6.0)
+
+    found = parting(traced(10_000), traced(10_000, nudge))
+    assert found is not None
+    assert found.after < at <= found.until
+    assert found.until - found.after <= 256
+    assert found.parts == ("box",)
+
+
+def test_a_picture_that_differs_is_named_by_its_topic() -> None:
+    def shoot(step: int, simulation: FakeSimulation) -> None:
+        simulation.images["/camera"].digest.update(b"b" if step == 300 else b"a")
+
+    def same(step: int, simulation: FakeSimulation) -> None:
+        simulation.images["/camera"].digest.update(b"a")
+
+    found = parting(traced(1000, same), traced(1000, shoot))
+    assert found is not None
+    assert (found.after, found.until, found.parts) == (256, 320, ("/camera",))
+
+
+def test_a_run_that_ends_earlier_parts_where_it_ends() -> None:
+    found = parting(traced(64 * 10), traced(64 * 20))
+    assert found is not None
+    assert (found.after, found.until) == (640, 1280)
+    found = parting(traced(8192), traced(10_000))  # the one has twice the distance of the other
+    assert found is not None
+    assert (found.after, found.until) == (8192, 10_000)
+
+
+def test_traces_of_other_bodies_cannot_be_compared() -> None:
+    one = traced(1000)
+    found = parting(one, replace(one, parts=("rov", "tin", "/camera")))
+    assert found is not None
+    assert found.parts == ()
+
+
+def test_a_trace_is_read_back_as_it_was_stored() -> None:
+    trace = traced(1000)
+    assert Trace.of(trace.plain()) == trace
+    assert Trace.of(None) is None
+    assert Trace.of({"every": 1}) is None
+
+
+def test_a_scene_in_which_nothing_can_move_leaves_a_trace_too() -> None:
+    simulation = Simulation(SceneSpec())
+    tracer = Tracer(simulation)
+    simulation.open()
+    for _ in range(100):
+        simulation.advance()
+    assert len(tracer.fingerprint) == 16
+    assert tracer.trace().n_steps == 100

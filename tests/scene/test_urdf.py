@@ -1,0 +1,323 @@
+"""Robot files: UWSim's order of joints, limits, mimics, and the arm's forward kinematics."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from uwsim.errors import SceneError
+from uwsim.scene.kinematics import joint_positions, link_poses
+from uwsim.scene.urdf import RobotSpec
+from uwsim.scene.urdf_reader import read_robot, read_urdf
+from uwsim.schema import Faults
+
+G500 = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "scenes" / "g500ARM5.urdf"
+
+
+def robot_of(inside: str, folder: Path) -> RobotSpec:
+    file = folder / "robot.urdf"
+    file.write_text(f'<robot name="r">{inside}</robot>')
+    return read_urdf(file)
+
+
+def refused(inside: str, folder: Path) -> list[str]:
+    with pytest.raises(SceneError) as caught:
+        robot_of(inside, folder)
+    return [fault.message for fault in caught.value.faults]
+
+
+def joint(name: str, inside: str = "", *, kind: str = "continuous", of: str = "a b") -> str:
+    parent, child = of.split()
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f"{inside}</joint>"
+    )
+
+
+LINKS = '<link name="a"/><link name="b"/><link name="c"/>'
+
+
+def test_the_joint_vector_of_the_girona_500() -> None:
+    robot = read_urdf(G500)
+    names = [joint.name for joint in robot.movable]
+    assert names == ["Slew", "Shoulder", "Elbow", "JawRotate", "JawOpening"]
+    assert robot.root == "base_link"
+    assert [link.mass for link in robot.links if link.mass] == [95.0]
+    assert (robot.movable[3].lower, robot.movable[3].upper) == (-math.pi, math.pi)
+
+
+@pytest.mark.parametrize(
+    ("joints", "expected"),
+    [
+        (
+            (),
+            {
+                "part2": (-0.0805, 0, 1.08),
+                "part3": (-0.5190, 0, 1.1415),
+                "part4_base": (-0.8567, 0, 1.2474),
+                "end_effector": (-0.9840, 0, 1.3238),
+            },
+        ),
+        (
+            (0, 0, 2.15294, 0, 0.3),
+            {"part4_base": (-0.2449, 0, 1.3653), "end_effector": (-0.1110, 0, 1.4296)},
+        ),
+        ((0, math.pi / 4, math.pi / 4, 0, 0), {"end_effector": (-0.1647, 0, 1.8985)}),
+    ],
+)
+def test_the_arm_is_where_the_original_has_it(
+    joints: tuple[float, ...], expected: dict[str, tuple[float, float, float]]
+) -> None:
+    poses = link_poses(read_urdf(G500), joints)
+    for link, position in expected.items():
+        np.testing.assert_allclose(poses[link].position, position, atol=6e-5)
+
+
+def test_the_hand_points_where_the_original_has_it() -> None:
+    pose = link_poses(read_urdf(G500), (0, math.pi / 4, math.pi / 4))["end_effector"]
+    np.testing.assert_allclose(pose.rotation[:, 2], [0.5147, 0, 0.8573], atol=5e-5)
+
+
+def test_joints_are_held_at_their_limits() -> None:
+    positions = joint_positions(read_urdf(G500), (9, -9, 2.2, 9, -0.3))
+    assert positions["Slew"] == 0.5488
+    assert positions["Shoulder"] == 0
+    assert positions["Elbow"] == 2.15294
+    assert positions["JawRotate"] == math.pi
+    assert positions["JawOpening"] == -0.05816
+
+
+def test_the_second_jaw_follows_the_first() -> None:
+    positions = joint_positions(read_urdf(G500), (0, 0, 0, 0, 0.7))
+    assert positions["part4_to_link4_jaw2"] == positions["JawOpening"] == 0.7
+
+
+def test_children_are_walked_in_the_order_of_their_joints_names(tmp_path: Path) -> None:
+    robot = robot_of(LINKS + joint("a", of="a b") + joint("B", of="a c"), tmp_path)
+    assert [joint.name for joint in robot.joints] == ["B", "a"]
+    assert [link.name for link in robot.links] == ["a", "c", "b"]
+
+
+def test_a_limit_without_bounds_freezes_the_joint(tmp_path: Path) -> None:
+    limit = '<limit effort="1" velocity="1"/>'
+    (slew,) = robot_of('<link name="a"/><link name="b"/>' + joint("s", limit), tmp_path).joints
+    assert (slew.lower, slew.upper) == (0, 0)
+
+
+def test_a_prismatic_joint_without_limit_slides_from_minus_pi_to_pi(tmp_path: Path) -> None:
+    robot = robot_of(
+        '<link name="a"/><link name="b"/>' + joint("s", '<axis xyz="0 0 2"/>', kind="prismatic"),
+        tmp_path,
+    )
+    pose = link_poses(robot, (4.0,))["b"]
+    np.testing.assert_allclose(pose.position, [0, 0, math.pi])
+
+
+def test_floating_joints_are_fixed(tmp_path: Path) -> None:
+    robot = robot_of('<link name="a"/><link name="b"/>' + joint("s", kind="floating"), tmp_path)
+    assert robot.movable == ()
+
+
+def test_mimics_of_mimics_are_not_followed(tmp_path: Path) -> None:
+    robot = robot_of(
+        LINKS
+        + '<link name="d"/>'
+        + joint("1", of="a b")
+        + joint("2", '<mimic joint="1" multiplier="2" offset="0.1"/>', of="a c")
+        + joint("3", '<mimic joint="2" offset="0.5"/>', of="a d"),
+        tmp_path,
+    )
+    assert joint_positions(robot, (0.3,)) == pytest.approx({"1": 0.3, "2": 0.7, "3": 0.5})
+
+
+def test_a_joint_that_mimics_nobody_is_free_and_the_user_is_told(tmp_path: Path) -> None:
+    file = tmp_path / "robot.urdf"
+    inside = LINKS + joint("jaw_1") + joint("jaw_2", '<mimic joint="jaw1"/>', of="a c")
+    file.write_text(f'<robot name="r">{inside}</robot>')
+    faults = Faults(file)
+    robot = read_robot(file, faults)
+    assert robot is not None
+    assert [joint.name for joint in robot.movable] == ["jaw_1", "jaw_2"]
+    (said,) = faults.all()
+    assert said.severity == "notice"
+    assert "'jaw1', which is no joint. Did you mean jaw_1?" in said.message
+
+
+def test_a_slider_crank_follows_its_own_law(tmp_path: Path) -> None:
+    robot = robot_of(
+        LINKS + joint("1") + joint("slidercrank", '<mimic joint="1" offset="0.5"/>', of="a c"),
+        tmp_path,
+    )
+    positions = joint_positions(robot, (0.4,))
+    assert positions["slidercrank"] == pytest.approx(-(0.4 + math.asin(0.5 * math.sin(0.4))))
+
+
+def test_all_visuals_and_collisions_of_a_link_count_and_materials_go_by_name(
+    tmp_path: Path,
+) -> None:
+    robot = robot_of(
+        '<material name="red"><color rgba="1 0 0 0.5"/></material>'
+        '<link name="a"><visual><geometry><cylinder radius="0.2" length="0.6"/></geometry>'
+        '<material name="red"/></visual>'
+        '<visual><origin xyz="0 0 1"/><geometry><box size="1 2 3"/></geometry></visual>'
+        '<collision><geometry><sphere radius="1"/></geometry></collision>'
+        '<collision><geometry><box size="1 1 1"/></geometry></collision></link>',
+        tmp_path,
+    )
+    link = robot.links[0]
+    assert link.visual is link.visuals[0]
+    assert [(visual.kind, visual.size, visual.colour) for visual in link.visuals] == [
+        ("cylinder", (0.4, 0.4, 0.6), (1, 0, 0, 0.5)),
+        ("box", (1, 2, 3), None),
+    ]
+    assert [solid.kind for solid in link.solids] == ["sphere", "box"]
+
+
+def test_without_collisions_all_that_is_seen_of_a_link_is_touched(tmp_path: Path) -> None:
+    seen = '<visual><geometry><box size="1 1 {}"/></geometry></visual>'
+    robot = robot_of(f'<link name="a">{seen.format(1)}{seen.format(2)}</link>', tmp_path)
+    assert [solid.size[2] for solid in robot.links[0].solids] == [1, 2]
+
+
+def test_a_material_that_one_visual_defines_another_may_name(tmp_path: Path) -> None:
+    box = '<geometry><box size="1 1 1"/></geometry>'
+    robot = robot_of(
+        f'<link name="a"><visual>{box}<material name="hull"/></visual>'
+        f'<visual>{box}<material name="hull"><color rgba="1 0.5 0 1"/></material></visual>'
+        f'<visual>{box}<material name="hull"><color rgba="0 0 2 1"/></material></visual></link>',
+        tmp_path,
+    )
+    colours = [visual.colour for visual in robot.links[0].visuals]
+    assert colours == [(1, 0.5, 0, 1), (1, 0.5, 0, 1), (0, 0, 1, 1)]
+
+
+def test_what_other_programs_wrote_is_passed_over(tmp_path: Path) -> None:
+    robot = robot_of('<gazebo><plugin/></gazebo><link name="a"/><transmission/>', tmp_path)
+    assert robot.root == "a"
+
+
+def test_every_fault_of_a_robot_is_said_at_once(tmp_path: Path) -> None:
+    said = refused(
+        '<link name="arm"/><link name="arm"/>'
+        '<link name="b"><visual><geometry><mesh/></geometry></visual></link>'
+        + joint("1", kind="fixde", of="arm b")
+        + joint("2", of="amr b")
+        + joint("3", '<origin xyz="0 0"/><mimic joint="x"/>', of="arm b"),
+        tmp_path,
+    )
+    assert said == [
+        "two links are called 'arm'",
+        "<mesh> lacks the attribute filename",
+        "joint '1' has the type 'fixde'; expected one of revolute, continuous, prismatic, fixed, "
+        "floating, planar. Did you mean fixed?",
+        "joint '2': its parent 'amr' is no link. Did you mean arm?",
+        "xyz of <origin> is '0 0'; expected 3 numbers",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("inside", "said"),
+    [
+        ("", "the robot has no <link>"),
+        (LINKS, "3 links hang on none"),
+        (LINKS + joint("1", of="a b") + joint("2", of="b c") + joint("3", of="c a"), "a loop"),
+        ('<link name="d"/>' + LINKS + joint("1", of="b c") + joint("2", of="c b")
+         + joint("3", of="d a"), "part of a loop"),
+        ('<link name="a"/><link name="b"/>' + joint("1") + joint("2"), "hangs on two joints"),
+        ('<link name="a"/><link name="b"/>' + joint("1", '<origin xyz="${x} 0 0"/>'), "xacro"),
+        ('<link name="a"/><link name="b"/>' + joint("1", '<axis xyz="nan 0 0"/>'), "3 numbers"),
+    ],
+)  # fmt: skip
+def test_a_robot_that_is_no_tree_is_refused(inside: str, said: str, tmp_path: Path) -> None:
+    assert any(said in message for message in refused(inside, tmp_path))
+
+
+SEED = G500.read_bytes()
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.integers(0, len(SEED)), st.integers(0, 60), st.binary(max_size=6), st.booleans())
+def test_no_mutation_of_a_robot_raises_anything_but_a_scene_error(
+    at: int, length: int, piece: bytes, cut: bool
+) -> None:
+    text = SEED[:at] + piece + (b"" if cut else SEED[at + length :])
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "robot.urdf"
+        file.write_bytes(text)
+        with contextlib.suppress(SceneError):
+            link_poses(read_urdf(file), (0.1, 0.2, 0.3))
+
+
+def chain(n: int) -> str:
+    links = "".join(f'<link name="{i}"/>' for i in range(n + 1))
+    return links + "".join(joint(f"j{i}", kind="fixed", of=f"{i} {i + 1}") for i in range(n))
+
+
+def test_a_chain_of_3000_links_is_a_fault_and_no_recursion_error(tmp_path: Path) -> None:
+    assert len(robot_of(chain(256), tmp_path).joints) == 256
+    assert refused(chain(3000), tmp_path) == ["joint 'j256' ends a chain of more than 256 joints"]
+
+
+def test_joints_that_mimic_each_other_are_a_loop(tmp_path: Path) -> None:
+    joints = joint("j", '<mimic joint="k"/>') + joint("k", '<mimic joint="j"/>', of="b c")
+    assert refused(LINKS + joints, tmp_path) == [
+        "joint 'j' mimics 'k' mimics 'j': a loop",
+        "joint 'k' mimics 'j' mimics 'k': a loop",
+    ]
+
+
+@pytest.mark.parametrize("last", ["", '<mimic joint="j0"/>'], ids=["a chain", "a loop"])
+def test_1200_joints_that_mimic_the_next_are_followed_once_each(last: str, tmp_path: Path) -> None:
+    n = 1200
+    links = '<link name="a"/>' + "".join(f'<link name="{i}"/>' for i in range(n))
+    mimics = [*(f'<mimic joint="j{i + 1}"/>' for i in range(n - 1)), last]
+    text = links + "".join(joint(f"j{i}", mimics[i], of=f"a {i}") for i in range(n))
+    start = time.process_time()
+    if last:
+        assert "and 1100 more faults" in refused(text, tmp_path)
+    else:
+        assert len(robot_of(text, tmp_path).joints) == n
+    assert time.process_time() - start < 2.0  # it took 4 s and 14 s
+
+
+@pytest.mark.parametrize(
+    ("shape", "said"),
+    [
+        ('<sphere radius="-3"/>', "radius of <sphere> is '-3'; expected 0 to 1e+06"),
+        ('<cylinder radius="1" length="-1"/>', "length of <cylinder> is '-1'; expected 0"),
+        ('<box size="1 -1 1"/>', "size of <box> is '1 -1 1'; expected numbers >= 0"),
+        ('<box size="1 1e300 1"/>', "expected numbers up to 1e+06"),
+    ],
+)
+def test_negative_and_endless_sizes_are_faults(shape: str, said: str, tmp_path: Path) -> None:
+    (message,) = refused(
+        f'<link name="a"><visual><geometry>{shape}</geometry></visual></link>', tmp_path
+    )
+    assert said in message
+
+
+@pytest.mark.parametrize(
+    ("inside", "said"),
+    [
+        ('<axis xyz="0 0 0"/><limit lower="-1" upper="1"/>', "has the axis 0 0 0; held fixed"),
+        ('<limit lower="1" upper="-1"/>', "lower 1 is above upper -1"),
+    ],
+)
+def test_joints_that_cannot_move_are_noticed_with_their_line(
+    inside: str, said: str, tmp_path: Path
+) -> None:
+    file, pair = tmp_path / "robot.urdf", '<link name="a"/><link name="b"/>'
+    file.write_text(f'<robot name="r">\n{pair}\n{joint("j", inside, kind="revolute")}</robot>')
+    faults = Faults(file)
+    read_robot(file, faults)
+    (notice,) = faults.all()
+    assert (notice.line, notice.severity) == (3, "notice")
+    assert said in notice.message

@@ -1,0 +1,96 @@
+"""Bounding boxes of bodies: as large as what they bound."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.simulation.simulated import SCENE
+from uwsim.compatibility import COMPATIBILITY, compatibility
+from uwsim.geometry import rotation_x, rotation_z
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
+from uwsim.simulation.bodies import scaled_box
+from uwsim.world import Box
+
+BOX = Box((-1.0, -2.0, 0.0), (1.0, 2.0, 3.0))
+
+
+def test_a_box_that_is_not_scaled_stays_as_it_is() -> None:
+    assert scaled_box(BOX, rotation_x(0.3), (1.0, 1.0, 1.0)) is BOX
+
+
+def test_a_scale_acts_along_the_axes_of_the_object_not_of_the_mesh() -> None:
+    doubled = scaled_box(BOX, np.eye(3), (2.0, 1.0, 0.5))
+    assert (doubled.lower, doubled.upper) == ((-2.0, -2.0, 0.0), (2.0, 2.0, 1.5))
+    turned = scaled_box(BOX, rotation_z(np.pi / 2), (2.0, 1.0, 0.5))  # its y is the object's -x
+    assert turned.lower == pytest.approx((-1.0, -4.0, 0.0))
+    assert turned.upper == pytest.approx((1.0, 4.0, 1.5))
+
+
+def test_an_even_scale_does_not_care_how_the_mesh_is_turned() -> None:
+    tripled = scaled_box(BOX, rotation_x(0.7) @ rotation_z(0.2), (3.0, 3.0, 3.0))
+    assert tripled.lower == pytest.approx((-3.0, -6.0, 0.0))
+    assert tripled.upper == pytest.approx((3.0, 6.0, 9.0))
+
+
+def test_a_mesh_that_is_sheared_lies_within_its_box() -> None:
+    turn, scale = rotation_x(0.7), (1.0, 2.0, 0.5)
+    sheared = scaled_box(BOX, turn, scale)
+    corners = BOX.corners() @ (turn.T @ np.diag(scale) @ turn).T
+    assert (corners >= np.array(sheared.lower) - 1e-12).all()
+    assert (corners <= np.array(sheared.upper) + 1e-12).all()
+
+
+def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
+    scene = read_scene(SCENE).nominal
+    black_box = next(thing for thing in scene.objects if thing.name == "blackbox")
+    sizes = []
+    for scale, slips in (
+        ((1.0, 1.0, 1.0), frozenset[str]()),
+        ((2.0, 3.0, 0.5), frozenset[str]()),
+        ((2.0, 3.0, 0.5), frozenset({"box-scale"})),
+    ):
+        thing = replace(black_box, scale_factor=scale, offsetr=(0.0, 0.0, 0.0))
+        simulation = Simulation(
+            replace(scene, vehicles=(), objects=(thing,), ros_interfaces=()),
+            compatibility=slips,
+        )
+        box = simulation.world.body("blackbox").box
+        simulation.close()
+        assert box is not None
+        sizes.append(np.subtract(box.upper, box.lower))
+    as_it_is, scaled, original = sizes
+    assert scaled == pytest.approx(as_it_is * [2.0, 3.0, 0.5])
+    assert original == pytest.approx(as_it_is)
+
+
+def test_what_an_object_that_never_moves_hands_out_is_a_copy() -> None:
+    body = Simulation(read_scene(SCENE).nominal).world.body("blackbox")
+    place, turn = body.world_from_body.position, body.world_from_body.rotation
+    body.world_from_body.position[:] = np.nan
+    body.world_from_body.rotation[:] = np.nan
+    assert (body.world_from_body.position == place).all()
+    assert (body.world_from_body.rotation == turn).all()
+
+
+def test_all_slips_of_the_original_leave_a_camera_where_scenes_since_2014_put_it() -> None:
+    assert compatibility(["uwsim"]) == COMPATIBILITY.keys() - {"visual-frames"}
+    scene = read_scene(SCENE).nominal
+    looks = {}
+    for name in ("", "uwsim", "visual-frames"):
+        asked = compatibility([name] if name else [])
+        camera = Simulation(scene, compatibility=asked).world.camera("bowtech1")
+        looks[name] = -camera.world_from_camera.rotation[:, 2]  # along -z of OpenGL
+    assert looks[""] == pytest.approx((0.0, 0.0, -1.0), abs=0.01)
+    assert looks["uwsim"] == pytest.approx(looks[""])
+    assert looks["visual-frames"] == pytest.approx((0.0, 0.0, 1.0), abs=0.01)
+
+
+def test_a_link_of_which_nothing_is_seen_has_its_own_frame_for_a_visual_one() -> None:
+    simulation = Simulation(read_scene(SCENE).nominal)
+    link, visual = (simulation.world.body(f"girona500/end_effector{at}") for at in ("", "@visual"))
+    assert visual.world_from_body.position == pytest.approx(link.world_from_body.position)
+    assert visual.box is None
