@@ -15,7 +15,7 @@ from tests.short_benchmark import bench_of, write_benchmark
 from uwsim.analysis.comparison import compare, differences, read_entries, remarks, shared_column
 from uwsim.analysis.comparison.page import render as render_comparison
 from uwsim.analysis.report.page import render
-from uwsim.cli.faults import one_line, printable
+from uwsim.cli.faults import one_line
 from uwsim.cli.verify import head, made_otherwise
 from uwsim.errors import UwsimError
 from uwsim.results.interrupted import instead_of_a_result, resuming
@@ -24,6 +24,7 @@ from uwsim.results.provenance import machine, save_provenance
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import play_all
 from uwsim.runs.run import Bench
+from uwsim.terminal import printable
 from uwsim.verify.recorded_plan import Given, check_inputs, plan_of
 from uwsim.verify.verify import finished, verify
 

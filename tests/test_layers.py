@@ -30,6 +30,7 @@ GROUND = {
     "message_fields",
     "sampling",
     "interrupts",
+    "terminal",
 }
 BASE = GROUND | {"world", "vehicle", "messages", "bus"}
 PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"}

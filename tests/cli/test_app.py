@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from uwsim import errors
+from uwsim import errors, terminal
 from uwsim.cli import COMMANDS, app, faults, main
 
 
@@ -227,8 +227,8 @@ def test_an_error_of_normal_length_is_shown_whole() -> None:
     folders = ", ".join(f"/home/someone/simulation/data/folder-{i}" for i in range(20))
     said = f"'box.obj' is neither a file nor bundled. The file's folders: {folders}. Is 'x' meant?"
     assert faults.one_line(errors.BadSetting(said)) == f"uwsim: {said}"
-    long = faults.printable(" ".join(["word"] * 10_000))
-    assert len(long) == faults.LONGEST_LINE + 1
+    long = terminal.printable(" ".join(["word"] * 10_000))
+    assert len(long) == terminal.LONGEST_LINE + 1
 
 
 def test_what_the_system_refuses_while_a_run_is_on_is_a_failed_run() -> None:

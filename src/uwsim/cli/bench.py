@@ -20,10 +20,11 @@ from ..runs.foreign_code import NoCodeOption, announce_code
 from ..runs.make_plan import make_plan, say_warnings
 from ..runs.tables import PluginOption
 from ..runs.timing import Stopwatch, Took
+from ..terminal import warn
 from .completion import algorithm_names
 from .console import Console
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
-from .faults import running, warn
+from .faults import running
 from .options import (
     BenchmarkArgument,
     CompatOption,

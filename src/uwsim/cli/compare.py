@@ -9,8 +9,8 @@ from typing import Annotated
 
 import typer
 
+from ..terminal import printable
 from .console import Console
-from .faults import printable
 from .options import JsonOption
 from .taught import COMPARED, OUTPUT, in_group
 

@@ -6,7 +6,7 @@ import rich.console
 from rich.console import ConsoleOptions, RenderableType
 from rich.segment import Segment
 
-from .faults import legible
+from ..terminal import legible
 
 
 class Console(rich.console.Console):

@@ -17,10 +17,11 @@ from ..runs.foreign_code import NoCodeOption, announce_code
 from ..runs.make_plan import chosen_level, make_plan, say_warnings
 from ..runs.tables import PluginOption
 from ..runs.timing import Stopwatch
+from ..terminal import printable, warn
 from .bench import OTHER_CODE
 from .completion import algorithm_names
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
-from .faults import printable, running, warn
+from .faults import running
 from .options import BenchmarkArgument, CompatOption, DataPathOption, SceneOption, SetOption
 from .progress import progress
 from .taught import INPUT, OUTPUT, RUN, SEARCH, in_group

@@ -15,9 +15,9 @@ from rich.text import Text
 from ..assets.bundled import scene_file
 from ..errors import AllErrors
 from ..runs.make_plan import pairs_of
+from ..terminal import printable
 from .check import faults_of
 from .console import Console
-from .faults import printable
 from .options import DataPathOption, JsonOption, SceneArgument, SetOption
 
 UNWRAPPED = 160

@@ -14,7 +14,7 @@ from ..errors import AllErrors, BadSetting
 from ..runs.foreign_code import NoCodeOption, announce_code, refuse_code
 from ..runs.make_plan import compatibility_of, pairs_of
 from ..runs.stand_ins import warn_of_stand_ins
-from .faults import say_notices
+from ..terminal import say_notices
 from .options import CompatOption, DataPathOption, SceneArgument, SetOption
 from .taught import INPUT, OUTPUT, in_group
 from .views import Wanted

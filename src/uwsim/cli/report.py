@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
+from ..terminal import warn
 from .console import Console
-from .faults import warn
 from .options import ResultArgument
 from .taught import OUTPUT, in_group
 

@@ -14,9 +14,10 @@ from ..files.input_files import recorded
 from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import NoCodeOption, announce_code
 from ..runs.tables import PluginOption
+from ..terminal import printable
 from ..verify.recorded_plan import NOT_DRAWN, Given, check_inputs, named_input, plan_of
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
-from .faults import RUN_FAILED, printable, running
+from .faults import RUN_FAILED, running
 from .options import DataPathOption, ResultArgument
 from .progress import progress
 from .taught import FILES, RUN, in_group

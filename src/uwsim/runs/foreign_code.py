@@ -5,10 +5,10 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Annotated
 
-from ..cli.faults import printable
 from ..cli.taught import FILES, in_group
 from ..errors import BadSetting
 from ..files.modules import located
+from ..terminal import printable
 
 if TYPE_CHECKING:
     from ..scene.spec import SceneSpec

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..assets.bundled import benchmark_file, scene_file
-from ..cli.faults import say_notices
 from ..errors import AllErrors, AssetNotFound, BadSetting, did_you_mean
+from ..terminal import say_notices
 from .foreign_code import announce, refuse_code, refused
 from .stand_ins import warn_of_stand_ins
 from .tables import read_plugins
