@@ -16,9 +16,8 @@ from ..errors import AllErrors, BadSetting, RunFailed
 from ..files.file_names import file_names
 from ..files.input_files import InputFile, recorded
 from ..interrupts import raise_from_now_on
-from ..runs.foreign_code import NoCodeOption, announce_code
+from ..runs.foreign_code import announce_code
 from ..runs.make_plan import make_plan, say_warnings
-from ..runs.tables import PluginOption
 from ..runs.timing import Stopwatch, Took
 from ..terminal import warn
 from .completion import algorithm_names
@@ -30,6 +29,8 @@ from .options import (
     CompatOption,
     DataPathOption,
     ModeOption,
+    NoCodeOption,
+    PluginOption,
     SceneOption,
     SetOption,
 )

@@ -13,11 +13,11 @@ import typer
 
 from ..assets.bundled import bundled, scene_file
 from ..errors import BadSetting, Fault, FileError, PluginError, UwsimError
-from ..runs.tables import PluginOption, read_plugins
+from ..runs.tables import read_plugins
 from ..terminal import printable
 from .completion import checked_names, scene_names
 from .faults import WRONG_INPUT
-from .options import DataPathOption, JsonOption
+from .options import DataPathOption, JsonOption, PluginOption
 from .taught import INPUT, in_group
 
 if TYPE_CHECKING:

@@ -13,16 +13,23 @@ from ..envelope.search_request import Question, question_of
 from ..errors import AllErrors, BadSetting
 from ..files.input_files import recorded
 from ..interrupts import raise_from_now_on
-from ..runs.foreign_code import NoCodeOption, announce_code
+from ..runs.foreign_code import announce_code
 from ..runs.make_plan import chosen_level, make_plan, say_warnings
-from ..runs.tables import PluginOption
 from ..runs.timing import Stopwatch
 from ..terminal import printable, warn
 from .bench import OTHER_CODE
 from .completion import algorithm_names
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import running
-from .options import BenchmarkArgument, CompatOption, DataPathOption, SceneOption, SetOption
+from .options import (
+    BenchmarkArgument,
+    CompatOption,
+    DataPathOption,
+    NoCodeOption,
+    PluginOption,
+    SceneOption,
+    SetOption,
+)
 from .progress import progress
 from .taught import INPUT, OUTPUT, RUN, SEARCH, in_group
 

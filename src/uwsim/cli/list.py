@@ -16,10 +16,10 @@ from rich.text import Text
 
 from ..assets.bundled import bundled
 from ..errors import UnknownName
-from ..runs.tables import PluginOption, read_plugins
+from ..runs.tables import read_plugins
 from .completion import one_of
 from .console import Console
-from .options import JsonOption
+from .options import JsonOption, PluginOption
 
 if TYPE_CHECKING:
     from ..benchmark.plugin import Tables

@@ -89,3 +89,23 @@ ModeOption = Annotated[
         autocompletion=one_of(("sequential", "independent")),
     ),
 ]
+
+PluginOption = Annotated[
+    list[Path] | None,
+    in_group(
+        FILES,
+        "--plugin",
+        metavar="FILE.py",
+        help="Measures, triggers, updaters or algorithms of your own; may be repeated.",
+    ),
+]
+
+NoCodeOption = Annotated[
+    bool,
+    in_group(
+        FILES,
+        "--no-code",
+        help="Refuse files that name Python code (u:pythonFunction of a scene, module:Class of a "
+        "benchmark or a result) instead of running it.",
+    ),
+]

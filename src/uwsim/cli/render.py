@@ -11,11 +11,11 @@ from PIL import Image
 
 from ..assets.bundled import scene_file
 from ..errors import AllErrors, BadSetting
-from ..runs.foreign_code import NoCodeOption, announce_code, refuse_code
+from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.make_plan import compatibility_of, pairs_of
 from ..runs.stand_ins import warn_of_stand_ins
 from ..terminal import say_notices
-from .options import CompatOption, DataPathOption, SceneArgument, SetOption
+from .options import CompatOption, DataPathOption, NoCodeOption, SceneArgument, SetOption
 from .taught import INPUT, OUTPUT, in_group
 from .views import Wanted
 

@@ -12,13 +12,12 @@ import typer
 from ..errors import ResultError
 from ..files.input_files import recorded
 from ..interrupts import raise_from_now_on
-from ..runs.foreign_code import NoCodeOption, announce_code
-from ..runs.tables import PluginOption
+from ..runs.foreign_code import announce_code
 from ..terminal import printable
 from ..verify.recorded_plan import NOT_DRAWN, Given, check_inputs, named_input, plan_of
 from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
 from .faults import RUN_FAILED, running
-from .options import DataPathOption, ResultArgument
+from .options import DataPathOption, NoCodeOption, PluginOption, ResultArgument
 from .progress import progress
 from .taught import FILES, RUN, in_group
 

@@ -3,25 +3,14 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-from ..cli.taught import FILES, in_group
 from ..errors import BadSetting
 from ..files.modules import located
 from ..terminal import printable
 
 if TYPE_CHECKING:
     from ..scene.spec import SceneSpec
-
-NoCodeOption = Annotated[
-    bool,
-    in_group(
-        FILES,
-        "--no-code",
-        help="Refuse files that name Python code (u:pythonFunction of a scene, module:Class of a "
-        "benchmark or a result) instead of running it.",
-    ),
-]
 
 
 def refuse_code(scene: SceneSpec) -> None:

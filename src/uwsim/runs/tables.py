@@ -4,23 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-from ..cli.taught import FILES, in_group
 from ..errors import AllErrors
 
 if TYPE_CHECKING:
     from ..benchmark.plugin import Plugin, Tables
-
-PluginOption = Annotated[
-    list[Path] | None,
-    in_group(
-        FILES,
-        "--plugin",
-        metavar="FILE.py",
-        help="Measures, triggers, updaters or algorithms of your own; may be repeated.",
-    ),
-]
 
 
 def bundled_tables() -> Tables:
