@@ -25,6 +25,7 @@ GROUND = {
     "linear",
     "elementwise",
     "opencv",
+    "optics",
     "dialect",
     "clock",
     "message_fields",

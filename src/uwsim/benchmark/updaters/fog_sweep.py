@@ -25,22 +25,14 @@ step. Its last value is played if it is a whole number of steps away; nothing is
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
+from ...optics import DENSITY, LENGTHS
 from ...schema import element
 from .sweep import SweepSpec, endless
 from .updater import MAX_LEVELS
-
-EXPONENT_SEEN = math.log(50.0)
-"""Of the contrast of 2 %, the least that is seen."""
-DENSITY = "density"
-LENGTHS: dict[str, Callable[[float], float]] = {
-    "attenuationLength": lambda length: 1.0 / length,
-    "visibilityRange": lambda length: math.sqrt(EXPONENT_SEEN) / length,
-}
-"""``u:unit`` -> fog density [1/m] of a length [m], and the same the other way round."""
 
 
 @dataclass(frozen=True, kw_only=True)
