@@ -15,6 +15,7 @@ import pytest
 
 from uwsim.assets.bundled import bundled
 from uwsim.cli import main
+from uwsim.results.leaves import leaves
 from uwsim.results.provenance import save_provenance
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import play_all
@@ -22,7 +23,7 @@ from uwsim.runs.make_plan import make_plan
 from uwsim.runs.run import Bench, open_once
 from uwsim.simulation import Simulation
 from uwsim.verify.derived import contradictions
-from uwsim.verify.differences import leaves, of_row, of_text
+from uwsim.verify.differences import of_row, of_text
 from uwsim.verify.verify import Verification, choose
 
 BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="tank.xml" u:algorithm="esm"

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultError
-from ..verify.differences import leaves
 from .journal import FOLDER, Record, read_any
+from .leaves import leaves
 from .result import Cell, Column, Result
 
 Key = tuple[Cell, ...]

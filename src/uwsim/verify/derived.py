@@ -9,9 +9,10 @@ from collections.abc import Iterator
 
 from ..benchmark.score import Expression, parse
 from ..benchmark.spec import BenchmarkSpec
+from ..results.leaves import leaves
 from ..results.result import Cell, Result
 from ..runs.trial.triggered_measure import finite
-from .differences import Difference, leaves
+from .differences import Difference
 
 
 def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Difference]:

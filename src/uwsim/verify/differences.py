@@ -8,15 +8,13 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from ..results.journal import Record, Stored
+from ..results.leaves import leaves
 from ..runs.trial.fingerprint import Trace, parting
-
-Leaves = dict[tuple[str | int, ...], str]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,21 +28,6 @@ class Difference:
 
     def __str__(self) -> str:
         return f"{self.where}: {self.what}"
-
-
-def leaves(value: Any) -> Leaves:
-    """Return path -> text of every number, word and null in a JSON value."""
-    found: Leaves = {}
-    todo: list[tuple[tuple[str | int, ...], Any]] = [((), value)]
-    while todo:
-        path, node = todo.pop()
-        if isinstance(node, dict) and node:
-            todo += [((*path, str(key)), child) for key, child in reversed(node.items())]
-        elif isinstance(node, list | tuple) and node:
-            todo += [((*path, i), node[i]) for i in reversed(range(len(node)))]
-        else:
-            found[path] = json.dumps(node, ensure_ascii=False)
-    return found
 
 
 def apart(stored: Any, again: Any) -> Iterator[tuple[tuple[str | int, ...], str, str]]:

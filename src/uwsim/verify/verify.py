@@ -17,6 +17,7 @@ from pathlib import Path
 from ..chance import stream
 from ..files.scratch import scratch_folder
 from ..results import journal
+from ..results.leaves import leaves
 from ..results.result import Result
 from ..results.result_file import dumps
 from ..runs.executors.executor import Crew, Here, Job, OnLevel, Roster
@@ -257,7 +258,7 @@ def _check_rows(found: Verification, result: Result, again: Bench) -> None:
             if column.name == "ended_at" and len(made.rows) < len(result.rows):
                 continue  # counts what was played before, too
             there = result.values(column.name)[expected[key]] if column.name in names else None
-            if differences.leaves(there) != differences.leaves(cell):
+            if leaves(there) != leaves(cell):
                 found.is_replayed = False
                 where = f"row {expected[key]}, column {column.name}"
                 found.add("result.json", f"{where}: stored {there!r}, replayed {cell!r}")
