@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -215,7 +215,7 @@ def play_and_finish(
     for run in runs:
         if said := save_beginning(command, run.out):
             warn(OTHER_CODE.format(said))
-    with Beside() as beside:
+    with Beside(load_reporter) as beside:
         controls = [control_of(run) for run in runs if wants_control(run)]
         if controls:
             beside.ask(controls[0])
@@ -334,6 +334,13 @@ def wait_for_controls(beside: Beside, controls: Sequence[Bench]) -> None:
             shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
     except (RunFailed, OSError) as error:
         warn(f"the report lacks the control {CONTROL!r}, which failed: {error}")
+
+
+def load_reporter() -> Callable[[Path], object]:
+    """Load what draws a report; returns it."""
+    from ..analysis.report import write_report
+
+    return write_report
 
 
 def finish(run: Bench, result: Result, beside: Beside, took: Took) -> None:

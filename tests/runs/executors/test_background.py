@@ -13,6 +13,7 @@ import pytest
 
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from tests.synthetic_results import one_level
+from uwsim.cli.bench import load_reporter
 from uwsim.errors import RunFailed
 from uwsim.results import journal
 from uwsim.results.result_file import save
@@ -25,7 +26,7 @@ def test_draws_reports_and_says_in_a_line_what_it_cannot_do_and_goes_on(
     for name in ("blocked", "good"):
         save(one_level(), tmp_path / name)
     (tmp_path / "blocked" / "report.html").mkdir()
-    with Beside() as beside:
+    with Beside(load_reporter) as beside:
         for name in ("nowhere", "blocked", "good"):
             beside.ask(tmp_path / name)
         with pytest.raises(RunFailed, match="no result here"):
@@ -38,7 +39,7 @@ def test_draws_reports_and_says_in_a_line_what_it_cannot_do_and_goes_on(
 
 
 def test_ends_with_the_block() -> None:
-    with Beside() as beside:
+    with Beside(load_reporter) as beside:
         process = beside._process
         assert process.is_alive()
     assert not process.is_alive()
@@ -47,7 +48,7 @@ def test_ends_with_the_block() -> None:
 def test_what_it_was_asked_is_done_here_if_it_dies(tmp_path: Path) -> None:
     for name in ("before", "after"):
         save(one_level(), tmp_path / name)
-    with Beside() as beside:
+    with Beside(load_reporter) as beside:
         os.kill(beside._process.pid or 0, signal.SIGSTOP)  # asked, and never answers
         beside.ask(tmp_path / "before")
         beside._process.kill()
@@ -66,7 +67,7 @@ def test_a_control_whose_process_died_on_the_way_has_the_same_bytes(tmp_path: Pa
     benchmark = write_benchmark(tmp_path, "0.2")
     run(benchmark, tmp_path / "whole", algorithm="frozen")
     bench = bench_of(benchmark, tmp_path / "out", algorithm="frozen")
-    with Beside() as beside:
+    with Beside(load_reporter) as beside:
         beside.ask(bench)
         file = journal.path_of(bench.out, 0)
         while not file.exists() or len(file.read_text().splitlines()) < 2:
@@ -78,8 +79,9 @@ def test_a_control_whose_process_died_on_the_way_has_the_same_bytes(tmp_path: Pa
 
 PARENT = """
 import time
+from uwsim.cli.bench import load_reporter
 from uwsim.runs.executors.background import Beside
-with Beside() as beside:
+with Beside(load_reporter) as beside:
     print(beside._process.pid, flush=True)
     time.sleep(60)
 """

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import multiprocessing
 from collections import deque
+from collections.abc import Callable
 from contextlib import suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -22,6 +23,8 @@ from .parent_watch import put_on, start_deaf
 
 Job = Bench | Path
 """A benchmark is played; of a result directory the report is drawn."""
+Reporter = Callable[[], Callable[[Path], object]]
+"""Loads what draws the report of a result directory, which is heavy; returns it."""
 
 
 class Beside:
@@ -30,11 +33,12 @@ class Beside:
     A context manager: whatever the process was about when the block is left, it is stopped.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, reporter: Reporter) -> None:
+        self._reporter = reporter
         context = multiprocessing.get_context("spawn")
         self._here, there = context.Pipe()
         leash, self._leash = context.Pipe(duplex=False)
-        self._process = context.Process(target=_serve, args=(there, leash), daemon=True)
+        self._process = context.Process(target=_serve, args=(there, leash, reporter), daemon=True)
         start_deaf(self._process)
         self._asked: deque[Job] = deque()
         there.close()
@@ -70,30 +74,28 @@ class Beside:
         try:
             why = self._here.recv()
         except (EOFError, OSError):  # the process died
-            why = _done(job)
+            why = _done(job, self._reporter)
         if why is not None:
             raise RunFailed(why)
 
 
-def _serve(there: Connection, leash: Connection) -> None:
+def _serve(there: Connection, leash: Connection, reporter: Reporter) -> None:
     """Do what comes, until the parent is gone or wants no more."""
     put_on(leash)
     with suppress(Exception):  # heavy, and loaded while the levels are played; below it is told
-        from ...analysis import report  # noqa: F401
+        reporter()
     with suppress(EOFError, OSError):  # the parent has gone
         while True:
-            there.send(_done(there.recv()))
+            there.send(_done(there.recv(), reporter))
 
 
-def _done(job: Job) -> str | None:
+def _done(job: Job, reporter: Reporter) -> str | None:
     """Do it; returns why it could not be done."""
     try:
         if isinstance(job, Bench):
             play_all([job])
         else:
-            from ...analysis.report import write_report
-
-            write_report(job)
+            reporter()(job)
     except UwsimError as error:
         return str(error)
     except Exception as error:  # a full disk, a number that no plot can show
