@@ -34,13 +34,11 @@ from ..scene.variation import check_variations
 from ..schema import NAMESPACE, Faults, advice, check_head, parse, read, shown_tag, slots, text_of
 from ..world import TIMESTEP
 from . import score
-from .durations import too_short
 from .element_order import check_order
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
 from .plugin import PREFIX
 from .spec import LONGEST_TASK, BenchmarkSpec, FunctionSpec
-from .start_notices import never_started
 from .triggers import TRIGGERS, NeverSpec, TriggerSpec
 from .updater_settings import locate_in_benchmark, same_levels
 from .updaters import (
@@ -57,6 +55,7 @@ from .updaters import (
     interval,
     references,
 )
+from .warnings import never_started, too_short
 
 RESERVED = ("repeat", "seed", "total", "status", "ended_at")
 """Columns of a result that no measure may be called by."""

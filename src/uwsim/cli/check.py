@@ -217,8 +217,8 @@ def unknown_names(
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
     from ..algorithms import load_algorithm
     from ..benchmark import unknown_names as names
-    from ..benchmark.arm_notices import arm_notices
     from ..benchmark.reader import read_benchmark
+    from ..benchmark.warnings import arm_notices
     from ..scene.reader import read_scene
     from ..schema import Faults
     from ..simulation import Simulation

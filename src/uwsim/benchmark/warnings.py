@@ -1,0 +1,128 @@
+"""What a benchmark says that it cannot mean: it is played all the same, and the user is told.
+
+Levels that never begin or measure nothing; times shorter than half a step of the simulation, which
+would be played as none or as another time; arm positions that the arm cannot take.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from lxml import etree
+
+from ..errors import Fault
+from ..scene.urdf import RobotSpec
+from ..schema import Faults, parse
+from .measures import EuclideanNormSpec, MeasureSpec
+from .spec import BenchmarkSpec, FunctionSpec
+from .triggers import NeverSpec, ServiceSpec
+from .updaters import ArmMoveUpdaterSpec, SceneUpdaterSpec, chain, interval
+
+
+def never_started(
+    root: etree._Element, spec: BenchmarkSpec
+) -> Iterator[tuple[etree._Element | None, str]]:
+    """Say that no level can begin, or that nothing is measured in it; each with its element."""
+    start, place = spec.start_on, root.find("startOn")
+    if isinstance(start, NeverSpec):
+        yield place, "<startOn> is 'never': no level will ever begin"
+    told = [
+        each.ground_truth.publish_on
+        for each in spec.measures
+        if isinstance(each, EuclideanNormSpec)
+    ]
+    if isinstance(start, ServiceSpec) and start.target in told:
+        yield (
+            place,
+            f"<startOn> waits for the service {start.target!r}, which the algorithm serves "
+            "(<publishOn>): nobody can call it here, so no level will begin",
+        )
+    box = root.find("measures")
+    if box is not None and box.find("*") is None:
+        yield box, "<measures> is empty: nothing is measured"
+
+
+Said = tuple[etree._Element | None, str]
+
+
+def too_short(
+    faults: Faults,
+    measures: Sequence[MeasureSpec],
+    updater: SceneUpdaterSpec | None,
+    function: FunctionSpec | None,
+    timestep: float,
+) -> Iterator[Said]:
+    """Yield what is shorter than half a step, and the element that says so.
+
+    Args:
+        faults: knows from which element a spec was read.
+        measures: what could be read.
+        updater: the outermost, if it could be read.
+        function: the score's element, if it could be read.
+        timestep: length of a step [s].
+    """
+    step = f"less than half a step of {timestep:g} s"
+    for spec in measures:
+        if spec.log is not None and _is_nothing(spec.log, timestep):
+            yield _child(faults.node_of(spec), "log"), f"<log> is {spec.log:g} s: {step}"
+    rate = 0.0 if function is None else function.publish_rate
+    if rate > 0.0 and _is_nothing(rate, timestep):
+        said = f"publishRate is {rate:g} s: {step}; 0 publishes at every step"
+        yield faults.node_of(function), said
+    if updater is not None:
+        yield from _empty_level(faults, updater, timestep, step)
+
+
+def _empty_level(
+    faults: Faults, updater: SceneUpdaterSpec, timestep: float, step: str
+) -> Iterator[Said]:
+    """Say that levels are over before they begin, or that a settling time is none."""
+    length, deepest = interval(updater), chain(updater)[-1]
+    if length is not None and _is_nothing(length, timestep):
+        place = _child(faults.node_of(deepest), "interval")
+        yield place, f"<interval> is {length:g} s: {step}, so nothing would be played"
+    for each in chain(updater):
+        if each.settling_time > 0.0 and _is_nothing(each.settling_time, timestep):
+            yield faults.node_of(each), f"u:settlingTime is {each.settling_time:g} s: {step}"
+
+
+def _is_nothing(seconds: float, timestep: float) -> bool:
+    return round(seconds / timestep) < 1
+
+
+def _child(node: etree._Element | None, tag: str) -> etree._Element | None:
+    child = None if node is None else node.find(tag)
+    return node if child is None else child
+
+
+def arm_notices(
+    benchmark: BenchmarkSpec, vehicles: Sequence[str], robots: Mapping[int, RobotSpec]
+) -> list[Fault]:
+    """Say which joints are not there, and which are held at their limits.
+
+    Args:
+        benchmark: what was read from the file without a fault.
+        vehicles: names of the scene's vehicles.
+        robots: their robots, by number of the vehicle.
+    """
+    faults = Faults(benchmark.path)
+    nodes = parse(Path(benchmark.path)).root.iter("armMoveUpdater")
+    specs = [s for s in chain(benchmark.scene_updater) if isinstance(s, ArmMoveUpdaterSpec)]
+    for spec, node in zip(specs, nodes, strict=True):
+        if spec.target not in vehicles:
+            continue
+        joints = robots[vehicles.index(spec.target)].movable
+        for given, place in zip(spec.arm_position, node.iterfind("armPosition"), strict=True):
+            if len(given) > len(joints):
+                faults.notice(
+                    place,
+                    f"<armPosition> has {len(given)} values for {len(joints)} joints "
+                    f"({', '.join(joint.name for joint in joints)}); the rest is not used",
+                )
+            for joint, value, at in zip(joints, given, place.iterfind("joint"), strict=False):
+                held = min(max(value, joint.lower), joint.upper)
+                if held != value:
+                    said = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
+                    faults.notice(at, said)
+    return faults.all()
