@@ -11,8 +11,8 @@ from ...results.inputs import files_by_role
 from ...results.per_level import rows_by_level, success_per_level
 from ...results.result import Result
 from ...statistics import Interval
-from ..pages import template
 from ..plots import written_unit
+from ..templates import template
 from .findings import Comparison, Versus
 from .matrix import matrix, note, too_few
 from .matrix import title as matrix_title

@@ -24,7 +24,6 @@ from ...results.provenance import load_provenance
 from ...results.result import Result
 from ...results.result_file import file_of, load
 from ...results.table import number_text, sensible_decimals, unit_of
-from ..pages import template
 from ..plots import (
     LEVEL_WORDS,
     MOST_INSIDE,
@@ -35,6 +34,7 @@ from ..plots import (
     repeats_of,
     written_unit,
 )
+from ..templates import template
 from .captions import caption, marks, seeds_text, statistic_of
 from .configuration import (
     command,

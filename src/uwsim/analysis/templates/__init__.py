@@ -10,7 +10,7 @@ import jinja2
 def template(name: str) -> jinja2.Template:
     """Return a page's template; what stands in a result is text there, never markup."""
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
