@@ -15,27 +15,22 @@ GROUND = {
     "chance",
     "compatibility",
     "environment",
-    "file_names",
-    "input_files",
-    "python_sources",
-    "disk_cache",
-    "modules",
-    "scratch",
     "jit",
     "linear",
     "elementwise",
     "opencv",
     "optics",
-    "dialect",
-    "clock",
+    "schema",
     "message_fields",
     "sampling",
     "interrupts",
+    "files",
     "terminal",
 }
 BASE = GROUND | {"world", "vehicle", "messages", "bus"}
 PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"}
 ENGINES = PARTS | {"physics", "rendering"}
+TASKS = PARTS | {"simulation", "algorithms", "statistics", "benchmark", "results"}
 
 MAY_IMPORT: dict[str, set[str]] = {
     **{room: GROUND for room in GROUND},
@@ -53,14 +48,18 @@ MAY_IMPORT: dict[str, set[str]] = {
     "physics": PARTS | {"physics"},
     "rendering": PARTS | {"rendering"},
     "simulation": ENGINES | {"simulation"},
-    "interfaces": ENGINES | {"simulation", "interfaces"},
     "algorithms": {
         *("messages", "bus", "geometry", "errors", "jit", "linear", "opencv", "algorithms"),
     },
-    "benchmark": PARTS | {"simulation", "statistics", "benchmark"},
-    "viewer": ENGINES | {"simulation", "viewer"},
+    "benchmark": PARTS | {"benchmark"},
+    "results": GROUND | {"statistics", "results"},
+    "runs": TASKS | {"runs"},
+    "analysis": GROUND | {"statistics", "results", "analysis"},
+    "envelope": TASKS | {"runs", "analysis", "envelope"},
+    "verify": TASKS | {"runs", "verify"},
     "__main__": {"cli", "interrupts"},
-    "cli": ENGINES | {"simulation", "interfaces", "algorithms", "benchmark", "viewer", "cli"},
+    "cli": TASKS | ENGINES | {"runs", "analysis", "envelope", "verify", "cli"},
+    "reference": PARTS | {"algorithms", "benchmark", "runs", "cli", "reference"},
 }
 MAY_IMPORT["api"] = MAY_IMPORT["cli"]
 """Room -> rooms it may import from. The package itself (``__version__``) is open to all."""
