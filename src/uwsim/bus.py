@@ -138,6 +138,9 @@ class Bus:
     ``uwsim/camera1`` are one, as they are for a ROS node in the root namespace.
     """
 
+    STATE = ("step", "_due_now", "_due_later", "_posted")
+    """What of it changes as time goes by."""
+
     def __init__(self) -> None:
         self._topics: dict[str, _Topic] = {}
         self._services: dict[str, tuple[type, Callable[[Any], object]]] = {}

@@ -14,6 +14,9 @@ def sample_step(n: int, rate: float, timestep: float) -> int:
 class SampleTimer:
     """Calls something at the samples of a rate."""
 
+    STATE = ("_start", "_n_samples", "_due")
+    """What of it changes as time goes by."""
+
     def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
         self._start, self._rate, self._timestep, self._call = start, rate, timestep, call
         self._n_samples = 0

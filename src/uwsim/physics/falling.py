@@ -36,6 +36,9 @@ class Falling:
         data: its state.
     """
 
+    STATE = ("_movers",)
+    """What of it changes as time goes by."""
+
     def __init__(self, scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self._model, self._data = model, data
         n_vehicles = len(scene.vehicles)
@@ -100,6 +103,9 @@ class _Damped:
 
 class _Mover:
     """A vehicle that jumps: all its joints together."""
+
+    STATE = ("_now", "_velocity", "_since", "_n_steps")
+    """What of it changes as time goes by."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: list[int]) -> None:
         self._model, self._data = model, data

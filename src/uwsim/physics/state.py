@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Literal
 
@@ -9,7 +10,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import RunFailed
+from ..errors import RunFailed, UwsimError
 from ..geometry import Array, Pose, quaternion_from_rotation
 from ..linear import points_of, product, turned, turned_back
 from ..scene.kinematics import joint_positions
@@ -43,6 +44,18 @@ class State:
     Joint vectors hold the movable, non-mimic joints in UWSim's order; mimic joints follow.
     Vehicles with hydrodynamics are simulated, the others stay where they are put.
     """
+
+    STATE = (
+        "_engine",
+        "_pilots",
+        "_servos",
+        "_falling",
+        "_n_steps",
+        "version",
+        "_contacts_hold",
+        "_is_stale",
+    )
+    """What of it changes as time goes by."""
 
     def __init__(
         self,
@@ -131,6 +144,27 @@ class State:
             if self._water is not None
         }
         self._falling = Falling(scene, self._model, self._data) if scene.things_fall else None
+
+    @property
+    def _engine(self) -> tuple[mujoco.MjData, Array, Array, Array]:
+        """What the engine keeps: its data, and what servos change in its model."""
+        model = self._model
+        return (
+            copy.copy(self._data),
+            model.jnt_limited.copy(),
+            model.actuator_gainprm.copy(),
+            model.actuator_biasprm.copy(),
+        )
+
+    @_engine.setter
+    def _engine(self, kept: tuple[mujoco.MjData, Array, Array, Array]) -> None:
+        model, (data, limited, gains, biases) = self._model, kept
+        if (data.model.nq, data.nbuffer) != (model.nq, self._data.nbuffer):
+            raise UwsimError("The saved simulation is not of this scene.")
+        mujoco.mj_copyData(self._data, model, data)
+        model.jnt_limited[:] = limited
+        model.actuator_gainprm[:] = gains
+        model.actuator_biasprm[:] = biases
 
     @property
     def is_dynamic(self) -> bool:

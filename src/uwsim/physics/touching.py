@@ -35,6 +35,9 @@ class Touching:
         timestep: length of a step [s].
     """
 
+    STATE = ("_seen", "_step", "_is_stale", "_movers")
+    """What of it changes as time goes by."""
+
     def __init__(
         self,
         shapes: Mapping[str, Sequence[Shape]],
@@ -107,6 +110,9 @@ class Touching:
 
 class _Mover:
     """A body that jumps."""
+
+    STATE = ("now", "_before", "_jumped_at", "_n_steps")
+    """What of it changes as time goes by."""
 
     def __init__(self, pose: Callable[[], Pose], timestep: float) -> None:
         self._pose, self._timestep = pose, timestep

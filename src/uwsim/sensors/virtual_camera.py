@@ -121,6 +121,9 @@ class VirtualCamera:
     Not modelled: exposure, motion blur, rolling shutter, lens distortion, refraction.
     """
 
+    STATE = ("std", "n_pictures", "_random")
+    """What of it changes as time goes by."""
+
     def __init__(
         self, spec: VirtualCameraSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:

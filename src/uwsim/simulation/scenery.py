@@ -41,6 +41,9 @@ class Scenery:
         studio: lends the renderer; without one the scenery has a renderer of its own.
     """
 
+    STATE = ("water", "light")
+    """What of it changes as time goes by."""
+
     def __init__(
         self,
         scene: SceneSpec,
@@ -199,6 +202,10 @@ class Scenery:
         made = [part.model for part in self.parts if not part.model.files]
         models = {model.name: model.sha256 for model in made}
         return {name: models[name] for name in sorted(models)}
+
+    def redraw(self) -> None:
+        """Look up anew where everything is before the next picture."""
+        self._drawn_version = -1
 
     def _open(self) -> Renderer:
         if self._renderer is None:

@@ -17,6 +17,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
+from .. import __version__
 from ..bus import Algorithm, Bus, Inbox
 from ..errors import BadSetting, UnknownName, UwsimError
 from ..geometry import Array, Pose
@@ -26,6 +27,7 @@ from ..scene.spec import SceneSpec
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from .calls import Calls
 from .node import InProcessNode
+from .snapshot import packed, put_state, state_of, unpacked
 from .stage import SceneStage
 
 
@@ -277,6 +279,40 @@ class Simulation:
         self._nodes.append(node)
         node.run(algorithm)
         return node
+
+    def save(self) -> bytes:
+        """Return the state as bytes, exact to the bit; `uwsim.simulation.snapshot` says of what.
+
+        Raises:
+            UwsimError: an algorithm is attached: what it knows cannot be saved.
+        """
+        if self._nodes:
+            names = ", ".join(node.name for node in self._nodes)
+            raise UwsimError(f"Cannot be saved: {names} is attached, and keeps what it knows.")
+        newest = {topic: (box.last, box.last_step) for topic, box in self._inboxes.items()}
+        values = {"is_open": self._is_open, "newest": newest, "world": state_of(self.world)}
+        return packed({"uwsim": __version__, **values})
+
+    def restore(self, data: bytes) -> None:
+        """Go back, or on, to a saved state of the same scene, seed and timestep.
+
+        Raises:
+            UwsimError: the bytes are damaged, of another scene, or of another version.
+        """
+        values = unpacked(data)
+        if values.pop("uwsim", None) != __version__:
+            raise UwsimError(f"The simulation was not saved by uwsim {__version__}.")
+        if set(values) != {"is_open", "newest", "world"}:
+            raise UwsimError("These bytes are no saved simulation.")
+        put_state(self.world, values["world"])
+        self._is_open = values["is_open"]
+        for topic, (last, step) in values["newest"].items():
+            if topic not in self._inboxes:
+                self._inboxes[topic] = self.bus.inbox(topic, object)
+            box = self._inboxes[topic]
+            box.clear()
+            box.last, box.last_step = last, step
+        self.world.scenery.redraw()
 
     def close(self) -> None:
         """Give back the graphics context and take the algorithms off the bus."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from ..currents import Place
 from ..devices.device import Device, DeviceSpec
@@ -20,6 +20,8 @@ from ..world import Flow
 from .water_motion import WaterMotion
 from .world import SceneWorld
 
+M = TypeVar("M")
+
 
 class SceneStage(SceneWorld):
     """A scene world whose fog, light, noise, currents and arms can be set (`uwsim.world.Stage`).
@@ -28,6 +30,9 @@ class SceneStage(SceneWorld):
         scene: what the file says.
         options: those of `SceneWorld`.
     """
+
+    STATE = ("_bus", "state", "scenery", "touch", "_cameras", "_timers", "interfaces", "_pending")
+    """What of it changes as time goes by."""
 
     def __init__(self, scene: SceneSpec, **options: Any) -> None:
         super().__init__(scene, **options)
@@ -43,7 +48,7 @@ class SceneStage(SceneWorld):
         """How its water moves."""
         self.files |= self.water.files
         self._timers: list[SampleTimer] = []
-        self._commands: list[Callable[[], None]] = []
+        self._commands: list[tuple[Callable[[Any], None], Any]] = []
         self.devices = tuple(self._bound_devices())
         """What acts in the step, in the file's order."""
         self.interfaces = tuple(self._bound_interfaces())
@@ -118,15 +123,26 @@ class SceneStage(SceneWorld):
         self._timers.append(timer)
         return lambda: self._timers.remove(timer) if timer in self._timers else None
 
-    def at_next_step(self, command: Callable[[], None]) -> None:
-        """Have ``command`` carried out at the start of the next step."""
-        self._commands.append(command)
+    def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
+        """Have ``obey(message)`` called at the start of the next step; a method of an interface."""
+        self._commands.append((obey, message))
 
     def apply_commands(self) -> None:
         """Carry out what arrived during the last step, in its order."""
         commands, self._commands = self._commands, []
-        for command in commands:
-            command()
+        for obey, message in commands:
+            obey(message)
+
+    @property
+    def _pending(self) -> list[tuple[int, Any]]:
+        """The number of the interface, and the message that it obeys at the next step."""
+        owners = [id(each) for each in self.interfaces]
+        return [(owners.index(id(obey.__self__)), m) for obey, m in self._commands]  # type: ignore[attr-defined]
+
+    @_pending.setter
+    def _pending(self, pending: list[tuple[int, Any]]) -> None:
+        interfaces: list[Any] = list(self.interfaces)
+        self._commands = [(interfaces[number].obey, message) for number, message in pending]
 
     def tick(self) -> None:
         """Call what is due at the current step."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from ..errors import UwsimError
 from ..geometry import Pose
@@ -19,6 +20,7 @@ from ..scene.urdf import RobotSpec
 from ..world import Contact
 from .bodies import touchable, untouchable
 from .collision_shapes import collision_shapes
+from .snapshot import put_state, state_of
 
 
 class Touch:
@@ -31,6 +33,9 @@ class Touch:
         data_path: folders in which files are looked for.
         timestep: length of a step [s].
     """
+
+    STATE = ("_step", "_laid")
+    """What of it changes as time goes by."""
 
     def __init__(
         self,
@@ -55,6 +60,17 @@ class Touch:
         except UwsimError:
             return False
         return kind == "object" or any(link.solids for link in self._robots[index].links)
+
+    @property
+    def _laid(self) -> Mapping[str, Any] | None:
+        """The state of what is laid over each other; None while nobody has asked."""
+        return None if self._touching is None else state_of(self._touching)
+
+    @_laid.setter
+    def _laid(self, state: Mapping[str, Any] | None) -> None:
+        self._touching = None if state is None else self._lay()
+        if state is not None:
+            put_state(self._touching, state)
 
     def update(self, step: int) -> None:
         """Take note of where everything is at a step; to be called at every one."""

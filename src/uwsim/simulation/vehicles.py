@@ -28,6 +28,9 @@ class SceneVehicle:
         state: where its links are.
     """
 
+    STATE = ("_losses",)
+    """What of it changes as time goes by."""
+
     def __init__(self, index: int, stand: Stand, state: State) -> None:
         self._index, self._stand, self._state = index, stand, state
         self.name = stand.vehicle.name

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, runtime_checkable
+from typing import ClassVar, Protocol, TypeVar, runtime_checkable
 
 from ..schema import element
 from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..vehicle import Vehicle
 from ..world import World
+
+M = TypeVar("M")
 
 
 class TopicWorld(World, Protocol):
@@ -35,8 +37,8 @@ class TopicWorld(World, Protocol):
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
 
-    def at_next_step(self, command: Callable[[], None]) -> None:
-        """Have ``command`` carried out at the start of the next step."""
+    def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
+        """Have ``obey(message)`` called at the start of the next step; a method of an interface."""
 
 
 @runtime_checkable

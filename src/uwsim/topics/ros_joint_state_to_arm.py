@@ -29,14 +29,15 @@ class ROSJointStateToArmSpec(VehicleTopicSpec):
     def bind(self, world: TopicWorld) -> JointCommand:
         """Listen from now on; raises UnknownName if there is no such vehicle."""
         command = JointCommand(world.vehicle(self.vehicle_name), Gap(world))
-        world.bus.subscribe(
-            self.topic, JointState, lambda m: world.at_next_step(lambda: command.obey(m))
-        )
+        world.bus.subscribe(self.topic, JointState, lambda m: world.at_next_step(command.obey, m))
         return command
 
 
 class JointCommand:
     """Moves the joints of a vehicle."""
+
+    STATE = ("_gap",)
+    """What of it changes as time goes by."""
 
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap

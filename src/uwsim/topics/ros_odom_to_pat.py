@@ -29,14 +29,15 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
         command = OdometryCommand(
             PoseCommand(vehicle, world.world_from_localized), TwistCommand(vehicle, Gap(world))
         )
-        world.bus.subscribe(
-            self.topic, Odometry, lambda m: world.at_next_step(lambda: command.obey(m))
-        )
+        world.bus.subscribe(self.topic, Odometry, lambda m: world.at_next_step(command.obey, m))
         return command
 
 
 class OdometryCommand:
     """Puts a vehicle somewhere or moves it on, as a message has it."""
+
+    STATE = ("_twist",)
+    """What of it changes as time goes by."""
 
     def __init__(self, pose: PoseCommand, twist: TwistCommand) -> None:
         self._pose, self._twist = pose, twist

@@ -23,9 +23,7 @@ class ROSPoseToPATSpec(VehicleTopicSpec):
     def bind(self, world: TopicWorld) -> PoseCommand:
         """Listen from now on; raises UnknownName if there is no such vehicle."""
         command = PoseCommand(world.vehicle(self.vehicle_name), world.world_from_localized)
-        world.bus.subscribe(
-            self.topic, PoseMessage, lambda m: world.at_next_step(lambda: command.obey(m))
-        )
+        world.bus.subscribe(self.topic, PoseMessage, lambda m: world.at_next_step(command.obey, m))
         return command
 
 

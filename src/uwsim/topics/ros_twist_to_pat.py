@@ -35,13 +35,16 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
         """Listen from now on; raises UnknownName if there is no such vehicle."""
         command = TwistCommand(world.vehicle(self.vehicle_name), Gap(world))
         world.bus.subscribe(
-            self.topic, TwistStamped, lambda m: world.at_next_step(lambda: command.obey(m.twist))
+            self.topic, TwistStamped, lambda m: world.at_next_step(command.obey, m.twist)
         )
         return command
 
 
 class TwistCommand:
     """Moves a vehicle by one step of a twist, or has its autopilot hold it."""
+
+    STATE = ("_gap",)
+    """What of it changes as time goes by."""
 
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap
@@ -64,6 +67,9 @@ class TwistCommand:
 
 class Gap:
     """Time since the velocity before."""
+
+    STATE = ("_last",)
+    """What of it changes as time goes by."""
 
     def __init__(self, world: TopicWorld) -> None:
         self._world = world

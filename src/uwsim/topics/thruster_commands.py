@@ -55,7 +55,7 @@ class ROSThrustersToPATSpec(AutopilotTopicSpec):
         world.bus.subscribe(
             self.topic,
             Float64MultiArray,
-            lambda m: world.at_next_step(lambda: command.obey(m)),
+            lambda m: world.at_next_step(command.obey, m),
             check=command.check,
         )
         return command
@@ -97,7 +97,7 @@ class ROSWrenchToPATSpec(AutopilotTopicSpec):
         """Listen from now on; raises UnknownName if no such vehicle is simulated."""
         command = WrenchCommand(self.autopilot(world))
         world.bus.subscribe(
-            self.topic, WrenchStamped, lambda m: world.at_next_step(lambda: command.obey(m))
+            self.topic, WrenchStamped, lambda m: world.at_next_step(command.obey, m)
         )
         return command
 

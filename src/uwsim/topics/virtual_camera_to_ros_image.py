@@ -51,6 +51,9 @@ class ImagePublisher:
     algorithms that do not look at them.
     """
 
+    STATE = ("n_frames", "last", "_timer")
+    """What of it changes as time goes by."""
+
     def __init__(
         self, spec: VirtualCameraToROSImageSpec, camera: VirtualCamera, world: TopicWorld
     ) -> None:
@@ -70,7 +73,8 @@ class ImagePublisher:
         self._publish_image = world.bus.publisher(spec.image_topic, Image)
         self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
         self._digest = hashlib.sha256()
-        self.tick = SampleTimer(0, float(spec.rate), world.timestep, self.publish).tick
+        self._timer = SampleTimer(0, float(spec.rate), world.timestep, self.publish)
+        self.tick = self._timer.tick
         """Publish at this step if a sample is due."""
 
     @property

@@ -77,6 +77,20 @@ Mode = Literal["velocity", "position", "wrench", "thrusters"]
 class Autopilot:
     """Velocity loops, holding of depth, heading and position of one vehicle."""
 
+    STATE = (
+        "_wanted",
+        "_model",
+        "_integral",
+        "_mode",
+        "has_news",
+        "_takes_over",
+        "_target",
+        "_heading",
+        "_wrench",
+        "_commands",
+    )
+    """What of it changes as time goes by."""
+
     def __init__(
         self,
         vehicle: VehicleHydrodynamics,

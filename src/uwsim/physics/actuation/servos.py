@@ -29,6 +29,9 @@ AIM, TARGET, INTEGRAL = range(3)
 class Servos:
     """The servos of one vehicle; the joint vector is UWSim's."""
 
+    STATE = ("_memory", "_wanted", "_speeds", "_is_on", "_moves_on")
+    """What of it changes as time goes by."""
+
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotSpec, index: int
     ) -> None:

@@ -1,0 +1,114 @@
+"""Save and restore: what follows a restored state is what followed it before, to the bit."""
+
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+
+import uwsim
+from uwsim.messages import TwistStamped, Vector3
+
+SCENES = ["currents-scene", "visibility-moving-scene", "cirs"]
+
+
+def record(simulation: uwsim.Simulation, seconds: float) -> list[bytes]:
+    """Advance, and note all positions, velocities, messages and images on the way."""
+    seen = []
+    for _ in range(round(seconds / 0.1)):
+        simulation.advance(0.1)
+        motion = simulation.motion
+        row = np.zeros(motion.size)
+        motion.read(row)
+        seen.append(row.tobytes())
+        for topic in sorted(simulation.topics):
+            newest = simulation.latest(topic)
+            seen.append(repr(newest).encode() if newest is not None else b"")
+        image = simulation.latest("/uwsim/camera1")
+        seen.append(b"" if image is None else image.data.tobytes())
+    return seen
+
+
+def command(simulation: uwsim.Simulation) -> None:
+    if simulation.topics.get("dataNavigator") != "geometry_msgs/msg/TwistStamped":
+        return
+    twist = TwistStamped()
+    twist.twist.linear = Vector3(x=0.2, y=0.1, z=0.0)
+    simulation.publish("/dataNavigator", twist)
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_what_follows_is_the_same_to_the_bit(scene: str) -> None:
+    with uwsim.load(scene, seed=4) as simulation:
+        command(simulation)
+        for topic in simulation.topics:
+            simulation.latest(topic)
+        simulation.advance(0.3)
+        command(simulation)  # on its way when the state is saved
+        simulation.advance()
+        saved = simulation.save()
+        first = record(simulation, 0.5)
+        simulation.restore(saved)
+        assert simulation.time == pytest.approx(0.302)
+        assert record(simulation, 0.5) == first
+    with uwsim.load(scene, seed=4) as other:
+        other.restore(saved)
+        assert record(other, 0.5) == first
+
+
+def test_saving_changes_nothing_and_gives_the_same_bytes_twice() -> None:
+    with uwsim.load("currents-scene") as simulation:
+        simulation.advance(0.1)
+        assert simulation.save() == simulation.save()
+        watched = record(simulation, 0.2)
+    with uwsim.load("currents-scene") as simulation:
+        simulation.advance(0.1)
+        assert record(simulation, 0.2) == watched
+
+
+def test_servos_that_follow_a_command_go_on() -> None:
+    with uwsim.load("currents-scene") as simulation:
+        simulation.advance()
+        simulation.world.state.servos(0).aim({0: 0.4, 1: 0.2})
+        simulation.advance(0.05)
+        saved = simulation.save()
+        simulation.advance(0.5)
+        there = simulation.world.joints("girona500")
+        simulation.restore(saved)
+        assert not np.array_equal(simulation.world.joints("girona500"), there)
+        simulation.advance(0.5)
+        np.testing.assert_array_equal(simulation.world.joints("girona500"), there)
+
+
+def test_bytes_of_another_scene_or_of_none_are_refused() -> None:
+    with uwsim.load("currents-scene") as simulation, uwsim.load("visibility-scene") as other:
+        with pytest.raises(uwsim.UwsimError, match="not of this scene"):
+            other.restore(simulation.save())
+        for damaged in (b"", b"x" * 50, simulation.save()[:200], pickle.dumps([1])):
+            with pytest.raises(uwsim.UwsimError, match="no saved simulation"):
+                simulation.restore(damaged)
+
+
+class Evil:
+    def __reduce__(self) -> tuple[object, tuple[str]]:
+        return print, ("owned",)
+
+
+def test_bytes_that_would_run_code_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with uwsim.load("visibility-scene") as simulation:
+        with pytest.raises(uwsim.UwsimError, match=r"builtins\.print has no place"):
+            simulation.restore(pickle.dumps({"uwsim": Evil()}))
+        assert capsys.readouterr().out == ""
+
+
+class Quiet:
+    def start(self, node: uwsim.Node) -> None:
+        pass
+
+
+def test_with_an_algorithm_attached_nothing_is_saved() -> None:
+    with uwsim.load("visibility-scene") as simulation:
+        simulation.attach(Quiet())
+        with pytest.raises(uwsim.UwsimError, match="Quiet is attached"):
+            simulation.save()
