@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+from importlib import resources
+from pathlib import Path
 from typing import ClassVar
 
 import pytest
 
 from uwsim.devices import DEVICES
+from uwsim.messages import Float64
 from uwsim.scene.not_yet import limit_of
+from uwsim.scene.reader import read_scene
 from uwsim.schema import slots
+from uwsim.schema.names import local
 from uwsim.sensors import SENSORS
-from uwsim.sensors.sensor import measured_by
+from uwsim.sensors.pressure_sensor import PressureSensorSpec
+from uwsim.sensors.sensor import Carrier, measured_by
+from uwsim.simulation import Simulation
 from uwsim.topics import INTERFACES, InterfaceSpec, element_of
-from uwsim.topics.sensor_topic import ImuToROSImuSpec, SensorTopicSpec
+from uwsim.topics.sensor_topic import ImuToROSImuSpec, PressureSensorToROSSpec, SensorTopicSpec
+from uwsim.world import Body, SensorWorld
+
+SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-scene.xml"
 
 
 @pytest.mark.parametrize("name", [name for name in INTERFACES if name != "SimulatedDeviceROS"])
@@ -26,7 +36,7 @@ def test_what_has_no_bind_is_said_to_be_read_only(name: str) -> None:
 @pytest.mark.parametrize("spec", INTERFACES.values())
 def test_topics_are_fields_and_sources_are_elements(spec: type[InterfaceSpec]) -> None:
     assert set(spec.carries()) <= {slot.field for slot in slots(spec)}
-    assert set(spec.sources) <= {*SENSORS, *DEVICES, "vehicle", "object"}
+    assert set(spec.sources) <= {*map(local, {**SENSORS, **DEVICES}), "vehicle", "object"}
 
 
 def test_sensors_on_one_interface_measure_the_same() -> None:
@@ -48,3 +58,43 @@ def test_an_interface_of_a_sensor_that_is_simulated_is_simulated() -> None:
 
 def test_an_interface_knows_its_element() -> None:
     assert element_of(ImuToROSImuSpec(name="imu", topic="/imu")) == "ImuToROSImu"
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class DepthSpec(PressureSensorSpec):
+    """What it takes to simulate a sensor whose element is read already."""
+
+    message_type: ClassVar[type] = Float64
+
+    def bind(self, world: SensorWorld, vehicle: Carrier) -> Depth:
+        return Depth(vehicle.mount(self))
+
+
+class Depth:
+    def __init__(self, mount: Body) -> None:
+        self._mount = mount
+
+    def sample(self, time: float) -> Float64:
+        return Float64(data=-float(self._mount.world_from_body.position[2]))
+
+
+def test_a_sensor_is_published_as_soon_as_its_spec_has_a_bind(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = read_scene(SCENE)
+    sensor = DepthSpec(name="depth", relative_to="base_link")
+    topic = PressureSensorToROSSpec(name="depth", topic="/depth", rate=100)
+    missing = PressureSensorToROSSpec(name="other", topic="/other")
+    vehicle = dataclasses.replace(scene.vehicles[0], pressure_sensors=(sensor,))
+    assert not topic.is_simulated()
+    monkeypatch.setitem(SENSORS, "pressureSensor", DepthSpec)
+    assert topic.is_simulated()
+    scene = dataclasses.replace(
+        scene, vehicles=(vehicle,), objects=(), ros_interfaces=(missing, topic)
+    )
+    with Simulation(scene, is_blind=True) as simulation:
+        simulation.latest("/depth")
+        simulation.advance(0.01)
+        expected = -simulation.world.body("girona500/base_link").world_from_body.position[2]
+        assert simulation.latest("/depth").data == pytest.approx(expected)
+        assert "other" not in simulation.topics

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 
 from ..schema import Faults, uses_extensions
-from ..sensors.sensor import Mounted
+from ..sensors.sensor import Looking, Mounted
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from .mounts import Stand, in_words
@@ -44,7 +44,7 @@ def check_looks(scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Fault
             faults.notice(None, f"{count} cameras are called {name!r}; searches find the first")
 
 
-def looking(vehicle: VehicleSpec) -> Iterator[Mounted]:
+def looking(vehicle: VehicleSpec) -> Iterator[Looking]:
     """Everything on a vehicle that looks somewhere."""
     yield from vehicle.virtual_cameras
     yield from vehicle.virtual_range_images
@@ -68,7 +68,7 @@ def _called(spec: Mounted) -> str:
 
 def _check_age(stand: Stand, faults: Faults) -> None:
     """Until July 2014 sensors hung on visual frames: those on turned ones may now look up."""
-    turned: list[Mounted] = []
+    turned: list[Looking] = []
     n_right = 0
     for spec in looking(stand.vehicle):
         if spec in stand.vehicle.object_pickers or stand.robot.link(spec.relative_to) is None:

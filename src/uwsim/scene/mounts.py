@@ -76,7 +76,8 @@ class Stand:
         Raises:
             KeyError: there is no such link.
         """
-        if spec.look_at is None:
+        look_at: LookAt = getattr(spec, "look_at", None)
+        if look_at is None:
             return Pose.from_rpy(spec.position, spec.orientation)
         world_from_frame = self.world_from_link(spec.relative_to, visual=visual)
         eye = world_from_frame.transform(np.array([spec.position]))[0]  # W, without scale
@@ -84,7 +85,7 @@ class Stand:
         scale = np.array(self.vehicle.scale_factor)
         own = turned_back(base.rotation, eye - base.position)
         placed = base.position + turned(base.rotation, scale * own)
-        ahead, top = self._view(placed, spec.look_at)
+        ahead, top = self._view(placed, look_at)
         looks = axes_along_x(ahead, top) if isinstance(spec, ALONG_X) else camera_axes(ahead, top)
         return Pose(np.array(spec.position), product(world_from_frame.rotation.T, looks))
 

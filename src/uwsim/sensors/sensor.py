@@ -25,7 +25,7 @@ class SensorSpec:
 
 
 class Mounted(Protocol):
-    """Anything with a place on a link that looks somewhere."""
+    """Anything with a place on a link."""
 
     @property
     def relative_to(self) -> str:
@@ -38,6 +38,10 @@ class Mounted(Protocol):
     @property
     def orientation(self) -> tuple[float, float, float]:
         """Fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+
+
+class Looking(Mounted, Protocol):
+    """What is mounted and looks somewhere."""
 
     @property
     def look_at(self) -> LookAt:

@@ -12,6 +12,7 @@ from typing import ClassVar
 
 from ..devices import DEVICES
 from ..schema import element
+from ..schema.names import local
 from ..sensors import SENSORS
 from ..sensors.sensor import Sensor, measured_by
 from .interface import InterfaceSpec, TopicWorld
@@ -36,9 +37,9 @@ class SensorTopicSpec(InterfaceSpec):
     @classmethod
     def carries(cls) -> Mapping[str, type]:
         """Return what its sources measure; they agree."""
-        specs = [{**SENSORS, **DEVICES}[source] for source in cls.sources]
-        types = [found for spec in specs if (found := measured_by(spec)) is not None]
-        return {"topic": types[0]} if types else {}
+        parts = {local(tag): spec for tag, spec in {**SENSORS, **DEVICES}.items()}
+        types = [measured_by(parts[source]) for source in cls.sources]
+        return next(({"topic": type_} for type_ in types if type_ is not None), {})
 
     def bind(self, world: TopicWorld) -> SensorPublisher:
         """Publish the sensor from now on; raises UnknownName if it is not there."""

@@ -1,0 +1,81 @@
+"""The pages about extending uwsim itself: their blocks are applied to a copy and run there."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+BLOCK = re.compile(r"(?P<before>[^\n]*)\n\n```(?P<language>\w+)\n(?P<text>.*?)```", re.DOTALL)
+NEW = re.compile(r"^`([\w/.]+)`:$")
+BELOW = re.compile(r"^(?:Below the last \w+ of|In) `(src/[\w/.]+)`[:,]")
+
+
+def copy_of_the_package(folder: Path) -> None:
+    """Links to everything: a file that is changed becomes one of its own."""
+    ignored = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(ROOT / "src", folder / "src", ignore=ignored, copy_function=os.symlink)
+
+
+def put(path: Path, text: str) -> None:
+    path.unlink(missing_ok=True)
+    path.write_text(text)
+
+
+def patched(text: str, diff: str) -> str:
+    """Apply hunks, which ``@@`` separates; what they do not begin with ``+`` is there once."""
+    for hunk in diff.split("@@\n"):
+        lines = hunk.splitlines()
+        old = "".join(f"{line[1:]}\n" for line in lines if line[0] in " -")
+        new = "".join(f"{line[1:]}\n" for line in lines if line[0] in " +")
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    return text
+
+
+def apply(page: str, folder: Path) -> tuple[list[Path], str]:
+    """Do what a page says; returns the files that it touches, and the output it promises."""
+    touched: list[Path] = []
+    expected = ""
+    for found in BLOCK.finditer((ROOT / "docs" / page).read_text()):
+        before, language, block = found["before"], found["language"], found["text"]
+        new, below = NEW.match(before), BELOW.match(before)
+        if new is not None:
+            put(folder / new[1], block)
+        if language == "diff" and below is not None:
+            path = folder / below[1]
+            put(path, patched(path.read_text(), block))
+        elif below is not None:
+            path = folder / below[1]
+            put(path, f"{path.read_text()}\n\n{block}")
+        elif new is None and language == "python":
+            put(folder / "use.py", block)
+        elif language == "text":
+            expected = block  # the last is what the program prints
+        if place := new or below:
+            touched.append(Path(place[1]))
+    return [path for path in dict.fromkeys(touched) if path.suffix != ".xml"], expected
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("page", "n_files"), [("adding-a-sensor.md", 7), ("adding-a-device.md", 3)]
+)
+def test_a_page_says_all_that_must_be_done(page: str, n_files: int, tmp_path: Path) -> None:
+    copy_of_the_package(tmp_path)
+    touched, expected = apply(page, tmp_path)
+    assert len(touched) == n_files
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "src")}
+    for command, output in ((["-m", "uwsim", "check", "scene.xml"], ""), (["use.py"], expected)):
+        done = subprocess.run(
+            [sys.executable, *command],
+            cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=200,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert output in done.stdout
