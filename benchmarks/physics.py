@@ -7,6 +7,8 @@ of the CIRS tank. Water on every body, 2 ms, one core. A dry engine step is the 
 callback removed. Targets: at least 60 000 steps/s in all; with water at most 1.35 times the dry
 step.
 
+Accuracy: the fall of a thin tag against DOP853, and what energy a tumbling box gains.
+
 The soak (``--soak``, minutes): 64 simulations of 30 s with random thrust, joint targets, jaws and
 currents above a floor with a loose box at 2, 5 and 10 ms: no NaN, no warning of the engine, and a
 median path of the vehicles above 2 m.
@@ -38,6 +40,7 @@ from uwsim.simulation.dynamics import read_dynamics
 
 STEPS_PER_SECOND, RATIO = 60_000, 1.35
 BATCHES, STEPS = 15, 4000
+TAG_FALL = 1.6089  # by scipy's DOP853 [m]
 N_SOAK, SOAK_SECONDS, LEAST_PATH = 64, 30.0, 2.0  # [1], [s], [m]
 BOX = (0.15, 0.10, 0.075)  # half-edges [m]
 ARM = (("slew", (0, 0, 1), 0.05), ("shoulder", (0, 1, 0), 0.35), ("elbow", (0, 1, 0), 0.30),
@@ -251,8 +254,59 @@ def soak() -> dict[str, object]:
     return figures
 
 
+def alone(
+    water: BodyHydrodynamics, mass: float, inertia: tuple[float, float, float], timestep: float
+) -> tuple[Hydrodynamics, mujoco.MjData]:
+    spec = mujoco.MjSpec()
+    spec.option.timestep = timestep
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    body = spec.worldbody.add_body(name="body", mass=mass, ipos=[0, 0, 0], inertia=list(inertia))
+    body.explicitinertial = True
+    body.add_freejoint()
+    prepare(spec, {"body": water}, surface=1000.0)
+    model = spec.compile()
+    return install(model), mujoco.MjData(model)
+
+
+def tag(timestep: float) -> dict[str, float]:
+    """A steel tag 10 x 10 x 0.2 cm, dropped tilted by 30 degrees: its fall in 3 s."""
+    water = BodyHydrodynamics(
+        link="body", added_mass=(3e-4, 3e-4, 0.6329, 3.249e-4, 3.249e-4, 0.0), volume=2e-5,
+        quadratic_damping=(0.105, 0.105, 5.25, 1.64e-4, 1.64e-4, 6.56e-6), implicitness=1.0,
+    )  # fmt: skip
+    inertia = (0.157 / 12 * 0.010004, 0.157 / 12 * 0.010004, 0.157 / 12 * 0.02)
+    hydrodynamics, data = alone(water, 0.157, inertia, timestep)
+    data.qpos[3:] = np.cos(np.pi / 12), 0.0, np.sin(np.pi / 12), 0.0
+    hydrodynamics.step(data, round(3.0 / timestep))
+    return {"fall_m": round(-float(data.qpos[2]), 4), "dop853_m": TAG_FALL}
+
+
+def tumbling(timestep: float) -> dict[str, float]:
+    """A neutral box without drag at 3.2 rad/s: what energy it gains in 10 s."""
+    added, inertia = np.array([4.0, 20, 30, 0.3, 0.02, 0.1]), (0.08, 0.15, 0.19)
+    water = BodyHydrodynamics(link="body", added_mass=tuple(added.tolist()), volume=0.0142)
+    hydrodynamics, data = alone(water, 14.2, inertia, timestep)
+    whole = added + np.array([14.2] * 3 + list(inertia))
+    data.qvel[:] = began = np.array([0.3, -0.2, 0.4, 2.0, 2.2, 1.1])
+    hydrodynamics.step(data, round(10.0 / timestep))
+    mujoco.mj_kinematics(hydrodynamics.model, data)
+    twist = data.qvel.copy()
+    twist[:3] = data.xmat[1].reshape(3, 3).T @ twist[:3]
+    gain = float((twist * twist) @ whole / ((began * began) @ whole)) - 1.0
+    return {"energy_gain_percent": 100.0 * gain, "target_percent": 0.5}
+
+
+def accuracy() -> dict[str, object]:
+    return {
+        f"{name} {timestep * 1e3:g} ms": case(timestep)
+        for name, case in (("tag", tag), ("tumbling box", tumbling))
+        for timestep in (0.002, 0.005, 0.010)
+    }
+
+
 def figures() -> dict[str, object]:
-    return {"speed": speeds(), "soak": soak()} if SOAK else {"speed": speeds()}
+    found: dict[str, object] = {"speed": speeds(), "accuracy": accuracy()}
+    return found | {"soak": soak()} if SOAK else found
 
 
 if __name__ == "__main__":
