@@ -71,6 +71,8 @@ class DepthSpec(PressureSensorSpec):
 
 
 class Depth:
+    STATE: ClassVar[tuple[str, ...]] = ()
+
     def __init__(self, mount: Body) -> None:
         self._mount = mount
 
@@ -98,3 +100,7 @@ def test_a_sensor_is_published_as_soon_as_its_spec_has_a_bind(
         expected = -simulation.world.body("girona500/base_link").world_from_body.position[2]
         assert simulation.latest("/depth").data == pytest.approx(expected)
         assert "other" not in simulation.topics
+        saved = simulation.save()
+        simulation.advance(0.01)
+        simulation.restore(saved)
+        assert simulation.time == pytest.approx(0.01)

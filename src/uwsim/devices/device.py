@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import abc
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 from ..sensors.sensor import Carrier
 from ..vehicle import Vehicle
@@ -31,6 +31,9 @@ class DeviceSpec(abc.ABC):
 
 class Device:
     """A device at work; each of its kind does what it has to in one of these."""
+
+    STATE: ClassVar[tuple[str, ...]] = ()
+    """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
 
     def step(self, time: float) -> None:
         """Act before the forces, in the step that begins at ``time`` [s]."""

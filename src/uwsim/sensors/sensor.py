@@ -67,6 +67,9 @@ class Carrier(Protocol):
 class Sensor(Protocol):
     """A sensor at work."""
 
+    STATE: ClassVar[tuple[str, ...]]
+    """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
+
     def sample(self, time: float) -> object:
         """Measure now, at ``time`` [s]; the message is of its spec's ``message_type``."""
 

@@ -121,7 +121,7 @@ class VirtualCamera:
     Not modelled: exposure, motion blur, rolling shutter, lens distortion, refraction.
     """
 
-    STATE = ("std", "n_pictures", "_random")
+    STATE: ClassVar[tuple[str, ...]] = ("std", "n_pictures", "_random")
     """What of it changes as time goes by."""
 
     def __init__(

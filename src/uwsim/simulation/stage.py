@@ -15,7 +15,7 @@ from ..geometry import Array
 from ..sampling import SampleTimer
 from ..scene.spec import SceneSpec
 from ..sensors.sensor import Sensor
-from ..topics.interface import Binds
+from ..topics.interface import Binds, Interface
 from ..world import Flow
 from .water_motion import WaterMotion
 from .world import SceneWorld
@@ -31,7 +31,10 @@ class SceneStage(SceneWorld):
         options: those of `SceneWorld`.
     """
 
-    STATE = ("_bus", "state", "scenery", "touch", "_cameras", "_timers", "interfaces", "_pending")
+    STATE = (
+        *("_bus", "state", "scenery", "touch", "_timers", "_pending"),
+        *("_vehicles", "_sensors", "devices", "interfaces"),
+    )
     """What of it changes as time goes by."""
 
     def __init__(self, scene: SceneSpec, **options: Any) -> None:
@@ -67,7 +70,7 @@ class SceneStage(SceneWorld):
                         lamps.append(device)
         self.scenery.hang(lamps)
 
-    def _bound_interfaces(self) -> Iterator[object]:
+    def _bound_interfaces(self) -> Iterator[Interface]:
         for spec in self.scene.ros_interfaces:
             # one that names what is not there is left out, as in the original
             with suppress(UnknownName):

@@ -28,7 +28,7 @@ class SceneVehicle:
         state: where its links are.
     """
 
-    STATE = ("_losses",)
+    STATE = ("_offsets", "_losses")
     """What of it changes as time goes by."""
 
     def __init__(self, index: int, stand: Stand, state: State) -> None:
@@ -90,12 +90,12 @@ class SceneVehicle:
 
     def displacer(self, axis: int) -> Callable[[float], None]:
         """Return what displaces it along or about an axis; several add up, the last moves it."""
-        offsets, own = self._offsets, len(self._offsets)
-        offsets.append((axis, 0.0))
+        own = len(self._offsets)
+        self._offsets.append((axis, 0.0))
 
         def displace(offset: float) -> None:
-            offsets[own] = (axis, offset)
-            if own == len(offsets) - 1:
+            self._offsets[own] = (axis, offset)
+            if own == len(self._offsets) - 1:
                 self.put_back()
 
         return displace
@@ -110,8 +110,8 @@ class SceneVehicle:
         losses.append(0.0)
 
         def lose(loss: float) -> None:
-            losses[own] = loss
-            self._state.set_loss(self._index, number, max(losses))
+            self._losses[number][own] = loss
+            self._state.set_loss(self._index, number, max(self._losses[number]))
 
         return lose
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..messages import JointState, header
 from ..vehicle import Vehicle
-from .interface import TopicWorld, VehiclePublisherSpec
+from .interface import Interface, TopicWorld, VehiclePublisherSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +30,7 @@ class ArmToROSJointStateSpec(VehiclePublisherSpec):
         return publisher
 
 
-class JointPublisher:
+class JointPublisher(Interface):
     """Publishes the joint vector and, of a simulated vehicle, its velocities and efforts."""
 
     def __init__(self, topic: str, vehicle: Vehicle, world: TopicWorld) -> None:

@@ -9,7 +9,7 @@ from typing import ClassVar
 from ..errors import UnknownName
 from ..messages import Bool
 from ..schema import element
-from .interface import InterfaceSpec, TopicWorld
+from .interface import Interface, InterfaceSpec, TopicWorld
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +35,7 @@ class ContactSensorToROSSpec(InterfaceSpec):
         return publisher
 
 
-class ContactPublisher:
+class ContactPublisher(Interface):
     """Publishes whether something touches anything."""
 
     def __init__(self, name: str, topic: str, world: TopicWorld) -> None:

@@ -41,11 +41,18 @@ class TopicWorld(World, Protocol):
         """Have ``obey(message)`` called at the start of the next step; a method of an interface."""
 
 
+class Interface:
+    """An interface at work: it publishes or listens by itself from the time it is bound."""
+
+    STATE: ClassVar[tuple[str, ...]] = ()
+    """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
+
+
 @runtime_checkable
 class Binds(Protocol):
     """An interface that is simulated: what has no ``bind`` is read and does nothing."""
 
-    def bind(self, world: TopicWorld) -> object:
+    def bind(self, world: TopicWorld) -> Interface:
         """Find what it is about and start it; raises UnknownName if that is not there."""
 
 

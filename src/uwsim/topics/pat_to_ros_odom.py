@@ -25,7 +25,7 @@ from ..messages import (
     header,
 )
 from ..vehicle import Vehicle
-from .interface import TopicWorld, VehiclePublisherSpec
+from .interface import Interface, TopicWorld, VehiclePublisherSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +41,7 @@ class PATToROSOdomSpec(VehiclePublisherSpec):
         return publisher
 
 
-class OdometryPublisher:
+class OdometryPublisher(Interface):
     """Publishes the base in L and, of a simulated vehicle, its twist over ground, base axes."""
 
     def __init__(self, topic: str, vehicle: Vehicle, world: TopicWorld) -> None:

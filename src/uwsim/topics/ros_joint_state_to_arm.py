@@ -16,7 +16,7 @@ import numpy as np
 from ..geometry import Array
 from ..messages import JointState
 from ..vehicle import Servos, Vehicle
-from .interface import TopicWorld, VehicleTopicSpec
+from .interface import Interface, TopicWorld, VehicleTopicSpec
 from .ros_twist_to_pat import Gap
 
 
@@ -33,7 +33,7 @@ class ROSJointStateToArmSpec(VehicleTopicSpec):
         return command
 
 
-class JointCommand:
+class JointCommand(Interface):
     """Moves the joints of a vehicle."""
 
     STATE = ("_gap",)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..messages import Odometry
-from .interface import TopicWorld, VehicleTopicSpec
+from .interface import Interface, TopicWorld, VehicleTopicSpec
 from .ros_pose_to_pat import PoseCommand
 from .ros_twist_to_pat import Gap, TwistCommand
 
@@ -33,7 +33,7 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
         return command
 
 
-class OdometryCommand:
+class OdometryCommand(Interface):
     """Puts a vehicle somewhere or moves it on, as a message has it."""
 
     STATE = ("_twist",)

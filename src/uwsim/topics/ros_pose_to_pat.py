@@ -11,7 +11,7 @@ import numpy as np
 from ..geometry import Pose, rotation_from_quaternion
 from ..messages import Pose as PoseMessage
 from ..vehicle import LARGEST, Vehicle
-from .interface import TopicWorld, VehicleTopicSpec
+from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,7 +27,7 @@ class ROSPoseToPATSpec(VehicleTopicSpec):
         return command
 
 
-class PoseCommand:
+class PoseCommand(Interface):
     """Puts a vehicle somewhere, or has its autopilot bring it there."""
 
     def __init__(self, vehicle: Vehicle, world_from_localized: Pose) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 from ..geometry import Pose, rotation_from_xyz
 from ..messages import Twist, TwistStamped
 from ..vehicle import LARGEST, Vehicle
-from .interface import TopicWorld, VehicleTopicSpec
+from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 LONGEST_GAP = 1.0
 """After a longer silence a velocity moves nothing [s]."""
@@ -40,7 +40,7 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
         return command
 
 
-class TwistCommand:
+class TwistCommand(Interface):
     """Moves a vehicle by one step of a twist, or has its autopilot hold it."""
 
     STATE = ("_gap",)

@@ -15,7 +15,7 @@ from ..schema import element
 from ..schema.names import local
 from ..sensors import SENSORS
 from ..sensors.sensor import Sensor, measured_by
-from .interface import InterfaceSpec, TopicWorld
+from .interface import Interface, InterfaceSpec, TopicWorld
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +50,7 @@ class SensorTopicSpec(InterfaceSpec):
         return publisher
 
 
-class SensorPublisher:
+class SensorPublisher(Interface):
     """Publishes what a sensor measures."""
 
     def __init__(

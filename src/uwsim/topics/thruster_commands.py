@@ -18,7 +18,7 @@ from ..geometry import Array
 from ..messages import Float64MultiArray, WrenchStamped
 from ..schema import element
 from ..vehicle import Autopilot
-from .interface import TopicWorld, VehicleTopicSpec
+from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +61,7 @@ class ROSThrustersToPATSpec(AutopilotTopicSpec):
         return command
 
 
-class ThrusterCommand:
+class ThrusterCommand(Interface):
     """Sets the commands of all thrusters of a vehicle."""
 
     def __init__(self, autopilot: Autopilot, vehicle: str, thrusters: tuple[str, ...]) -> None:
@@ -102,7 +102,7 @@ class ROSWrenchToPATSpec(AutopilotTopicSpec):
         return command
 
 
-class WrenchCommand:
+class WrenchCommand(Interface):
     """Pushes a vehicle with its thrusters."""
 
     def __init__(self, autopilot: Autopilot) -> None:

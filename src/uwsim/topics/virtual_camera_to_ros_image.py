@@ -15,7 +15,7 @@ from ..messages import CameraInfo, Image, image
 from ..sampling import SampleTimer
 from ..schema import element
 from ..sensors.virtual_camera import VirtualCamera
-from .interface import InterfaceSpec, TopicWorld
+from .interface import Interface, InterfaceSpec, TopicWorld
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,7 +43,7 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
         return ImagePublisher(self, world.camera(self.camera_name), world)
 
 
-class ImagePublisher:
+class ImagePublisher(Interface):
     """Publishes the images of a camera.
 
     A sample that nobody reads is not drawn, but takes its turn in the camera's random stream: the
