@@ -17,7 +17,6 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
-WITNESS = Path(__file__).parent / "witness_of_bytes.py"
 
 CHOSEN_BY_THE_PROCESSOR = """
     arccos arccosh arcsin arcsinh arctan arctan2 arctanh cbrt cosh exp exp2 expm1 float_power log
@@ -96,7 +95,8 @@ same, too, and takes minutes to compile: ``benchmarks/`` has it."""
 def witnessed(**variables: str) -> dict[str, str]:
     """Play a little of everything in a process of its own, and return what came out, as hashes."""
     done = subprocess.run(
-        [sys.executable, str(WITNESS)],
+        [sys.executable, "-m", "tests.witness_of_bytes"],
+        cwd=PACKAGE.parent.parent,
         env={**os.environ, **variables},
         capture_output=True,
         text=True,

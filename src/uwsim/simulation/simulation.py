@@ -178,10 +178,10 @@ class Simulation:
         world_from_body = self.world.body(name).world_from_body
         if of == "W":
             return world_from_body
-        frame = self.world.world_from_localized
+        world_from_frame = self.world.world_from_localized
         if of != "L":
-            frame = self.world.body(of).world_from_body
-        return frame.inverse() @ world_from_body
+            world_from_frame = self.world.body(of).world_from_body
+        return world_from_frame.inverse() @ world_from_body
 
     def velocity(self, name: str) -> Array:
         """Return the twist of a simulated vehicle over ground, in its base frame, (6,).
