@@ -176,16 +176,10 @@ class Renderer:
         rows = self._instances.without(hidden)
         clip = clip_from_camera(view.intrinsics)
         seen = in_view(self._instances, rows, world_from_camera, frustum(clip))
-        switches: Switches = ()
+        switches: Switches = water.switches
         in_shadow = [False] * len(seen)
         if "colour" in view.wanted and light.shadows:
             in_shadow = self._cast(rows, seen, view, world_from_camera, clip)
-        if water.fog == 0.0:
-            switches += (("NO_FOG", 1),)
-        elif water.fog_distance == "clip":
-            switches += (("FOG_CLIP", 1),)
-        if water.has_air:
-            switches += (("AIR", 1),)
         if lamps and "colour" in view.wanted:
             switches += (("LAMPS", len(lamps)),)
             self._shine(lamps, rows, world_from_camera, hidden)

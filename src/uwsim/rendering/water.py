@@ -25,6 +25,7 @@ import numpy.typing as npt
 from ..elementwise import exp
 from ..geometry import Intrinsics
 from ..linear import length
+from ..scene.spec import OceanStateSpec
 
 Colour = tuple[float, float, float]
 Sun = Literal["clear", "dusk", "cloudy"]
@@ -68,6 +69,28 @@ class Water:
     """Distance the fog law uses: along the ray, or the original's clip-space z."""
     has_air: bool = False
     """Whether only the way below the surface counts; the original's cameras are always in water."""
+
+    @classmethod
+    def of(cls, ocean: OceanStateSpec, compatibility: frozenset[str] = frozenset()) -> Water:
+        """Return the water that a scene describes."""
+        return cls(
+            fog=ocean.fog.density,
+            fog_colour=ocean.fog.color,
+            colour=ocean.color,
+            attenuation=ocean.attenuation,
+            surface_height=ocean.ocean_surface_height,
+            fog_distance="clip" if "fog-distance" in compatibility else "ray",
+        )
+
+    @property
+    def switches(self) -> tuple[tuple[str, int], ...]:
+        """What the shaders are compiled with."""
+        is_set = {
+            "NO_FOG": self.fog == 0.0,
+            "FOG_CLIP": self.fog > 0.0 and self.fog_distance == "clip",
+            "AIR": self.has_air,
+        }
+        return tuple((name, 1) for name, value in is_set.items() if value)
 
     @property
     def far_colour(self) -> Colour:

@@ -62,15 +62,7 @@ class Scenery:
         self._drawn_version = -1
         self.parts = tuple(parts_of(scene, robots, data_path))
         """The models of the scene and whose they are."""
-        ocean = scene.ocean_state
-        self.water = Water(
-            fog=ocean.fog.density,
-            fog_colour=ocean.fog.color,
-            colour=ocean.color,
-            attenuation=ocean.attenuation,
-            surface_height=ocean.ocean_surface_height,
-            fog_distance="clip" if "fog-distance" in compatibility else "ray",
-        )
+        self.water = Water.of(scene.ocean_state, compatibility)
         """The water as it is now; scene updaters change its fog."""
         self.light = Light(rate=scene.sim_params.light_rate, shadows=scene.has_sun_shadows)
         """The sun as it shines now; scene updaters change its rate."""
