@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import UnknownName
-from ..messages import CameraInfo, Image, image
+from ..messages import CameraInfo, Image, image, picture
 from ..sampling import SampleTimer
 from ..schema import element
 from ..sensors.virtual_camera import VirtualCamera
@@ -92,10 +92,10 @@ class ImagePublisher(Interface):
             self.camera.skip()
             return
         if self._blank is None:
-            pixels = self.camera.shoot()
-            self._digest.update(np.ascontiguousarray(pixels).data)
+            message = self.camera.sample(time)
+            self._digest.update(message.data.data)
         else:
-            pixels = self._blank
-        self.last = pixels
+            message = image(self._blank, time=time, frame_id=self.camera.frame_id)
         self.n_frames += 1
-        self._publish_image(image(pixels, time=time, frame_id=self.camera.frame_id))
+        self._publish_image(message)
+        self.last = picture(message)
