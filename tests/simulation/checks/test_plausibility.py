@@ -27,7 +27,7 @@ ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 DATA = Path(str(resources.files("uwsim"))) / "data"
 ROBOT = """<robot name="rov">
   <link name="base_link">
-    <inertial> <mass value="20"/>
+    <inertial> <mass value="19.9"/>
       <inertia ixx="0.5" iyy="0.6" izz="0.7" ixy="0" ixz="0" iyz="0"/> </inertial>
     <collision> <geometry> <box size="0.5 0.4 0.3"/> </geometry> </collision>
   </link>
@@ -48,7 +48,7 @@ MIDDLE = "<x>0</x> <y>0</y> <z>0</z>"
 X, Y, Z = (f"<x>{x}</x> <y>{y}</y> <z>{z}</z>" for x, y, z in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
 WATER = f"""<hydrodynamics name="rov">
   <body link="base_link"> {BODY} </body>
-  <body link="jaw"> </body>
+  <body link="jaw"> <mass>0.1</mass> </body>
   {THRUSTER.format("port", PORT, X)} {THRUSTER.format("starboard", STARBOARD, X)}
   {THRUSTER.format("side", MIDDLE, Y)} {THRUSTER.format("down", MIDDLE, Z)}
 </hydrodynamics>"""
@@ -174,7 +174,7 @@ WRONG = {
         "robot",
         'ixx="0.5" iyy="0.6" izz="0.7"',
         'ixx="0" iyy="0" izz="0"',
-        "link 'base_link' has 20 kg and the inertia 0 0 0 (it is simulated with 0.0001); a box of "
+        "link 'base_link' has 19.9 kg and the inertia 0 0 0 (it is simulated with 0.0001); a box of "
         "its size, 0.5 0.4 0.3 m, has 0.68 kg m2 at most",
     ),
     "negative inertia": ("inertia", "robot", 'ixx="0.5"', 'ixx="-0.5"', "the inertia -0.5 0.6 0.7"),
@@ -188,7 +188,7 @@ WRONG = {
     "drag without mass": (
         "drag",
         "water",
-        '<body link="jaw"> </body>',
+        '<body link="jaw"> <mass>0.1</mass> </body>',
         '<body link="jaw"> <linearDamping>1 1 1 0 0 0</linearDamping> </body>',
         "its link 'jaw' has drag and no mass",
     ),
