@@ -165,7 +165,7 @@ def read_for_resume(sound: Sound, directory: Path) -> None:
 
 @dataclass(frozen=True)
 class Copies:
-    """A crew that gives what the sound result has."""
+    """An executor that gives what the sound result has."""
 
     sound: Sound
 

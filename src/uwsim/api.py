@@ -89,7 +89,7 @@ def bench(
     Raises:
         UwsimError: an input is wrong, or a run failed; finished rows are kept in ``out``.
     """
-    from .cli.crew import CALLBACK_LIMIT, crew_of
+    from .cli.executor import CALLBACK_LIMIT, executor_of
     from .results.directory import check as check_directory
     from .results.inputs import without_algorithm
     from .runs.executors.executor import play_all
@@ -113,7 +113,7 @@ def bench(
     if algorithm is not None and not isinstance(algorithm, str):
         name = f"{algorithm.__module__}:{algorithm.__qualname__}"
         plan = replace(plan, algorithm=algorithm, algorithm_name=name)
-    executor = crew_of(str(workers), CALLBACK_LIMIT)
+    executor = executor_of(str(workers), CALLBACK_LIMIT)
     inputs, renderer = open_once(plan)
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
         directory = Path(scratch) / "result" if out is None else Path(out)

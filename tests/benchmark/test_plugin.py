@@ -18,7 +18,7 @@ from uwsim.cli import main
 from uwsim.errors import BadSetting, PluginError, RunFailed
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import play_all
-from uwsim.runs.executors.processes import Processes
+from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
 from uwsim.runs.run import Bench, open_once
@@ -174,7 +174,7 @@ def test_a_benchmark_of_nothing_but_own_parts_is_played_by_two_workers(folder: P
     plan = plan_of("b.xml", folder / "parts.py")
     inputs, renderer = open_once(plan)
     run = Bench(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
-    [result] = play_all([run], Processes(2))
+    [result] = play_all([run], ProcessExecutor(2))
     assert result.values("murk") == (0.0, 0.5)
     assert result.columns[0].unit == "1/m"
     assert result.numbers("steps") == (100.0, 100.0)  # on at its first step: 0.1 s / 2 ms, twice

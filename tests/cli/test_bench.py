@@ -8,12 +8,12 @@ import pytest
 
 from tests.short_benchmark import fingerprint, write_benchmark
 from uwsim.cli import main
-from uwsim.cli.crew import crew_of
+from uwsim.cli.executor import executor_of
 from uwsim.errors import BadSetting
 from uwsim.results.provenance import load_provenance
 from uwsim.results.result_file import load
-from uwsim.runs.executors.executor import Here
-from uwsim.runs.executors.processes import Processes
+from uwsim.runs.executors.executor import SerialExecutor
+from uwsim.runs.executors.processes import ProcessExecutor
 
 
 @pytest.fixture
@@ -155,20 +155,20 @@ def test_an_algorithm_that_ends_its_process_is_exit_status_3_and_is_tried_again(
 
 
 def test_workers_are_a_number_or_ray() -> None:
-    assert isinstance(crew_of("0", 0.0), Here)
-    assert isinstance(crew_of("1", 0.0), Processes)
-    assert isinstance(crew_of("2", 600.0), Processes)
+    assert isinstance(executor_of("0", 0.0), SerialExecutor)
+    assert isinstance(executor_of("1", 0.0), ProcessExecutor)
+    assert isinstance(executor_of("2", 600.0), ProcessExecutor)
     for wrong in ("-1", "two", "1.5", "1000000", ""):
         with pytest.raises(BadSetting, match="expected a number from 0 to"):
-            crew_of(wrong, 0.0)
+            executor_of(wrong, 0.0)
     with pytest.raises(BadSetting, match="Did you mean 'ray'"):
-        crew_of("Ray", 0.0)
+        executor_of("Ray", 0.0)
 
 
 @pytest.mark.parametrize("limit", ["-1", "inf", "nan"])
 def test_a_callback_limit_is_a_time(limit: str) -> None:
     with pytest.raises(BadSetting, match=r"--callback-limit .*expected a time"):
-        crew_of("1", float(limit))
+        executor_of("1", float(limit))
 
 
 def test_a_clock_that_is_set_back_does_not_change_how_long_a_run_took(

@@ -22,7 +22,7 @@ from ..runs.timing import Stopwatch, Took
 from ..terminal import warn
 from .completion import algorithm_names
 from .console import Console
-from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
+from .executor import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, executor_of, n_at_once
 from .faults import running
 from .options import (
     BenchmarkArgument,
@@ -40,7 +40,7 @@ from .taught import INPUT, OUTPUT, RUN, in_group
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..runs.executors.background import Beside
-    from ..runs.executors.executor import Crew, Outcome
+    from ..runs.executors.executor import Executor, Outcome
     from ..runs.plan import Plan
     from ..runs.run import Bench
 
@@ -121,9 +121,9 @@ def bench(
     """
     from ..results.directory import check, prepared
 
-    wrong, crew, folders = AllErrors(), None, []
+    wrong, executor, folders = AllErrors(), None, []
     with wrong.kept():
-        crew = crew_of(workers, callback_limit)
+        executor = executor_of(workers, callback_limit)
     plans: list[Plan] = []
     for name in algorithm or (None,):
         with wrong.kept():
@@ -149,7 +149,7 @@ def bench(
     with wrong.kept():
         check(directory, resume=resume, overwrite=overwrite, results=folders)
     wrong.check()
-    assert crew is not None
+    assert executor is not None
 
     from ..results.inputs import without_algorithm
     from ..runs.run import Bench, open_once
@@ -171,7 +171,7 @@ def bench(
     if said is not None:
         print(said, file=sys.stderr)
     with running(), prepared(directory, resume=resume, overwrite=overwrite, results=folders):
-        play_and_finish(runs, crew, workers, watch, context.obj)
+        play_and_finish(runs, executor, workers, watch, context.obj)
 
 
 def with_sources(bench: Bench, files: Sequence[InputFile]) -> Bench:
@@ -191,7 +191,7 @@ def with_sources(bench: Bench, files: Sequence[InputFile]) -> Bench:
 
 def play_and_finish(
     runs: Sequence[Bench],
-    crew: Crew,
+    executor: Executor,
     workers: str,
     watch: Stopwatch,
     command: Sequence[str],
@@ -200,7 +200,7 @@ def play_and_finish(
 
     Args:
         runs: an algorithm each.
-        crew: who plays.
+        executor: who plays.
         workers: the same, as it was said.
         watch: started with the command.
         command: what was typed behind ``uwsim``.
@@ -219,7 +219,7 @@ def play_and_finish(
         controls = [control_of(run) for run in runs if wants_control(run)]
         if controls:
             beside.ask(controls[0])
-        outcome = play_with_progress(runs, crew, n_at_once(workers))
+        outcome = play_with_progress(runs, executor, n_at_once(workers))
         failed = {id(run) for run, _ in outcome.failures}
         if controls and len(failed) < len(runs):
             wait_for_controls(beside, controls)
@@ -292,7 +292,7 @@ def refuse_if_a_process_ended(runs: Sequence[Bench], results: Sequence[Result]) 
         raise RunFailed(f"{'; '.join(ended)}. Rows are kept; --resume tries those again.")
 
 
-def play_with_progress(runs: Sequence[Bench], crew: Crew, at_once: int) -> Outcome:
+def play_with_progress(runs: Sequence[Bench], executor: Executor, at_once: int) -> Outcome:
     """Play one benchmark, with an algorithm each, and show how far it is."""
     from ..runs.executors.executor import play_each
 
@@ -301,7 +301,7 @@ def play_with_progress(runs: Sequence[Bench], crew: Crew, at_once: int) -> Outco
     total = sum(len(unit.levels) for run in runs for unit in run.plan.units())
     done = sum(run.n_finished() for run in runs)
     with progress(title, total, done=done, of="levels", at_once=at_once) as on_level:
-        return play_each(runs, crew, on_level=on_level)
+        return play_each(runs, executor, on_level=on_level)
 
 
 def control_of(run: Bench) -> Bench:

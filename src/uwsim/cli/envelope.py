@@ -19,7 +19,7 @@ from ..runs.timing import Stopwatch
 from ..terminal import printable, warn
 from .bench import OTHER_CODE
 from .completion import algorithm_names
-from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
+from .executor import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, executor_of, n_at_once
 from .faults import running
 from .options import (
     BenchmarkArgument,
@@ -35,7 +35,7 @@ from .taught import INPUT, OUTPUT, RUN, SEARCH, in_group
 
 if TYPE_CHECKING:
     from ..envelope import Envelope
-    from ..runs.executors.executor import Crew
+    from ..runs.executors.executor import Executor
     from ..runs.plan import Plan
     from ..runs.run import Bench
 
@@ -157,9 +157,9 @@ def envelope(
     """
     from ..envelope import plan_for
 
-    wrong, crew, plan = AllErrors(), None, None
+    wrong, executor, plan = AllErrors(), None, None
     with wrong.kept():
-        crew = crew_of(workers, callback_limit)
+        executor = executor_of(workers, callback_limit)
     with wrong.kept():
         check_numbers(confidence, repeat)
     with wrong.kept():
@@ -188,12 +188,12 @@ def envelope(
     if plan is not None:
         question = question_of(plan, over, until, (start, stop, tolerance), chosen, wrong)
     wrong.check()
-    assert crew is not None
+    assert executor is not None
     assert plan is not None
     assert question is not None
     seeds = tuple(range(seed, seed + repeat))
     play(
-        plan_for(plan), directory, question, seeds, confidence=confidence, crew=crew,
+        plan_for(plan), directory, question, seeds, confidence=confidence, executor=executor,
         at_once=n_at_once(workers),
         resume=resume, overwrite=overwrite, command=context.obj,
     )  # fmt: skip
@@ -227,7 +227,7 @@ def play(
     seeds: tuple[int, ...],
     *,
     confidence: float,
-    crew: Crew,
+    executor: Executor,
     at_once: int,
     resume: bool,
     overwrite: bool,
@@ -266,7 +266,7 @@ def play(
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
         with progress(title, most, of="runs", at_once=at_once) as on_run:
             runs = Evaluations(bench, at=at, over=over, criterion=question.criterion)
-            found = runs.run(strategy(seeds, where), crew, on_run)
+            found = runs.run(strategy(seeds, where), executor, on_run)
         envelope = Envelope(
             asked=Asked(
                 over=over,

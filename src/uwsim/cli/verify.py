@@ -15,7 +15,7 @@ from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code
 from ..terminal import printable
 from ..verify.recorded_plan import NOT_DRAWN, Given, check_inputs, named_input, plan_of
-from .crew import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, crew_of, n_at_once
+from .executor import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, executor_of, n_at_once
 from .faults import RUN_FAILED, running
 from .options import DataPathOption, NoCodeOption, PluginOption, ResultArgument
 from .progress import progress
@@ -122,7 +122,7 @@ def verify(
     from ..verify.verify import choose, finished
     from ..verify.verify import verify as compare
 
-    crew = crew_of(workers, callback_limit)
+    executor = executor_of(workers, callback_limit)
     stored = load(result)
     directory = file_of(result).parent
     given = Given(
@@ -163,7 +163,7 @@ def verify(
     raise_from_now_on()
     at_once = n_at_once(workers)
     with running(), progress("replaying", n_levels, of="levels", at_once=at_once) as on_level:
-        found = compare(directory, stored, bench, units, crew=crew, on_level=on_level)
+        found = compare(directory, stored, bench, units, executor=executor, on_level=on_level)
     for line in tell(found, len(whole_units), others):
         typer.echo(printable(line))
     if found.differences:

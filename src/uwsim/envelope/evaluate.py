@@ -14,7 +14,7 @@ from typing import Any
 from ..benchmark.updaters import Level
 from ..results import journal
 from ..results.journal import Record
-from ..runs.executors.executor import Crew, Job, OnLevel, Roster
+from ..runs.executors.executor import Executor, Job, OnLevel, Roster
 from ..runs.plan import Plan, Unit
 from ..runs.run import Bench
 from .criterion import Criterion, Judgement
@@ -64,7 +64,7 @@ class Evaluations:
         for path in sorted((bench.out / journal.FOLDER).glob("*.jsonl")):
             self._remember(int(path.stem), journal.head_of(path))
 
-    def run(self, strategy: Strategy, crew: Crew, on_run: OnLevel = lambda: None) -> Search:
+    def run(self, strategy: Strategy, executor: Executor, on_run: OnLevel = lambda: None) -> Search:
         """Follow a strategy to its end, playing what is not on disk.
 
         Raises:
@@ -72,7 +72,7 @@ class Evaluations:
             UwsimError: a run could not be played.
         """
         roster = _Roster(self, strategy, on_run)
-        crew.play(roster)
+        executor.play(roster)
         if roster.failure is not None:
             raise roster.failure
         assert roster.found is not None

@@ -1,7 +1,8 @@
 """A whole benchmark: what is to be played, and one result out of what was.
 
 Rows go to disk as levels end (`unit_file`); when the run is over, or breaks, they are put together
-in the order of the plan. Whoever played them (`crew`), killed and resumed or not: the same bytes.
+in the order of the plan. Whoever played them (`executor`), killed and resumed or not: the same
+bytes.
 """
 
 from __future__ import annotations

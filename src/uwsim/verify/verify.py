@@ -20,7 +20,7 @@ from ..results import journal
 from ..results.leaves import leaves
 from ..results.result import Result
 from ..results.result_file import dumps
-from ..runs.executors.executor import Crew, Here, Job, OnLevel, Roster
+from ..runs.executors.executor import Executor, Job, OnLevel, Roster, SerialExecutor
 from ..runs.executors.worker import PICTURES
 from ..runs.plan import Plan, Unit
 from ..runs.run import Bench
@@ -81,7 +81,7 @@ def verify(
     bench: Bench,
     units: Sequence[Unit],
     *,
-    crew: Crew | None = None,
+    executor: Executor | None = None,
     on_level: OnLevel = lambda: None,
 ) -> Verification:
     """Hold a stored result against itself and against replays.
@@ -91,7 +91,7 @@ def verify(
         result: as it was read.
         bench: the same run anew, from the recorded inputs; its directory is not used.
         units: what to replay.
-        crew: who plays; without one, this process.
+        executor: who plays; without one, this process.
         on_level: called for every level played.
 
     Raises:
@@ -107,7 +107,7 @@ def verify(
         again = replace(bench, out=scratch / "replayed")
         again.out.mkdir()
         roster = Roster([Job(again, unit) for unit in units], on_level)
-        (crew or Here()).play(roster)
+        (executor or SerialExecutor()).play(roster)
         if roster.failure is not None:
             raise roster.failure
         if _has_units(directory):

@@ -18,9 +18,9 @@ from uwsim.errors import NeverStarted, RunFailed
 from uwsim.messages import Empty, Image
 from uwsim.results.journal import UnitFile
 from uwsim.results.result_file import load
-from uwsim.runs.executors import executor as crew
-from uwsim.runs.executors.executor import Here, Job, Roster, play_all
-from uwsim.runs.executors.processes import Processes, portable
+from uwsim.runs.executors import executor
+from uwsim.runs.executors.executor import Job, Roster, SerialExecutor, play_all
+from uwsim.runs.executors.processes import ProcessExecutor, portable
 from uwsim.simulation import Cut
 
 HERE = "tests.runs.executors.test_executor"
@@ -58,7 +58,7 @@ def test_one_worker_and_two_give_the_same_bytes(benchmark: Path, tmp_path: Path)
     n_levels: list[None] = []
     run(benchmark, tmp_path / "one", repeat=2)
     two = bench_of(benchmark, tmp_path / "two", repeat=2)
-    play_all([two], Processes(2), on_level=lambda: n_levels.append(None))
+    play_all([two], ProcessExecutor(2), on_level=lambda: n_levels.append(None))
     assert fingerprint(tmp_path / "one") == fingerprint(tmp_path / "two")
     assert load(tmp_path / "one").values("seed") == (1, 1, 1, 2, 2, 2)
     assert len(n_levels) == 6
@@ -69,7 +69,7 @@ def test_a_worker_that_is_killed_leaves_the_same_bytes(benchmark: Path, tmp_path
     """Its unit is sequential: the level that was over is played again and must be the same."""
     n_levels: list[None] = []
     disturbed = bench_of(benchmark, tmp_path / "a", repeat=2, **mortal(tmp_path, "once"))
-    play_all([disturbed], Processes(2), on_level=lambda: n_levels.append(None))
+    play_all([disturbed], ProcessExecutor(2), on_level=lambda: n_levels.append(None))
     assert (tmp_path / "immortal").exists()
     run(benchmark, tmp_path / "b", repeat=2, **mortal(tmp_path, "once"))
     assert fingerprint(tmp_path / "a") == fingerprint(tmp_path / "b")
@@ -82,7 +82,7 @@ def test_what_kills_every_worker_is_said_in_its_row_and_tried_again_when_resumed
 ) -> None:
     deadly = bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))
     good = bench_of(benchmark, tmp_path / "good", repeat=2)
-    result, _ = play_all([deadly, good], Processes(2))
+    result, _ = play_all([deadly, good], ProcessExecutor(2))
     assert result.values("status") == ("ok", "algorithm error", "algorithm error")
     said = f"{HERE}:Mortal was stopped at 0.268 s: its process ended (killed by SIGKILL)"
     assert result.why(1, "total") == result.why(2, "total") == said
@@ -101,15 +101,17 @@ class Absent:
 
 
 @pytest.mark.parametrize(
-    "crew", [Here(), pytest.param(Processes(2), marks=pytest.mark.slow)], ids=["here", "processes"]
+    "executor",
+    [SerialExecutor(), pytest.param(ProcessExecutor(2), marks=pytest.mark.slow)],
+    ids=["here", "processes"],
 )
 def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
-    benchmark: Path, tmp_path: Path, crew: crew.Crew
+    benchmark: Path, tmp_path: Path, executor: executor.Executor
 ) -> None:
     absent = bench_of(benchmark, tmp_path / "absent", algorithm=f"{HERE}:Absent", repeat=2)
     good = bench_of(benchmark, tmp_path / "good")
     with pytest.raises(NeverStarted, match="10 s of simulation time"):
-        play_all([absent, good], crew)
+        play_all([absent, good], executor)
     assert load(tmp_path / "absent").rows == ()
     assert len(load(tmp_path / "good").rows) == 3
 

@@ -1,4 +1,4 @@
-"""A crew on Ray: the same bytes from a cluster of two, one of whose workers is killed."""
+"""An executor on Ray: the same bytes from a cluster of two, one of whose workers is killed."""
 
 import importlib.util
 import os
@@ -12,7 +12,7 @@ import pytest
 from tests.runs.executors.test_executor import mortal
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from uwsim.errors import BadSetting, MissingExtra
-from uwsim.runs.executors.ray import RayCluster, Worker, address
+from uwsim.runs.executors.ray import RayExecutor, Worker, address
 from uwsim.runs.executors.worker import LevelEnded, UnitEnded, UnitFailed
 
 needs_ray = pytest.mark.skipif(
@@ -25,7 +25,7 @@ from pathlib import Path
 from tests.short_benchmark import bench_of
 from tests.runs.executors.test_executor import mortal
 from uwsim.runs.executors.executor import play_all
-from uwsim.runs.executors.ray import RayCluster
+from uwsim.runs.executors.ray import RayExecutor
 
 folder = Path(sys.argv[1])
 benches = [
@@ -33,7 +33,7 @@ benches = [
     bench_of(folder / "short.xml", folder / "mortal", **mortal(folder, "once")),
 ]
 levels = []
-play_all(benches, RayCluster(cpus=2), on_level=lambda: levels.append(1))
+play_all(benches, RayExecutor(cpus=2), on_level=lambda: levels.append(1))
 print(len(levels), "levels,", sum(bench.n_lost for bench in benches), "lost")
 """
 
@@ -97,7 +97,7 @@ def test_without_ray_it_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("RAY_AUTH_MODE", "token")
     monkeypatch.setitem(sys.modules, "ray", None)
     with pytest.raises(MissingExtra, match=r"pip install uwsim\[ray\]"):
-        RayCluster()
+        RayExecutor()
 
 
 @pytest.mark.parametrize("given", [None, "", "local"])

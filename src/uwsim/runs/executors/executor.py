@@ -1,7 +1,8 @@
 """Who plays what: the units to be played, and the protocol of those who play them.
 
-A crew takes units from the roster and tells it what became of them. The roster knows how often a
-unit has lost its worker, and whose units are not worth playing any more; a crew knows processors.
+An executor takes units from the roster and tells it what became of them. The roster knows how often
+a unit has lost its worker, and whose units are not worth playing any more; an executor knows
+processors.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ class Job:
         return f"unit {self.unit.index} ({name}, seed {self.unit.seed}, {played})"
 
 
-class Crew(Protocol):
+class Executor(Protocol):
     """Whoever plays units."""
 
     def play(self, roster: Roster) -> None:
@@ -165,7 +166,7 @@ def found_by_running(error: Exception) -> Exception:
     return failed
 
 
-class Here:
+class SerialExecutor:
     """This process, one unit after the other."""
 
     def play(self, roster: Roster) -> None:
@@ -214,19 +215,19 @@ class Outcome:
 
 
 def play_each(
-    benches: Sequence[Bench], crew: Crew | None = None, *, on_level: OnLevel = lambda: None
+    benches: Sequence[Bench], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
 ) -> Outcome:
     """Play what is not finished yet of some benchmarks, and write their results.
 
     Args:
         benches: what is to be played; their units are spread over the same workers.
-        crew: who plays; without one, this process.
+        executor: who plays; without one, this process.
         on_level: called for every level that was not on disk before.
     """
     jobs = [Job(bench, unit) for bench in benches for unit in bench.begin()]
     roster = Roster(jobs, on_level)
     try:
-        (crew or Here()).play(roster)
+        (executor or SerialExecutor()).play(roster)
         _miss_what_is_gone(benches, roster)
     finally:
         results = tuple(bench.write() for bench in benches)
@@ -244,7 +245,7 @@ def _miss_what_is_gone(benches: Sequence[Bench], roster: Roster) -> None:
 
 
 def play_all(
-    benches: Sequence[Bench], crew: Crew | None = None, *, on_level: OnLevel = lambda: None
+    benches: Sequence[Bench], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
 ) -> tuple[Result, ...]:
     """Play as `play_each`, to the end or not at all well.
 
@@ -254,7 +255,7 @@ def play_all(
         RunFailed: a unit lost its worker too often.
         UwsimError: whatever else was the first to go wrong. What is finished is kept, and written.
     """
-    outcome = play_each(benches, crew, on_level=on_level)
+    outcome = play_each(benches, executor, on_level=on_level)
     for _, error in outcome.failures:
         raise error
     return outcome.results

@@ -1,4 +1,4 @@
-"""A crew of processes on this machine, each with its own graphics context and one thread a library.
+"""Processes of this machine, each with its own graphics context and one thread a library.
 
 They are started with ``spawn`` and write rows where the result is; what they say through their pipe
 is only how far they are. A worker that dies takes nothing with it but the level it was in: a fresh
@@ -21,7 +21,7 @@ from multiprocessing.connection import Connection, wait
 from ...environment import environment
 from ...interrupts import is_of_user
 from ...simulation import BEFORE, Calls, Counter, Cut, Studio, open_call
-from .executor import ENVIRONMENT, Here, Job, Roster, play_and_keep
+from .executor import ENVIRONMENT, Job, Roster, SerialExecutor, play_and_keep
 from .parent_watch import put_on, start_deaf
 from .worker import UnitFailed, portable
 
@@ -48,7 +48,7 @@ class UnitDone:
 News = LevelKept | UnitDone | UnitFailed
 
 
-class Processes:
+class ProcessExecutor:
     """So many processes; a unit that loses its worker is played again by a fresh one.
 
     An algorithm of uwsim's own that is alone, with one worker or one unit, is played here: a
@@ -68,7 +68,7 @@ class Processes:
         n = min(self._n, len(roster))
         plans = roster.plans()
         if n <= 1 and len(plans) <= 1 and all(plan.is_bundled for plan in plans):
-            Here().play(roster)
+            SerialExecutor().play(roster)
             return
         settings = ENVIRONMENT if n > 1 else {}
         workers = [Worker(settings) for _ in range(n)]

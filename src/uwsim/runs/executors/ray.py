@@ -1,4 +1,4 @@
-"""A crew on a Ray cluster: the one that ``RAY_ADDRESS`` names, else one made here for the run.
+"""An executor on a Ray cluster: the one that ``RAY_ADDRESS`` names, else one made here for the run.
 
 No file system is shared. Rows and pictures come back level by level and are kept here, as though
 they had been played here; a worker whose machine has other files, versions or another renderer
@@ -40,7 +40,7 @@ QUIET = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "
 """No telemetry, no advice."""
 
 
-class RayCluster:
+class RayExecutor:
     """Workers on a Ray cluster, one for each of its processors.
 
     A worker that is lost, with its machine or alone, loses its unit to a fresh one. A cluster made

@@ -10,7 +10,7 @@ from ..errors import BadSetting, did_you_mean
 from .taught import RUN, in_group
 
 if TYPE_CHECKING:
-    from ..runs.executors.executor import Crew
+    from ..runs.executors.executor import Executor
 
 RAY = "ray"
 MOST_WORKERS = 1024
@@ -47,7 +47,7 @@ def n_at_once(workers: str) -> int:
     return max(1, int(workers)) if workers.isdigit() else os.cpu_count() or 1
 
 
-def crew_of(workers: str, callback_limit: float) -> Crew:
+def executor_of(workers: str, callback_limit: float) -> Executor:
     """Return who plays.
 
     Args:
@@ -58,14 +58,14 @@ def crew_of(workers: str, callback_limit: float) -> Crew:
         BadSetting: neither a number nor ``ray``, or no time.
         MissingExtra: Ray is not installed.
     """
-    from ..runs.executors.executor import Here
+    from ..runs.executors.executor import SerialExecutor
 
     if not 0.0 <= callback_limit < math.inf:
         raise BadSetting(f"--callback-limit {callback_limit:g}: expected a time >= 0 [s].")
     if workers == RAY:
-        from ..runs.executors.ray import RayCluster
+        from ..runs.executors.ray import RayExecutor
 
-        return RayCluster()
+        return RayExecutor()
     number = int(workers) if workers.isascii() and workers.isdigit() else -1
     if not 0 <= number <= MOST_WORKERS:
         raise BadSetting(
@@ -73,7 +73,7 @@ def crew_of(workers: str, callback_limit: float) -> Crew:
             f"{did_you_mean(workers, [RAY])}"
         )
     if number == 0:
-        return Here()
-    from ..runs.executors.processes import Processes
+        return SerialExecutor()
+    from ..runs.executors.processes import ProcessExecutor
 
-    return Processes(number, callback_limit=callback_limit or None)
+    return ProcessExecutor(number, callback_limit=callback_limit or None)

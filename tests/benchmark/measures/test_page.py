@@ -17,7 +17,7 @@ from uwsim.benchmark.measures import (
 )
 from uwsim.world import Box
 
-PAGE = (Path(__file__).parents[2] / "docs" / "measures.md").read_text()
+PAGE = (Path(__file__).parents[3] / "docs" / "measures.md").read_text()
 WORLD = FakeWorld({"v": FakeBody(box=Box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))})
 
 
