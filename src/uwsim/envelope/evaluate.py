@@ -14,7 +14,7 @@ from typing import Any
 from ..benchmark.updaters import Level
 from ..results import journal
 from ..results.journal import Record
-from ..runs.executors.executor import Executor, Job, OnLevel, Roster
+from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel
 from ..runs.plan import Plan, Unit
 from ..runs.run import Bench
 from .criterion import Criterion, Judgement
@@ -71,12 +71,12 @@ class Evaluations:
             ResultError: what is stored belongs to another run.
             UwsimError: a run could not be played.
         """
-        roster = _Roster(self, strategy, on_run)
-        executor.play(roster)
-        if roster.failure is not None:
-            raise roster.failure
-        assert roster.found is not None
-        return roster.found
+        queue = _JobQueue(self, strategy, on_run)
+        executor.play(queue)
+        if queue.failure is not None:
+            raise queue.failure
+        assert queue.found is not None
+        return queue.found
 
     def look(self, seed: int, value: float) -> bool | None:
         """Tell whether a run is broken; None if it was not played yet."""
@@ -116,7 +116,7 @@ class Evaluations:
                 self._add(Unit(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
 
 
-class _Roster(Roster):
+class _JobQueue(JobQueue):
     """Runs that a strategy wants next; each that is done leads to others, or to the end."""
 
     def __init__(self, runs: Evaluations, strategy: Strategy, on_run: OnLevel) -> None:

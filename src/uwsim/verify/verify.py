@@ -20,7 +20,7 @@ from ..results import journal
 from ..results.leaves import leaves
 from ..results.result import Result
 from ..results.result_file import dumps
-from ..runs.executors.executor import Executor, Job, OnLevel, Roster, SerialExecutor
+from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
 from ..runs.executors.worker import PICTURES
 from ..runs.plan import Plan, Unit
 from ..runs.run import Bench
@@ -106,10 +106,10 @@ def verify(
             found.not_compared.append("units/: rows are compared with result.json alone")
         again = replace(bench, out=scratch / "replayed")
         again.out.mkdir()
-        roster = Roster([Job(again, unit) for unit in units], on_level)
-        (executor or SerialExecutor()).play(roster)
-        if roster.failure is not None:
-            raise roster.failure
+        queue = JobQueue([Job(again, unit) for unit in units], on_level)
+        (executor or SerialExecutor()).play(queue)
+        if queue.failure is not None:
+            raise queue.failure
         if _has_units(directory):
             for unit in units:
                 _check_unit(found, directory, again, unit)

@@ -19,7 +19,7 @@ from uwsim.messages import Empty, Image
 from uwsim.results.journal import UnitFile
 from uwsim.results.result_file import load
 from uwsim.runs.executors import executor
-from uwsim.runs.executors.executor import Job, Roster, SerialExecutor, play_all
+from uwsim.runs.executors.executor import Job, JobQueue, SerialExecutor, play_all
 from uwsim.runs.executors.processes import ProcessExecutor, portable
 from uwsim.simulation import Cut
 
@@ -128,34 +128,34 @@ def jobs(tmp_path: Path, *sizes: int) -> list[Job]:
 
 
 def test_a_lost_unit_is_the_next_to_be_played_and_three_times_at_most(tmp_path: Path) -> None:
-    roster = Roster(jobs(tmp_path, 1, 1))
-    first = roster.take()
+    queue = JobQueue(jobs(tmp_path, 1, 1))
+    first = queue.take()
     assert first is not None
     for _ in range(3):
-        roster.lost(first, "killed by SIGSEGV")
-        assert roster.take() is first
-        assert roster.failure is None
-    roster.lost(first, "killed by SIGSEGV")
-    assert str(roster.failure) == (
+        queue.lost(first, "killed by SIGSEGV")
+        assert queue.take() is first
+        assert queue.failure is None
+    queue.lost(first, "killed by SIGSEGV")
+    assert str(queue.failure) == (
         "unit 0 (esm, seed 0, fog=0.5) lost its worker 4 times, the last time killed by SIGSEGV. "
         "Finished rows are kept; go on with --resume."
     )
-    assert roster.take() is None
+    assert queue.take() is None
     assert first.bench.n_lost == 4
 
 
 def test_a_unit_that_is_lost_twice_in_one_call_is_played_without_it(tmp_path: Path) -> None:
-    roster = Roster(jobs(tmp_path, 1))
-    first = roster.take()
+    queue = JobQueue(jobs(tmp_path, 1))
+    first = queue.take()
     assert first is not None
     for call in (7, None, 8):
-        roster.lost(first, "with exit status 0", call)
-        assert roster.take() is first
+        queue.lost(first, "with exit status 0", call)
+        assert queue.take() is first
         assert first.cut is None
-    roster.lost(first, "with exit status 0", 7)
-    assert roster.take() is first
+    queue.lost(first, "with exit status 0", 7)
+    assert queue.take() is first
     assert first.cut == Cut(7, "its process ended (with exit status 0)")
-    assert roster.failure is None
+    assert queue.failure is None
 
 
 @pytest.mark.parametrize(
@@ -206,13 +206,13 @@ def test_an_algorithm_that_changes_the_working_directory_takes_no_result_with_it
 
 def test_every_level_is_told_once(tmp_path: Path) -> None:
     told: list[None] = []
-    roster = Roster(jobs(tmp_path, 3), lambda: told.append(None))
-    job = roster.take()
+    queue = JobQueue(jobs(tmp_path, 3), lambda: told.append(None))
+    job = queue.take()
     assert job is not None
-    roster.level(job)
-    roster.lost(job, "killed by SIGKILL")  # with a second level on disk that it did not tell
-    roster.level(job)
-    roster.done(job)
+    queue.level(job)
+    queue.lost(job, "killed by SIGKILL")  # with a second level on disk that it did not tell
+    queue.level(job)
+    queue.done(job)
     assert len(told) == 3
 
 

@@ -1,6 +1,6 @@
 """Who plays what: the units to be played, and the protocol of those who play them.
 
-An executor takes units from the roster and tells it what became of them. The roster knows how often
+An executor takes units from the queue and tells it what became of them. The queue knows how often
 a unit has lost its worker, and whose units are not worth playing any more; an executor knows
 processors.
 """
@@ -55,11 +55,11 @@ class Job:
 class Executor(Protocol):
     """Whoever plays units."""
 
-    def play(self, roster: Roster) -> None:
-        """Take jobs from the roster until there are none, and report each."""
+    def play(self, queue: JobQueue) -> None:
+        """Take jobs from the queue until there are none, and report each."""
 
 
-class Roster:
+class JobQueue:
     """Jobs that are waiting, in order, and what became of the others.
 
     Where a unit fails, the rest of its benchmark is not played: it would fail alike. The other
@@ -169,22 +169,22 @@ def found_by_running(error: Exception) -> Exception:
 class SerialExecutor:
     """This process, one unit after the other."""
 
-    def play(self, roster: Roster) -> None:
+    def play(self, queue: JobQueue) -> None:
         """Play everything."""
         studio = Studio()
         try:
-            while (job := roster.take()) is not None:
+            while (job := queue.take()) is not None:
                 try:
                     for _ in play_and_keep(job, studio, Calls()):
-                        roster.level(job)
+                        queue.level(job)
                 except Exception as error:
-                    roster.failed(job, error)
+                    queue.failed(job, error)
                 except BaseException as error:
                     if is_of_user(error):
                         raise
-                    roster.failed(job, portable(error))
+                    queue.failed(job, portable(error))
                 else:
-                    roster.done(job)
+                    queue.done(job)
         finally:
             studio.close()
 
@@ -225,23 +225,23 @@ def play_each(
         on_level: called for every level that was not on disk before.
     """
     jobs = [Job(bench, unit) for bench in benches for unit in bench.begin()]
-    roster = Roster(jobs, on_level)
+    queue = JobQueue(jobs, on_level)
     try:
-        (executor or SerialExecutor()).play(roster)
-        _miss_what_is_gone(benches, roster)
+        (executor or SerialExecutor()).play(queue)
+        _miss_what_is_gone(benches, queue)
     finally:
         results = tuple(bench.write() for bench in benches)
-    return Outcome(results=results, failures=tuple(roster.failures))
+    return Outcome(results=results, failures=tuple(queue.failures))
 
 
-def _miss_what_is_gone(benches: Sequence[Bench], roster: Roster) -> None:
+def _miss_what_is_gone(benches: Sequence[Bench], queue: JobQueue) -> None:
     """Hold it against a benchmark if a unit that was played is not on disk any more."""
     for bench in benches:
         for unit in bench.unfinished()[:1]:
             name = path_of(bench.out, unit.index)
             said = "was played, but is not whole there any more. Go on with --resume."
             job = Job(bench, unit)
-            roster.failed(job, RunFailed(f"{name}: {job} {said}"))
+            queue.failed(job, RunFailed(f"{name}: {job} {said}"))
 
 
 def play_all(

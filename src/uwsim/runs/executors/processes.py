@@ -21,7 +21,7 @@ from multiprocessing.connection import Connection, wait
 from ...environment import environment
 from ...interrupts import is_of_user
 from ...simulation import BEFORE, Calls, Counter, Cut, Studio, open_call
-from .executor import ENVIRONMENT, Job, Roster, SerialExecutor, play_and_keep
+from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, play_and_keep
 from .parent_watch import put_on, start_deaf
 from .worker import UnitFailed, portable
 
@@ -63,19 +63,19 @@ class ProcessExecutor:
         self._n, self._limit = n, callback_limit
         self._glance = None if callback_limit is None else min(GLANCE, callback_limit / 4)
 
-    def play(self, roster: Roster) -> None:
+    def play(self, queue: JobQueue) -> None:
         """Play everything; stops all workers when it is interrupted."""
-        n = min(self._n, len(roster))
-        plans = roster.plans()
+        n = min(self._n, len(queue))
+        plans = queue.plans()
         if n <= 1 and len(plans) <= 1 and all(plan.is_bundled for plan in plans):
-            SerialExecutor().play(roster)
+            SerialExecutor().play(queue)
             return
         settings = ENVIRONMENT if n > 1 else {}
         workers = [Worker(settings) for _ in range(n)]
         try:
             while True:
                 for i, worker in enumerate(workers):
-                    if worker.job is None and (job := roster.take()) is not None:
+                    if worker.job is None and (job := queue.take()) is not None:
                         if not worker.may_play(job):
                             worker.kill()
                             workers[i] = Worker(settings)
@@ -83,23 +83,23 @@ class ProcessExecutor:
                 busy = [worker for worker in workers if worker.job is not None]
                 if not busy:
                     break
-                self._attend(busy, roster)
+                self._attend(busy, queue)
             for worker in workers:
                 worker.dismiss()
         finally:
             for worker in workers:
                 worker.kill()
 
-    def _attend(self, busy: list[Worker], roster: Roster) -> None:
+    def _attend(self, busy: list[Worker], queue: JobQueue) -> None:
         """Wait until one of them has something to say, or for the time of a glance."""
         began = time.monotonic()
         wait([handle for worker in busy for handle in worker.handles], self._glance)
         waited = time.monotonic() - began
         for worker in busy:
-            worker.report(roster)
+            worker.report(queue)
             if self._limit is not None and self._glance is not None:
                 # of a time in which this process itself was stopped only so much counts
-                worker.watch(roster, min(waited, 2 * self._glance), self._limit)
+                worker.watch(queue, min(waited, 2 * self._glance), self._limit)
 
 
 class Worker:
@@ -140,30 +140,30 @@ class Worker:
         with suppress(OSError):
             self._pipe.send(job)
 
-    def report(self, roster: Roster) -> None:
-        """Tell the roster what has happened since the last report."""
+    def report(self, queue: JobQueue) -> None:
+        """Tell the queue what has happened since the last report."""
         assert self.job is not None
         is_alive = self._process.is_alive()  # asked first: what it said before it died is heard
         for news in self._news():
             if isinstance(news, LevelKept):
-                roster.level(self.job)
+                queue.level(self.job)
                 continue
             if isinstance(news, UnitDone):
-                roster.done(self.job)
+                queue.done(self.job)
             else:
-                roster.failed(self.job, news.error)
+                queue.failed(self.job, news.error)
             self.job = None
             return
         if not is_alive:
             self._process.join()
-            roster.lost(self.job, how(self._process.exitcode), open_call(self._counter.value))
+            queue.lost(self.job, how(self._process.exitcode), open_call(self._counter.value))
             self.job = None
 
-    def watch(self, roster: Roster, waited: float, limit: float) -> None:
+    def watch(self, queue: JobQueue, waited: float, limit: float) -> None:
         """End it if the call into the algorithm has taken longer than ``limit`` [s].
 
         Args:
-            roster: is told.
+            queue: is told.
             waited: time since the last look [s].
             limit: how long a call may take [s].
         """
@@ -175,7 +175,7 @@ class Worker:
             return
         self._process.kill()
         self._process.join()
-        roster.stopped(self.job, Cut(call, TOO_LONG))
+        queue.stopped(self.job, Cut(call, TOO_LONG))
         self.job = None
 
     def dismiss(self) -> None:

@@ -30,7 +30,7 @@ from ...results import journal
 from ...simulation import Studio
 from ..plan import Unit
 from ..run import Bench, open_once
-from .executor import ENVIRONMENT, Job, Roster
+from .executor import ENVIRONMENT, Job, JobQueue
 from .worker import Event, Keeper, UnitEnded, UnitFailed, perform, portable
 
 ADDRESS = "RAY_ADDRESS"
@@ -68,10 +68,10 @@ class RayExecutor:
             ) from None
         self._cpus = cpus or len(os.sched_getaffinity(0))
 
-    def play(self, roster: Roster) -> None:
+    def play(self, queue: JobQueue) -> None:
         """Play everything."""
         ray = self._ray
-        # Ray prints on standard output what the roster tells better.
+        # Ray prints on standard output what the queue tells better.
         with self._cluster(), redirect_stdout(io.StringIO()):
             n_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
             remote = ray.remote(num_cpus=1, max_restarts=0)(Worker)
@@ -80,7 +80,7 @@ class RayExecutor:
             tasks: dict[Any, Task] = {}
             try:
                 while True:
-                    while len(tasks) < n_workers and (job := roster.take()) is not None:
+                    while len(tasks) < n_workers and (job := queue.take()) is not None:
                         name = job.bench.plan.algorithm_name
                         while idle and idle[-1][1] != name:  # no process sees two algorithms
                             ray.kill(idle.pop()[0])
@@ -93,7 +93,7 @@ class RayExecutor:
                         break
                     ready, _ = ray.wait(list(tasks), num_returns=1)
                     for events in ready:
-                        if self._is_over(events, tasks[events], roster):
+                        if self._is_over(events, tasks[events], queue):
                             task = tasks.pop(events)
                             task.keeper.close()
                             if task.is_alive:
@@ -102,29 +102,29 @@ class RayExecutor:
                 for task in tasks.values():
                     task.keeper.close()
 
-    def _is_over(self, events: Any, task: Task, roster: Roster) -> bool:
+    def _is_over(self, events: Any, task: Task, queue: JobQueue) -> bool:
         """Take the next event of a task; returns whether it was the last."""
         errors = self._ray.exceptions
         try:
             event = self._ray.get(next(events))
             if isinstance(event, UnitFailed):
-                roster.failed(task.job, event.error)
+                queue.failed(task.job, event.error)
             elif task.keeper.keep(event):
-                roster.level(task.job)
+                queue.level(task.job)
             elif isinstance(event, UnitEnded):
-                roster.done(task.job)
+                queue.done(task.job)
             return False
         except StopIteration:
             return True
         except errors.RayTaskError as error:
-            roster.failed(task.job, RunFailed(f"{task.job}: {error.cause!r}"))
+            queue.failed(task.job, RunFailed(f"{task.job}: {error.cause!r}"))
         except errors.RayError as error:
             task.is_alive = False
-            roster.lost(task.job, f"with {type(error).__name__}")
+            queue.lost(task.job, f"with {type(error).__name__}")
         except UwsimError as error:  # what came differs from what is on disk
             self._ray.kill(task.worker)
             task.is_alive = False
-            roster.failed(task.job, error)
+            queue.failed(task.job, error)
         return True
 
     @contextmanager
