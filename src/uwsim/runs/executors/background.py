@@ -19,7 +19,7 @@ from ...benchmark.plugin import raised
 from ...errors import RunFailed, UwsimError
 from ..run import Bench
 from .executor import play_all
-from .parent_watch import put_on, start_deaf
+from .parent_watch import exit_with_parent, start_ignoring_interrupts
 
 Job = Bench | Path
 """A benchmark is played; of a result directory the report is drawn."""
@@ -37,12 +37,12 @@ class Beside:
         self._reporter = reporter
         context = multiprocessing.get_context("spawn")
         self._here, there = context.Pipe()
-        leash, self._leash = context.Pipe(duplex=False)
-        self._process = context.Process(target=_serve, args=(there, leash, reporter), daemon=True)
-        start_deaf(self._process)
+        parent, self._parent = context.Pipe(duplex=False)
+        self._process = context.Process(target=_serve, args=(there, parent, reporter), daemon=True)
+        start_ignoring_interrupts(self._process)
         self._asked: deque[Job] = deque()
         there.close()
-        leash.close()
+        parent.close()
 
     def __enter__(self) -> Self:
         return self
@@ -56,7 +56,7 @@ class Beside:
         self._process.kill()
         self._process.join()
         self._here.close()
-        self._leash.close()
+        self._parent.close()
 
     def ask(self, job: Job) -> None:
         """Give it something to do."""
@@ -79,9 +79,9 @@ class Beside:
             raise RunFailed(why)
 
 
-def _serve(there: Connection, leash: Connection, reporter: Reporter) -> None:
+def _serve(there: Connection, parent: Connection, reporter: Reporter) -> None:
     """Do what comes, until the parent is gone or wants no more."""
-    put_on(leash)
+    exit_with_parent(parent)
     with suppress(Exception):  # heavy, and loaded while the levels are played; below it is told
         reporter()
     with suppress(EOFError, OSError):  # the parent has gone

@@ -1,4 +1,4 @@
-"""A leash: how a process ends when its employer is gone, however that came to its end.
+"""How a process ends with its parent, however the parent ends.
 
 The employer holds one end of a pipe that nobody writes into. The system closes it with the
 employer, and the process at the other end notices at once.
@@ -16,19 +16,19 @@ from multiprocessing.process import BaseProcess
 from ...interrupts import born_deaf
 
 
-def start_deaf(process: BaseProcess) -> None:
+def start_ignoring_interrupts(process: BaseProcess) -> None:
     """Start a process that hears no Ctrl-C, which is for its employer alone."""
     resource_tracker.ensure_running()  # else it starts with the process, and lets Ctrl-C through
     with born_deaf():
         process.start()
 
 
-def put_on(leash: Connection) -> None:
-    """End this process as soon as nobody holds the other end of the leash."""
-    threading.Thread(target=_leave_with, args=(leash,), daemon=True).start()
+def exit_with_parent(parent: Connection) -> None:
+    """End this process as soon as the parent has ended: nobody holds the other end of the pipe."""
+    threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
 
 
-def _leave_with(leash: Connection) -> None:
+def _exit_with(parent: Connection) -> None:
     with suppress(EOFError, OSError):
-        leash.recv()
+        parent.recv()
     os._exit(1)

@@ -22,7 +22,7 @@ from ...environment import environment
 from ...interrupts import is_of_user
 from ...simulation import BEFORE, Calls, Counter, Cut, Studio, open_call
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, play_and_keep
-from .parent_watch import put_on, start_deaf
+from .parent_watch import exit_with_parent, start_ignoring_interrupts
 from .worker import UnitFailed, portable
 
 PATIENCE = 10.0
@@ -112,12 +112,12 @@ class Worker:
     def __init__(self, settings: Mapping[str, str]) -> None:
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
-        leash, self._leash = context.Pipe(duplex=False)
+        parent, self._parent = context.Pipe(duplex=False)
         self._counter: Counter = context.RawValue(ctypes.c_longlong, BEFORE)
-        self._process = context.Process(target=work, args=(theirs, leash, self._counter))
+        self._process = context.Process(target=work, args=(theirs, parent, self._counter))
         with environment(settings):
-            start_deaf(self._process)
-        for end in (theirs, leash):
+            start_ignoring_interrupts(self._process)
+        for end in (theirs, parent):
             end.close()  # so that a pipe ends when the process at its other end does
         self.job: Job | None = None
         """What it is playing."""
@@ -190,7 +190,7 @@ class Worker:
         self._process.join()
         self._process.close()
         self._pipe.close()
-        self._leash.close()
+        self._parent.close()
 
     def _news(self) -> Iterator[News]:
         with suppress(EOFError, OSError):
@@ -205,9 +205,9 @@ def how(exit_code: int | None) -> str:
     return f"with exit status {exit_code}"
 
 
-def work(pipe: Connection, leash: Connection, counter: Counter) -> None:
-    """Play what comes through the pipe until ``None`` comes, or until nobody holds the leash."""
-    put_on(leash)
+def work(pipe: Connection, parent: Connection, counter: Counter) -> None:
+    """Play what comes through the pipe until ``None`` comes, or until the parent has ended."""
+    exit_with_parent(parent)
     studio = Studio()
     try:
         while (job := pipe.recv()) is not None:
