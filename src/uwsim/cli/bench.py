@@ -39,7 +39,7 @@ from .taught import INPUT, OUTPUT, RUN, in_group
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..runs.executors.background import Beside
+    from ..runs.executors.background import BackgroundProcess
     from ..runs.executors.executor import Executor, Outcome
     from ..runs.plan import Plan
     from ..runs.run import Bench
@@ -210,19 +210,19 @@ def play_and_finish(
         RunFailed: an algorithm broke in every row.
     """
     from ..results.provenance import save_beginning
-    from ..runs.executors.background import Beside
+    from ..runs.executors.background import BackgroundProcess
 
     for run in runs:
         if said := save_beginning(command, run.out):
             warn(OTHER_CODE.format(said))
-    with Beside(load_reporter) as beside:
+    with BackgroundProcess(load_reporter) as background:
         controls = [control_of(run) for run in runs if wants_control(run)]
         if controls:
-            beside.ask(controls[0])
+            background.ask(controls[0])
         outcome = play_with_progress(runs, executor, n_at_once(workers))
         failed = {id(run) for run, _ in outcome.failures}
         if controls and len(failed) < len(runs):
-            wait_for_controls(beside, controls)
+            wait_for_controls(background, controls)
         took = Took(
             began=watch.began, wall=watch.passed(), workers=workers, command=command, runs=runs
         )
@@ -230,7 +230,7 @@ def play_and_finish(
             if id(run) not in failed:
                 if len(runs) > 1:
                     print(f"{run.plan.algorithm_name}:")
-                finish(run, result, beside, took)
+                finish(run, result, background, took)
     if len(runs) > 1 and not failed:
         print("compare: uwsim compare " + " ".join(str(run.out) for run in runs))
     for _, error in outcome.failures:
@@ -326,10 +326,10 @@ def control_of(run: Bench) -> Bench:
     return Bench(plan=plan, out=out, inputs=inputs, renderer="none", files=run.files)
 
 
-def wait_for_controls(beside: Beside, controls: Sequence[Bench]) -> None:
+def wait_for_controls(background: BackgroundProcess, controls: Sequence[Bench]) -> None:
     """Wait for the control of a run; what was asked for is whole without it."""
     try:
-        beside.wait()
+        background.wait()
         for other in controls[1:]:  # the control looks at nothing: it is the same for all
             shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
     except (RunFailed, OSError) as error:
@@ -343,16 +343,16 @@ def load_reporter() -> Callable[[Path], object]:
     return write_report
 
 
-def finish(run: Bench, result: Result, beside: Beside, took: Took) -> None:
+def finish(run: Bench, result: Result, background: BackgroundProcess, took: Took) -> None:
     """Write provenance, plots and report, and print the table."""
     from ..results.directory import REPORT
     from ..results.provenance import carried, save_provenance
     from ..results.table import table
 
     save_provenance({**took.provenance(run), **carried(run.out)}, run.out)
-    beside.ask(run.out)
+    background.ask(run.out)
     console = Console(width=None if sys.stdout.isatty() else UNWRAPPED)
     console.print(table(result, width=console.width))
-    beside.wait()
+    background.wait()
     report = run.out / REPORT
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")

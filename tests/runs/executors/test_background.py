@@ -1,4 +1,5 @@
-"""The process beside a run does what it is asked, says what it cannot, and never outlives it."""
+"""The background process of a run does what it is asked, says what it cannot, and never outlives
+it."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ from uwsim.cli.bench import load_reporter
 from uwsim.errors import RunFailed
 from uwsim.results import journal
 from uwsim.results.result_file import save
-from uwsim.runs.executors.background import Beside
+from uwsim.runs.executors.background import BackgroundProcess
 
 
 def test_draws_reports_and_says_in_a_line_what_it_cannot_do_and_goes_on(
@@ -26,21 +27,21 @@ def test_draws_reports_and_says_in_a_line_what_it_cannot_do_and_goes_on(
     for name in ("blocked", "good"):
         save(one_level(), tmp_path / name)
     (tmp_path / "blocked" / "report.html").mkdir()
-    with Beside(load_reporter) as beside:
+    with BackgroundProcess(load_reporter) as background:
         for name in ("nowhere", "blocked", "good"):
-            beside.ask(tmp_path / name)
+            background.ask(tmp_path / name)
         with pytest.raises(RunFailed, match="no result here"):
-            beside.wait()
+            background.wait()
         with pytest.raises(RunFailed, match=r"^The report failed: .*Finished rows are kept"):
-            beside.wait()
-        beside.wait()
+            background.wait()
+        background.wait()
     assert "<html" in (tmp_path / "good" / "report.html").read_text(encoding="utf-8")
     assert "Traceback" not in capfd.readouterr().err
 
 
 def test_ends_with_the_block() -> None:
-    with Beside(load_reporter) as beside:
-        process = beside._process
+    with BackgroundProcess(load_reporter) as background:
+        process = background._process
         assert process.is_alive()
     assert not process.is_alive()
 
@@ -48,18 +49,18 @@ def test_ends_with_the_block() -> None:
 def test_what_it_was_asked_is_done_here_if_it_dies(tmp_path: Path) -> None:
     for name in ("before", "after"):
         save(one_level(), tmp_path / name)
-    with Beside(load_reporter) as beside:
-        os.kill(beside._process.pid or 0, signal.SIGSTOP)  # asked, and never answers
-        beside.ask(tmp_path / "before")
-        beside._process.kill()
-        beside._process.join()
-        beside.ask(tmp_path / "after")
-        beside.ask(tmp_path / "nowhere")
-        beside.wait()
+    with BackgroundProcess(load_reporter) as background:
+        os.kill(background._process.pid or 0, signal.SIGSTOP)  # asked, and never answers
+        background.ask(tmp_path / "before")
+        background._process.kill()
+        background._process.join()
+        background.ask(tmp_path / "after")
+        background.ask(tmp_path / "nowhere")
+        background.wait()
         assert not (tmp_path / "after" / "report.html").exists()
-        beside.wait()
+        background.wait()
         with pytest.raises(RunFailed, match="no result here"):
-            beside.wait()
+            background.wait()
     assert all((tmp_path / name / "report.html").is_file() for name in ("before", "after"))
 
 
@@ -67,22 +68,22 @@ def test_a_control_whose_process_died_on_the_way_has_the_same_bytes(tmp_path: Pa
     benchmark = write_benchmark(tmp_path, "0.2")
     run(benchmark, tmp_path / "whole", algorithm="frozen")
     bench = bench_of(benchmark, tmp_path / "out", algorithm="frozen")
-    with Beside(load_reporter) as beside:
-        beside.ask(bench)
+    with BackgroundProcess(load_reporter) as background:
+        background.ask(bench)
         file = journal.path_of(bench.out, 0)
         while not file.exists() or len(file.read_text().splitlines()) < 2:
             time.sleep(0.01)
-        beside._process.kill()
-        beside.wait()
+        background._process.kill()
+        background.wait()
     assert fingerprint(tmp_path / "out") == fingerprint(tmp_path / "whole")
 
 
 PARENT = """
 import time
 from uwsim.cli.bench import load_reporter
-from uwsim.runs.executors.background import Beside
+from uwsim.runs.executors.background import BackgroundProcess
 with Beside(load_reporter) as beside:
-    print(beside._process.pid, flush=True)
+    print(background._process.pid, flush=True)
     time.sleep(60)
 """
 

@@ -1,4 +1,4 @@
-"""A second process beside a run: it plays the control and draws the report.
+"""A background process of a run: it plays the control and draws the report.
 
 Both need no picture and no OpenGL, and a run in one process leaves a core half idle. Started early,
 this one has loaded what it needs by the time it is asked. Should it die, the run does its jobs.
@@ -27,7 +27,7 @@ Reporter = Callable[[], Callable[[Path], object]]
 """Loads what draws the report of a result directory, which is heavy; returns it."""
 
 
-class Beside:
+class BackgroundProcess:
     """Does jobs one after the other in a process of its own, which ends with this one.
 
     A context manager: whatever the process was about when the block is left, it is stopped.
