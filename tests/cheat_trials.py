@@ -34,7 +34,7 @@ from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishRespons
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import Outcome, play_each
 from uwsim.runs.executors.processes import ProcessExecutor
-from uwsim.runs.run import Bench
+from uwsim.runs.run import Run
 from uwsim.scene.reader import read_scene
 
 SERVICE = "<type>service</type> <target>startBench</target>"
@@ -211,7 +211,7 @@ GAINS = (Patches, FindsTheTruth)
 """Known to gain in their own rows: they are in the process of the truth and of the measure."""
 
 
-def bench_of(folder: Path, algorithm: type[Holds], *, seed: int, length: float) -> Bench:
+def bench_of(folder: Path, algorithm: type[Holds], *, seed: int, length: float) -> Run:
     """Return a short benchmark for one of them."""
     plan = make_plan(
         folder,
@@ -224,7 +224,7 @@ def bench_of(folder: Path, algorithm: type[Holds], *, seed: int, length: float) 
     )
     name = algorithm.__name__
     plan = replace(plan, algorithm_name=name, seed=seed, is_blind=True)
-    return Bench(plan=plan, out=folder / name, inputs={}, renderer="none")
+    return Run(plan=plan, out=folder / name, inputs={}, renderer="none")
 
 
 def trial(folder: Path, cheats: Sequence[type[Holds]], *, seed: int, length: float) -> Outcome:

@@ -23,7 +23,7 @@ from uwsim.results.journal_check import check_rows
 from uwsim.results.provenance import machine, save_provenance
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import play_all
-from uwsim.runs.run import Bench
+from uwsim.runs.run import Run
 from uwsim.terminal import printable
 from uwsim.verify.recorded_plan import Given, check_inputs, plan_of
 from uwsim.verify.verify import finished, verify
@@ -44,7 +44,7 @@ class Sound:
 
     folder: Path
     """Benchmark and result directory ``out``; and ``other``, the same under another name."""
-    bench: Bench
+    bench: Run
     """The run."""
 
 
@@ -146,7 +146,7 @@ def read_for_verify(sound: Sound, directory: Path) -> None:
     stored = load(directory)
     plan = plan_of(stored, directory, Given(benchmark=Path(sound.bench.plan.benchmark.path)))
     check_inputs(stored.inputs, sound.bench.inputs)
-    bench = Bench(plan=plan, out=directory, inputs=stored.inputs, renderer=sound.bench.renderer)
+    bench = Run(plan=plan, out=directory, inputs=stored.inputs, renderer=sound.bench.renderer)
     units = finished(directory, plan, stored)
     printable(head(stored, directory, len(units), len(plan.units())))
     if units:

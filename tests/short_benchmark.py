@@ -7,7 +7,7 @@ from typing import Any
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import play_all
 from uwsim.runs.make_plan import make_plan
-from uwsim.runs.run import Bench, open_once
+from uwsim.runs.run import Run, hash_inputs
 
 BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="esm">
   <measures>
@@ -55,7 +55,7 @@ def bench_of(
     levels: list[str] | None = None,
     settings: list[str] | None = None,
     compat: list[str] | None = None,
-) -> Bench:
+) -> Run:
     plan = make_plan(
         str(benchmark),
         scene=None,
@@ -68,8 +68,8 @@ def bench_of(
         compat=compat or [],
         data_path=(),
     )
-    inputs, renderer = open_once(plan)
-    return Bench(plan=plan, out=out, inputs=inputs, renderer=renderer)
+    inputs, renderer = hash_inputs(plan)
+    return Run(plan=plan, out=out, inputs=inputs, renderer=renderer)
 
 
 def run(benchmark: Path, out: Path, **options: Any) -> Result:

@@ -95,7 +95,7 @@ def bench(
     from .runs.executors.executor import play_all
     from .runs.inputs_read import of_algorithm
     from .runs.make_plan import make_plan
-    from .runs.run import Bench, open_once
+    from .runs.run import Run, hash_inputs
 
     given = algorithm if isinstance(algorithm, str) or algorithm is None else None
     plan = make_plan(
@@ -114,11 +114,11 @@ def bench(
         name = f"{algorithm.__module__}:{algorithm.__qualname__}"
         plan = replace(plan, algorithm=algorithm, algorithm_name=name)
     executor = executor_of(str(workers), CALLBACK_LIMIT)
-    inputs, renderer = open_once(plan)
+    inputs, renderer = hash_inputs(plan)
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
         directory = Path(scratch) / "result" if out is None else Path(out)
         check_directory(directory, resume=False, overwrite=False, results=[])
-        run = Bench(
+        run = Run(
             plan=plan,
             out=directory,
             inputs={**without_algorithm(inputs), **of_algorithm(plan)},

@@ -18,7 +18,7 @@ from uwsim.messages import Float32MultiArray, PoseStamped, floats, header
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import play_all
 from uwsim.runs.executors.processes import ProcessExecutor
-from uwsim.runs.run import Bench
+from uwsim.runs.run import Run
 from uwsim.simulation import outbox
 
 LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
@@ -123,7 +123,7 @@ def test_nothing_is_published_after_the_end(tmp_path: Path) -> None:
         Lingers.kept.publish(floats([1.0]))
 
 
-def bench_of(folder: Path, algorithm: type[Attacker]) -> Bench:
+def bench_of(folder: Path, algorithm: type[Attacker]) -> Run:
     plan = make_plan(
         folder,
         algorithm,
@@ -133,7 +133,7 @@ def bench_of(folder: Path, algorithm: type[Attacker]) -> Bench:
     )
     name = algorithm.__name__
     plan = replace(plan, algorithm_name=name, parameters={"immortal": str(folder / "immortal")})
-    return Bench(plan=plan, out=folder / name, inputs={}, renderer="none")
+    return Run(plan=plan, out=folder / name, inputs={}, renderer="none")
 
 
 def reasons(result: Result) -> list[str | None]:

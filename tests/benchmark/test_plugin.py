@@ -21,7 +21,7 @@ from uwsim.runs.executors.executor import play_all
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
-from uwsim.runs.run import Bench, open_once
+from uwsim.runs.run import Run, hash_inputs
 from uwsim.runs.tables import bundled_tables, read_plugins
 
 PARTS = '''
@@ -172,8 +172,8 @@ def plan_of(benchmark: str, *plugins: Path, **changed: Any) -> Plan:
 @pytest.mark.slow
 def test_a_benchmark_of_nothing_but_own_parts_is_played_by_two_workers(folder: Path) -> None:
     plan = plan_of("b.xml", folder / "parts.py")
-    inputs, renderer = open_once(plan)
-    run = Bench(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
+    inputs, renderer = hash_inputs(plan)
+    run = Run(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
     [result] = play_all([run], ProcessExecutor(2))
     assert result.values("murk") == (0.0, 0.5)
     assert result.columns[0].unit == "1/m"
@@ -225,7 +225,7 @@ def test_a_plan_brings_its_plugins_to_a_process_that_has_never_seen_them(folder:
 
 
 def test_a_result_without_plugins_does_not_mention_them(folder: Path) -> None:
-    assert set(open_once(plan_of("visibility"))[0]) == {"benchmark", "scene", "assets"}
+    assert set(hash_inputs(plan_of("visibility"))[0]) == {"benchmark", "scene", "assets"}
 
 
 @pytest.mark.parametrize(
@@ -353,8 +353,8 @@ def play(folder: Path, was: str, now: str) -> Result:
     assert was in PARTS
     (folder / "parts.py").write_text(PARTS.replace(was, now))
     plan = plan_of("b.xml", folder / "parts.py", levels=["murk=0"])
-    inputs, renderer = open_once(plan)
-    bench = Bench(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
+    inputs, renderer = hash_inputs(plan)
+    bench = Run(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
     return play_all([bench])[0]
 
 

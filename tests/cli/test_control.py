@@ -11,7 +11,7 @@ import pytest
 from tests.short_benchmark import bench_of, write_benchmark
 from uwsim.cli import bench, main
 from uwsim.cli.bench import control_of
-from uwsim.runs.run import Bench
+from uwsim.runs.run import Run
 
 SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
 
@@ -35,7 +35,7 @@ def test_the_control_waits_for_pictures_of_the_camera_of_the_truth(
 def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def bound_to_fail(run: Bench) -> Bench:
+    def bound_to_fail(run: Run) -> Run:
         control = control_of(run)
         no_images = replace(control.plan, parameters={"image_topic": "/uwsim/camera1_info"})
         return replace(control, plan=no_images)

@@ -20,7 +20,7 @@ from uwsim.results.provenance import save_provenance
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import play_all
 from uwsim.runs.make_plan import make_plan
-from uwsim.runs.run import Bench, open_once
+from uwsim.runs.run import Run, hash_inputs
 from uwsim.simulation import Simulation
 from uwsim.verify.derived import contradictions
 from uwsim.verify.differences import of_row, of_text
@@ -61,8 +61,8 @@ def played(tmp_path_factory: pytest.TempPathFactory) -> Path:
         str(folder / "b.xml"), scene=None, algorithm=None, seed=3, repeat=1, mode=None, levels=[],
         settings=["algorithm.zncc_threshold=0.4"], compat=[], data_path=(),
     )  # fmt: skip
-    inputs, renderer = open_once(plan)
-    play_all([Bench(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)])
+    inputs, renderer = hash_inputs(plan)
+    play_all([Run(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)])
     return folder
 
 

@@ -28,7 +28,7 @@ from uwsim.results.log import Log, load_log
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import play_all
 from uwsim.runs.make_plan import make_plan
-from uwsim.runs.run import Bench, open_once
+from uwsim.runs.run import Run, hash_inputs
 
 P, PI = Loop(kp=0.4), Loop(kp=0.4, ki=0.04)
 DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "benchmarks"
@@ -142,8 +142,8 @@ def play(algorithm: str, out: Path, *settings: str) -> Station:
         compat=[],
         data_path=(),
     )
-    inputs, renderer = open_once(plan)
-    [result] = play_all([Bench(plan=plan, out=out, inputs=inputs, renderer=renderer)])
+    inputs, renderer = hash_inputs(plan)
+    [result] = play_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
     assert result.values("status") == ("ok",)
     names = ("centroid", "objectCentered", "offset")
     logs = {name: load_log(out / f"measure-{name}.csv") for name in names}

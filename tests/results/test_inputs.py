@@ -20,7 +20,7 @@ from uwsim.results.inputs import differing, files_by_role, without_algorithm
 from uwsim.runs.inputs_read import inputs_of
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
-from uwsim.runs.run import Bench
+from uwsim.runs.run import Run
 from uwsim.simulation import Simulation
 from uwsim.verify.recorded_plan import check_inputs
 
@@ -188,7 +188,7 @@ def test_inputs_are_compared_as_json_has_them_and_as_python_has_them() -> None:
 
 def test_an_edited_algorithm_is_not_mixed_into_a_result_that_is_resumed(folder: Path) -> None:
     inputs = _inputs()
-    bench = Bench(plan=_plan(), out=folder / "out", inputs=inputs, renderer="none")
+    bench = Run(plan=_plan(), out=folder / "out", inputs=inputs, renderer="none")
     journal.UnitFile(bench.out, 0, bench.head(bench.begin()[0])).close()
     (folder / "own_parts" / "numbers.py").write_text("gain = 0.6\n")
     said = "algorithm own_parts/numbers.py is another file now"
@@ -199,7 +199,7 @@ def test_an_edited_algorithm_is_not_mixed_into_a_result_that_is_resumed(folder: 
 
 
 def test_a_resumed_run_says_what_of_it_is_another(folder: Path) -> None:
-    bench = Bench(plan=_plan("p"), out=folder / "out", inputs=_inputs("p"), renderer="none")
+    bench = Run(plan=_plan("p"), out=folder / "out", inputs=_inputs("p"), renderer="none")
     journal.UnitFile(bench.out, 0, bench.head(bench.begin()[0])).close()
     other = replace(bench, plan=replace(bench.plan, seed=4))
     with pytest.raises(ResultError, match="belongs to another run: seed is 4 now, was 0"):

@@ -15,7 +15,7 @@ from uwsim.errors import RunFailed
 from uwsim.files.input_files import InputFile, hash_of
 from uwsim.runs.executors.executor import play_each
 from uwsim.runs.input_watch import Watch, watchable
-from uwsim.runs.run import Bench
+from uwsim.runs.run import Run
 
 LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
 <step>0.1</step> <interval>0.1</interval> </sceneFogUpdater>"""
@@ -38,7 +38,7 @@ def test_a_row_is_kept_only_while_all_files_are_as_they_were(tmp_path: Path) -> 
     plan = make_plan(tmp_path, Edits, LEVELS, start=INIT)
     plan = replace(plan, parameters={"path": str(tmp_path / "box.png")})
     files = watchable([file_of(tmp_path / "box.png")])
-    bench = Bench(plan=plan, out=tmp_path / "out", inputs={}, renderer="none", files=files)
+    bench = Run(plan=plan, out=tmp_path / "out", inputs={}, renderer="none", files=files)
     outcome = play_each([bench])
     [(_, error)] = outcome.failures
     assert isinstance(error, RunFailed)

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from ..runs.executors.background import BackgroundProcess
     from ..runs.executors.executor import Executor, Outcome
     from ..runs.plan import Plan
-    from ..runs.run import Bench
+    from ..runs.run import Run
 
 CONTROL = "frozen"
 ALGORITHM_ERROR = "algorithm error"
@@ -152,18 +152,18 @@ def bench(
     assert executor is not None
 
     from ..results.inputs import without_algorithm
-    from ..runs.run import Bench, open_once
+    from ..runs.run import Run, hash_inputs
 
     watch = Stopwatch()
     announce_code(plans[0].scene)
     with recorded() as files:
-        inputs, renderer = open_once(plans[0])
+        inputs, renderer = hash_inputs(plans[0])
     shared = without_algorithm(inputs)
     say_warnings(plans[0])
     raise_from_now_on()
     runs = [
         with_sources(
-            Bench(plan=plan, out=directory / folder, inputs=shared, renderer=renderer), files
+            Run(plan=plan, out=directory / folder, inputs=shared, renderer=renderer), files
         )
         for plan, folder in zip(plans, folders or [""], strict=True)
     ]
@@ -174,11 +174,11 @@ def bench(
         play_and_finish(runs, executor, workers, watch, context.obj)
 
 
-def with_sources(bench: Bench, files: Sequence[InputFile]) -> Bench:
+def with_sources(bench: Run, files: Sequence[InputFile]) -> Run:
     """Return the same with the sources of its algorithm among its inputs.
 
     Args:
-        bench: its inputs are those of scene and benchmark.
+        run: its inputs are those of scene and benchmark.
         files: the places of these.
     """
     from ..runs.input_watch import watchable
@@ -190,7 +190,7 @@ def with_sources(bench: Bench, files: Sequence[InputFile]) -> Bench:
 
 
 def play_and_finish(
-    runs: Sequence[Bench],
+    runs: Sequence[Run],
     executor: Executor,
     workers: str,
     watch: Stopwatch,
@@ -255,12 +255,12 @@ def folders_of(algorithms: Sequence[str]) -> list[str]:
     return list(file_names(algorithms, taken=FOLDERS).values())
 
 
-def wants_control(run: Bench) -> bool:
+def wants_control(run: Run) -> bool:
     """Whether `frozen` is played beside it."""
     return run.plan.wants_control and run.plan.algorithm_name != CONTROL
 
 
-def refuse_if_all_broke(runs: Sequence[Bench], results: Sequence[Result]) -> None:
+def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:
     """Fail if an algorithm broke in every row; all is written by then.
 
     Raises:
@@ -275,7 +275,7 @@ def refuse_if_all_broke(runs: Sequence[Bench], results: Sequence[Result]) -> Non
         raise RunFailed(f"Every row ended in {ALGORITHM_ERROR!r}: {'; '.join(broke)}.")
 
 
-def refuse_if_a_process_ended(runs: Sequence[Bench], results: Sequence[Result]) -> None:
+def refuse_if_a_process_ended(runs: Sequence[Run], results: Sequence[Result]) -> None:
     """Fail if an algorithm took its process with it.
 
     Raises:
@@ -292,7 +292,7 @@ def refuse_if_a_process_ended(runs: Sequence[Bench], results: Sequence[Result]) 
         raise RunFailed(f"{'; '.join(ended)}. Rows are kept; --resume tries those again.")
 
 
-def play_with_progress(runs: Sequence[Bench], executor: Executor, at_once: int) -> Outcome:
+def play_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> Outcome:
     """Play one benchmark, with an algorithm each, and show how far it is."""
     from ..runs.executors.executor import play_each
 
@@ -304,13 +304,13 @@ def play_with_progress(runs: Sequence[Bench], executor: Executor, at_once: int) 
         return play_each(runs, executor, on_level=on_level)
 
 
-def control_of(run: Bench) -> Bench:
+def control_of(run: Run) -> Run:
     """Return the same with `frozen`, which looks at no image, into ``control/``."""
     from ..algorithms import load_algorithm
     from ..algorithms.tracker_node import INPUT
     from ..results.directory import CONTROL as FOLDER_OF_CONTROL
     from ..results.inputs import without_algorithm
-    from ..runs.run import Bench
+    from ..runs.run import Run
 
     topic, usual = run.plan.told_topic, str(INPUT["image_topic"])
     is_usual = topic is None or topic.strip("/") == usual.strip("/")
@@ -323,10 +323,10 @@ def control_of(run: Bench) -> Bench:
     )
     out = run.out / FOLDER_OF_CONTROL
     inputs = without_algorithm(run.inputs)
-    return Bench(plan=plan, out=out, inputs=inputs, renderer="none", files=run.files)
+    return Run(plan=plan, out=out, inputs=inputs, renderer="none", files=run.files)
 
 
-def wait_for_controls(background: BackgroundProcess, controls: Sequence[Bench]) -> None:
+def wait_for_controls(background: BackgroundProcess, controls: Sequence[Run]) -> None:
     """Wait for the control of a run; what was asked for is whole without it."""
     try:
         background.wait()
@@ -343,7 +343,7 @@ def load_reporter() -> Callable[[Path], object]:
     return write_report
 
 
-def finish(run: Bench, result: Result, background: BackgroundProcess, took: Took) -> None:
+def finish(run: Run, result: Result, background: BackgroundProcess, took: Took) -> None:
     """Write provenance, plots and report, and print the table."""
     from ..results.directory import REPORT
     from ..results.provenance import carried, save_provenance

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from ..envelope import Envelope
     from ..runs.executors.executor import Executor
     from ..runs.plan import Plan
-    from ..runs.run import Bench
+    from ..runs.run import Run
 
 MAX_REPEATS = 1000
 
@@ -239,11 +239,11 @@ def play(
     from ..results.directory import alone_in, discard_drafts, empty
     from ..results.provenance import carried, machine, save_beginning, save_provenance
     from ..runs.input_watch import watchable
-    from ..runs.run import Bench, open_once
+    from ..runs.run import Run, hash_inputs
 
     announce_code(plan.scene)
     with recorded() as files:
-        inputs, renderer = open_once(plan)
+        inputs, renderer = hash_inputs(plan)
     say_warnings(plan)
     raise_from_now_on()
     over, where, at = question.over, question.where, question.at
@@ -255,7 +255,7 @@ def play(
         discard_drafts(directory, OURS, FOLDERS)
         if said := save_beginning(command, directory):
             warn(OTHER_CODE.format(said))
-        bench = Bench(
+        run = Run(
             plan=plan,
             out=directory,
             inputs=inputs,
@@ -265,7 +265,7 @@ def play(
         most = 9 + len(seeds) * (where.most_cuts() + 1)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
         with progress(title, most, of="runs", at_once=at_once) as on_run:
-            runs = Evaluations(bench, at=at, over=over, criterion=question.criterion)
+            runs = Evaluations(run, at=at, over=over, criterion=question.criterion)
             found = runs.run(strategy(seeds, where), executor, on_run)
         envelope = Envelope(
             asked=Asked(
@@ -280,7 +280,7 @@ def play(
             found=found,
             evaluations=tuple(runs.made[key] for key in sorted(runs.made, key=lambda k: k[::-1])),
             inputs=inputs,
-            run=played(bench),
+            run=played(run),
         )
         envelope.save(directory)
         draw(envelope, directory)
@@ -306,11 +306,11 @@ OURS = re.compile(
 FOLDERS = ("units", "pictures")
 
 
-def played(bench: Bench) -> dict[str, object]:
+def played(run: Run) -> dict[str, object]:
     """Say what was played and with what, as results do; seeds and levels stand elsewhere."""
     from ..runs.plan import Unit
 
-    head = bench.head(Unit(index=0, repeat=0, seed=0, levels=(), is_alone=True))
+    head = run.head(Unit(index=0, repeat=0, seed=0, levels=(), is_alone=True))
     return {k: v for k, v in head["run"].items() if k not in ("seed", "repeats", "levels")}
 
 

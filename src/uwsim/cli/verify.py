@@ -118,7 +118,7 @@ def verify(
     from ..results.interrupted import resuming
     from ..results.result_file import file_of, load
     from ..runs.input_watch import watchable
-    from ..runs.run import Bench, open_once
+    from ..runs.run import Run, hash_inputs
     from ..verify.verify import choose, finished
     from ..verify.verify import verify as compare
 
@@ -135,10 +135,10 @@ def verify(
     plan = plan_of(stored, directory, given)
     announce_code(plan.scene)
     with recorded() as files:
-        inputs, renderer = open_once(plan)
+        inputs, renderer = hash_inputs(plan)
     check_inputs(stored.inputs, inputs)
     renderer = NOT_DRAWN if plan.is_blind else renderer
-    bench = Bench(
+    run = Run(
         plan=plan,
         out=directory,
         inputs=stored.inputs,
@@ -157,13 +157,13 @@ def verify(
     if len(units) < len(whole_units):
         which = f"{len(units)} of {count(len(whole_units), 'unit')}"
         typer.echo(f"sample: {which}, by chance; the same again with --sample-seed {drawn}")
-    others = made_otherwise(stored, directory, bench.head(units[0])["run"])
+    others = made_otherwise(stored, directory, run.head(units[0])["run"])
     for line in others.values():
         typer.echo(printable(line))
     raise_from_now_on()
     at_once = n_at_once(workers)
     with running(), progress("replaying", n_levels, of="levels", at_once=at_once) as on_level:
-        found = compare(directory, stored, bench, units, executor=executor, on_level=on_level)
+        found = compare(directory, stored, run, units, executor=executor, on_level=on_level)
     for line in tell(found, len(whole_units), others):
         typer.echo(printable(line))
     if found.differences:

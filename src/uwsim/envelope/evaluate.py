@@ -16,7 +16,7 @@ from ..results import journal
 from ..results.journal import Record
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel
 from ..runs.plan import Plan, Unit
-from ..runs.run import Bench
+from ..runs.run import Run
 from .criterion import Criterion, Judgement
 from .search import Search, Strategy, Task
 
@@ -47,21 +47,21 @@ class Evaluations:
     """Runs asked for, from disk or played now.
 
     Args:
-        bench: where they are kept; its plan is one of `plan_for`.
+        run: where they are kept; its plan is one of `plan_for`.
         at: the levels of all updaters, outermost first; that of ``over`` is replaced.
         over: the reference that is searched over.
         criterion: what counts as broken.
     """
 
-    def __init__(self, bench: Bench, *, at: Level, over: str, criterion: Criterion) -> None:
-        self.bench = bench
+    def __init__(self, main_run: Run, *, at: Level, over: str, criterion: Criterion) -> None:
+        self.main_run = main_run
         """Where they are kept."""
         self._at, self._over, self._criterion = at, over, criterion
         self._units: dict[tuple[int, tuple[float, ...]], Unit] = {}
         self._taken: set[int] = set()  # indices of unit files
         self.made: dict[tuple[int, float], Evaluation] = {}
         """Every run that was asked for."""
-        for path in sorted((bench.out / journal.FOLDER).glob("*.jsonl")):
+        for path in sorted((main_run.out / journal.FOLDER).glob("*.jsonl")):
             self._remember(int(path.stem), journal.head_of(path))
 
     def run(self, strategy: Strategy, executor: Executor, on_run: OnLevel = lambda: None) -> Search:
@@ -82,7 +82,7 @@ class Evaluations:
         """Tell whether a run is broken; None if it was not played yet."""
         if (seed, value) not in self.made:
             unit = self.unit(seed, value)
-            stored = journal.read(self.bench.out, unit.index, self.bench.head(unit))
+            stored = journal.read(self.main_run.out, unit.index, self.main_run.head(unit))
             if stored.end is None or not stored.rows:
                 return None
             row = stored.rows[0]
@@ -164,7 +164,7 @@ class _JobQueue(JobQueue):
         waiting = self._awaited.setdefault(key, [])
         waiting.append(i)
         if len(waiting) == 1 and self.failure is None:
-            self.add(Job(self._runs.bench, self._runs.unit(*key)))
+            self.add(Job(self._runs.main_run, self._runs.unit(*key)))
 
     def _end_if_done(self) -> None:
         if self.found is None and len(self._results) == len(self._tasks):

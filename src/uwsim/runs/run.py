@@ -46,7 +46,7 @@ from .uwsim_files import save_dat, save_data
 
 
 @dataclass(kw_only=True)
-class Bench:
+class Run:
     """A plan and the directory its result goes to."""
 
     plan: Plan
@@ -54,9 +54,9 @@ class Bench:
     out: Path
     """The result directory."""
     inputs: Json
-    """Names and hashes of the files read (`open_once`)."""
+    """Names and hashes of the files read (`hash_inputs`)."""
     renderer: str
-    """What draws the pictures (`open_once`)."""
+    """What draws the pictures (`hash_inputs`)."""
     files: tuple[InputFile, ...] = ()
     """Files that must not change while it is played (`watchable`)."""
     n_resumed: int = 0
@@ -136,16 +136,16 @@ class Bench:
         return journal.read(self.out, unit.index, self.head(unit))
 
 
-def collect(bench: Bench) -> tuple[Result, list[Log], float]:
+def collect(run: Run) -> tuple[Result, list[Log], float]:
     """Put together the rows on disk, in the order of the plan.
 
     Returns:
         The result, its logs, and the length of all levels together [s].
     """
-    plan = bench.plan
+    plan = run.plan
     several = plan.repeats > 1
     units = plan.units()
-    stored = [(unit, bench.stored(unit)) for unit in units]
+    stored = [(unit, run.stored(unit)) for unit in units]
     records = [(unit, record) for unit, found in stored for record in found.rows]
     columns = _columns(plan, [record for _, record in records])
     rows: list[tuple[Cell, ...]] = []
@@ -178,15 +178,15 @@ def collect(bench: Bench) -> tuple[Result, list[Log], float]:
         pictures += [_picture(index, picture) for picture in record["pictures"]]
     ends = [(unit, found.end) for unit, found in stored if found.end is not None]
     first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.parameters)}
-    run = {
-        **_run(plan, bench.renderer),
+    about = {
+        **_run(plan, run.renderer),
         "parameters": first["parameters"],
         "units": [len(ends), len(units)],
         "notes": list(dict.fromkeys(note for _, end in ends for note in end["notes"])),
     }
     result = Result(
-        inputs=bench.inputs,
-        run=run,
+        inputs=run.inputs,
+        run=about,
         columns=tuple(columns),
         rows=tuple(rows),
         missing=tuple(missing),
@@ -312,7 +312,7 @@ def _run(plan: Plan, renderer: str) -> dict[str, object]:
     }
 
 
-def open_once(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, object], str]:
+def hash_inputs(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, object], str]:
     """Open the scene once: hash every file that is read, and name the renderer.
 
     Every name of the benchmark is looked up on the way, so that no name can fail later. Inside

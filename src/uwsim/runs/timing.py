@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .run import Bench
+    from .run import Run
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,10 +41,10 @@ class Took:
     """Who played, as it was said."""
     command: Sequence[str]
     """What was typed behind ``uwsim``."""
-    runs: Sequence[Bench]
+    runs: Sequence[Run]
     """What was played, an algorithm each."""
 
-    def provenance(self, run: Bench) -> dict[str, object]:
+    def provenance(self, run: Run) -> dict[str, object]:
         """Say where, when and how fast; nothing here is part of a score."""
         from importlib.metadata import version
 

@@ -23,7 +23,7 @@ from ..results.result_file import dumps
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
 from ..runs.executors.worker import PICTURES
 from ..runs.plan import Plan, Unit
-from ..runs.run import Bench
+from ..runs.run import Run
 from . import differences
 from .derived import contradictions
 from .differences import Difference
@@ -78,7 +78,7 @@ def choose(units: Sequence[Unit], sample: int | None, seed: int) -> tuple[Unit, 
 def verify(
     directory: Path,
     result: Result,
-    bench: Bench,
+    run: Run,
     units: Sequence[Unit],
     *,
     executor: Executor | None = None,
@@ -89,7 +89,7 @@ def verify(
     Args:
         directory: the result's.
         result: as it was read.
-        bench: the same run anew, from the recorded inputs; its directory is not used.
+        run: the same run anew, from the recorded inputs; its directory is not used.
         units: what to replay.
         executor: who plays; without one, this process.
         on_level: called for every level played.
@@ -98,13 +98,13 @@ def verify(
         UwsimError: a replay could not be played.
     """
     found = Verification(units=tuple(units))
-    found.differences += contradictions(result, bench.plan.benchmark)
+    found.differences += contradictions(result, run.plan.benchmark)
     with scratch_folder("uwsim-verify-") as scratch:
         if _has_units(directory):
-            _check_files(found, directory, result, replace(bench, out=scratch / "stored"))
+            _check_files(found, directory, result, replace(run, out=scratch / "stored"))
         else:
             found.not_compared.append("units/: rows are compared with result.json alone")
-        again = replace(bench, out=scratch / "replayed")
+        again = replace(run, out=scratch / "replayed")
         again.out.mkdir()
         queue = JobQueue([Job(again, unit) for unit in units], on_level)
         (executor or SerialExecutor()).play(queue)
@@ -123,22 +123,22 @@ def _has_units(directory: Path) -> bool:
     return (directory / journal.FOLDER).is_dir()
 
 
-def _check_files(found: Verification, directory: Path, result: Result, bench: Bench) -> None:
+def _check_files(found: Verification, directory: Path, result: Result, run: Run) -> None:
     """Make every file anew from the stored units, and compare, if they are all there."""
-    gone = _gone(directory, result, bench.plan)
+    gone = _gone(directory, result, run.plan)
     for unit, what in gone.items():
         name = journal.path_of(directory, unit.index).name
         found.add(f"{journal.FOLDER}/{name}", what)
     if gone:
         found.not_compared.append("result.json and the files beside it: units/ is not whole")
-    for unit in bench.plan.units():
+    for unit in run.plan.units():
         path = journal.path_of(directory, unit.index)
         head, stored = journal.read_any(path)
         if head is None or unit in gone:
             continue
-        expected = _head(result, bench.head(unit))
+        expected = _head(result, run.head(unit))
         _check_head(found, f"{journal.FOLDER}/{path.name}", head, expected)
-        file = journal.UnitFile(bench.out, unit.index, bench.head(unit))
+        file = journal.UnitFile(run.out, unit.index, run.head(unit))
         for row in stored.rows:
             file.add(row)
         if stored.end is not None:
@@ -147,11 +147,11 @@ def _check_files(found: Verification, directory: Path, result: Result, bench: Be
     if gone:
         return
     try:
-        made = bench.write()
+        made = run.write()
     except Exception as error:
         found.add(journal.FOLDER, f"what is stored makes no result: {error}")
         return
-    for path in sorted(bench.out.glob("*.*")):
+    for path in sorted(run.out.glob("*.*")):
         there = directory / path.name
         found.n_files += 1
         if path.name == "result.json":
@@ -223,7 +223,7 @@ def _check_result(found: Verification, result: Result, made: Result) -> None:
         found.add("result.json", f"{where}: {before} there, {after} by units/")
 
 
-def _check_unit(found: Verification, directory: Path, again: Bench, unit: Unit) -> None:
+def _check_unit(found: Verification, directory: Path, again: Run, unit: Unit) -> None:
     """Compare a replayed unit with the stored one, level by level."""
     stored, played = (
         journal.read_any(journal.path_of(folder, unit.index))[1]
@@ -248,7 +248,7 @@ def _check_unit(found: Verification, directory: Path, again: Bench, unit: Unit) 
         found.differences.insert(before, Difference(where=name, what=motion.said))
 
 
-def _check_rows(found: Verification, result: Result, again: Bench) -> None:
+def _check_rows(found: Verification, result: Result, again: Run) -> None:
     """Compare replayed rows with those of result.json, where that is all there is."""
     made = again.write()
     expected = _rows_by_level(result, again.plan)

@@ -21,7 +21,7 @@ from uwsim.messages import (
 from uwsim.runs.executors.executor import play_all
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
-from uwsim.runs.run import Bench, open_once
+from uwsim.runs.run import Run, hash_inputs
 from uwsim.runs.trial.trial import Row, play
 
 TRACKERS = ("ecc", "esm", "ic", "orb", "ssd-esm")
@@ -100,8 +100,8 @@ def test_in_clear_water_a_tracker_beats_a_blob_of_colour(tmp_path: Path) -> None
 
 def totals(algorithm: str, out: Path) -> dict[float, float | None]:
     plan = plan_of(algorithm, ["fog=0", "fog=0.9"])
-    inputs, renderer = open_once(plan)
-    [result] = play_all([Bench(plan=plan, out=out, inputs=inputs, renderer=renderer)])
+    inputs, renderer = hash_inputs(plan)
+    [result] = play_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
     fogs = [value for value in result.numbers("fog") if value is not None]
     return dict(zip(fogs, result.numbers("total"), strict=True))
 

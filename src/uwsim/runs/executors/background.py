@@ -17,11 +17,11 @@ from typing import Self
 
 from ...benchmark.plugin import raised
 from ...errors import RunFailed, UwsimError
-from ..run import Bench
+from ..run import Run
 from .executor import play_all
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 
-Job = Bench | Path
+Job = Run | Path
 """A benchmark is played; of a result directory the report is drawn."""
 Reporter = Callable[[], Callable[[Path], object]]
 """Loads what draws the report of a result directory, which is heavy; returns it."""
@@ -92,13 +92,13 @@ def _serve(there: Connection, parent: Connection, reporter: Reporter) -> None:
 def _done(job: Job, reporter: Reporter) -> str | None:
     """Do it; returns why it could not be done."""
     try:
-        if isinstance(job, Bench):
+        if isinstance(job, Run):
             play_all([job])
         else:
             reporter()(job)
     except UwsimError as error:
         return str(error)
     except Exception as error:  # a full disk, a number that no plot can show
-        what = "The control" if isinstance(job, Bench) else "The report"
+        what = "The control" if isinstance(job, Run) else "The report"
         return f"{what} failed: {raised(error)}. Finished rows are kept; go on with --resume."
     return None

@@ -21,7 +21,7 @@ from ...results.journal import path_of
 from ...results.result import Result
 from ...simulation import Calls, Cut, Studio
 from ..plan import Plan, Unit
-from ..run import Bench
+from ..run import Run
 from ..trial.status import PROCESS_ENDED
 from .worker import Event, Keeper, perform, portable
 
@@ -37,7 +37,7 @@ worker a core."""
 class Job:
     """A unit of one of the benchmarks that are played together."""
 
-    bench: Bench
+    run: Run
     """Whose unit it is."""
     unit: Unit
     """What is to be played."""
@@ -48,7 +48,7 @@ class Job:
         levels = self.unit.levels
         which = ", ".join(f"{name}={value:g}" for name, value in levels[0].values)
         played = which if len(levels) == 1 else f"{len(levels)} levels"
-        name = self.bench.plan.algorithm_name
+        name = self.run.plan.algorithm_name
         return f"unit {self.unit.index} ({name}, seed {self.unit.seed}, {played})"
 
 
@@ -71,13 +71,13 @@ class JobQueue:
     """
 
     def __init__(self, jobs: Sequence[Job], on_level: OnLevel = lambda: None) -> None:
-        self.failures: list[tuple[Bench, Exception]] = []
+        self.failures: list[tuple[Run, Exception]] = []
         """What went wrong first with whom, in that order."""
         self._waiting = deque(jobs)
         self._on_level = on_level
         self._losses: Counter[Job] = Counter()
         self._calls_lost: set[tuple[Job, int]] = set()
-        self._to_come = {job: len(job.unit.levels) - job.bench.n_rows(job.unit) for job in jobs}
+        self._to_come = {job: len(job.unit.levels) - job.run.n_rows(job.unit) for job in jobs}
 
     @property
     def failure(self) -> Exception | None:
@@ -87,7 +87,7 @@ class JobQueue:
     def add(self, job: Job) -> None:
         """Put one more job at the end; it may be one that another has led to."""
         self._waiting.append(job)
-        self._to_come[job] = len(job.unit.levels) - job.bench.n_rows(job.unit)
+        self._to_come[job] = len(job.unit.levels) - job.run.n_rows(job.unit)
 
     def __len__(self) -> int:
         """How many jobs are waiting."""
@@ -95,7 +95,7 @@ class JobQueue:
 
     def plans(self) -> tuple[Plan, ...]:
         """Whose jobs are waiting."""
-        return tuple({id(job.bench): job.bench.plan for job in self._waiting}.values())
+        return tuple({id(job.run): job.run.plan for job in self._waiting}.values())
 
     def take(self) -> Job | None:
         """Take the next job; None when there is none now."""
@@ -123,7 +123,7 @@ class JobQueue:
             return
         if call is not None:
             self._calls_lost.add((job, call))
-        job.bench.n_lost += 1
+        job.run.n_lost += 1
         self._losses[job] += 1
         if self._losses[job] <= MOST_RETRIES:
             self._waiting.appendleft(job)
@@ -139,15 +139,15 @@ class JobQueue:
 
     def stopped(self, job: Job, cut: Cut) -> None:
         """A call into the algorithm cannot be made: the unit is played again without it."""
-        job.bench.n_lost += 1
+        job.run.n_lost += 1
         job.cut = cut
         self._waiting.appendleft(job)
 
     def failed(self, job: Job, error: Exception) -> None:
         """It cannot be played."""
-        if all(bench is not job.bench for bench, _ in self.failures):
-            self.failures.append((job.bench, found_by_running(error)))
-        self._waiting = deque(other for other in self._waiting if other.bench is not job.bench)
+        if all(run is not job.run for run, _ in self.failures):
+            self.failures.append((job.run, found_by_running(error)))
+        self._waiting = deque(other for other in self._waiting if other.run is not job.run)
 
 
 def found_by_running(error: Exception) -> Exception:
@@ -191,10 +191,10 @@ class SerialExecutor:
 
 def play_and_keep(job: Job, studio: Studio, calls: Calls) -> Iterator[Event]:
     """Play a unit where its result is; yields the levels that were not on disk before."""
-    keeper = Keeper(job.bench, job.unit)
+    keeper = Keeper(job.run, job.unit)
     here = Path.cwd()  # an algorithm may go elsewhere
     try:
-        for event in perform(job.bench.plan, job.unit, studio, calls):
+        for event in perform(job.run.plan, job.unit, studio, calls):
             with chdir(here):
                 is_new = keeper.keep(event)
             if is_new:
@@ -210,42 +210,42 @@ class Outcome:
 
     results: tuple[Result, ...]
     """One each, as far as it was played; on disk, too."""
-    failures: tuple[tuple[Bench, Exception], ...]
+    failures: tuple[tuple[Run, Exception], ...]
     """Who could not be played to the end, and why, in the order in which it happened."""
 
 
 def play_each(
-    benches: Sequence[Bench], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
+    runs: Sequence[Run], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
 ) -> Outcome:
     """Play what is not finished yet of some benchmarks, and write their results.
 
     Args:
-        benches: what is to be played; their units are spread over the same workers.
+        runs: what is to be played; their units are spread over the same workers.
         executor: who plays; without one, this process.
         on_level: called for every level that was not on disk before.
     """
-    jobs = [Job(bench, unit) for bench in benches for unit in bench.begin()]
+    jobs = [Job(run, unit) for run in runs for unit in run.begin()]
     queue = JobQueue(jobs, on_level)
     try:
         (executor or SerialExecutor()).play(queue)
-        _miss_what_is_gone(benches, queue)
+        _miss_what_is_gone(runs, queue)
     finally:
-        results = tuple(bench.write() for bench in benches)
+        results = tuple(run.write() for run in runs)
     return Outcome(results=results, failures=tuple(queue.failures))
 
 
-def _miss_what_is_gone(benches: Sequence[Bench], queue: JobQueue) -> None:
+def _miss_what_is_gone(runs: Sequence[Run], queue: JobQueue) -> None:
     """Hold it against a benchmark if a unit that was played is not on disk any more."""
-    for bench in benches:
-        for unit in bench.unfinished()[:1]:
-            name = path_of(bench.out, unit.index)
+    for run in runs:
+        for unit in run.unfinished()[:1]:
+            name = path_of(run.out, unit.index)
             said = "was played, but is not whole there any more. Go on with --resume."
-            job = Job(bench, unit)
+            job = Job(run, unit)
             queue.failed(job, RunFailed(f"{name}: {job} {said}"))
 
 
 def play_all(
-    benches: Sequence[Bench], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
+    runs: Sequence[Run], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
 ) -> tuple[Result, ...]:
     """Play as `play_each`, to the end or not at all well.
 
@@ -255,7 +255,7 @@ def play_all(
         RunFailed: a unit lost its worker too often.
         UwsimError: whatever else was the first to go wrong. What is finished is kept, and written.
     """
-    outcome = play_each(benches, executor, on_level=on_level)
+    outcome = play_each(runs, executor, on_level=on_level)
     for _, error in outcome.failures:
         raise error
     return outcome.results

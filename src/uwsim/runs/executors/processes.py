@@ -131,12 +131,12 @@ class Worker:
 
     def may_play(self, job: Job) -> bool:
         """Whether it can be given a job: it lives, and has played no other algorithm."""
-        name = job.bench.plan.algorithm_name
+        name = job.run.plan.algorithm_name
         return self._process.is_alive() and self._algorithm in (None, name)
 
     def give(self, job: Job) -> None:
         """Have it play a job; should it be gone, the next `report` says so."""
-        self.job, self._algorithm = job, job.bench.plan.algorithm_name
+        self.job, self._algorithm = job, job.run.plan.algorithm_name
         with suppress(OSError):
             self._pipe.send(job)
 

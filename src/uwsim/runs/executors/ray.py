@@ -29,7 +29,7 @@ from ...files.scratch import OWNER, scratch_folder
 from ...results import journal
 from ...simulation import Studio
 from ..plan import Unit
-from ..run import Bench, open_once
+from ..run import Run, hash_inputs
 from .executor import ENVIRONMENT, Job, JobQueue
 from .worker import Event, Keeper, UnitEnded, UnitFailed, perform, portable
 
@@ -81,7 +81,7 @@ class RayExecutor:
             try:
                 while True:
                     while len(tasks) < n_workers and (job := queue.take()) is not None:
-                        name = job.bench.plan.algorithm_name
+                        name = job.run.plan.algorithm_name
                         while idle and idle[-1][1] != name:  # no process sees two algorithms
                             ray.kill(idle.pop()[0])
                         task = Task(job, idle.pop()[0] if idle else remote.remote())
@@ -97,7 +97,7 @@ class RayExecutor:
                             task = tasks.pop(events)
                             task.keeper.close()
                             if task.is_alive:
-                                idle.append((task.worker, task.job.bench.plan.algorithm_name))
+                                idle.append((task.worker, task.job.run.plan.algorithm_name))
             finally:
                 for task in tasks.values():
                     task.keeper.close()
@@ -197,10 +197,10 @@ class Task:
 
     def begin(self, ray: Any) -> Any:
         """Have it played; returns the events to come."""
-        bench, unit = self.job.bench, self.job.unit
-        self.keeper = Keeper(bench, unit)
+        run, unit = self.job.run, self.job.unit
+        self.keeper = Keeper(run, unit)
         play = self.worker.play.options(num_returns="streaming")
-        return play.remote(bench, unit, bench.head(unit))
+        return play.remote(run, unit, run.head(unit))
 
 
 class Worker:
@@ -211,19 +211,19 @@ class Worker:
         self._studio = Studio()
         self._known: list[journal.Record] = []
 
-    def play(self, bench: Bench, unit: Unit, head: journal.Record) -> Iterator[Event | UnitFailed]:
+    def play(self, run: Run, unit: Unit, head: journal.Record) -> Iterator[Event | UnitFailed]:
         """Play a unit, if this machine is like the one that asks; yields what is to be kept."""
         try:
-            self._check(bench, unit, head)
-            yield from perform(bench.plan, unit, self._studio)
+            self._check(run, unit, head)
+            yield from perform(run.plan, unit, self._studio)
         except Exception as error:
             yield UnitFailed(portable(error))
 
-    def _check(self, bench: Bench, unit: Unit, head: journal.Record) -> None:
+    def _check(self, run: Run, unit: Unit, head: journal.Record) -> None:
         """See to it that the unit would be the same if the driver played it.
 
         Args:
-            bench: whose unit it is.
+            run: whose unit it is.
             unit: what is to be played.
             head: the unit's head as the driver wrote it.
 
@@ -234,12 +234,12 @@ class Worker:
         if asked in self._known:
             return
         try:
-            inputs, renderer = open_once(bench.plan, self._studio)
+            inputs, renderer = hash_inputs(run.plan, self._studio)
         except UwsimError as error:
             raise RunFailed(f"Worker on {platform.node()}: {error}") from error
-        if bench.plan.is_blind:
-            renderer = bench.renderer
-        here = Bench(plan=bench.plan, out=bench.out, inputs=inputs, renderer=renderer).head(unit)
+        if run.plan.is_blind:
+            renderer = run.renderer
+        here = Run(plan=run.plan, out=run.out, inputs=inputs, renderer=renderer).head(unit)
         differences = list(_differences({name: here[name] for name in asked}, asked))
         if differences:
             raise RunFailed(

@@ -21,7 +21,7 @@ from ...results import journal
 from ...simulation import Calls, Studio
 from ..input_watch import Watch
 from ..plan import Plan, Unit
-from ..run import Bench
+from ..run import Run
 from ..trial.trial import Row, UnitEnd, play
 
 PICTURES = "pictures"
@@ -91,10 +91,10 @@ class Keeper:
         RunFailed: a file of the run was changed.
     """
 
-    def __init__(self, bench: Bench, unit: Unit) -> None:
-        self._out = bench.out
-        self._watch = Watch(bench.files)
-        self._file = journal.UnitFile(bench.out, unit.index, bench.head(unit))
+    def __init__(self, run: Run, unit: Unit) -> None:
+        self._out = run.out
+        self._watch = Watch(run.files)
+        self._file = journal.UnitFile(run.out, unit.index, run.head(unit))
 
     def keep(self, event: Event) -> bool:
         """Keep it; returns whether it is a level that was not on disk before."""
