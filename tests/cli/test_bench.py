@@ -201,7 +201,7 @@ def test_what_goes_wrong_while_it_is_played_is_a_failed_run_whatever_it_is(
         raise error
         yield
 
-    monkeypatch.setattr("uwsim.runs.executors.executor.perform", broken)
+    monkeypatch.setattr("uwsim.runs.executors.executor.run_trial", broken)
     call = ["bench", benchmark, "--algorithm", "p", "--level", "fog=0"]
     assert main([*call, "--out", str(tmp_path / "out")]) == 3
     assert capsys.readouterr().err == said

@@ -89,7 +89,7 @@ def test_a_run_that_goes_on_elsewhere_records_both_and_says_so(tmp_path: Path) -
 
 def test_a_row_that_cannot_be_played_again_names_the_other_code(tmp_path: Path) -> None:
     def play(total: float) -> None:
-        file = journal.UnitFile(tmp_path, 0, {})
+        file = journal.Journal(tmp_path, 0, {})
         try:
             file.add(stored_row(total=total))
         finally:

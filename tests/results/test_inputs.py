@@ -189,7 +189,7 @@ def test_inputs_are_compared_as_json_has_them_and_as_python_has_them() -> None:
 def test_an_edited_algorithm_is_not_mixed_into_a_result_that_is_resumed(folder: Path) -> None:
     inputs = _inputs()
     bench = Run(plan=_plan(), out=folder / "out", inputs=inputs, renderer="none")
-    journal.UnitFile(bench.out, 0, bench.head(bench.begin()[0])).close()
+    journal.Journal(bench.out, 0, bench.head(bench.begin()[0])).close()
     (folder / "own_parts" / "numbers.py").write_text("gain = 0.6\n")
     said = "algorithm own_parts/numbers.py is another file now"
     with pytest.raises(ResultError, match=f"belongs to another run: {said}"):
@@ -200,7 +200,7 @@ def test_an_edited_algorithm_is_not_mixed_into_a_result_that_is_resumed(folder: 
 
 def test_a_resumed_run_says_what_of_it_is_another(folder: Path) -> None:
     bench = Run(plan=_plan("p"), out=folder / "out", inputs=_inputs("p"), renderer="none")
-    journal.UnitFile(bench.out, 0, bench.head(bench.begin()[0])).close()
+    journal.Journal(bench.out, 0, bench.head(bench.begin()[0])).close()
     other = replace(bench, plan=replace(bench.plan, seed=4))
     with pytest.raises(ResultError, match="belongs to another run: seed is 4 now, was 0"):
         other.begin()

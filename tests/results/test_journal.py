@@ -6,13 +6,13 @@ import pytest
 
 from tests.stored_rows import stored_end, stored_row
 from uwsim.errors import ReplayDiffers, ResultError
-from uwsim.results.journal import Stored, UnitFile, path_of, read
+from uwsim.results.journal import Journal, Stored, path_of, read
 
 HEAD = {"seed": 1}
 
 
 def play(folder: Path, rows: list[dict[str, object]], *, end: bool = True) -> None:
-    file = UnitFile(folder, 0, HEAD)
+    file = Journal(folder, 0, HEAD)
     try:
         for row in rows:
             file.add(row)

@@ -308,9 +308,9 @@ FOLDERS = ("units", "pictures")
 
 def played(run: Run) -> dict[str, object]:
     """Say what was played and with what, as results do; seeds and levels stand elsewhere."""
-    from ..runs.plan import Unit
+    from ..runs.plan import Trial
 
-    head = run.head(Unit(index=0, repeat=0, seed=0, levels=(), is_alone=True))
+    head = run.head(Trial(index=0, repeat=0, seed=0, levels=(), is_alone=True))
     return {k: v for k, v in head["run"].items() if k not in ("seed", "repeats", "levels")}
 
 

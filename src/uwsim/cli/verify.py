@@ -64,7 +64,7 @@ def verify(
             "--sample",
             metavar="N",
             min=1,
-            help="How many units of work to replay, chosen by chance.",
+            help="How many trials to replay, chosen by chance.",
         ),
     ] = 3,
     whole: Annotated[bool, in_group(RUN, "--all", help="Replay every unit.")] = False,
@@ -104,15 +104,15 @@ def verify(
 ) -> None:
     """Replay a sample of a stored result and compare it with what is stored, byte for byte.
 
-    A unit of work is what is played in one go: a seed's whole sweep, or one level of it where the
+    A trial of work is what is played in one go: a seed's whole sweep, or one level of it where the
     benchmark is independent. Files are found by name (beside the result, here, bundled) and known
     by the hash that was recorded; others are refused. Before any replay, every file of the result
-    is made anew from its units and compared, every total is worked out from its row, and every
-    value held against the detail that it is. Nobody can know beforehand which units are replayed:
+    is made anew from its trials and compared, every total is worked out from its row, and every
+    value held against the detail that it is. Nobody can know beforehand which trials are replayed:
     the sample is drawn from the system's own chance, and the number that draws it again is said.
 
-    Exit status 0: the same. 3: something differs; says which unit, level, column and sample, and
-    from the fingerprints that every unit keeps, from which step on and in which body or picture.
+    Exit status 0: the same. 3: something differs; says which trial, level, column and sample, and
+    from the fingerprints that every trial keeps, from which step on and in which body or picture.
     2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
     """
     from ..results.interrupted import resuming
@@ -152,7 +152,7 @@ def verify(
         raise ResultError(f"{directory}: no unit of it is finished: nothing to verify.{how}")
     drawn = secrets.randbelow(SEEDS) if sample_seed is None else sample_seed
     units = choose(whole_units, None if whole else sample, drawn)
-    n_levels = sum(len(unit.levels) for unit in units)
+    n_levels = sum(len(trial.levels) for trial in units)
     typer.echo(head(stored, directory, len(whole_units), len(plan.units())))
     if len(units) < len(whole_units):
         which = f"{len(units)} of {count(len(whole_units), 'unit')}"
@@ -215,14 +215,14 @@ def tell(found: Verification, n_whole: int, others: Mapping[str, str]) -> list[s
     said += [f"not compared: {what}" for what in found.not_compared]
     n = len(found.units)
     which = f"{n} of {count(n_whole, 'unit')}" if n < n_whole else f"all of {count(n, 'unit')}"
-    played = f"{which} replayed, {count(sum(len(unit.levels) for unit in found.units), 'level')}"
+    played = f"{which} replayed, {count(sum(len(trial.levels) for trial in found.units), 'level')}"
     if not found.differences:
         return [*said, f"the same, byte for byte: {played}"]
     return [*said, f"DIFFERS: {played}. {blame(found, others)}"]
 
 
 def count(number: int, what: str) -> str:
-    """``1 unit``, ``2 units``."""
+    """``1 trial``, ``2 trials``."""
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 

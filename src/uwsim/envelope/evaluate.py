@@ -1,6 +1,6 @@
 """Playing single levels with single seeds, each once: what is on disk is not played again.
 
-Each is a unit of work of the independent mode (DESIGN 5): the algorithm settles at the updaters'
+Each is a trial of work of the independent mode (DESIGN 5): the algorithm settles at the updaters'
 initial values, then the level is ramped in. The pictures and the noise of a level depend on the
 seed and on the level's values, never on what was played before.
 """
@@ -15,13 +15,13 @@ from ..benchmark.updaters import Level
 from ..results import journal
 from ..results.journal import Record
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel
-from ..runs.plan import Plan, Unit
+from ..runs.plan import Plan, Trial
 from ..runs.run import Run
 from .criterion import Criterion, Judgement
 from .search import Search, Strategy, Task
 
 STRIDE = 10_000
-"""Numbers of unit files that a seed has for itself."""
+"""Numbers of trial files that a seed has for itself."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,8 +57,8 @@ class Evaluations:
         self.main_run = main_run
         """Where they are kept."""
         self._at, self._over, self._criterion = at, over, criterion
-        self._units: dict[tuple[int, tuple[float, ...]], Unit] = {}
-        self._taken: set[int] = set()  # indices of unit files
+        self._units: dict[tuple[int, tuple[float, ...]], Trial] = {}
+        self._taken: set[int] = set()  # indices of trial files
         self.made: dict[tuple[int, float], Evaluation] = {}
         """Every run that was asked for."""
         for path in sorted((main_run.out / journal.FOLDER).glob("*.jsonl")):
@@ -81,8 +81,8 @@ class Evaluations:
     def look(self, seed: int, value: float) -> bool | None:
         """Tell whether a run is broken; None if it was not played yet."""
         if (seed, value) not in self.made:
-            unit = self.unit(seed, value)
-            stored = journal.read(self.main_run.out, unit.index, self.main_run.head(unit))
+            trial = self.trial(seed, value)
+            stored = journal.read(self.main_run.out, trial.index, self.main_run.head(trial))
             if stored.end is None or not stored.rows:
                 return None
             row = stored.rows[0]
@@ -91,20 +91,20 @@ class Evaluations:
             )
         return self.made[seed, value].judgement.is_broken
 
-    def unit(self, seed: int, value: float) -> Unit:
-        """Return the unit of work of a run. Its number follows from its seed and what it asked."""
+    def trial(self, seed: int, value: float) -> Trial:
+        """Return the trial of work of a run. Its number follows from its seed and what it asked."""
         level = Level(
             tuple((name, value if name == self._over else v) for name, v in self._at.values)
         )
         key = (seed, tuple(v for _, v in level.values))
         if key not in self._units:
             index = next(i for i in itertools.count(seed * STRIDE) if i not in self._taken)
-            self._add(Unit(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
+            self._add(Trial(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
         return self._units[key]
 
-    def _add(self, unit: Unit) -> None:
-        self._taken.add(unit.index)
-        self._units[unit.seed, tuple(v for _, v in unit.levels[0].values)] = unit
+    def _add(self, trial: Trial) -> None:
+        self._taken.add(trial.index)
+        self._units[trial.seed, tuple(v for _, v in trial.levels[0].values)] = trial
 
     def _remember(self, index: int, head: Record | None) -> None:
         """Know a run that is on disk by its seed and its level."""
@@ -113,7 +113,7 @@ class Evaluations:
             case {"seed": int(seed), "levels": [[*values]]} if len(values) == len(self._at.values):
                 names = [name for name, _ in self._at.values]
                 level = Level(tuple(zip(names, values, strict=True)))
-                self._add(Unit(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
+                self._add(Trial(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
 
 
 class _JobQueue(JobQueue):
@@ -132,8 +132,8 @@ class _JobQueue(JobQueue):
     def done(self, job: Job) -> None:
         """Give the answer to whoever waits for it."""
         super().done(job)
-        values = dict(job.unit.levels[0].values)
-        key = (job.unit.seed, values[self._runs._over])
+        values = dict(job.trial.levels[0].values)
+        key = (job.trial.seed, values[self._runs._over])
         answer = self._runs.look(*key)
         assert answer is not None
         for task in self._awaited.pop(key):
@@ -164,7 +164,7 @@ class _JobQueue(JobQueue):
         waiting = self._awaited.setdefault(key, [])
         waiting.append(i)
         if len(waiting) == 1 and self.failure is None:
-            self.add(Job(self._runs.main_run, self._runs.unit(*key)))
+            self.add(Job(self._runs.main_run, self._runs.trial(*key)))
 
     def _end_if_done(self) -> None:
         if self.found is None and len(self._results) == len(self._tasks):

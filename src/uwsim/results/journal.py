@@ -1,4 +1,4 @@
-"""Rows on disk as they finish: one file a unit of work, one line a row.
+"""Rows on disk as they finish: one file a trial of work, one line a row.
 
 A line is written whole and flushed before the next level begins, so a killed run loses at most the
 level it was in. The first line says what the unit is, the last that it is done. A line that was
@@ -31,7 +31,7 @@ Record = dict[str, Any]
 
 @dataclass(frozen=True)
 class Stored:
-    """What a unit's file holds."""
+    """What a trial's file holds."""
 
     rows: tuple[Record, ...]
     """Rows finished, in order."""
@@ -40,7 +40,7 @@ class Stored:
 
 
 NOTHING = Stored((), None)
-"""What is stored of a unit that was not begun."""
+"""What is stored of a trial that was not begun."""
 
 
 def path_of(directory: Path, index: int) -> Path:
@@ -49,7 +49,7 @@ def path_of(directory: Path, index: int) -> Path:
 
 
 def read(directory: Path, index: int, head: Record) -> Stored:
-    """Read a unit; nothing stored is nothing finished.
+    """Read a trial; nothing stored is nothing finished.
 
     Raises:
         ResultError: the file belongs to another run.
@@ -65,10 +65,10 @@ def read(directory: Path, index: int, head: Record) -> Stored:
 
 
 def read_any(path: Path) -> tuple[Record | None, Stored]:
-    """Read a unit's file, whatever run it is of: its head, and what it holds.
+    """Read a trial's file, whatever run it is of: its head, and what it holds.
 
     Raises:
-        ResultError: a line is not what is stored of a unit; says which, and what was expected.
+        ResultError: a line is not what is stored of a trial; says which, and what was expected.
     """
     if not path.exists():
         return None, NOTHING
@@ -91,7 +91,7 @@ def read_any(path: Path) -> tuple[Record | None, Stored]:
 
 
 def head_of(path: Path) -> Record:
-    """Read what a unit's file says of its run, however damaged the rest; empty if it does not."""
+    """Read what a trial's file says of its run, however damaged the rest; empty if it does not."""
     try:
         with path.open("rb") as stream:
             record = json.loads(stream.readline())
@@ -117,7 +117,7 @@ def _refuse_constant(text: str) -> object:
 
 
 def cut_back(directory: Path, index: int, n_rows: int) -> None:
-    """Forget what is stored of a unit but its first rows."""
+    """Forget what is stored of a trial but its first rows."""
     path = path_of(directory, index)
     lines = path.read_bytes().split(b"\n")[: 1 + n_rows]
     draft = path.with_suffix(".part")
@@ -125,8 +125,8 @@ def cut_back(directory: Path, index: int, n_rows: int) -> None:
     draft.replace(path)
 
 
-class UnitFile:
-    """Writes a unit, checking what is already there row by row.
+class Journal:
+    """Writes a trial, checking what is already there row by row.
 
     Raises:
         ReplayDiffers: a row played again differs from the one stored.

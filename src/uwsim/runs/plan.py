@@ -1,6 +1,6 @@
-"""What is to be played: a plan, cut into units of work.
+"""What is to be played: a plan, cut into trials.
 
-A unit is a sequence that must be played in one go: one seed's whole sweep when the benchmark is
+A trial is a sequence that must be played in one go: one seed's whole sweep when the benchmark is
 sequential, one seed's one level when it is independent (DESIGN 5).
 """
 
@@ -30,7 +30,7 @@ PATIENCE = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Unit:
+class Trial:
     """One sequence: its seed, and its levels."""
 
     index: int
@@ -142,12 +142,12 @@ class Plan:
         """
         return chosen_levels(levels_of(self.benchmark.scene_updater), self.chosen)
 
-    def units(self) -> tuple[Unit, ...]:
+    def units(self) -> tuple[Trial, ...]:
         """Cut the plan into its units, repeat by repeat, level by level."""
         levels = self.levels()
         groups = [levels] if self.mode == "sequential" else [(level,) for level in levels]
         return tuple(
-            Unit(
+            Trial(
                 index=repeat * len(groups) + i,
                 repeat=repeat,
                 seed=self.seed + repeat,

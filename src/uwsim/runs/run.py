@@ -38,7 +38,7 @@ from ..results.result_file import save
 from ..results.summary import save_summary
 from ..simulation import Simulation, Studio
 from .inputs_read import inputs_of
-from .plan import Plan, Unit
+from .plan import Plan, Trial
 from .trial.floor import largest
 from .trial.status import ended_its_process, was_stopped
 from .trial.trial import bind_all
@@ -62,11 +62,11 @@ class Run:
     n_resumed: int = 0
     """Levels that were on disk already when the run began."""
     n_lost: int = 0
-    """How often a unit lost its worker and was played again."""
+    """How often a trial lost its worker and was played again."""
     simulated_s: float = 0.0
     """Length of all levels of the result together [s]."""
 
-    def begin(self) -> list[Unit]:
+    def begin(self) -> list[Trial]:
         """Make the directory, and return the units that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
         self._forget_what_was_stopped()
@@ -77,7 +77,7 @@ class Run:
         """Have units played again whose algorithm took its process with it.
 
         The levels before stay, and are held against those that are played again. Where it did not
-        come back from a call, that is final; but a unit without an end is played again anyhow, and
+        come back from a call, that is final; but a trial without an end is played again anyhow, and
         may go better.
         """
         name = self.plan.algorithm_name
@@ -89,7 +89,7 @@ class Run:
                     journal.cut_back(self.out, unit.index, n)
                     break
 
-    def unfinished(self) -> list[Unit]:
+    def unfinished(self) -> list[Trial]:
         """Return the units whose end is not on disk."""
         return [unit for unit in self.plan.units() if self.stored(unit).end is None]
 
@@ -97,12 +97,12 @@ class Run:
         """Count the levels that are on disk."""
         return sum(self.n_rows(unit) for unit in self.plan.units())
 
-    def n_rows(self, unit: Unit) -> int:
+    def n_rows(self, unit: Trial) -> int:
         """Count the levels of one unit that are on disk."""
         return len(self.stored(unit).rows)
 
-    def head(self, unit: Unit) -> journal.Record:
-        """Say what a unit is: equal heads mean that its rows must be equal."""
+    def head(self, unit: Trial) -> journal.Record:
+        """Say what a trial is: equal heads mean that its rows must be equal."""
         return {
             "inputs": _plain(self.inputs),
             "run": _plain(_run(self.plan, self.renderer)),
@@ -129,8 +129,8 @@ class Run:
             save_data(log, measures[log.measure], self.out, files[log.measure])
         return result
 
-    def stored(self, unit: Unit) -> journal.Stored:
-        """Return what is on disk of a unit; raises ResultError if it is another run's."""
+    def stored(self, unit: Trial) -> journal.Stored:
+        """Return what is on disk of a trial; raises ResultError if it is another run's."""
         if not journal.path_of(self.out, unit.index).exists():
             return journal.NOTHING
         return journal.read(self.out, unit.index, self.head(unit))

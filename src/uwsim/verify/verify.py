@@ -1,10 +1,10 @@
-"""Verifying a result: what is stored is held against itself, and units are played again.
+"""Verifying a result: what is stored is held against itself, and trials are played again.
 
 First, without playing anything, every total is worked out from its row, and every file of the
-result is made anew from what its units stored and compared. Then whole units are replayed from the
-recorded inputs and compared with what is stored: every cell, every sample, every picture, byte for
-byte; where they differ, the fingerprints on the way (`trace`) say from which step on and in which
-body or picture.
+result is made anew from what its trials stored and compared. Then whole trials are replayed from
+the recorded inputs and compared with what is stored: every cell, every sample, every picture, byte
+for byte; where they differ, the fingerprints on the way (`trace`) say from which step on and in
+which body or picture.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ..results.result import Result
 from ..results.result_file import dumps
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
 from ..runs.executors.worker import PICTURES
-from ..runs.plan import Plan, Unit
+from ..runs.plan import Plan, Trial
 from ..runs.run import Run
 from . import differences
 from .derived import contradictions
@@ -43,12 +43,12 @@ class Verification:
     is_steady: bool = True
     """Whether every replay moved, and saw, what the stored run did."""
     is_replayed: bool = True
-    """Whether every replay gave what its unit stored."""
+    """Whether every replay gave what its trial stored."""
     not_compared: list[str] = field(default_factory=list)
     """What is not there to be compared."""
     n_files: int = 0
-    """Files that were made anew from the stored units."""
-    units: tuple[Unit, ...] = ()
+    """Files that were made anew from the stored trials."""
+    units: tuple[Trial, ...] = ()
     """Units that were replayed."""
 
     def add(self, where: str, what: str) -> None:
@@ -56,19 +56,19 @@ class Verification:
         self.differences.append(Difference(where=where, what=what))
 
 
-def finished(directory: Path, plan: Plan, result: Result) -> list[Unit]:
-    """Return the units that are whole: by their files or, without those, by their rows."""
+def finished(directory: Path, plan: Plan, result: Result) -> list[Trial]:
+    """Return the trials that are whole: by their files or, without those, by their rows."""
     units = plan.units()
     if _has_units(directory):
-        files = [journal.path_of(directory, unit.index) for unit in units]
+        files = [journal.path_of(directory, trial.index) for trial in units]
         stored = [journal.read_any(file)[1] for file in files]
-        return [unit for unit, found in zip(units, stored, strict=True) if found.end is not None]
+        return [trial for trial, found in zip(units, stored, strict=True) if found.end is not None]
     rows = _rows_by_level(result, plan)
-    return [unit for unit in units if all(key in rows for key in _keys(unit, plan))]
+    return [trial for trial in units if all(key in rows for key in _keys(trial, plan))]
 
 
-def choose(units: Sequence[Unit], sample: int | None, seed: int) -> tuple[Unit, ...]:
-    """Choose ``sample`` units by chance (None: all), in their order."""
+def choose(units: Sequence[Trial], sample: int | None, seed: int) -> tuple[Trial, ...]:
+    """Choose ``sample`` trials by chance (None: all), in their order."""
     if sample is None or sample >= len(units):
         return tuple(units)
     picked = stream(seed, "verify").choice(len(units), size=sample, replace=False)
@@ -79,7 +79,7 @@ def verify(
     directory: Path,
     result: Result,
     run: Run,
-    units: Sequence[Unit],
+    units: Sequence[Trial],
     *,
     executor: Executor | None = None,
     on_level: OnLevel = lambda: None,
@@ -106,13 +106,13 @@ def verify(
             found.not_compared.append("units/: rows are compared with result.json alone")
         again = replace(run, out=scratch / "replayed")
         again.out.mkdir()
-        queue = JobQueue([Job(again, unit) for unit in units], on_level)
+        queue = JobQueue([Job(again, trial) for trial in units], on_level)
         (executor or SerialExecutor()).play(queue)
         if queue.failure is not None:
             raise queue.failure
         if _has_units(directory):
-            for unit in units:
-                _check_unit(found, directory, again, unit)
+            for trial in units:
+                _check_unit(found, directory, again, trial)
         else:
             _check_rows(found, result, again)
         _check_pictures(found, directory, again.out)
@@ -124,21 +124,21 @@ def _has_units(directory: Path) -> bool:
 
 
 def _check_files(found: Verification, directory: Path, result: Result, run: Run) -> None:
-    """Make every file anew from the stored units, and compare, if they are all there."""
+    """Make every file anew from the stored trials, and compare, if they are all there."""
     gone = _gone(directory, result, run.plan)
-    for unit, what in gone.items():
-        name = journal.path_of(directory, unit.index).name
+    for trial, what in gone.items():
+        name = journal.path_of(directory, trial.index).name
         found.add(f"{journal.FOLDER}/{name}", what)
     if gone:
         found.not_compared.append("result.json and the files beside it: units/ is not whole")
-    for unit in run.plan.units():
-        path = journal.path_of(directory, unit.index)
+    for trial in run.plan.units():
+        path = journal.path_of(directory, trial.index)
         head, stored = journal.read_any(path)
-        if head is None or unit in gone:
+        if head is None or trial in gone:
             continue
-        expected = _head(result, run.head(unit))
+        expected = _head(result, run.head(trial))
         _check_head(found, f"{journal.FOLDER}/{path.name}", head, expected)
-        file = journal.UnitFile(run.out, unit.index, run.head(unit))
+        file = journal.Journal(run.out, trial.index, run.head(trial))
         for row in stored.rows:
             file.add(row)
         if stored.end is not None:
@@ -164,23 +164,23 @@ def _check_files(found: Verification, directory: Path, result: Result, run: Run)
                 found.add(path.name, f"{said} by units/")
 
 
-def _gone(directory: Path, result: Result, plan: Plan) -> dict[Unit, str]:
+def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
     """Units whose rows are in the result but not in their files: what is the matter with each."""
     rows = _rows_by_level(result, plan)
     gone = {}
-    for unit in plan.units():
-        file = journal.path_of(directory, unit.index)
+    for trial in plan.units():
+        file = journal.path_of(directory, trial.index)
         n_stored = len(journal.read_any(file)[1].rows) if file.is_file() else 0
-        n_told = sum(key in rows for key in _keys(unit, plan))
+        n_told = sum(key in rows for key in _keys(trial, plan))
         if n_stored < n_told:
-            name = f"unit {unit.index} (seed {unit.seed})"
+            name = f"unit {trial.index} (seed {trial.seed})"
             what = f"{n_stored} rows can be read" if file.exists() else "is not there"
-            gone[unit] = f"{name}: {what}; result.json has {n_told} of it"
+            gone[trial] = f"{name}: {what}; result.json has {n_told} of it"
     return gone
 
 
 def _head(result: Result, replayed: journal.Record) -> journal.Record:
-    """The head that a unit of a result should have: what it shares with result.json is from there.
+    """The head that a trial of a result should have: what it shares with result.json is from there.
 
     The parameters of a head are those given; result.json says those that the algorithm ran with.
     """
@@ -194,7 +194,7 @@ def _head(result: Result, replayed: journal.Record) -> journal.Record:
 def _check_head(
     found: Verification, where: str, head: journal.Record, expected: journal.Record
 ) -> None:
-    """Compare what a unit says of its run with what result.json does, a line a value."""
+    """Compare what a trial says of its run with what result.json does, a line a value."""
     seen: set[tuple[str | int, ...]] = set()
     for path, before, after in differences.apart(head, expected):
         if path[:2] not in seen:
@@ -223,15 +223,15 @@ def _check_result(found: Verification, result: Result, made: Result) -> None:
         found.add("result.json", f"{where}: {before} there, {after} by units/")
 
 
-def _check_unit(found: Verification, directory: Path, again: Run, unit: Unit) -> None:
-    """Compare a replayed unit with the stored one, level by level."""
+def _check_unit(found: Verification, directory: Path, again: Run, trial: Trial) -> None:
+    """Compare a replayed trial with the stored one, level by level."""
     stored, played = (
-        journal.read_any(journal.path_of(folder, unit.index))[1]
+        journal.read_any(journal.path_of(folder, trial.index))[1]
         for folder in (directory, again.out)
     )
-    name = f"unit {unit.index} (seed {unit.seed})"
+    name = f"unit {trial.index} (seed {trial.seed})"
     before = len(found.differences)
-    for n, level in enumerate(unit.levels):
+    for n, level in enumerate(trial.levels):
         rows = [each.rows[n] if n < len(each.rows) else {} for each in (stored, played)]
         for said in differences.of_row(*rows):
             found.add(f"{name}, level {level}", said)
@@ -290,6 +290,6 @@ def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
     return found
 
 
-def _keys(unit: Unit, plan: Plan) -> list[tuple[float, ...]]:
-    """The keys of `_rows_by_level` for a unit."""
-    return [(float(unit.repeat), *(value for _, value in level.values)) for level in unit.levels]
+def _keys(trial: Trial, plan: Plan) -> list[tuple[float, ...]]:
+    """The keys of `_rows_by_level` for a trial."""
+    return [(float(trial.repeat), *(value for _, value in level.values)) for level in trial.levels]

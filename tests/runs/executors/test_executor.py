@@ -16,11 +16,11 @@ from tests.stored_rows import stored_end, stored_row
 from uwsim.bus import Node
 from uwsim.errors import NeverStarted, RunFailed
 from uwsim.messages import Empty, Image
-from uwsim.results.journal import UnitFile
+from uwsim.results.journal import Journal
 from uwsim.results.result_file import load
 from uwsim.runs.executors import executor
 from uwsim.runs.executors.executor import Job, JobQueue, SerialExecutor, play_all
-from uwsim.runs.executors.processes import ProcessExecutor, portable
+from uwsim.runs.executors.processes import ProcessExecutor, picklable
 from uwsim.simulation import Cut
 
 HERE = "tests.runs.executors.test_executor"
@@ -66,7 +66,7 @@ def test_one_worker_and_two_give_the_same_bytes(benchmark: Path, tmp_path: Path)
 
 @pytest.mark.slow
 def test_a_worker_that_is_killed_leaves_the_same_bytes(benchmark: Path, tmp_path: Path) -> None:
-    """Its unit is sequential: the level that was over is played again and must be the same."""
+    """Its trial is sequential: the level that was over is played again and must be the same."""
     n_levels: list[None] = []
     disturbed = bench_of(benchmark, tmp_path / "a", repeat=2, **mortal(tmp_path, "once"))
     play_all([disturbed], ProcessExecutor(2), on_level=lambda: n_levels.append(None))
@@ -119,7 +119,7 @@ def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
 def jobs(tmp_path: Path, *sizes: int) -> list[Job]:
     """Jobs of one benchmark with so many levels each."""
     plan = SimpleNamespace(algorithm_name="esm")
-    bench = SimpleNamespace(n_rows=lambda unit: 0, n_lost=0, plan=plan)
+    bench = SimpleNamespace(n_rows=lambda trial: 0, n_lost=0, plan=plan)
     levels = [SimpleNamespace(values=(("fog", 0.5),))]
     return [
         Job(bench, SimpleNamespace(index=i, seed=0, levels=levels * size))  # type: ignore[arg-type]
@@ -170,8 +170,8 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
     benchmark: Path, tmp_path: Path, why: str, is_finished: bool, n_left: int
 ) -> None:
     bench = bench_of(benchmark, tmp_path / "out")
-    [unit] = bench.plan.units()
-    file = UnitFile(bench.out, unit.index, bench.head(unit))
+    [trial] = bench.plan.units()
+    file = Journal(bench.out, trial.index, bench.head(trial))
     broken = stored_row(missing={"total": f"esm was stopped at 0.3 s: {why}"})
     for row in (stored_row(), broken, broken):
         file.add(row | {"ended_at": 2.0, "fingerprint": ""})
@@ -179,7 +179,7 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
         file.finish(stored_end(trace={}))
     file.close()
     bench.begin()
-    assert bench.n_rows(unit) == n_left
+    assert bench.n_rows(trial) == n_left
     assert (bench.unfinished() == []) == (n_left == 3)
 
 
@@ -245,7 +245,7 @@ def test_an_error_that_cannot_travel_is_told_all_the_same() -> None:
     try:
         raise Odd("out of focus")
     except Odd as error:
-        back = portable(error)
+        back = picklable(error)
     assert str(back) == "Odd: out of focus"
     assert "test_executor.py" in back.__notes__[-1]
 

@@ -13,7 +13,7 @@ from tests.runs.executors.test_executor import mortal
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from uwsim.errors import BadSetting, MissingExtra
 from uwsim.runs.executors.ray import RayExecutor, Worker, address
-from uwsim.runs.executors.worker import LevelEnded, UnitEnded, UnitFailed
+from uwsim.runs.executors.worker import LevelEnded, TrialEnded, TrialFailed
 
 needs_ray = pytest.mark.skipif(
     importlib.util.find_spec("ray") is None,
@@ -70,10 +70,10 @@ def test_a_cluster_of_two_that_loses_a_worker_gives_the_same_bytes(
 
 def test_a_worker_sends_home_all_that_is_kept(tmp_path: Path) -> None:
     bench = bench_of(write_benchmark(tmp_path, "0.2"), tmp_path / "a", mode="independent")
-    unit = bench.plan.units()[1]
-    level, end = Worker().play(bench, unit, bench.head(unit))
+    trial = bench.plan.units()[1]
+    level, end = Worker().play(bench, trial, bench.head(trial))
     assert isinstance(level, LevelEnded)
-    assert isinstance(end, UnitEnded)
+    assert isinstance(end, TrialEnded)
     [(name, png)] = level.pictures
     assert name == "pictures/00001-bowtech1.png"
     assert png.startswith(b"\x89PNG")
@@ -82,12 +82,12 @@ def test_a_worker_sends_home_all_that_is_kept(tmp_path: Path) -> None:
 
 def test_a_worker_with_other_files_versions_or_renderer_refuses_to_play(tmp_path: Path) -> None:
     bench = bench_of(write_benchmark(tmp_path, "0.2"), tmp_path / "a")
-    unit = bench.plan.units()[0]
-    head = bench.head(unit)
+    trial = bench.plan.units()[0]
+    head = bench.head(trial)
     head["run"]["renderer"] = "a graphics card"
     head["inputs"]["scene"][1] = "sha256:0"
-    [failed] = Worker().play(bench, unit, head)
-    assert isinstance(failed, UnitFailed)
+    [failed] = Worker().play(bench, trial, head)
+    assert isinstance(failed, TrialFailed)
     assert "inputs.scene is ['visibility-scene.xml', 'sha256:" in str(failed.error)
     assert "not 'a graphics card'" in str(failed.error)
 

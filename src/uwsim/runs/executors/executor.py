@@ -1,7 +1,7 @@
-"""Who plays what: the units to be played, and the protocol of those who play them.
+"""Who plays what: the trials to be played, and the protocol of those who play them.
 
-An executor takes units from the queue and tells it what became of them. The queue knows how often
-a unit has lost its worker, and whose units are not worth playing any more; an executor knows
+An executor takes trials from the queue and tells it what became of them. The queue knows how often
+a trial has lost its worker, and whose trials are not worth playing any more; an executor knows
 processors.
 """
 
@@ -20,14 +20,14 @@ from ...interrupts import is_of_user
 from ...results.journal import path_of
 from ...results.result import Result
 from ...simulation import Calls, Cut, Studio
-from ..plan import Plan, Unit
+from ..plan import Plan, Trial
 from ..run import Run
 from ..trial.status import PROCESS_ENDED
-from .worker import Event, Keeper, perform, portable
+from .worker import Event, JournalWriter, picklable, run_trial
 
 OnLevel = Callable[[], None]
 MOST_RETRIES = 3
-"""How often a unit is played again after it has lost its worker."""
+"""How often a trial is played again after it has lost its worker."""
 ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
 """Of a worker, where the user has not said otherwise: no threads beside its own, for there is one
 worker a core."""
@@ -35,25 +35,25 @@ worker a core."""
 
 @dataclass(eq=False)
 class Job:
-    """A unit of one of the benchmarks that are played together."""
+    """A trial of one of the benchmarks that are played together."""
 
     run: Run
-    """Whose unit it is."""
-    unit: Unit
+    """Whose trial it is."""
+    trial: Trial
     """What is to be played."""
     cut: Cut | None = None
     """The call into the algorithm that it did not survive, or did not come back from."""
 
     def __str__(self) -> str:
-        levels = self.unit.levels
+        levels = self.trial.levels
         which = ", ".join(f"{name}={value:g}" for name, value in levels[0].values)
         played = which if len(levels) == 1 else f"{len(levels)} levels"
         name = self.run.plan.algorithm_name
-        return f"unit {self.unit.index} ({name}, seed {self.unit.seed}, {played})"
+        return f"unit {self.trial.index} ({name}, seed {self.trial.seed}, {played})"
 
 
 class Executor(Protocol):
-    """Whoever plays units."""
+    """Whoever plays trials."""
 
     def play(self, queue: JobQueue) -> None:
         """Take jobs from the queue until there are none, and report each."""
@@ -62,7 +62,7 @@ class Executor(Protocol):
 class JobQueue:
     """Jobs that are waiting, in order, and what became of the others.
 
-    Where a unit fails, the rest of its benchmark is not played: it would fail alike. The other
+    Where a trial fails, the rest of its benchmark is not played: it would fail alike. The other
     benchmarks go on.
 
     Args:
@@ -77,7 +77,7 @@ class JobQueue:
         self._on_level = on_level
         self._losses: Counter[Job] = Counter()
         self._calls_lost: set[tuple[Job, int]] = set()
-        self._to_come = {job: len(job.unit.levels) - job.run.n_rows(job.unit) for job in jobs}
+        self._to_come = {job: len(job.trial.levels) - job.run.n_rows(job.trial) for job in jobs}
 
     @property
     def failure(self) -> Exception | None:
@@ -87,7 +87,7 @@ class JobQueue:
     def add(self, job: Job) -> None:
         """Put one more job at the end; it may be one that another has led to."""
         self._waiting.append(job)
-        self._to_come[job] = len(job.unit.levels) - job.run.n_rows(job.unit)
+        self._to_come[job] = len(job.trial.levels) - job.run.n_rows(job.trial)
 
     def __len__(self) -> int:
         """How many jobs are waiting."""
@@ -116,7 +116,7 @@ class JobQueue:
         """Its worker is gone: it is played again, and next, unless that has happened too often.
 
         Where it goes in the same ``call`` once more that is the algorithm's doing: from then on the
-        unit is played without that call.
+        trial is played without that call.
         """
         if call is not None and (job, call) in self._calls_lost:
             self.stopped(job, Cut(call, f"{PROCESS_ENDED} ({why})"))
@@ -138,7 +138,7 @@ class JobQueue:
         )
 
     def stopped(self, job: Job, cut: Cut) -> None:
-        """A call into the algorithm cannot be made: the unit is played again without it."""
+        """A call into the algorithm cannot be made: the trial is played again without it."""
         job.run.n_lost += 1
         job.cut = cut
         self._waiting.appendleft(job)
@@ -167,7 +167,7 @@ def found_by_running(error: Exception) -> Exception:
 
 
 class SerialExecutor:
-    """This process, one unit after the other."""
+    """This process, one trial after the other."""
 
     def play(self, queue: JobQueue) -> None:
         """Play everything."""
@@ -182,7 +182,7 @@ class SerialExecutor:
                 except BaseException as error:
                     if is_of_user(error):
                         raise
-                    queue.failed(job, portable(error))
+                    queue.failed(job, picklable(error))
                 else:
                     queue.done(job)
         finally:
@@ -190,18 +190,18 @@ class SerialExecutor:
 
 
 def play_and_keep(job: Job, studio: Studio, calls: Calls) -> Iterator[Event]:
-    """Play a unit where its result is; yields the levels that were not on disk before."""
-    keeper = Keeper(job.run, job.unit)
+    """Play a trial where its result is; yields the levels that were not on disk before."""
+    writer = JournalWriter(job.run, job.trial)
     here = Path.cwd()  # an algorithm may go elsewhere
     try:
-        for event in perform(job.run.plan, job.unit, studio, calls):
+        for event in run_trial(job.run.plan, job.trial, studio, calls):
             with chdir(here):
-                is_new = keeper.keep(event)
+                is_new = writer.keep(event)
             if is_new:
                 yield event
     finally:
         os.chdir(here)
-        keeper.close()
+        writer.close()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -220,11 +220,11 @@ def play_each(
     """Play what is not finished yet of some benchmarks, and write their results.
 
     Args:
-        runs: what is to be played; their units are spread over the same workers.
+        runs: what is to be played; their trials are spread over the same workers.
         executor: who plays; without one, this process.
         on_level: called for every level that was not on disk before.
     """
-    jobs = [Job(run, unit) for run in runs for unit in run.begin()]
+    jobs = [Job(run, trial) for run in runs for trial in run.begin()]
     queue = JobQueue(jobs, on_level)
     try:
         (executor or SerialExecutor()).play(queue)
@@ -235,12 +235,12 @@ def play_each(
 
 
 def _miss_what_is_gone(runs: Sequence[Run], queue: JobQueue) -> None:
-    """Hold it against a benchmark if a unit that was played is not on disk any more."""
+    """Hold it against a benchmark if a trial that was played is not on disk any more."""
     for run in runs:
-        for unit in run.unfinished()[:1]:
-            name = path_of(run.out, unit.index)
+        for trial in run.unfinished()[:1]:
+            name = path_of(run.out, trial.index)
             said = "was played, but is not whole there any more. Go on with --resume."
-            job = Job(run, unit)
+            job = Job(run, trial)
             queue.failed(job, RunFailed(f"{name}: {job} {said}"))
 
 
@@ -252,7 +252,7 @@ def play_all(
     Raises:
         NeverStarted: a start trigger never went on.
         ResultError: what is stored belongs to another run, or cannot be reproduced.
-        RunFailed: a unit lost its worker too often.
+        RunFailed: a trial lost its worker too often.
         UwsimError: whatever else was the first to go wrong. What is finished is kept, and written.
     """
     outcome = play_each(runs, executor, on_level=on_level)

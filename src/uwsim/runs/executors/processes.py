@@ -2,9 +2,9 @@
 
 They are started with ``spawn`` and write rows where the result is; what they say through their pipe
 is only how far they are. A worker that dies takes nothing with it but the level it was in: a fresh
-one plays its unit again, and has to reproduce the rows that are on disk. No process sees two
+one plays its trial again, and has to reproduce the rows that are on disk. No process sees two
 algorithms. A call into an algorithm that kills its process twice, or does not come back, is left
-out when its unit is played again, and its row says so.
+out when its trial is played again, and its row says so.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from ...interrupts import is_of_user
 from ...simulation import BEFORE, Calls, Counter, Cut, Studio, open_call
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, play_and_keep
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
-from .worker import UnitFailed, portable
+from .worker import TrialFailed, picklable
 
 PATIENCE = 10.0
 """How long a worker without work may take to leave, before it is made to [s]."""
@@ -41,17 +41,17 @@ class LevelKept:
 
 
 @dataclass(frozen=True)
-class UnitDone:
-    """A unit is on disk."""
+class TrialDone:
+    """A trial is on disk."""
 
 
-News = LevelKept | UnitDone | UnitFailed
+News = LevelKept | TrialDone | TrialFailed
 
 
 class ProcessExecutor:
-    """So many processes; a unit that loses its worker is played again by a fresh one.
+    """So many processes; a trial that loses its worker is played again by a fresh one.
 
-    An algorithm of uwsim's own that is alone, with one worker or one unit, is played here: a
+    An algorithm of uwsim's own that is alone, with one worker or one trial, is played here: a
     process would only cost its start.
 
     Args:
@@ -148,7 +148,7 @@ class Worker:
             if isinstance(news, LevelKept):
                 queue.level(self.job)
                 continue
-            if isinstance(news, UnitDone):
+            if isinstance(news, TrialDone):
                 queue.done(self.job)
             else:
                 queue.failed(self.job, news.error)
@@ -217,9 +217,9 @@ def work(pipe: Connection, parent: Connection, counter: Counter) -> None:
             except BaseException as error:
                 if is_of_user(error):
                     raise
-                pipe.send(UnitFailed(portable(error)))
+                pipe.send(TrialFailed(picklable(error)))
             else:
-                pipe.send(UnitDone())
+                pipe.send(TrialDone())
     except (EOFError, OSError):
         pass  # the employer has gone
     finally:

@@ -28,10 +28,10 @@ from ...errors import BadSetting, MissingExtra, RunFailed, UwsimError
 from ...files.scratch import OWNER, scratch_folder
 from ...results import journal
 from ...simulation import Studio
-from ..plan import Unit
+from ..plan import Trial
 from ..run import Run, hash_inputs
 from .executor import ENVIRONMENT, Job, JobQueue
-from .worker import Event, Keeper, UnitEnded, UnitFailed, perform, portable
+from .worker import Event, JournalWriter, TrialEnded, TrialFailed, picklable, run_trial
 
 ADDRESS = "RAY_ADDRESS"
 STORE = 256 * 2**20
@@ -43,7 +43,7 @@ QUIET = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "
 class RayExecutor:
     """Workers on a Ray cluster, one for each of its processors.
 
-    A worker that is lost, with its machine or alone, loses its unit to a fresh one. A cluster made
+    A worker that is lost, with its machine or alone, loses its trial to a fresh one. A cluster made
     here listens to this machine alone, has a token of its own, and leaves nothing behind.
 
     Args:
@@ -95,23 +95,23 @@ class RayExecutor:
                     for events in ready:
                         if self._is_over(events, tasks[events], queue):
                             task = tasks.pop(events)
-                            task.keeper.close()
+                            task.writer.close()
                             if task.is_alive:
                                 idle.append((task.worker, task.job.run.plan.algorithm_name))
             finally:
                 for task in tasks.values():
-                    task.keeper.close()
+                    task.writer.close()
 
     def _is_over(self, events: Any, task: Task, queue: JobQueue) -> bool:
         """Take the next event of a task; returns whether it was the last."""
         errors = self._ray.exceptions
         try:
             event = self._ray.get(next(events))
-            if isinstance(event, UnitFailed):
+            if isinstance(event, TrialFailed):
                 queue.failed(task.job, event.error)
-            elif task.keeper.keep(event):
+            elif task.writer.keep(event):
                 queue.level(task.job)
-            elif isinstance(event, UnitEnded):
+            elif isinstance(event, TrialEnded):
                 queue.done(task.job)
             return False
         except StopIteration:
@@ -197,10 +197,10 @@ class Task:
 
     def begin(self, ray: Any) -> Any:
         """Have it played; returns the events to come."""
-        run, unit = self.job.run, self.job.unit
-        self.keeper = Keeper(run, unit)
+        run, trial = self.job.run, self.job.trial
+        self.writer = JournalWriter(run, trial)
         play = self.worker.play.options(num_returns="streaming")
-        return play.remote(run, unit, run.head(unit))
+        return play.remote(run, trial, run.head(trial))
 
 
 class Worker:
@@ -211,21 +211,21 @@ class Worker:
         self._studio = Studio()
         self._known: list[journal.Record] = []
 
-    def play(self, run: Run, unit: Unit, head: journal.Record) -> Iterator[Event | UnitFailed]:
-        """Play a unit, if this machine is like the one that asks; yields what is to be kept."""
+    def play(self, run: Run, trial: Trial, head: journal.Record) -> Iterator[Event | TrialFailed]:
+        """Play a trial, if this machine is like the one that asks; yields what is to be kept."""
         try:
-            self._check(run, unit, head)
-            yield from perform(run.plan, unit, self._studio)
+            self._check(run, trial, head)
+            yield from run_trial(run.plan, trial, self._studio)
         except Exception as error:
-            yield UnitFailed(portable(error))
+            yield TrialFailed(picklable(error))
 
-    def _check(self, run: Run, unit: Unit, head: journal.Record) -> None:
-        """See to it that the unit would be the same if the driver played it.
+    def _check(self, run: Run, trial: Trial, head: journal.Record) -> None:
+        """See to it that the trial would be the same if the driver played it.
 
         Args:
-            run: whose unit it is.
-            unit: what is to be played.
-            head: the unit's head as the driver wrote it.
+            run: whose trial it is.
+            trial: what is to be played.
+            head: the trial's head as the driver wrote it.
 
         Raises:
             RunFailed: files, versions or the renderer are not the driver's.
@@ -239,7 +239,7 @@ class Worker:
             raise RunFailed(f"Worker on {platform.node()}: {error}") from error
         if run.plan.is_blind:
             renderer = run.renderer
-        here = Run(plan=run.plan, out=run.out, inputs=inputs, renderer=renderer).head(unit)
+        here = Run(plan=run.plan, out=run.out, inputs=inputs, renderer=renderer).head(trial)
         differences = list(_differences({name: here[name] for name in asked}, asked))
         if differences:
             raise RunFailed(

@@ -1,4 +1,4 @@
-"""One unit of work in two halves: performed where there is a processor, kept where the result is.
+"""One trial of work in two halves: performed where there is a processor, kept where the result is.
 
 The two may be on different machines: what goes from one to the other is numbers, text and the bytes
 of pictures, never a path.
@@ -20,9 +20,9 @@ from ...files.file_names import file_names
 from ...results import journal
 from ...simulation import Calls, Studio
 from ..input_watch import Watch
-from ..plan import Plan, Unit
+from ..plan import Plan, Trial
 from ..run import Run
-from ..trial.trial import Row, UnitEnd, play
+from ..trial.trial import Row, TrialEnd, play
 
 PICTURES = "pictures"
 
@@ -38,41 +38,43 @@ class LevelEnded:
 
 
 @dataclass(frozen=True, kw_only=True)
-class UnitEnded:
-    """A unit is over."""
+class TrialEnded:
+    """A trial is over."""
 
     record: journal.Record
     """What it knows beside its rows."""
 
 
 @dataclass(frozen=True)
-class UnitFailed:
-    """A unit cannot be played."""
+class TrialFailed:
+    """A trial cannot be played."""
 
     error: Exception
     """Why, as it was raised over there."""
 
 
-Event = LevelEnded | UnitEnded
+Event = LevelEnded | TrialEnded
 
 
-def perform(plan: Plan, unit: Unit, studio: Studio, calls: Calls | None = None) -> Iterator[Event]:
-    """Play a unit; yields each level as it ends, and at last the end of the unit.
+def run_trial(
+    plan: Plan, trial: Trial, studio: Studio, calls: Calls | None = None
+) -> Iterator[Event]:
+    """Play a trial; yields each level as it ends, and at last the end of the trial.
 
     Args:
         plan: what is played.
-        unit: one of its units.
+        trial: one of its trials.
         studio: lends the renderer.
         calls: counts those into the algorithm.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    for n, played in enumerate(play(plan, unit, studio=studio, calls=calls)):
-        if isinstance(played, UnitEnd):
-            yield UnitEnded(record=_end(played))
+    for n, played in enumerate(play(plan, trial, studio=studio, calls=calls)):
+        if isinstance(played, TrialEnd):
+            yield TrialEnded(record=_end(played))
         else:
-            row = unit.index * len(unit.levels) + n
+            row = trial.index * len(trial.levels) + n
             files = file_names(shot.camera for shot in played.shots)
             pictures = {
                 camera: f"{PICTURES}/{row:05d}-{file}.png" for camera, file in files.items()
@@ -83,23 +85,23 @@ def perform(plan: Plan, unit: Unit, studio: Studio, calls: Calls | None = None) 
             )
 
 
-class Keeper:
-    """Puts on disk what a unit yields, and holds what is there already against it.
+class JournalWriter:
+    """Puts on disk what a trial yields, and holds what is there already against it.
 
     Raises:
         ReplayDiffers: a row played again differs from the one stored.
         RunFailed: a file of the run was changed.
     """
 
-    def __init__(self, run: Run, unit: Unit) -> None:
+    def __init__(self, run: Run, trial: Trial) -> None:
         self._out = run.out
         self._watch = Watch(run.files)
-        self._file = journal.UnitFile(run.out, unit.index, run.head(unit))
+        self._file = journal.Journal(run.out, trial.index, run.head(trial))
 
     def keep(self, event: Event) -> bool:
         """Keep it; returns whether it is a level that was not on disk before."""
         self._watch.check()
-        if isinstance(event, UnitEnded):
+        if isinstance(event, TrialEnded):
             self._file.finish(event.record)
             return False
         for name, png in event.pictures:
@@ -110,11 +112,11 @@ class Keeper:
         return self._file.add(event.record)
 
     def close(self) -> None:
-        """Close the unit's file; what was kept is on disk."""
+        """Close the trial's file; what was kept is on disk."""
         self._file.close()
 
 
-def portable(error: BaseException) -> Exception:
+def picklable(error: BaseException) -> Exception:
     """Return the error with its traceback as a note, or one that says the same and travels."""
     error.add_note("".join(traceback.format_exception(error)).rstrip())
     try:
@@ -159,7 +161,7 @@ def _record(played: Row, pictures: dict[str, str]) -> journal.Record:
     }
 
 
-def _end(played: UnitEnd) -> journal.Record:
+def _end(played: TrialEnd) -> journal.Record:
     return {
         "facts": {name: list(fact) for name, fact in played.facts.items()},
         "parameters": played.parameters,

@@ -32,7 +32,7 @@ from ...errors import NeverStarted, RunFailed, UwsimError
 from ...interrupts import is_of_user
 from ...messages import String
 from ...simulation import Calls, Simulation, Studio, what_broke
-from ..plan import Plan, Unit
+from ..plan import Plan, Trial
 from .fingerprint import Trace, Tracer
 from .floor import Floor
 from .known_corners import known_corners
@@ -82,7 +82,7 @@ class Row:
 
 
 @dataclass(frozen=True, kw_only=True)
-class UnitEnd:
+class TrialEnd:
     """What a unit knows when it is done, beside its rows."""
 
     facts: dict[str, Fact]
@@ -98,8 +98,8 @@ class UnitEnd:
 
 
 def play(
-    plan: Plan, unit: Unit, *, studio: Studio | None = None, calls: Calls | None = None
-) -> Iterator[Row | UnitEnd]:
+    plan: Plan, unit: Trial, *, studio: Studio | None = None, calls: Calls | None = None
+) -> Iterator[Row | TrialEnd]:
     """Play a unit; yields a Row as each level ends, and at last the UnitEnd.
 
     Args:
@@ -147,7 +147,7 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
 class _Playing:
     """A unit while it is played."""
 
-    def __init__(self, plan: Plan, unit: Unit, simulation: Simulation, calls: Calls) -> None:
+    def __init__(self, plan: Plan, unit: Trial, simulation: Simulation, calls: Calls) -> None:
         self._plan, self._unit, self._simulation = plan, unit, simulation
         benchmark = benchmark_of_seed(plan.benchmark, unit.seed)
         self._updater = benchmark.scene_updater
@@ -175,7 +175,7 @@ class _Playing:
         self._notes: dict[str, None] = {}
         self._n_measured = 0  # steps of the levels so far
 
-    def rows(self) -> Iterator[Row | UnitEnd]:
+    def rows(self) -> Iterator[Row | TrialEnd]:
         """Play the levels."""
         plan, simulation = self._plan, self._simulation
         simulation.open()
@@ -204,7 +204,7 @@ class _Playing:
                 floor.end()
             yield row
             before = level
-        yield UnitEnd(
+        yield TrialEnd(
             facts=facts
             | (shift.facts if shift is not None else {})
             | (floor.facts if floor is not None else {}),
