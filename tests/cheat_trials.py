@@ -32,7 +32,7 @@ from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, floats
 from uwsim.results.result import Result
-from uwsim.runs.executors.executor import Outcome, play_each
+from uwsim.runs.executors.executor import Outcome, run_each
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.run import Run
 from uwsim.scene.reader import read_scene
@@ -231,7 +231,7 @@ def trial(folder: Path, cheats: Sequence[type[Holds]], *, seed: int, length: flo
     """Play them with one worker, `Holds` before and behind."""
     players = (Holds, *cheats, HoldsAfterwards)
     benches = [bench_of(folder, player, seed=seed, length=length) for player in players]
-    return play_each(benches, ProcessExecutor(1, callback_limit=60.0))
+    return run_each(benches, ProcessExecutor(1, callback_limit=60.0))
 
 
 def by_name(outcome: Outcome) -> dict[str, Result]:

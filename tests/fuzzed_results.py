@@ -22,7 +22,7 @@ from uwsim.results.interrupted import instead_of_a_result, resuming
 from uwsim.results.journal_check import check_rows
 from uwsim.results.provenance import machine, save_provenance
 from uwsim.results.result_file import load
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.run import Run
 from uwsim.terminal import printable
 from uwsim.verify.recorded_plan import Given, check_inputs, plan_of
@@ -53,7 +53,7 @@ def made(folder: Path) -> Sound:
     benchmark = write_benchmark(folder, "0.1")
     levels = ["fog=0", "fog=0.4"]
     bench = bench_of(benchmark, folder / "out", mode="independent", levels=levels)
-    play_all([bench])
+    run_all([bench])
     command = ["bench", str(benchmark), "--algorithm", "esm", "--out", "out"]
     save_provenance({"command": command, "wall_s": 1.0, **machine()}, folder / "out")
     shutil.copytree(folder / "out", folder / "other")

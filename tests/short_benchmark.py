@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from uwsim.results.result import Result
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.run import Run, hash_inputs
 
@@ -73,7 +73,7 @@ def bench_of(
 
 
 def run(benchmark: Path, out: Path, **options: Any) -> Result:
-    return play_all([bench_of(benchmark, out, **options)])[0]
+    return run_all([bench_of(benchmark, out, **options)])[0]
 
 
 def fingerprint(out: Path) -> dict[str, str]:

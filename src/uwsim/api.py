@@ -92,7 +92,7 @@ def bench(
     from .cli.executor import CALLBACK_LIMIT, executor_of
     from .results.directory import check as check_directory
     from .results.inputs import without_algorithm
-    from .runs.executors.executor import play_all
+    from .runs.executors.executor import run_all
     from .runs.inputs_read import of_algorithm
     from .runs.make_plan import make_plan
     from .runs.run import Run, hash_inputs
@@ -124,7 +124,7 @@ def bench(
             inputs={**without_algorithm(inputs), **of_algorithm(plan)},
             renderer=renderer,
         )
-        (result,) = play_all([run], executor)
+        (result,) = run_all([run], executor)
     return result
 
 

@@ -12,7 +12,7 @@ from uwsim.assets.bundled import bundled
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.runs.plan import Plan
-from uwsim.runs.trial.trial import Row, play
+from uwsim.runs.trial.trial import Row, execute
 from uwsim.scene.reader import read_scene
 from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
 from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
@@ -51,7 +51,7 @@ def rows(
         parameters=given,  # type: ignore[arg-type]
         is_blind=True,
     )
-    return [row for unit in plan.units() for row in play(plan, unit) if isinstance(row, Row)]
+    return [row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, Row)]
 
 
 @pytest.mark.parametrize(("drive", "topic"), [("twist_topic", "/twist"), ("odom_topic", "/odom")])

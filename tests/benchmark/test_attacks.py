@@ -16,7 +16,7 @@ from uwsim.bus import Node
 from uwsim.errors import NotAllowed
 from uwsim.messages import Float32MultiArray, PoseStamped, floats, header
 from uwsim.results.result import Result
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.run import Run
 from uwsim.simulation import outbox
@@ -145,7 +145,7 @@ def test_an_algorithm_that_dies_or_hangs_or_falsifies_does_so_to_itself_alone(
     tmp_path: Path,
 ) -> None:
     benches = [bench_of(tmp_path, algorithm) for algorithm in (Dies, Hangs, Patches, Honest)]
-    dead, hanging, patched, honest = play_all(benches, ProcessExecutor(1, callback_limit=5.0))
+    dead, hanging, patched, honest = run_all(benches, ProcessExecutor(1, callback_limit=5.0))
     died = "Dies was stopped at 0.4 s: its process ended (with exit status 0)"
     assert reasons(dead) == [died, died]
     hung = "Hangs was stopped at 0.4 s: a callback took longer than --callback-limit"
@@ -153,5 +153,5 @@ def test_an_algorithm_that_dies_or_hangs_or_falsifies_does_so_to_itself_alone(
     assert patched.values("total") == (0.0, 0.0)  # in its own process nothing keeps it from that
     assert honest.values("total") == (1.0, 1.0)
     (tmp_path / "immortal").touch()
-    again = play_all([bench_of(tmp_path, Dies)], ProcessExecutor(1))[0]
+    again = run_all([bench_of(tmp_path, Dies)], ProcessExecutor(1))[0]
     assert reasons(again) == ["no value for e"] * 2

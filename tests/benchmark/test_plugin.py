@@ -17,7 +17,7 @@ from uwsim.benchmark.plugin import Plugin, blamed, read_plugin
 from uwsim.cli import main
 from uwsim.errors import BadSetting, PluginError, RunFailed
 from uwsim.results.result import Result
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
@@ -174,7 +174,7 @@ def test_a_benchmark_of_nothing_but_own_parts_is_played_by_two_workers(folder: P
     plan = plan_of("b.xml", folder / "parts.py")
     inputs, renderer = hash_inputs(plan)
     run = Run(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
-    [result] = play_all([run], ProcessExecutor(2))
+    [result] = run_all([run], ProcessExecutor(2))
     assert result.values("murk") == (0.0, 0.5)
     assert result.columns[0].unit == "1/m"
     assert result.numbers("steps") == (100.0, 100.0)  # on at its first step: 0.1 s / 2 ms, twice
@@ -355,7 +355,7 @@ def play(folder: Path, was: str, now: str) -> Result:
     plan = plan_of("b.xml", folder / "parts.py", levels=["murk=0"])
     inputs, renderer = hash_inputs(plan)
     bench = Run(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
-    return play_all([bench])[0]
+    return run_all([bench])[0]
 
 
 def test_a_measure_that_raises_ends_the_run_with_its_line(folder: Path) -> None:

@@ -18,7 +18,7 @@ from uwsim.cli import main
 from uwsim.results.leaves import leaves
 from uwsim.results.provenance import save_provenance
 from uwsim.results.result_file import load
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.run import Run, hash_inputs
 from uwsim.simulation import Simulation
@@ -62,7 +62,7 @@ def played(tmp_path_factory: pytest.TempPathFactory) -> Path:
         settings=["algorithm.zncc_threshold=0.4"], compat=[], data_path=(),
     )  # fmt: skip
     inputs, renderer = hash_inputs(plan)
-    play_all([Run(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)])
+    run_all([Run(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)])
     return folder
 
 

@@ -26,7 +26,7 @@ from uwsim.errors import ResultError
 from uwsim.geometry import Array
 from uwsim.results.log import Log, load_log
 from uwsim.results.result import Result
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.run import Run, hash_inputs
 
@@ -143,7 +143,7 @@ def play(algorithm: str, out: Path, *settings: str) -> Station:
         data_path=(),
     )
     inputs, renderer = hash_inputs(plan)
-    [result] = play_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
+    [result] = run_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
     assert result.values("status") == ("ok",)
     names = ("centroid", "objectCentered", "offset")
     logs = {name: load_log(out / f"measure-{name}.csv") for name in names}

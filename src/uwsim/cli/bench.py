@@ -171,7 +171,7 @@ def bench(
     if said is not None:
         print(said, file=sys.stderr)
     with running(), prepared(directory, resume=resume, overwrite=overwrite, results=folders):
-        play_and_finish(runs, executor, workers, watch, context.obj)
+        run_and_finish(runs, executor, workers, watch, context.obj)
 
 
 def with_sources(bench: Run, files: Sequence[InputFile]) -> Run:
@@ -189,7 +189,7 @@ def with_sources(bench: Run, files: Sequence[InputFile]) -> Run:
     return replace(bench, inputs=inputs, files=watchable([*files, *sources]))
 
 
-def play_and_finish(
+def run_and_finish(
     runs: Sequence[Run],
     executor: Executor,
     workers: str,
@@ -200,7 +200,7 @@ def play_and_finish(
 
     Args:
         runs: an algorithm each.
-        executor: who plays.
+        executor: who executes the trials.
         workers: the same, as it was said.
         watch: started with the command.
         command: what was typed behind ``uwsim``.
@@ -219,7 +219,7 @@ def play_and_finish(
         controls = [control_of(run) for run in runs if wants_control(run)]
         if controls:
             background.ask(controls[0])
-        outcome = play_with_progress(runs, executor, n_at_once(workers))
+        outcome = run_with_progress(runs, executor, n_at_once(workers))
         failed = {id(run) for run, _ in outcome.failures}
         if controls and len(failed) < len(runs):
             wait_for_controls(background, controls)
@@ -292,16 +292,16 @@ def refuse_if_a_process_ended(runs: Sequence[Run], results: Sequence[Result]) ->
         raise RunFailed(f"{'; '.join(ended)}. Rows are kept; --resume tries those again.")
 
 
-def play_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> Outcome:
+def run_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> Outcome:
     """Play one benchmark, with an algorithm each, and show how far it is."""
-    from ..runs.executors.executor import play_each
+    from ..runs.executors.executor import run_each
 
     names = ", ".join(run.plan.algorithm_name for run in runs)
     title = f"{Path(runs[0].plan.benchmark.path).stem} ({names})"
     total = sum(len(unit.levels) for run in runs for unit in run.plan.units())
     done = sum(run.n_finished() for run in runs)
     with progress(title, total, done=done, of="levels", at_once=at_once) as on_level:
-        return play_each(runs, executor, on_level=on_level)
+        return run_each(runs, executor, on_level=on_level)
 
 
 def control_of(run: Run) -> Run:

@@ -48,7 +48,7 @@ def n_at_once(workers: str) -> int:
 
 
 def executor_of(workers: str, callback_limit: float) -> Executor:
-    """Return who plays.
+    """Return who executes the trials.
 
     Args:
         workers: how many, or ``ray``.

@@ -72,7 +72,7 @@ class Evaluations:
             UwsimError: a run could not be played.
         """
         queue = _JobQueue(self, strategy, on_run)
-        executor.play(queue)
+        executor.execute(queue)
         if queue.failure is not None:
             raise queue.failure
         assert queue.found is not None

@@ -1,7 +1,7 @@
 """A whole benchmark: what is to be played, and one result out of what was.
 
 Rows go to disk as levels end (`unit_file`); when the run is over, or breaks, they are put together
-in the order of the plan. Whoever played them (`executor`), killed and resumed or not: the same
+in the order of the plan. Whoever executeed them (`executor`), killed and resumed or not: the same
 bytes.
 """
 

@@ -91,7 +91,7 @@ def verify(
         result: as it was read.
         run: the same run anew, from the recorded inputs; its directory is not used.
         units: what to replay.
-        executor: who plays; without one, this process.
+        executor: who executes the trials; without one, this process.
         on_level: called for every level played.
 
     Raises:
@@ -107,7 +107,7 @@ def verify(
         again = replace(run, out=scratch / "replayed")
         again.out.mkdir()
         queue = JobQueue([Job(again, trial) for trial in units], on_level)
-        (executor or SerialExecutor()).play(queue)
+        (executor or SerialExecutor()).execute(queue)
         if queue.failure is not None:
             raise queue.failure
         if _has_units(directory):

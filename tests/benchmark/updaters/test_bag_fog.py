@@ -22,7 +22,7 @@ from uwsim.messages import picture as pixels_of
 from uwsim.messages.bag_camera import Frame
 from uwsim.rendering.water import Water, apply_water
 from uwsim.runs.plan import Plan
-from uwsim.runs.trial.trial import TrialEnd, play
+from uwsim.runs.trial.trial import TrialEnd, execute
 
 TIMES = (0.0, 0.1, 0.25)
 COLOUR = (0.1, 0.4, 0.7)
@@ -316,7 +316,7 @@ def test_in_a_sequence_the_replay_lives_on_and_the_scenes_fog_colour_counts(
 def test_an_independent_level_begins_with_the_first_picture(tmp_path: Path) -> None:
     plan = a_plan(tmp_path, mode="independent")
     for unit, fog in zip(plan.units(), (0.0, 0.5), strict=True):
-        list(play(plan, unit))
+        list(execute(plan, unit))
         level = [(time, pixels) for time, pixels in Watches.seen if time > 2.0001]
         assert [round(time, 3) for time, _ in level] == [2.002, 2.1, 2.25, 2.376]
         for (_, pixels), index in zip(level, (0, 1, 2, 0), strict=True):
@@ -329,7 +329,7 @@ def test_an_independent_level_begins_with_the_first_picture(tmp_path: Path) -> N
 def test_the_result_tells_how_many_pictures_it_showed_and_their_hash(tmp_path: Path) -> None:
     plan = a_plan(tmp_path)
     (unit,) = plan.units()
-    ends = [next(x for x in play(plan, unit) if isinstance(x, TrialEnd)) for _ in range(2)]
+    ends = [next(x for x in execute(plan, unit) if isinstance(x, TrialEnd)) for _ in range(2)]
     assert ends[0].streams == ends[1].streams
     ((topic, n_frames, sha256),) = ends[0].streams
     assert (topic, n_frames, len(sha256)) == (IMAGE, 8, 64)

@@ -19,7 +19,7 @@ from uwsim.messages import Empty, Image
 from uwsim.results.journal import Journal
 from uwsim.results.result_file import load
 from uwsim.runs.executors import executor
-from uwsim.runs.executors.executor import Job, JobQueue, SerialExecutor, play_all
+from uwsim.runs.executors.executor import Job, JobQueue, SerialExecutor, run_all
 from uwsim.runs.executors.processes import ProcessExecutor, picklable
 from uwsim.simulation import Cut
 
@@ -58,7 +58,7 @@ def test_one_worker_and_two_give_the_same_bytes(benchmark: Path, tmp_path: Path)
     n_levels: list[None] = []
     run(benchmark, tmp_path / "one", repeat=2)
     two = bench_of(benchmark, tmp_path / "two", repeat=2)
-    play_all([two], ProcessExecutor(2), on_level=lambda: n_levels.append(None))
+    run_all([two], ProcessExecutor(2), on_level=lambda: n_levels.append(None))
     assert fingerprint(tmp_path / "one") == fingerprint(tmp_path / "two")
     assert load(tmp_path / "one").values("seed") == (1, 1, 1, 2, 2, 2)
     assert len(n_levels) == 6
@@ -69,7 +69,7 @@ def test_a_worker_that_is_killed_leaves_the_same_bytes(benchmark: Path, tmp_path
     """Its trial is sequential: the level that was over is played again and must be the same."""
     n_levels: list[None] = []
     disturbed = bench_of(benchmark, tmp_path / "a", repeat=2, **mortal(tmp_path, "once"))
-    play_all([disturbed], ProcessExecutor(2), on_level=lambda: n_levels.append(None))
+    run_all([disturbed], ProcessExecutor(2), on_level=lambda: n_levels.append(None))
     assert (tmp_path / "immortal").exists()
     run(benchmark, tmp_path / "b", repeat=2, **mortal(tmp_path, "once"))
     assert fingerprint(tmp_path / "a") == fingerprint(tmp_path / "b")
@@ -82,13 +82,13 @@ def test_what_kills_every_worker_is_said_in_its_row_and_tried_again_when_resumed
 ) -> None:
     deadly = bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))
     good = bench_of(benchmark, tmp_path / "good", repeat=2)
-    result, _ = play_all([deadly, good], ProcessExecutor(2))
+    result, _ = run_all([deadly, good], ProcessExecutor(2))
     assert result.values("status") == ("ok", "algorithm error", "algorithm error")
     said = f"{HERE}:Mortal was stopped at 0.268 s: its process ended (killed by SIGKILL)"
     assert result.why(1, "total") == result.why(2, "total") == said
     assert load(tmp_path / "good").values("status") == ("ok",) * 6
     (tmp_path / "immortal").touch()
-    play_all([bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))])
+    run_all([bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))])
     run(benchmark, tmp_path / "b", **mortal(tmp_path, "always"))
     assert fingerprint(tmp_path / "deadly") == fingerprint(tmp_path / "b")
 
@@ -111,7 +111,7 @@ def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
     absent = bench_of(benchmark, tmp_path / "absent", algorithm=f"{HERE}:Absent", repeat=2)
     good = bench_of(benchmark, tmp_path / "good")
     with pytest.raises(NeverStarted, match="10 s of simulation time"):
-        play_all([absent, good], executor)
+        run_all([absent, good], executor)
     assert load(tmp_path / "absent").rows == ()
     assert len(load(tmp_path / "good").rows) == 3
 
@@ -220,7 +220,7 @@ def test_a_unit_that_is_gone_when_all_are_played_is_missed_and_played_with_resum
     benchmark: Path, tmp_path: Path
 ) -> None:
     whole, out = tmp_path / "whole", tmp_path / "out"
-    play_all([bench_of(benchmark, whole, mode="independent")])
+    run_all([bench_of(benchmark, whole, mode="independent")])
     first, told = out / "units" / "00000.jsonl", []
 
     def harm() -> None:
@@ -231,9 +231,9 @@ def test_a_unit_that_is_gone_when_all_are_played_is_missed_and_played_with_resum
     bench = bench_of(benchmark, out, mode="independent")
     said = r"units/00000\.jsonl: unit 0 .* is not whole there any more\. Go on with --resume\.$"
     with pytest.raises(RunFailed, match=said):
-        play_all([bench], on_level=harm)
+        run_all([bench], on_level=harm)
     assert len(load(out).rows) == 2
-    play_all([bench])
+    run_all([bench])
     assert fingerprint(out) == fingerprint(whole)
 
 

@@ -24,7 +24,7 @@ import sys
 from pathlib import Path
 from tests.short_benchmark import bench_of
 from tests.runs.executors.test_executor import mortal
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.ray import RayExecutor
 
 folder = Path(sys.argv[1])
@@ -33,7 +33,7 @@ benches = [
     bench_of(folder / "short.xml", folder / "mortal", **mortal(folder, "once")),
 ]
 levels = []
-play_all(benches, RayExecutor(cpus=2), on_level=lambda: levels.append(1))
+run_all(benches, RayExecutor(cpus=2), on_level=lambda: levels.append(1))
 print(len(levels), "levels,", sum(bench.n_lost for bench in benches), "lost")
 """
 
@@ -71,7 +71,7 @@ def test_a_cluster_of_two_that_loses_a_worker_gives_the_same_bytes(
 def test_a_worker_sends_home_all_that_is_kept(tmp_path: Path) -> None:
     bench = bench_of(write_benchmark(tmp_path, "0.2"), tmp_path / "a", mode="independent")
     trial = bench.plan.units()[1]
-    level, end = Worker().play(bench, trial, bench.head(trial))
+    level, end = Worker().execute(bench, trial, bench.head(trial))
     assert isinstance(level, LevelEnded)
     assert isinstance(end, TrialEnded)
     [(name, png)] = level.pictures
@@ -86,7 +86,7 @@ def test_a_worker_with_other_files_versions_or_renderer_refuses_to_play(tmp_path
     head = bench.head(trial)
     head["run"]["renderer"] = "a graphics card"
     head["inputs"]["scene"][1] = "sha256:0"
-    [failed] = Worker().play(bench, trial, head)
+    [failed] = Worker().execute(bench, trial, head)
     assert isinstance(failed, TrialFailed)
     assert "inputs.scene is ['visibility-scene.xml', 'sha256:" in str(failed.error)
     assert "not 'a graphics card'" in str(failed.error)

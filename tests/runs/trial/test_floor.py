@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.short_benchmark import bench_of, write_benchmark
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.trial.floor import crossing, homography, largest, through
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -52,7 +52,7 @@ def test_a_tracker_in_clear_water_scores_about_the_floor(
 ) -> None:
     file = write_benchmark(tmp_path, "1.0")
     file.write_text(file.read_text().replace("visibility-scene.xml", scene))
-    [result] = play_all([bench_of(file, tmp_path / "o", levels=["fog=0"])])
+    [result] = run_all([bench_of(file, tmp_path / "o", levels=["fog=0"])])
     found = result.fact("floor_corners")
     assert found is not None
     assert least <= found[0] <= most

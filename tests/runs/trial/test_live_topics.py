@@ -97,7 +97,7 @@ def test_an_independent_level_hears_of_its_own_scene_once(tmp_path: Path) -> Non
         plan.units(), ([], ["Updated scene 2"], ["Updated scene 1"], ["Updated scene 1"]),
         strict=True,
     ):  # fmt: skip
-        list(trial.play(plan, unit))
+        list(trial.execute(plan, unit))
         assert [text for _, text in Listens.info if text] == expected
 
 

@@ -9,7 +9,7 @@ import pytest
 from tests.short_benchmark import bench_of, write_benchmark
 from uwsim.benchmark.measures import Measure
 from uwsim.results.log import load_log, logs_of
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.trial.log_columns import log_columns
 
 
@@ -63,7 +63,7 @@ def test_logs_that_are_written_have_units(tmp_path: Path) -> None:
     file = write_benchmark(tmp_path, "0.2")
     timed = "<name>taskTime</name> <log>0.1</log>"
     file.write_text(file.read_text().replace("<name>taskTime</name>", timed))
-    play_all([bench_of(file, tmp_path / "o", levels=["fog=0"])])
+    run_all([bench_of(file, tmp_path / "o", levels=["fog=0"])])
     headers = {log.measure: log.header for log in map(load_log, logs_of(tmp_path / "o"))}
     assert headers["taskTime"] == ("fog [1/m]", "time [s]", "value [s]")
     assert headers["corners"][:4] == ("fog [1/m]", "time [s]", "total [px]", "nw_x [px]")

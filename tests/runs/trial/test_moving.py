@@ -18,11 +18,11 @@ from uwsim.messages import (
     floats,
     picture,
 )
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
 from uwsim.runs.run import Run, hash_inputs
-from uwsim.runs.trial.trial import Row, play
+from uwsim.runs.trial.trial import Row, execute
 
 TRACKERS = ("ecc", "esm", "ic", "orb", "ssd-esm")
 
@@ -61,7 +61,7 @@ def test_guesses_published_in_a_burst_score_what_they_are_worth(tmp_path: Path) 
 def blind(algorithm: str, out: Path) -> dict[str, float]:
     """Play the clear level without drawing anything; returns the measures."""
     plan = replace(plan_of(algorithm, ["fog=0"]), is_blind=True)
-    [row] = [row for row in play(plan, plan.units()[0]) if isinstance(row, Row)]
+    [row] = [row for row in execute(plan, plan.units()[0]) if isinstance(row, Row)]
     assert row.status == "ok"
     return {name: value for name, (value, _) in row.measures.items() if value is not None}
 
@@ -101,7 +101,7 @@ def test_in_clear_water_a_tracker_beats_a_blob_of_colour(tmp_path: Path) -> None
 def totals(algorithm: str, out: Path) -> dict[float, float | None]:
     plan = plan_of(algorithm, ["fog=0", "fog=0.9"])
     inputs, renderer = hash_inputs(plan)
-    [result] = play_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
+    [result] = run_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
     fogs = [value for value in result.numbers("fog") if value is not None]
     return dict(zip(fogs, result.numbers("total"), strict=True))
 

@@ -22,7 +22,7 @@ from uwsim.messages import (
     point_cloud,
 )
 from uwsim.messages import Pose as PoseMessage
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 from uwsim.runs.run import Run
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
@@ -91,7 +91,7 @@ def test_what_an_algorithm_said_when_it_started_holds_for_every_level(tmp_path: 
         tmp_path, Guides, TWICE, measures=MEASURES, function="<function>path</function>",
         scene=scene(),
     )  # fmt: skip
-    [result] = play_all([Run(plan=plan, out=tmp_path / "out", inputs={}, renderer="none")])
+    [result] = run_all([Run(plan=plan, out=tmp_path / "out", inputs={}, renderer="none")])
     assert result.values("status") == ("ok", "ok")
     for level in range(2):
         assert result.numbers("goal")[level] == pytest.approx(3.0)

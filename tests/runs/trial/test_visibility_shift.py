@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.short_benchmark import bench_of, write_benchmark
-from uwsim.runs.executors.executor import play_all
+from uwsim.runs.executors.executor import run_all
 
 
 @pytest.mark.parametrize(
@@ -18,7 +18,7 @@ def test_the_result_says_how_far_the_target_moved(
     file = write_benchmark(tmp_path, "0.5")
     file.write_text(file.read_text().replace("visibility-scene.xml", scene))
     bench = bench_of(file, tmp_path / "o", mode="independent", levels=["fog=0"])
-    [result] = play_all([bench])
+    [result] = run_all([bench])
     found = result.fact("shift")
     assert found is not None
     assert least <= found[0] <= most

@@ -18,7 +18,7 @@ from typing import Self
 from ...benchmark.plugin import raised
 from ...errors import RunFailed, UwsimError
 from ..run import Run
-from .executor import play_all
+from .executor import run_all
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 
 Job = Run | Path
@@ -93,7 +93,7 @@ def _done(job: Job, reporter: Reporter) -> str | None:
     """Do it; returns why it could not be done."""
     try:
         if isinstance(job, Run):
-            play_all([job])
+            run_all([job])
         else:
             reporter()(job)
     except UwsimError as error:

@@ -55,7 +55,7 @@ class Job:
 class Executor(Protocol):
     """Whoever plays trials."""
 
-    def play(self, queue: JobQueue) -> None:
+    def execute(self, queue: JobQueue) -> None:
         """Take jobs from the queue until there are none, and report each."""
 
 
@@ -169,13 +169,13 @@ def found_by_running(error: Exception) -> Exception:
 class SerialExecutor:
     """This process, one trial after the other."""
 
-    def play(self, queue: JobQueue) -> None:
+    def execute(self, queue: JobQueue) -> None:
         """Play everything."""
         studio = Studio()
         try:
             while (job := queue.take()) is not None:
                 try:
-                    for _ in play_and_keep(job, studio, Calls()):
+                    for _ in run_and_record(job, studio, Calls()):
                         queue.level(job)
                 except Exception as error:
                     queue.failed(job, error)
@@ -189,7 +189,7 @@ class SerialExecutor:
             studio.close()
 
 
-def play_and_keep(job: Job, studio: Studio, calls: Calls) -> Iterator[Event]:
+def run_and_record(job: Job, studio: Studio, calls: Calls) -> Iterator[Event]:
     """Play a trial where its result is; yields the levels that were not on disk before."""
     writer = JournalWriter(job.run, job.trial)
     here = Path.cwd()  # an algorithm may go elsewhere
@@ -214,20 +214,20 @@ class Outcome:
     """Who could not be played to the end, and why, in the order in which it happened."""
 
 
-def play_each(
+def run_each(
     runs: Sequence[Run], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
 ) -> Outcome:
     """Play what is not finished yet of some benchmarks, and write their results.
 
     Args:
         runs: what is to be played; their trials are spread over the same workers.
-        executor: who plays; without one, this process.
+        executor: who executes the trials; without one, this process.
         on_level: called for every level that was not on disk before.
     """
     jobs = [Job(run, trial) for run in runs for trial in run.begin()]
     queue = JobQueue(jobs, on_level)
     try:
-        (executor or SerialExecutor()).play(queue)
+        (executor or SerialExecutor()).execute(queue)
         _miss_what_is_gone(runs, queue)
     finally:
         results = tuple(run.write() for run in runs)
@@ -244,10 +244,10 @@ def _miss_what_is_gone(runs: Sequence[Run], queue: JobQueue) -> None:
             queue.failed(job, RunFailed(f"{name}: {job} {said}"))
 
 
-def play_all(
+def run_all(
     runs: Sequence[Run], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
 ) -> tuple[Result, ...]:
-    """Play as `play_each`, to the end or not at all well.
+    """Play as `run_each`, to the end or not at all well.
 
     Raises:
         NeverStarted: a start trigger never went on.
@@ -255,7 +255,7 @@ def play_all(
         RunFailed: a trial lost its worker too often.
         UwsimError: whatever else was the first to go wrong. What is finished is kept, and written.
     """
-    outcome = play_each(runs, executor, on_level=on_level)
+    outcome = run_each(runs, executor, on_level=on_level)
     for _, error in outcome.failures:
         raise error
     return outcome.results

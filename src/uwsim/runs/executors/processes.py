@@ -21,7 +21,7 @@ from multiprocessing.connection import Connection, wait
 from ...environment import environment
 from ...interrupts import is_of_user
 from ...simulation import BEFORE, Calls, Counter, Cut, Studio, open_call
-from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, play_and_keep
+from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 from .worker import TrialFailed, picklable
 
@@ -63,12 +63,12 @@ class ProcessExecutor:
         self._n, self._limit = n, callback_limit
         self._glance = None if callback_limit is None else min(GLANCE, callback_limit / 4)
 
-    def play(self, queue: JobQueue) -> None:
+    def execute(self, queue: JobQueue) -> None:
         """Play everything; stops all workers when it is interrupted."""
         n = min(self._n, len(queue))
         plans = queue.plans()
         if n <= 1 and len(plans) <= 1 and all(plan.is_bundled for plan in plans):
-            SerialExecutor().play(queue)
+            SerialExecutor().execute(queue)
             return
         settings = ENVIRONMENT if n > 1 else {}
         workers = [Worker(settings) for _ in range(n)]
@@ -212,7 +212,7 @@ def work(pipe: Connection, parent: Connection, counter: Counter) -> None:
     try:
         while (job := pipe.recv()) is not None:
             try:
-                for _ in play_and_keep(job, studio, Calls(counter, job.cut)):
+                for _ in run_and_record(job, studio, Calls(counter, job.cut)):
                     pipe.send(LevelKept())
             except BaseException as error:
                 if is_of_user(error):

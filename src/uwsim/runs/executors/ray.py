@@ -68,7 +68,7 @@ class RayExecutor:
             ) from None
         self._cpus = cpus or len(os.sched_getaffinity(0))
 
-    def play(self, queue: JobQueue) -> None:
+    def execute(self, queue: JobQueue) -> None:
         """Play everything."""
         ray = self._ray
         # Ray prints on standard output what the queue tells better.
@@ -199,8 +199,8 @@ class Task:
         """Have it played; returns the events to come."""
         run, trial = self.job.run, self.job.trial
         self.writer = JournalWriter(run, trial)
-        play = self.worker.play.options(num_returns="streaming")
-        return play.remote(run, trial, run.head(trial))
+        execute = self.worker.execute.options(num_returns="streaming")
+        return execute.remote(run, trial, run.head(trial))
 
 
 class Worker:
@@ -211,7 +211,9 @@ class Worker:
         self._studio = Studio()
         self._known: list[journal.Record] = []
 
-    def play(self, run: Run, trial: Trial, head: journal.Record) -> Iterator[Event | TrialFailed]:
+    def execute(
+        self, run: Run, trial: Trial, head: journal.Record
+    ) -> Iterator[Event | TrialFailed]:
         """Play a trial, if this machine is like the one that asks; yields what is to be kept."""
         try:
             self._check(run, trial, head)

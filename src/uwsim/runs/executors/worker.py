@@ -22,7 +22,7 @@ from ...simulation import Calls, Studio
 from ..input_watch import Watch
 from ..plan import Plan, Trial
 from ..run import Run
-from ..trial.trial import Row, TrialEnd, play
+from ..trial.trial import Row, TrialEnd, execute
 
 PICTURES = "pictures"
 
@@ -70,7 +70,7 @@ def run_trial(
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    for n, played in enumerate(play(plan, trial, studio=studio, calls=calls)):
+    for n, played in enumerate(execute(plan, trial, studio=studio, calls=calls)):
         if isinstance(played, TrialEnd):
             yield TrialEnded(record=_end(played))
         else:

@@ -97,7 +97,7 @@ class TrialEnd:
     """Fingerprints on the way."""
 
 
-def play(
+def execute(
     plan: Plan, unit: Trial, *, studio: Studio | None = None, calls: Calls | None = None
 ) -> Iterator[Row | TrialEnd]:
     """Play a unit; yields a Row as each level ends, and at last the UnitEnd.
@@ -124,7 +124,7 @@ def play(
     try:
         with (
             blamed(plan.plugins, is_running=True),
-            closing(_Playing(plan, unit, simulation, calls or Calls())) as playing,
+            closing(_Execution(plan, unit, simulation, calls or Calls())) as playing,
         ):
             yield from playing.rows()
     finally:
@@ -144,7 +144,7 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
     Gate(benchmark, simulation.world).close()
 
 
-class _Playing:
+class _Execution:
     """A unit while it is played."""
 
     def __init__(self, plan: Plan, unit: Trial, simulation: Simulation, calls: Calls) -> None:
@@ -199,7 +199,7 @@ class _Playing:
             self._settle(settling_time(self._updater, level, after=before))
             if floor is not None:
                 floor.begin()
-            row = self._play(level)
+            row = self._run_level(level)
             if floor is not None:
                 floor.end()
             yield row
@@ -325,7 +325,7 @@ class _Playing:
             self._simulation.advance()
             self._verdict.listen(self._simulation.time)
 
-    def _play(self, level: Level) -> Row:
+    def _run_level(self, level: Level) -> Row:
         """Play one level, with triggers and measures that have seen nothing before."""
         plan, simulation, verdict = self._plan, self._simulation, self._verdict
         began = simulation.step
