@@ -46,7 +46,7 @@ from ..files.file_names import file_name
 from ..results.atomic_file import write_whole
 from ..results.log import TIME, Log
 from ..results.result import Cell, Column, Result
-from .trial.triggered_measure import Gated, finite
+from .trial.triggered_measure import TriggeredMeasure, finite
 
 LEVEL_NAMES = {
     "none": "None",
@@ -168,7 +168,7 @@ def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
     return names[:n_logged]
 
 
-def details(gated: Gated) -> tuple[float | None, ...]:
+def details(gated: TriggeredMeasure) -> tuple[float | None, ...]:
     """Return the details of a measure as of now, in the order of `detail_names`."""
     values = [finite(value)[0] for value in sample_of(gated.measure)]
     if gated.has_start_value:

@@ -8,7 +8,7 @@ from tests.fakes import FakeBody, FakeWorld
 from uwsim.benchmark.measures.collision import Collision, CollisionSpec
 from uwsim.benchmark.triggers import NeverSpec
 from uwsim.errors import UnknownName
-from uwsim.runs.trial.triggered_measure import Gated
+from uwsim.runs.trial.triggered_measure import TriggeredMeasure
 from uwsim.world import Contact
 
 SPEC = CollisionSpec(name="hits", target="girona500")
@@ -119,7 +119,7 @@ def test_a_collision_that_goes_on_again_begins_anew_in_the_original() -> None:
 
 
 def test_a_collision_that_never_started_has_the_full_score_in_the_original() -> None:
-    gated = Gated(
+    gated = TriggeredMeasure(
         CollisionSpec(name="hits", target="girona500", start_on=NeverSpec()),
         tank(compatibility=frozenset({"never-started"})),
     )

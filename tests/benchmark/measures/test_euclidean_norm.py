@@ -18,7 +18,7 @@ from uwsim.benchmark.measures import EuclideanNorm, EuclideanNormSpec
 from uwsim.benchmark.triggers import ServiceSpec
 from uwsim.errors import UnknownName
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, floats
-from uwsim.runs.trial.triggered_measure import Gated
+from uwsim.runs.trial.triggered_measure import TriggeredMeasure
 from uwsim.world import Box
 
 STEPS_PER_SECOND = 500
@@ -185,7 +185,7 @@ def test_in_the_original_an_estimate_counts_that_came_while_the_measure_was_off(
             name="e", ground_truth=ConstantSpec(values=(0.0,)), target="estimate",
             stop_on=ServiceSpec(target="stop"),
         )  # fmt: skip
-        gated = Gated(spec, world)
+        gated = TriggeredMeasure(spec, world)
         publish = world.bus.publisher("estimate", Float32MultiArray)
         gated.tick()
         for estimate in (4.0, 7.0):

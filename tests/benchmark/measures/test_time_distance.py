@@ -9,7 +9,7 @@ from uwsim.benchmark.measures import Distance, DistanceSpec, TimeSpec
 from uwsim.benchmark.triggers import NeverSpec, ServiceSpec, TopicSpec
 from uwsim.errors import UnknownName
 from uwsim.messages import Bool, Empty
-from uwsim.runs.trial.triggered_measure import Gated
+from uwsim.runs.trial.triggered_measure import TriggeredMeasure
 
 
 def walk(distance: Distance, body: FakeBody, *places: tuple[float, float, float]) -> None:
@@ -80,7 +80,7 @@ def test_time_during_a_pause_does_not_count() -> None:
 def test_a_time_runs_except_in_the_original_which_knows_it_when_it_stops() -> None:
     for quirks, running in ((frozenset[str](), 1.5), (frozenset({"time-log"}), 0.0)):
         world = FakeWorld(timestep=0.5, compatibility=quirks)
-        gated = Gated(TimeSpec(name="t", log=0.5), world)
+        gated = TriggeredMeasure(TimeSpec(name="t", log=0.5), world)
         gated.tick()
         for _ in range(3):
             world.advance()
@@ -112,14 +112,14 @@ def test_what_never_started_is_0_in_the_original(
         TimeSpec(name="t", start_on=NeverSpec()),
         DistanceSpec(name="d", target="v", start_on=NeverSpec()),
     ):
-        gated = Gated(spec, world)
+        gated = TriggeredMeasure(spec, world)
         gated.tick()
         assert gated.value == value
 
 
 def test_a_distance_that_started_and_stands_still_is_no_start_value() -> None:
     world = FakeWorld({"v": FakeBody()}, compatibility=frozenset({"never-started"}))
-    gated = Gated(DistanceSpec(name="d", target="v"), world)
+    gated = TriggeredMeasure(DistanceSpec(name="d", target="v"), world)
     gated.tick()
     assert (gated.never_started, gated.value) == (False, 0.0)
 
@@ -128,7 +128,7 @@ def test_time_counts_from_the_start_to_the_stop_and_what_follows_adds_up() -> No
     world = FakeWorld(timestep=0.002)
     start, stop = ServiceSpec(target="begin"), TopicSpec(target="end")
     end = world.bus.publisher("end", Bool)
-    gated = Gated(TimeSpec(name="t", start_on=start, stop_on=stop), world)
+    gated = TriggeredMeasure(TimeSpec(name="t", start_on=start, stop_on=stop), world)
 
     def let_pass(n: int) -> None:
         for _ in range(n):

@@ -13,7 +13,7 @@ from ...benchmark.spec import BenchmarkSpec
 from ...world import World
 
 
-class Gate:
+class LevelTriggers:
     """The benchmark's start and stop triggers; ask it once a step."""
 
     def __init__(self, spec: BenchmarkSpec, world: World) -> None:

@@ -15,7 +15,7 @@ from ...benchmark.updaters import Level, steps
 from ...messages import Float32MultiArray, String, floats
 from ...simulation import Simulation
 from ..uwsim_files import details
-from .triggered_measure import Gated, finite
+from .triggered_measure import TriggeredMeasure, finite
 
 INFO = "BenchmarkInfo"
 RESULTS = "BenchmarkResults"
@@ -55,7 +55,7 @@ class LiveTopics:
         if after is not None and level != after:
             self._news = f"Updated scene {steps(level, after).index(True) + 1}"
 
-    def update(self, level: Level, time: float, measures: Sequence[Gated]) -> None:
+    def update(self, level: Level, time: float, measures: Sequence[TriggeredMeasure]) -> None:
         """Take an entry, if one is due; ``time`` is the benchmark's running time [s]."""
         step = self._simulation.step
         if not self._publishes_results or step < self._due:

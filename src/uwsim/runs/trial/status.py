@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ...bus import Inbox
 from ...messages import String
 from ...simulation import STOPPED, InProcessNode
-from .triggered_measure import Gated
+from .triggered_measure import TriggeredMeasure
 
 SILENCE = 1.0
 """A measure that waits longer than this for an estimate ends in ``timeout`` [s]."""
@@ -69,7 +69,7 @@ class Verdict:
             self.failed = legible(said)
 
     def status(
-        self, measures: Sequence[Gated], *, overran: float | None, ended: str | None
+        self, measures: Sequence[TriggeredMeasure], *, overran: float | None, ended: str | None
     ) -> tuple[str, str | None]:
         """Status of a row and, unless it is ``ok``, why: the first that applies (DESIGN 5).
 

@@ -36,12 +36,12 @@ from ..plan import Plan, Trial
 from .fingerprint import Trace, Tracer
 from .floor import Floor
 from .known_corners import known_corners
-from .level_triggers import Gate
+from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
 from .snapshots import Shot, shoot
 from .status import Verdict, legible
-from .triggered_measure import Gated, Sample, finite
+from .triggered_measure import Sample, TriggeredMeasure, finite
 from .visibility import Fact, Shift, visibility_facts
 
 STATUS_TOPIC = "algorithmStatus"
@@ -139,9 +139,9 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
     """
     benchmark = plan.benchmark
     bind_updaters(benchmark.scene_updater, simulation.world)
-    for gated in [Gated(spec, simulation.world) for spec in benchmark.measures]:
+    for gated in [TriggeredMeasure(spec, simulation.world) for spec in benchmark.measures]:
         gated.close()
-    Gate(benchmark, simulation.world).close()
+    LevelTriggers(benchmark, simulation.world).close()
 
 
 class _Execution:
@@ -158,7 +158,7 @@ class _Execution:
         ramp_level(self._updaters, initial_level(self._updater))
         for gated in self._bind_measures():
             gated.close()  # the bus now keeps what they want to find when they start
-        self._gate = Gate(benchmark, simulation.world)
+        self._triggers = LevelTriggers(benchmark, simulation.world)
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
         self._calls = calls
@@ -255,7 +255,7 @@ class _Execution:
         """
         simulation, node, patience = self._simulation, self._node, self._plan.patience
         began = simulation.time
-        while not self._gate.may_begin():
+        while not self._triggers.may_begin():
             if node.error is not None:
                 raise NeverStarted(
                     f"{never}: algorithm {node.name!r} {node.how} before: {legible(node.error)}"
@@ -264,7 +264,7 @@ class _Execution:
                 raise NeverStarted(
                     " ".join(
                         [
-                            f"{never}: {self._gate.why_not(patience)}. Does algorithm "
+                            f"{never}: {self._triggers.why_not(patience)}. Does algorithm "
                             f"{node.name!r} see to it?",
                             *node.unfed(),
                         ]
@@ -289,11 +289,11 @@ class _Execution:
             simulation.advance()
         self._close_measures(measures)
 
-    def _bind_measures(self) -> list[Gated]:
+    def _bind_measures(self) -> list[TriggeredMeasure]:
         """Bind every measure afresh."""
-        return [Gated(spec, self._simulation.world) for spec in self._measures]
+        return [TriggeredMeasure(spec, self._simulation.world) for spec in self._measures]
 
-    def _close_measures(self, measures: list[Gated]) -> None:
+    def _close_measures(self, measures: list[TriggeredMeasure]) -> None:
         """Let go of them, and remember whom they have initialised."""
         self._measures = tuple(
             gated.spec.once_initialised if gated.measure.has_initialised else gated.spec
@@ -314,10 +314,10 @@ class _Execution:
         self._step_to(level, before)
         from_initial = initial_level(self._updater) if self._unit.is_alone else before
         self._live.changed(level, after=from_initial)
-        self._gate.arm()
+        self._triggers.arm()
         if self._wait(f"Level {level} never began"):
             self._step_to(level, before)
-            self._gate.arm()
+            self._triggers.arm()
 
     def _settle(self, seconds: float) -> None:
         """Let time pass that neither measures nor the interval see."""
@@ -342,7 +342,7 @@ class _Execution:
             _tick(measures)
             self._live.update(level, self._n_measured * plan.timestep, measures)
             verdict.listen(simulation.time)
-            stopped = not self._gate.is_open()
+            stopped = not self._triggers.is_open()
             ended = _end_of_level(measures)
             if stopped or ended is not None:
                 break
@@ -358,7 +358,12 @@ class _Execution:
         return row
 
     def _row(
-        self, level: Level, measures: list[Gated], status: str, why: str | None, began: int
+        self,
+        level: Level,
+        measures: list[TriggeredMeasure],
+        status: str,
+        why: str | None,
+        began: int,
     ) -> Row:
         simulation = self._simulation
         values: dict[str, float | None] = {}
@@ -424,13 +429,13 @@ def _make(plan: Plan, calls: Calls) -> Algorithm:
         ) from error
 
 
-def _tick(measures: list[Gated]) -> None:
+def _tick(measures: list[TriggeredMeasure]) -> None:
     """Let every measure see the world as it is now."""
     for gated in measures:
         gated.tick()
 
 
-def _end_of_level(measures: list[Gated]) -> str | None:
+def _end_of_level(measures: list[TriggeredMeasure]) -> str | None:
     """Why a measure ends the level now; None if it goes on."""
     for gated in measures:
         if why := gated.measure.ends_level:

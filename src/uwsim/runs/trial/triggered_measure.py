@@ -29,7 +29,7 @@ def finite(value: object) -> tuple[float | None, str | None]:
     return None, f"it gave {type(value).__name__} {str(value)[:40]!r}, which is no number"
 
 
-class Gated:
+class TriggeredMeasure:
     """A measure that is on from its start trigger until its stop trigger."""
 
     def __init__(self, spec: MeasureSpec, world: World) -> None:
