@@ -12,7 +12,7 @@ import pytest
 from tests.played import DATA, make_plan, rows_of
 from uwsim.bus import Inbox, Node
 from uwsim.messages import Float64MultiArray, MultiArrayLayout, String
-from uwsim.runs.trial.status import Verdict
+from uwsim.runs.trial.status import StatusMonitor
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import PhysicsSpec, SceneSpec
 from uwsim.topics.thruster_commands import ROSThrustersToPATSpec
@@ -102,11 +102,11 @@ def test_the_first_status_that_applies_counts(
 ) -> None:  # fmt: skip
     inbox: Inbox[String] = Inbox()
     node = SimpleNamespace(name="esm", error=error, how="raised")
-    verdict = Verdict(node, inbox)  # type: ignore[arg-type]
+    monitor = StatusMonitor(node, inbox)  # type: ignore[arg-type]
     if said:
         inbox.receive(String(data=said), 0)
-    verdict.listen(1.0)
-    found = verdict.status([measure(silence)], overran=overran, ended=ended)  # type: ignore[list-item]
+    monitor.listen(1.0)
+    found = monitor.status([measure(silence)], overran=overran, ended=ended)  # type: ignore[list-item]
     assert found[0] == status
     assert (found[1] is None) is (status == "ok")
 

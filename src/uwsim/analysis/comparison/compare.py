@@ -40,9 +40,9 @@ from .findings import (
     AtLevel,
     Comparison,
     Difference,
+    Outcome,
     Overall,
     Success,
-    Verdict,
     Versus,
     family_size,
     fewest_of,
@@ -304,7 +304,7 @@ def _judged(family: Sequence[Difference], higher_is_better: bool) -> list[Differ
 
 def _verdict(
     d: Difference, p: float | None, *, can_differ: bool, higher_is_better: bool
-) -> Verdict:
+) -> Outcome:
     mean, n = d.difference.mean, d.difference.n
     if n == 0 or mean is None:
         return "no pair"

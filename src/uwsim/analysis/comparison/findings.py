@@ -16,7 +16,7 @@ CONFIDENCE = 0.95
 POWER = 0.8
 """Chance of showing the observed effect with the repeats that are called needed."""
 
-Verdict = Literal["first", "second", "not shown", "too few", "equal", "one repeat", "no pair"]
+Outcome = Literal["first", "second", "not shown", "too few", "equal", "one repeat", "no pair"]
 """Which is better, or why nothing is said. ``too few``: with so many repeats no data at all could
 have shown a difference (see `least_corrected`), so nothing was tested."""
 
@@ -50,7 +50,7 @@ class Difference:
     """Repeats that would show the observed effect; None where there is none to plan by."""
     fewest: int | None = None
     """Repeats below which no test of its family can show anything."""
-    verdict: Verdict = "no pair"
+    verdict: Outcome = "no pair"
     """Which is better."""
 
     @property

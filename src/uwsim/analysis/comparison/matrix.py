@@ -20,7 +20,7 @@ from typing import Literal
 
 from ...results.per_level import success_per_level
 from .entries import Entry
-from .findings import Comparison, Difference, Verdict, Versus
+from .findings import Comparison, Difference, Outcome, Versus
 
 Standing = Literal[
     "better", "worse", "equal", "not shown", "too few", "one repeat", "no pair", "itself"
@@ -161,7 +161,7 @@ def _cell(found: Mapping[tuple[int, int], tuple[Versus, bool]], i: int, j: int) 
     return Cell(standing=standing, text=f"{standing} {-mean if is_first else mean:+.3g}")
 
 
-def _standing(verdict: Verdict, is_first: bool) -> Standing:
+def _standing(verdict: Outcome, is_first: bool) -> Standing:
     if verdict == "first" or verdict == "second":
         return "better" if is_first == (verdict == "first") else "worse"
     return verdict

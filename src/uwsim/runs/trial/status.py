@@ -27,7 +27,7 @@ def ended_its_process(name: str, why: str | None) -> bool:
     return was_stopped(name, why) and f" s: {PROCESS_ENDED}" in str(why)
 
 
-class Verdict:
+class StatusMonitor:
     """What the algorithm says of itself, and what befell it.
 
     ``lost: why`` holds until the algorithm says ``tracking``. A level in which it was said has the

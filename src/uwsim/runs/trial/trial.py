@@ -40,7 +40,7 @@ from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
 from .snapshots import Shot, shoot
-from .status import Verdict, legible
+from .status import StatusMonitor, legible
 from .triggered_measure import Sample, TriggeredMeasure, finite
 from .visibility import Fact, Shift, visibility_facts
 
@@ -171,7 +171,7 @@ class _Execution:
             raises=False,
             calls=calls,
         )
-        self._verdict = Verdict(self._node, status)
+        self._monitor = StatusMonitor(self._node, status)
         self._notes: dict[str, None] = {}
         self._n_measured = 0  # steps of the levels so far
 
@@ -323,25 +323,25 @@ class _Execution:
         """Let time pass that neither measures nor the interval see."""
         for _ in range(round(seconds / self._plan.timestep)):
             self._simulation.advance()
-            self._verdict.listen(self._simulation.time)
+            self._monitor.listen(self._simulation.time)
 
     def _run_level(self, level: Level) -> Row:
         """Play one level, with triggers and measures that have seen nothing before."""
-        plan, simulation, verdict = self._plan, self._simulation, self._verdict
+        plan, simulation, monitor = self._plan, self._simulation, self._monitor
         began = simulation.step
-        verdict.begin_level()
+        monitor.begin_level()
         measures = self._bind_measures()
         length = interval(self._updater)
         n_steps = round((LONGEST_TASK if length is None else length) / plan.timestep)
         stopped, ended = False, None
         _tick(measures)
-        verdict.listen(simulation.time)
+        monitor.listen(simulation.time)
         for _ in range(n_steps):
             simulation.advance()
             self._n_measured += 1
             _tick(measures)
             self._live.update(level, self._n_measured * plan.timestep, measures)
-            verdict.listen(simulation.time)
+            monitor.listen(simulation.time)
             stopped = not self._triggers.is_open()
             ended = _end_of_level(measures)
             if stopped or ended is not None:
@@ -350,7 +350,7 @@ class _Execution:
             gated.end()
             check_answers(gated.measure)
         overran = LONGEST_TASK if length is None and not stopped and ended is None else None
-        status, why = verdict.status(measures, overran=overran, ended=ended)
+        status, why = monitor.status(measures, overran=overran, ended=ended)
         for gated in measures:
             self._notes.update((f"{gated.spec.name}: {note}", None) for note in gated.measure.notes)
         row = self._row(level, measures, status, why, began)
