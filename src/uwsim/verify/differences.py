@@ -14,7 +14,7 @@ from typing import Any
 
 from ..results.journal import Record, Stored
 from ..results.leaves import leaves
-from ..runs.trial.fingerprint import Trace, parting
+from ..runs.trial.fingerprint import Checkpoints, divergence
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,7 +85,7 @@ def _time(record: Record, name: str | int, sample: int) -> str:
 def of_end(stored: Record, again: Record) -> list[str]:
     """Say what differs in the end of a unit: pictures, constants, parameters; not its trace."""
     said: dict[str, str] = {}
-    for path, before, after in apart(_without_trace(stored), _without_trace(again)):
+    for path, before, after in apart(_without_checkpoints(stored), _without_checkpoints(again)):
         name = " ".join(map(str, path[:2]))
         if path[0] == "streams" and isinstance(path[-1], int):
             topics = [s[0] for s in again.get("streams", []) if isinstance(s, list) and s]
@@ -98,7 +98,7 @@ def of_end(stored: Record, again: Record) -> list[str]:
     return list(said.values())
 
 
-def _without_trace(end: Record) -> Record:
+def _without_checkpoints(end: Record) -> Record:
     return {key: value for key, value in end.items() if key != "trace"}
 
 
@@ -114,13 +114,13 @@ class Motion:
     """Whether both have fingerprints."""
 
 
-def of_trace(stored: Stored, again: Stored, timestep: float) -> Motion:
+def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> Motion:
     """Compare the fingerprints of two tellings of one unit."""
     ends = [record.end or {} for record in (stored, again)]
-    one, other = (Trace.of(end.get("trace")) for end in ends)
+    one, other = (Checkpoints.of(end.get("trace")) for end in ends)
     if one is None or other is None:
         return Motion(said=None, is_known=False)
-    found = parting(one, other)
+    found = divergence(one, other)
     if found is None:
         told = [[row.get("fingerprint") for row in each.rows] for each in (stored, again)]
         differs = [n for n, pair in enumerate(zip(*told, strict=False)) if pair[0] != pair[1]]

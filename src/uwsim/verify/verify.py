@@ -237,7 +237,7 @@ def _check_unit(found: Verification, directory: Path, again: Run, trial: Trial) 
             found.add(f"{name}, level {level}", said)
     for said in differences.of_end(stored.end or {}, played.end or {}):
         found.add(name, said)
-    motion = differences.of_trace(stored, played, again.plan.timestep)
+    motion = differences.of_checkpoints(stored, played, again.plan.timestep)
     if len(found.differences) > before or motion.said is not None:
         found.is_replayed = False
     if not motion.is_known:

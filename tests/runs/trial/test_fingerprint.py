@@ -10,7 +10,13 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from uwsim.runs.trial.fingerprint import EVERY, MAX_MARKS, Trace, Tracer, parting
+from uwsim.runs.trial.fingerprint import (
+    EVERY,
+    MAX_CHECKPOINTS,
+    Checkpoints,
+    Fingerprinter,
+    divergence,
+)
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
 
@@ -50,33 +56,33 @@ class FakeSimulation:
 
 def traced(
     n_steps: int, bump: Callable[[int, FakeSimulation], None] | None = None, *, flush: int = 0
-) -> Trace:
+) -> Checkpoints:
     simulation = FakeSimulation()
-    tracer = Tracer(cast(Any, simulation))
+    fingerprinter = Fingerprinter(cast(Any, simulation))
     for step in range(1, n_steps + 1):
         simulation.motion.row[:] = (step, 2 * step, 5.0)
         if bump is not None:
             bump(step, simulation)
         simulation.look()
         if flush and step % flush == 0:
-            assert len(tracer.fingerprint) == 16
-    return tracer.trace()
+            assert len(fingerprinter.fingerprint) == 16
+    return fingerprinter.checkpoints()
 
 
 def test_the_same_motion_leaves_the_same_trace_however_often_it_is_asked() -> None:
     assert traced(1000) == traced(1000)
     assert traced(1000) == traced(1000, flush=7)
-    assert parting(traced(1000), traced(1000)) is None
+    assert divergence(traced(1000), traced(1000)) is None
 
 
 @pytest.mark.parametrize("n_steps", [1, 63, 64, 65, 4096, 4160, 4161, 100_000])
 def test_there_are_never_more_marks_than_fit_and_the_last_is_at_the_end(n_steps: int) -> None:
-    trace = traced(n_steps)
-    assert len(trace.marks) <= MAX_MARKS + 1
-    assert list(trace.by_step())[-1] == n_steps
-    assert trace.every * len(trace.marks) >= n_steps
-    assert n_steps < 1000 or len(trace.marks) >= MAX_MARKS // 4
-    assert {len(mark) for mark in trace.marks} == {8 * 3}
+    checkpoints = traced(n_steps)
+    assert len(checkpoints.marks) <= MAX_CHECKPOINTS + 1
+    assert list(checkpoints.by_step())[-1] == n_steps
+    assert checkpoints.every * len(checkpoints.marks) >= n_steps
+    assert n_steps < 1000 or len(checkpoints.marks) >= MAX_CHECKPOINTS // 4
+    assert {len(mark) for mark in checkpoints.marks} == {8 * 3}
 
 
 def test_marks_that_are_kept_are_those_of_the_finer_trace() -> None:
@@ -91,7 +97,7 @@ def test_the_interval_and_the_body_of_a_difference_are_named(at: int) -> None:
         if step == at:
             simulation.motion.row[2] = np.nextafter(5.0, 6.0)
 
-    found = parting(traced(10_000), traced(10_000, nudge))
+    found = divergence(traced(10_000), traced(10_000, nudge))
     assert found is not None
     assert found.after < at <= found.until
     assert found.until - found.after <= 256
@@ -105,39 +111,39 @@ def test_a_picture_that_differs_is_named_by_its_topic() -> None:
     def same(step: int, simulation: FakeSimulation) -> None:
         simulation.images["/camera"].digest.update(b"a")
 
-    found = parting(traced(1000, same), traced(1000, shoot))
+    found = divergence(traced(1000, same), traced(1000, shoot))
     assert found is not None
     assert (found.after, found.until, found.parts) == (256, 320, ("/camera",))
 
 
 def test_a_run_that_ends_earlier_parts_where_it_ends() -> None:
-    found = parting(traced(64 * 10), traced(64 * 20))
+    found = divergence(traced(64 * 10), traced(64 * 20))
     assert found is not None
     assert (found.after, found.until) == (640, 1280)
-    found = parting(traced(8192), traced(10_000))  # the one has twice the distance of the other
+    found = divergence(traced(8192), traced(10_000))  # the one has twice the distance of the other
     assert found is not None
     assert (found.after, found.until) == (8192, 10_000)
 
 
 def test_traces_of_other_bodies_cannot_be_compared() -> None:
     one = traced(1000)
-    found = parting(one, replace(one, parts=("rov", "tin", "/camera")))
+    found = divergence(one, replace(one, parts=("rov", "tin", "/camera")))
     assert found is not None
     assert found.parts == ()
 
 
 def test_a_trace_is_read_back_as_it_was_stored() -> None:
-    trace = traced(1000)
-    assert Trace.of(trace.plain()) == trace
-    assert Trace.of(None) is None
-    assert Trace.of({"every": 1}) is None
+    checkpoints = traced(1000)
+    assert Checkpoints.of(checkpoints.plain()) == checkpoints
+    assert Checkpoints.of(None) is None
+    assert Checkpoints.of({"every": 1}) is None
 
 
 def test_a_scene_in_which_nothing_can_move_leaves_a_trace_too() -> None:
     simulation = Simulation(SceneSpec())
-    tracer = Tracer(simulation)
+    fingerprinter = Fingerprinter(simulation)
     simulation.open()
     for _ in range(100):
         simulation.advance()
-    assert len(tracer.fingerprint) == 16
-    assert tracer.trace().n_steps == 100
+    assert len(fingerprinter.fingerprint) == 16
+    assert fingerprinter.checkpoints().n_steps == 100

@@ -167,5 +167,5 @@ def _end(played: TrialEnd) -> journal.Record:
         "parameters": played.parameters,
         "streams": [list(stream) for stream in played.streams],
         "notes": list(played.notes),
-        "trace": played.trace.plain(),
+        "trace": played.checkpoints.plain(),
     }

@@ -24,13 +24,13 @@ EVERY = 16
 """Steps between two samples."""
 BLOCK = 4
 """Samples that are hashed at a time."""
-MAX_MARKS = 64
+MAX_CHECKPOINTS = 64
 BYTES = 4
 """Of each hash in a mark."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Trace:
+class Checkpoints:
     """The marks of one unit."""
 
     every: int
@@ -52,10 +52,10 @@ class Trace:
         }
 
     @staticmethod
-    def of(stored: Any) -> Trace | None:
+    def of(stored: Any) -> Checkpoints | None:
         """Read what `plain` gave; None if it is not whole."""
         try:
-            return Trace(
+            return Checkpoints(
                 every=int(stored["every"]),
                 n_steps=int(stored["steps"]),
                 parts=tuple(map(str, stored["parts"])),
@@ -76,7 +76,7 @@ class Trace:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Parting:
+class Divergence:
     """Where two traces part."""
 
     after: int
@@ -87,7 +87,7 @@ class Parting:
     """What differs first; empty when the traces are not of one kind."""
 
 
-def parting(a: Trace, b: Trace) -> Parting | None:
+def divergence(a: Checkpoints, b: Checkpoints) -> Divergence | None:
     """Return where two traces of one unit part; None if they are the same."""
     if a == b:
         return None
@@ -97,13 +97,13 @@ def parting(a: Trace, b: Trace) -> Parting | None:
         for step in (step for step in one if step in other):
             pairs = list(zip(a.parts, one[step], other[step], strict=False))
             if names := tuple(name for name, mine, theirs in pairs if mine != theirs):
-                return Parting(after=after, until=step, parts=names)
+                return Divergence(after=after, until=step, parts=names)
             after = step
-        return Parting(after=after, until=max(a.n_steps, b.n_steps), parts=())
-    return Parting(after=0, until=max(a.n_steps, b.n_steps), parts=())
+        return Divergence(after=after, until=max(a.n_steps, b.n_steps), parts=())
+    return Divergence(after=0, until=max(a.n_steps, b.n_steps), parts=())
 
 
-class Tracer:
+class Fingerprinter:
     """Takes the fingerprints of a simulation while it runs."""
 
     def __init__(self, simulation: Simulation) -> None:
@@ -131,7 +131,7 @@ class Tracer:
             self._absorb()
         if step % self._every == 0:
             self._absorb()
-            self._set_mark()
+            self._set_checkpoint()
 
     @property
     def fingerprint(self) -> str:
@@ -139,21 +139,21 @@ class Tracer:
         self._absorb()
         return hashlib.blake2b(bytes.fromhex(self._digests()), digest_size=8).hexdigest()
 
-    def trace(self) -> Trace:
+    def checkpoints(self) -> Checkpoints:
         """Return the marks, with a last one as of now."""
         self._absorb()
         step = self._step
         marks = [*self._marks, *([self._digests()] if step % self._every else [])]
-        return Trace(every=self._every, n_steps=step, parts=self._names(), marks=tuple(marks))
+        return Checkpoints(every=self._every, n_steps=step, parts=self._names(), marks=tuple(marks))
 
     def _absorb(self) -> None:
         for columns, digest in self._hashes:
             digest.update(self._block[: self._n, columns].tobytes())
         self._n = 0
 
-    def _set_mark(self) -> None:
+    def _set_checkpoint(self) -> None:
         self._marks.append(self._digests())
-        if len(self._marks) > MAX_MARKS:
+        if len(self._marks) > MAX_CHECKPOINTS:
             self._marks = self._marks[1::2]
             self._every *= 2
 

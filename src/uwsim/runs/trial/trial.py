@@ -33,7 +33,7 @@ from ...interrupts import is_of_user
 from ...messages import String
 from ...simulation import Calls, Simulation, Studio, what_broke
 from ..plan import Plan, Trial
-from .fingerprint import Trace, Tracer
+from .fingerprint import Checkpoints, Fingerprinter
 from .floor import Floor
 from .known_corners import known_corners
 from .level_triggers import LevelTriggers
@@ -93,7 +93,7 @@ class TrialEnd:
     """Topic, number of images, SHA-256 over their pixels."""
     notes: tuple[str, ...]
     """What the reader of the result should know, besides the values."""
-    trace: Trace
+    checkpoints: Checkpoints
     """Fingerprints on the way."""
 
 
@@ -151,7 +151,7 @@ class _Execution:
         self._plan, self._unit, self._simulation = plan, unit, simulation
         benchmark = benchmark_of_seed(plan.benchmark, unit.seed)
         self._updater = benchmark.scene_updater
-        self._tracer = Tracer(simulation)
+        self._fingerprinter = Fingerprinter(simulation)
         self._updaters = bind_updaters(self._updater, simulation.world)
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # as they are bound for the next level
@@ -211,7 +211,7 @@ class _Execution:
             parameters=parameters,
             streams=() if plan.is_blind else self._streams(),
             notes=tuple(self._notes),
-            trace=self._tracer.trace(),
+            checkpoints=self._fingerprinter.checkpoints(),
         )
 
     def _parameters_said(self) -> dict[str, float | int | str]:
@@ -404,7 +404,7 @@ class _Execution:
             duration=(simulation.step - began) * simulation.timestep,
             logs={gated.spec.name: gated.log for gated in logged},
             log_headers={gated.spec.name: log_columns(gated.measure) for gated in logged},
-            fingerprint=self._tracer.fingerprint,
+            fingerprint=self._fingerprinter.fingerprint,
             shots=()
             if self._plan.is_blind
             else shoot(
