@@ -42,7 +42,7 @@ from .log_columns import log_columns
 from .snapshots import Shot, shoot
 from .status import StatusMonitor, legible
 from .triggered_measure import Sample, TriggeredMeasure, finite
-from .visibility import Fact, Shift, visibility_facts
+from .visibility import Fact, TargetMotion, visibility_facts
 
 STATUS_TOPIC = "algorithmStatus"
 SETTLING = 1.0
@@ -180,14 +180,14 @@ class _Execution:
         plan, simulation = self._plan, self._simulation
         simulation.open()
         facts: dict[str, Fact] = {}
-        shift: Shift | None = None
+        target_motion: TargetMotion | None = None
         floor: Floor | None = None
         parameters = self._parameters_said()
         if not plan.is_blind:
             facts = visibility_facts(simulation, plan, parameters)
         self._wait("The benchmark never started")
         if not plan.is_blind:
-            shift = Shift(simulation, plan)
+            target_motion = TargetMotion(simulation, plan)
             floor = Floor(simulation, plan)
         before: Level | None = None
         for level in self._unit.levels:
@@ -206,7 +206,7 @@ class _Execution:
             before = level
         yield TrialEnd(
             facts=facts
-            | (shift.facts if shift is not None else {})
+            | (target_motion.facts if target_motion is not None else {})
             | (floor.facts if floor is not None else {}),
             parameters=parameters,
             streams=() if plan.is_blind else self._streams(),

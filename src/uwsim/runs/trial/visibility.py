@@ -93,7 +93,7 @@ def visibility_facts(
     return {}
 
 
-class Shift:
+class TargetMotion:
     """How far the first target whose corners are tracked moves in its picture, while it is watched.
 
     Sampled every 16th step.
