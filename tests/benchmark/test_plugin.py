@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from uwsim.benchmark.plugin import Plugin, blamed, read_plugin
+from uwsim.benchmark.plugin import Plugin, attribute_errors_to, read_plugin
 from uwsim.cli import main
 from uwsim.errors import BadSetting, PluginError, RunFailed
 from uwsim.results.result import Result
@@ -325,11 +325,14 @@ def test_what_a_part_gives_is_checked_before_anything_is_played(
 def test_the_line_of_the_plugin_that_raised_is_named(tmp_path: Path) -> None:
     path = plugin(tmp_path, "def f():\n    return {}['x']\nALGORITHMS = {}\n")
     own = read_plugin(path)
-    with pytest.raises(PluginError, match=r"own\.py:2: KeyError: 'x'"), blamed([own]):
+    with pytest.raises(PluginError, match=r"own\.py:2: KeyError: 'x'"), attribute_errors_to([own]):
         own.module().f()
-    with pytest.raises(RunFailed, match=r"own\.py:2: "), blamed([own], is_running=True):
+    with (
+        pytest.raises(RunFailed, match=r"own\.py:2: "),
+        attribute_errors_to([own], is_running=True),
+    ):
         own.module().f()
-    with pytest.raises(KeyError), blamed([own]):
+    with pytest.raises(KeyError), attribute_errors_to([own]):
         {}["y"]
     assert own == Plugin(str(path), path.read_bytes())
 
@@ -344,7 +347,7 @@ def test_the_line_of_the_plugin_that_raised_is_named(tmp_path: Path) -> None:
 )
 def test_whatever_a_plugin_raises_is_one_line(tmp_path: Path, error: str, said: str) -> None:
     own = read_plugin(plugin(tmp_path, f"def f():\n    raise {error}\nALGORITHMS = {{}}\n"))
-    with pytest.raises(RunFailed) as caught, blamed([own], is_running=True):
+    with pytest.raises(RunFailed) as caught, attribute_errors_to([own], is_running=True):
         own.module().f()
     assert str(caught.value).endswith(said)
 

@@ -47,7 +47,7 @@ from ..interrupts import is_of_user
 from ..schema import slots
 from ..world import Stage
 from .measures import Measure, MeasureSpec
-from .plugin_checks import WrongAnswer
+from .plugin_checks import ContractViolation
 from .triggers import Trigger, TriggerSpec
 from .updaters import SceneUpdater, SceneUpdaterSpec
 
@@ -298,7 +298,7 @@ def _line(value: object, plugin: Plugin) -> int | None:
         return None
 
 
-def _line_of_answer(error: WrongAnswer, plugin: Plugin) -> int | None:
+def _line_of_answer(error: ContractViolation, plugin: Plugin) -> int | None:
     """Line of the property that answered wrongly, or of its class."""
     cls = type(error.part)
     if cls.__module__ != plugin.module_name:
@@ -312,13 +312,13 @@ def _line_of_answer(error: WrongAnswer, plugin: Plugin) -> int | None:
 
 def raised(error: BaseException) -> str:
     """Return what was raised as one line, whatever its message holds."""
-    if isinstance(error, WrongAnswer):
+    if isinstance(error, ContractViolation):
         return str(error)
     return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
 
 
 @contextmanager
-def blamed(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[None]:
+def attribute_errors_to(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[None]:
     """Name the line of the plugin that raised.
 
     Raises:
@@ -334,7 +334,7 @@ def blamed(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[N
             raise
         for plugin in plugins:
             line = plugin.line_of(error)
-            if line is None and isinstance(error, WrongAnswer):
+            if line is None and isinstance(error, ContractViolation):
                 line = _line_of_answer(error, plugin)
             if line is not None:
                 said = raised(error)

@@ -22,7 +22,7 @@ BY_NAME = ("details", "detail_units", "reasons")
 """What it has by the names of its details."""
 
 
-class WrongAnswer(Exception):
+class ContractViolation(Exception):
     """A part does not answer what it has promised."""
 
     def __init__(self, part: object, attribute: str, message: str) -> None:
@@ -30,17 +30,17 @@ class WrongAnswer(Exception):
         super().__init__(f"{type(part).__name__}.{attribute} {message}")
 
 
-def check_answers(measure: Measure) -> None:
+def check_values(measure: Measure) -> None:
     """Look at everything that a measure says at the end of a level but its numbers.
 
     Raises:
-        WrongAnswer: names are no text, or a reason belongs to nothing.
+        ContractViolation: names are no text, or a reason belongs to nothing.
     """
 
     def expect(attribute: str, fits: Callable[[object], bool], expected: str) -> None:
         answer = getattr(measure, attribute)
         if not fits(answer):
-            raise WrongAnswer(measure, attribute, f"is {_shown(answer)}; expected {expected}")
+            raise ContractViolation(measure, attribute, f"is {_shown(answer)}; expected {expected}")
 
     for attribute in TEXTS:
         expect(attribute, lambda answer: isinstance(answer, str | None), "text or None")
@@ -48,16 +48,18 @@ def check_answers(measure: Measure) -> None:
         expect(attribute, lambda answer: isinstance(answer, Mapping), "a dict by names of details")
         for key in getattr(measure, attribute):
             if not isinstance(key, str) or key == "":
-                raise WrongAnswer(measure, attribute, f"has the key {key!r}; expected a name")
+                raise ContractViolation(measure, attribute, f"has the key {key!r}; expected a name")
     for attribute in ("detail_units", "reasons"):
         for key, text in getattr(measure, attribute).items():
             if not isinstance(text, str) or text == "":
-                raise WrongAnswer(measure, attribute, f"has {_shown(text)} for {key!r}, no text")
+                raise ContractViolation(
+                    measure, attribute, f"has {_shown(text)} for {key!r}, no text"
+                )
     details = measure.details
     for key in measure.reasons:
         if key not in details or details[key] is not None:
             what = f"is about {key!r}, which is no detail without a value"
-            raise WrongAnswer(measure, "reasons", what)
+            raise ContractViolation(measure, "reasons", what)
     expect("longest_silence", lambda answer: isinstance(answer, Real), "a time [s]")
     expect("notes", _are_texts, "a tuple of text")
     expect("log_header", _are_texts, "a tuple of text")
@@ -67,15 +69,15 @@ def sample_of(measure: Measure) -> Sequence[object]:
     """Return a line of a measure's log, as of now.
 
     Raises:
-        WrongAnswer: it has not as many values as the header has names.
+        ContractViolation: it has not as many values as the header has names.
     """
     values: object = measure.log_values
     if not isinstance(values, tuple | list):
         said = f"is {_shown(values)}; expected a tuple of numbers"
-        raise WrongAnswer(measure, "log_values", said)
+        raise ContractViolation(measure, "log_values", said)
     if len(values) != len(measure.log_header):
         said = f"has {len(values)} values; log_header has {len(measure.log_header)} names"
-        raise WrongAnswer(measure, "log_values", said)
+        raise ContractViolation(measure, "log_values", said)
     return values
 
 
@@ -108,15 +110,15 @@ def files_of(updater: SceneUpdaterSpec, stage: Stage) -> Mapping[str, Path]:
     """Return the files that an updater reads.
 
     Raises:
-        WrongAnswer: it is no dict of name -> path, or one is not there.
+        ContractViolation: it is no dict of name -> path, or one is not there.
     """
     files: object = updater.files(stage)
     if not isinstance(files, Mapping):
-        raise WrongAnswer(updater, "files", f"gives {_shown(files)}; expected name -> path")
+        raise ContractViolation(updater, "files", f"gives {_shown(files)}; expected name -> path")
     for name, path in files.items():
         if not (isinstance(name, str) and isinstance(path, Path) and path.exists()):
             said = f"gives {str(path)[:200]!r} for {name!r}; expected the path of a file"
-            raise WrongAnswer(updater, "files", said)
+            raise ContractViolation(updater, "files", said)
     return files
 
 

@@ -192,11 +192,11 @@ def faults_of_benchmark(
     tables: Tables,
 ) -> list[Fault]:
     """Return everything wrong or worth knowing about a benchmark and about plugins in it."""
-    from ..benchmark.plugin import blamed
+    from ..benchmark.plugin import attribute_errors_to
     from ..benchmark.reader import check_benchmark
 
     try:
-        with blamed(plugins):
+        with attribute_errors_to(plugins):
             found = check_benchmark(
                 file,
                 strict=strict,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from ..benchmark.plugin import blamed, hashes
+from ..benchmark.plugin import attribute_errors_to, hashes
 from ..benchmark.plugin_checks import files_of
 from ..benchmark.updaters import chain
 from ..files.input_files import InputFile, by_name, hash_of, portable, record
@@ -36,7 +36,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
     known = {file.path for file in read}
     others = dict(simulation.world.files)
     for updater in chain(plan.benchmark.scene_updater):
-        with blamed(plan.plugins):
+        with attribute_errors_to(plan.plugins):
             others |= files_of(updater, simulation.world)
     assets += _hashed({name: path for name, path in others.items() if path not in known})
     assets += [

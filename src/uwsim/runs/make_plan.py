@@ -135,10 +135,10 @@ def say_warnings(plan: Plan) -> None:
 
 def benchmark_of(path: Path, own: Sequence[Plugin], tables: Tables) -> BenchmarkSpec:
     """Read the benchmark, with what plugins have added to the tables."""
-    from ..benchmark.plugin import blamed
+    from ..benchmark.plugin import attribute_errors_to
     from ..benchmark.reader import read_benchmark
 
-    with blamed(own):
+    with attribute_errors_to(own):
         return read_benchmark(
             path, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
         )

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import __version__
-from ..benchmark.plugin import blamed, check_bound
+from ..benchmark.plugin import attribute_errors_to, check_bound
 from ..benchmark.unknown_names import unknown_names
 from ..benchmark.updaters import chain, references
 from ..errors import BenchmarkError, UwsimError
@@ -337,7 +337,7 @@ def hash_inputs(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, obj
             studio=studio,
         )
         try:
-            with blamed(plan.plugins):
+            with attribute_errors_to(plan.plugins):
                 check_bound(plan.plugins, plan.benchmark.parts, simulation.world)
                 _bind_all(plan, simulation)
             return inputs_of(plan, simulation, files), simulation.world.scenery.renderer_name

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import dataclass
 
-from ...benchmark.plugin import blamed
-from ...benchmark.plugin_checks import check_answers, parameters_of
+from ...benchmark.plugin import attribute_errors_to
+from ...benchmark.plugin_checks import check_values, parameters_of
 from ...benchmark.score import parse
 from ...benchmark.spec import LONGEST_TASK
 from ...benchmark.updater_settings import benchmark_of_seed
@@ -123,7 +123,7 @@ def execute(
     )
     try:
         with (
-            blamed(plan.plugins, is_running=True),
+            attribute_errors_to(plan.plugins, is_running=True),
             closing(_Execution(plan, unit, simulation, calls or Calls())) as playing,
         ):
             yield from playing.rows()
@@ -348,7 +348,7 @@ class _Execution:
                 break
         for gated in measures:
             gated.end()
-            check_answers(gated.measure)
+            check_values(gated.measure)
         overran = LONGEST_TASK if length is None and not stopped and ended is None else None
         status, why = monitor.status(measures, overran=overran, ended=ended)
         for gated in measures:
