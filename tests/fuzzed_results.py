@@ -25,7 +25,7 @@ from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.run import Run
 from uwsim.terminal import printable
-from uwsim.verify.recorded_plan import Given, check_inputs, plan_of
+from uwsim.verify.recorded_plan import FileOverrides, check_inputs, plan_of
 from uwsim.verify.verify import finished, verify
 
 FILES = ("result.json", "units/00000.jsonl", "units/00001.jsonl", "provenance.json")
@@ -144,7 +144,9 @@ def read_for_compare(sound: Sound, directory: Path) -> None:
 def read_for_verify(sound: Sound, directory: Path) -> None:
     """What ``uwsim verify`` does but play."""
     stored = load(directory)
-    plan = plan_of(stored, directory, Given(benchmark=Path(sound.bench.plan.benchmark.path)))
+    plan = plan_of(
+        stored, directory, FileOverrides(benchmark=Path(sound.bench.plan.benchmark.path))
+    )
     check_inputs(stored.inputs, sound.bench.inputs)
     bench = Run(plan=plan, out=directory, inputs=stored.inputs, renderer=sound.bench.renderer)
     units = finished(directory, plan, stored)

@@ -18,7 +18,7 @@ from ..files.input_files import InputFile, recorded
 from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code
 from ..runs.make_plan import make_plan, say_warnings
-from ..runs.timing import Stopwatch, Took
+from ..runs.timing import Stopwatch, Timing
 from ..terminal import warn
 from .completion import algorithm_names
 from .console import Console
@@ -223,14 +223,14 @@ def run_and_finish(
         failed = {id(run) for run, _ in outcome.failures}
         if controls and len(failed) < len(runs):
             wait_for_controls(background, controls)
-        took = Took(
+        timing = Timing(
             began=watch.began, wall=watch.passed(), workers=workers, command=command, runs=runs
         )
         for run, result in zip(runs, outcome.results, strict=True):
             if id(run) not in failed:
                 if len(runs) > 1:
                     print(f"{run.plan.algorithm_name}:")
-                finish(run, result, background, took)
+                finish(run, result, background, timing)
     if len(runs) > 1 and not failed:
         print("compare: uwsim compare " + " ".join(str(run.out) for run in runs))
     for _, error in outcome.failures:
@@ -343,13 +343,13 @@ def load_reporter() -> Callable[[Path], object]:
     return write_report
 
 
-def finish(run: Run, result: Result, background: BackgroundProcess, took: Took) -> None:
+def finish(run: Run, result: Result, background: BackgroundProcess, timing: Timing) -> None:
     """Write provenance, plots and report, and print the table."""
     from ..results.directory import REPORT
     from ..results.provenance import carried, save_provenance
     from ..results.table import table
 
-    save_provenance({**took.provenance(run), **carried(run.out)}, run.out)
+    save_provenance({**timing.provenance(run), **carried(run.out)}, run.out)
     background.ask(run.out)
     console = Console(width=None if sys.stdout.isatty() else UNWRAPPED)
     console.print(table(result, width=console.width))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..envelope.search_request import Question, question_of
+from ..envelope.search_request import SearchRequest, search_request
 from ..errors import AllErrors, BadSetting
 from ..files.input_files import recorded
 from ..interrupts import raise_from_now_on
@@ -184,16 +184,16 @@ def envelope(
     directory = out or Path(f"{Path(benchmark).stem}.envelope")
     with wrong.kept():
         check_out(directory, resume=resume, overwrite=overwrite)
-    question = None
+    request = None
     if plan is not None:
-        question = question_of(plan, over, until, (start, stop, tolerance), chosen, wrong)
+        request = search_request(plan, over, until, (start, stop, tolerance), chosen, wrong)
     wrong.check()
     assert executor is not None
     assert plan is not None
-    assert question is not None
+    assert request is not None
     seeds = tuple(range(seed, seed + repeat))
     play(
-        plan_for(plan), directory, question, seeds, confidence=confidence, executor=executor,
+        plan_for(plan), directory, request, seeds, confidence=confidence, executor=executor,
         at_once=n_at_once(workers),
         resume=resume, overwrite=overwrite, command=context.obj,
     )  # fmt: skip
@@ -223,7 +223,7 @@ def check_out(directory: Path, *, resume: bool, overwrite: bool) -> None:
 def play(
     plan: Plan,
     directory: Path,
-    question: Question,
+    request: SearchRequest,
     seeds: tuple[int, ...],
     *,
     confidence: float,
@@ -246,7 +246,7 @@ def play(
         inputs, renderer = hash_inputs(plan)
     say_warnings(plan)
     raise_from_now_on()
-    over, where, at = question.over, question.where, question.at
+    over, where, at = request.over, request.where, request.at
     watch = Stopwatch()
     with running(), alone_in(directory):
         check_out(directory, resume=resume, overwrite=overwrite)
@@ -265,13 +265,13 @@ def play(
         most = 9 + len(seeds) * (where.most_cuts() + 1)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
         with progress(title, most, of="runs", at_once=at_once) as on_run:
-            runs = Evaluations(run, at=at, over=over, criterion=question.criterion)
+            runs = Evaluations(run, at=at, over=over, criterion=request.criterion)
             found = runs.run(strategy(seeds, where), executor, on_run)
         envelope = Envelope(
             asked=Asked(
                 over=over,
-                unit=question.spec.reference_unit,
-                until=question.criterion.text,
+                unit=request.spec.reference_unit,
+                until=request.criterion.text,
                 fixed={name: value for name, value in at.values if name != over},
                 where=where,
                 seeds=seeds,

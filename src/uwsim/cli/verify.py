@@ -14,7 +14,7 @@ from ..files.input_files import recorded
 from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code
 from ..terminal import printable
-from ..verify.recorded_plan import NOT_DRAWN, Given, check_inputs, named_input, plan_of
+from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named_input, plan_of
 from .executor import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, executor_of, n_at_once
 from .faults import RUN_FAILED, running
 from .options import DataPathOption, NoCodeOption, PluginOption, ResultArgument
@@ -125,7 +125,7 @@ def verify(
     executor = executor_of(workers, callback_limit)
     stored = load(result)
     directory = file_of(result).parent
-    given = Given(
+    given = FileOverrides(
         benchmark=benchmark,
         scene=scene,
         plugins=tuple(plugin or ()),

@@ -18,7 +18,7 @@ MOST_CUTS = 30
 
 
 @dataclass(frozen=True, kw_only=True)
-class Question:
+class SearchRequest:
     """What is searched for."""
 
     over: str
@@ -33,14 +33,14 @@ class Question:
     """Where the other references stay."""
 
 
-def question_of(
+def search_request(
     plan: Plan,
     over: str,
     until: str,
     ends: tuple[float | None, float | None, float | None],
     chosen: list[tuple[str, float]],
     wrong: AllErrors,
-) -> Question | None:
+) -> SearchRequest | None:
     """Put the question together; None, and everything that is wrong is kept, if it makes none.
 
     Args:
@@ -67,7 +67,7 @@ def question_of(
             raise BadSetting(f"--until: {error}") from None
     if spec is None or where is None or at is None or criterion is None:
         return None
-    return Question(over=over, spec=spec, criterion=criterion, where=where, at=at)
+    return SearchRequest(over=over, spec=spec, criterion=criterion, where=where, at=at)
 
 
 def updater_of(plan: Plan, over: str) -> SceneUpdaterSpec:

@@ -1,4 +1,4 @@
-"""What a run took: the part of a result that is not a result."""
+"""Timing of a run: wall time, CPU time and provenance, which are no part of the result."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ class Stopwatch:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Took:
-    """What it took to play some algorithms together."""
+class Timing:
+    """Timing to play some algorithms together."""
 
     began: float
     """When [s since 1970]."""

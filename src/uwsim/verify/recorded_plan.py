@@ -21,7 +21,7 @@ NOT_DRAWN = "none"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Given:
+class FileOverrides:
     """Where the user says that files are."""
 
     benchmark: Path | None = None
@@ -36,7 +36,7 @@ class Given:
     """Whether code that the files name is refused."""
 
 
-def plan_of(result: Result, directory: Path, given: Given) -> Plan:
+def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
     """Put together the plan that a result was made with.
 
     Raises:
@@ -46,10 +46,17 @@ def plan_of(result: Result, directory: Path, given: Given) -> Plan:
     run = _Run(result.run)
     typed = typed_words(directory)
     benchmark = find_input(
-        "benchmark", named_input(result, "benchmark"), given.benchmark, directory, given, typed
+        "benchmark",
+        named_input(result, "benchmark"),
+        overrides.benchmark,
+        directory,
+        overrides,
+        typed,
     )
     typed += [str(benchmark.parent / name) for name in scene_named_by(benchmark)]
-    scene = find_input("scene", named_input(result, "scene"), given.scene, directory, given, typed)
+    scene = find_input(
+        "scene", named_input(result, "scene"), overrides.scene, directory, overrides, typed
+    )
     is_blind = run.text("renderer") == NOT_DRAWN
     settings = [f"{name}={value}" for name, value in run.pairs("settings")]
     plan = make_plan(
@@ -62,9 +69,9 @@ def plan_of(result: Result, directory: Path, given: Given) -> Plan:
         levels=[f"{name}={value!r}" for name, value in run.pairs("levels")],
         settings=[s for s in settings if not (is_blind and s.startswith("algorithm."))],
         compat=list(run.names("compatibility")),
-        data_path=given.data_path,
-        plugins=_plugins(result, given.plugins),
-        no_code=given.no_code,
+        data_path=overrides.data_path,
+        plugins=_plugins(result, overrides.plugins),
+        no_code=overrides.no_code,
         algorithm_is_from=str(directory),
     )
     return replace(plan, is_blind=is_blind)
@@ -97,7 +104,7 @@ def find_input(
     recorded: tuple[str, str],
     chosen: Path | None,
     directory: Path,
-    given: Given,
+    overrides: FileOverrides,
     typed: Sequence[str] = (),
 ) -> Path:
     """Find a file by its name and its hash.
@@ -107,7 +114,7 @@ def find_input(
         recorded: name and hash.
         chosen: the file that the user gave, if any; no other is looked at.
         directory: the result's; its folder and those above it are searched.
-        given: folders to search.
+        overrides: folders to search.
         typed: words among which may be the file, as it was named then.
 
     Raises:
@@ -122,7 +129,7 @@ def find_input(
     else:
         names = [*(word for word in typed if Path(word).name == name), name]
         above = (directory.absolute(), *directory.absolute().parents)
-        files = list(candidates(names, data_path=(*above, *given.data_path)))
+        files = list(candidates(names, data_path=(*above, *overrides.data_path)))
         files += [path for path in bundled(f"{kind}s").values() if path.name == name]
     others = []
     for file in dict.fromkeys(path.resolve() if path.exists() else path for path in files):
@@ -135,7 +142,7 @@ def find_input(
             f"The {kind} is not the one that was played, {name} ({_short(wanted)}): "
             f"{', '.join(others)}. Give the right one with --{kind}."
         )
-    searched = folders_searched(beside=directory.absolute(), data_path=given.data_path)
+    searched = folders_searched(beside=directory.absolute(), data_path=overrides.data_path)
     folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
     raise AssetNotFound(
         f"The {kind} {name!r} ({_short(wanted)}) was not found; give it with --{kind}. "
@@ -162,22 +169,22 @@ def scene_named_by(benchmark: Path) -> list[str]:
     return [] if named is None else [str(named).strip()]
 
 
-def _plugins(result: Result, given: Sequence[Path]) -> list[Path]:
+def _plugins(result: Result, overrides: Sequence[Path]) -> list[Path]:
     """Return the plugins that were used, in the order in which they were."""
     recorded = result.inputs.get("plugins", ())
     named = [entry for entry in _entries(recorded) if len(entry) == 2]
-    hashes = {path: "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest() for path in given}
+    hashes = {path: "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest() for path in overrides}
     found = []
     for name, wanted in named:
         right = [path for path, digest in hashes.items() if digest == wanted]
         if not right:
-            alike = [str(path) for path in given if path.name == name]
+            alike = [str(path) for path in overrides if path.name == name]
             what = f"; {alike[0]} is another" if alike else f"; give it with --plugin {name}"
             raise ResultError(
                 f"The result was made with the plugin {name} ({_short(wanted)}){what}."
             )
         found.append(right[0])
-    if extra := [str(path) for path in given if path not in found]:
+    if extra := [str(path) for path in overrides if path not in found]:
         raise ResultError(f"The result was made without the plugin {', '.join(extra)}.")
     return found
 
