@@ -17,7 +17,7 @@ from .errors import BadSetting, Fault
 from .world import TIMESTEP
 
 if TYPE_CHECKING:
-    from .analysis.comparison.findings import Comparison
+    from .analysis.comparison.model import Comparison
     from .bus import Algorithm
     from .results.result import Result
     from .scene.spec import SceneSpec

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.results.atomic_file import drafted, write_whole
+from uwsim.results.atomic_file import atomic_write, write_text
 
 OTHER = """
 import sys
@@ -20,7 +20,7 @@ write_whole(Path(sys.argv[1]), "other")
 
 def test_two_processes_may_write_one_file_at_once(tmp_path: Path) -> None:
     file = tmp_path / "report.html"
-    with drafted(file) as draft:
+    with atomic_write(file) as draft:
         draft.write_text("mine")
         subprocess.run([sys.executable, "-c", OTHER, str(file)], check=True)
         assert file.read_text() == "other"
@@ -30,8 +30,8 @@ def test_two_processes_may_write_one_file_at_once(tmp_path: Path) -> None:
 
 def test_what_could_not_be_written_leaves_the_old_file_and_no_draft(tmp_path: Path) -> None:
     file = tmp_path / "result.dat"
-    write_whole(file, "old")
+    write_text(file, "old")
     with pytest.raises(UnicodeEncodeError):
-        write_whole(file, "new \udcff")
+        write_text(file, "new \udcff")
     assert file.read_text() == "old"
     assert list(tmp_path.iterdir()) == [file]

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..results.atomic_file import write_whole
+from ..results.atomic_file import write_text
 from ..results.result import Json
 from ..statistics import Median, fewest_for_median, median_interval, rate
 from .criterion import reasons
@@ -182,7 +182,7 @@ class Envelope:
             else:
                 entries.append(f"{_text(key)}: {_text(value)}")
         path = directory / FILE
-        write_whole(path, "{\n  " + ",\n  ".join(entries) + "\n}\n")
+        write_text(path, "{\n  " + ",\n  ".join(entries) + "\n}\n")
         return path
 
     def _number(self, value: float) -> str:

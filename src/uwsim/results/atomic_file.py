@@ -12,16 +12,16 @@ DRAFT = re.compile(r"\.(.+)\.[0-9]+\.part")
 """Name of a draft: the file's name and the process that writes it."""
 
 
-def write_whole(path: Path, text: str) -> None:
+def write_text(path: Path, text: str) -> None:
     """Write a text file so that a reader sees the old one or the new one, never half of it."""
-    with drafted(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as stream:
+    with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as stream:
         stream.write(text)
         stream.flush()
         os.fsync(stream.fileno())
 
 
 @contextmanager
-def drafted(path: Path) -> Iterator[Path]:
+def atomic_write(path: Path) -> Iterator[Path]:
     """Lend a place to write at; what is written there takes the file's place when it is whole.
 
     Two processes may write the same file at once: there is a draft each, and the last one stays.

@@ -21,7 +21,7 @@ from pathlib import Path
 
 from ..errors import ResultError
 from ..files.file_names import file_name
-from .atomic_file import write_whole
+from .atomic_file import write_text
 from .result import MOST
 
 Sample = tuple[float | int | None, ...]
@@ -45,7 +45,7 @@ class Log:
 def save_log(log: Log, directory: Path, file: str = "") -> Path:
     """Write ``measure-<file>.csv``, whole or not at all; the file is called after the measure."""
     path = directory / f"measure-{file or file_name(log.measure)}.csv"
-    write_whole(path, log_text(log))
+    write_text(path, log_text(log))
     return path
 
 

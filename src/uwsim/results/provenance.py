@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..errors import ResultError
-from .atomic_file import write_whole
+from .atomic_file import write_text
 from .chosen_code import chosen_code, other_code
 from .stored_shapes import PROVENANCE
 
@@ -25,7 +25,7 @@ BEFORE = "code_before"
 def save_provenance(provenance: Mapping[str, object], directory: Path) -> Path:
     """Write ``provenance.json`` into the result directory."""
     path = directory / "provenance.json"
-    write_whole(path, json.dumps(provenance, indent=2, ensure_ascii=False) + "\n")
+    write_text(path, json.dumps(provenance, indent=2, ensure_ascii=False) + "\n")
     return path
 
 

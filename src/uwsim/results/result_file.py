@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TypeVar, cast
 
 from ..errors import ResultError, did_you_mean
-from .atomic_file import write_whole
+from .atomic_file import write_text
 from .interrupted import instead_of_a_result
 from .result import Column, ImageStream, Missing, Result, TakenPicture, Variation
 from .stored_shapes import RESULT
@@ -35,7 +35,7 @@ def save(result: Result, path: Path) -> Path:
     """Write a result, whole or not at all, into ``path`` (a directory or ``.../result.json``)."""
     path = file_of(path) if path.suffix == ".json" or path.is_dir() else path / "result.json"
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_whole(path, dumps(result))
+    write_text(path, dumps(result))
     return path
 
 

@@ -16,7 +16,7 @@ import csv
 import io
 from pathlib import Path
 
-from .atomic_file import write_whole
+from .atomic_file import write_text
 from .per_level import per_level, success_per_level
 from .result import Result
 from .table import unit_of
@@ -55,5 +55,5 @@ def summary_text(result: Result) -> str:
 def save_summary(result: Result, directory: Path) -> Path:
     """Write ``summary.csv`` into the result directory, whole or not at all."""
     path = directory / FILE
-    write_whole(path, summary_text(result))
+    write_text(path, summary_text(result))
     return path

@@ -43,7 +43,7 @@ from ..benchmark.measures import (
 from ..benchmark.plugin_checks import sample_of
 from ..benchmark.score import parse
 from ..files.file_names import file_name
-from ..results.atomic_file import write_whole
+from ..results.atomic_file import write_text
 from ..results.log import TIME, Log
 from ..results.result import Cell, Column, Result
 from .trial.triggered_measure import TriggeredMeasure, finite
@@ -125,7 +125,7 @@ def save_dat(
 ) -> Path:
     """Write ``result.dat`` into the result directory, whole or not at all."""
     path = directory / "result.dat"
-    write_whole(path, dat_text(result, compatibility=compatibility, measures=measures))
+    write_text(path, dat_text(result, compatibility=compatibility, measures=measures))
     return path
 
 
@@ -193,7 +193,7 @@ def data_text(log: Log, spec: MeasureSpec) -> str:
 def save_data(log: Log, spec: MeasureSpec, directory: Path, file: str = "") -> Path:
     """Write ``benchmark-<file>.data``, called after the measure, whole or not at all."""
     path = directory / f"benchmark-{file or file_name(spec.name)}.data"
-    write_whole(path, data_text(log, spec))
+    write_text(path, data_text(log, spec))
     return path
 
 

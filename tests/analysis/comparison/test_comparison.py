@@ -30,8 +30,8 @@ from uwsim.analysis.comparison.document import csv_text, json_text
 from uwsim.analysis.comparison.matrix import matrix
 from uwsim.analysis.comparison.page import render
 from uwsim.analysis.comparison.plots import curves, differences_plot, success
+from uwsim.analysis.comparison.sentences import sentences, told_apart
 from uwsim.analysis.comparison.terminal import drawn
-from uwsim.analysis.comparison.words import sentences, told_apart
 from uwsim.errors import ResultError, UnknownName
 from uwsim.results.result import Result
 from uwsim.statistics import mean_interval, rate, repeats_needed, sign_flip

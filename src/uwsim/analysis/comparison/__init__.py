@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from .compare import compare, compare_files
-from .entries import Entry, differences, read_entries, remarks, shared_column
-from .findings import Comparison, Difference
+from .inputs import Entry, differences, read_entries, remarks, shared_column
+from .model import Comparison, Difference
 from .write import write_comparison
 
 __all__ = [

@@ -26,15 +26,8 @@ from ...statistics import (
     signed_rank,
     vargha_delaney,
 )
-from .entries import (
-    Entry,
-    differences,
-    read_entries,
-    remarks,
-    same_pictures,
-    shared_column,
-)
-from .findings import (
+from .inputs import Entry, differences, read_entries, remarks, same_pictures, shared_column
+from .model import (
     CONFIDENCE,
     POWER,
     AtLevel,

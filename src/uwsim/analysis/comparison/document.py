@@ -19,10 +19,10 @@ from collections.abc import Mapping
 
 from ...results.per_level import per_level, success_per_level
 from ...statistics import Interval
-from .entries import Entry
-from .findings import CONFIDENCE, POWER, AtLevel, Comparison, Difference, Overall, Versus
+from .inputs import Entry
+from .model import CONFIDENCE, POWER, AtLevel, Comparison, Difference, Overall, Versus
 from .repeats import ALPHA
-from .words import sentences
+from .sentences import sentences
 
 FORMAT = "uwsim-comparison/1"
 

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ...results.per_level import success_per_level
-from .entries import Entry
-from .findings import Comparison, Difference, Outcome, Versus
+from .inputs import Entry
+from .model import Comparison, Difference, Outcome, Versus
 
 Standing = Literal[
     "better", "worse", "equal", "not shown", "too few", "one repeat", "no pair", "itself"

@@ -13,11 +13,11 @@ from ...results.result import Result
 from ...statistics import Interval
 from ..plots import written_unit
 from ..templates import template
-from .findings import Comparison, Versus
 from .matrix import matrix, note, too_few
 from .matrix import title as matrix_title
+from .model import Comparison, Versus
+from .sentences import sentences, told_apart
 from .terminal import heading, lines
-from .words import sentences, told_apart
 
 CAPTIONS = {
     "curves": "Mean over the repeats of each result, with its 95 % interval.",

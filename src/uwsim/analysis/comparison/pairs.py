@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ...errors import ResultError
 from ...results.per_level import rows_by_level, seeds_of
 from ...results.result import Result
-from .entries import Entry
+from .inputs import Entry
 
 Level = tuple[float, ...]
 SAME = 9

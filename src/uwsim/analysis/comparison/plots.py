@@ -35,8 +35,8 @@ from ..plots import (
     write_note,
     written_unit,
 )
-from .entries import Entry
-from .findings import AtLevel, Comparison, Versus
+from .inputs import Entry
+from .model import AtLevel, Comparison, Versus
 
 FILLED = "; filled: p ≤ 0.05 after Holm"
 Bar = tuple[str, Interval, bool]

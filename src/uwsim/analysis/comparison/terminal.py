@@ -13,9 +13,9 @@ from rich.text import Text
 from ...results.result import Column
 from ...results.table import exact_decimals, interval_text, number_text, sensible_decimals
 from ...statistics import Interval
-from .findings import AtLevel, Comparison, Versus
 from .matrix import Standing, matrix, note, title
-from .words import needed_text, p_text, sentences, short
+from .model import AtLevel, Comparison, Versus
+from .sentences import needed_text, p_text, sentences, short
 
 STYLES: dict[Standing, str] = {"better": "green", "worse": "red", "too few": "yellow"}
 LEGEND = (

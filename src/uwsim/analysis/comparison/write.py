@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from ...results.atomic_file import write_whole
+from ...results.atomic_file import write_text
 from .document import csv_text, json_text
-from .findings import Comparison
+from .model import Comparison
 from .page import render
 from .plots import draw_comparison
 
@@ -20,8 +20,8 @@ PAGE = "comparison.html"
 def write_comparison(comparison: Comparison, directory: Path) -> Path:
     """Write numbers, plots and page into ``directory``; return the page."""
     directory.mkdir(parents=True, exist_ok=True)
-    write_whole(directory / "comparison.json", json_text(comparison))
-    write_whole(directory / "comparison.csv", csv_text(comparison))
+    write_text(directory / "comparison.json", json_text(comparison))
+    write_text(directory / "comparison.csv", csv_text(comparison))
     plots = draw_comparison(comparison, directory / "plots")
-    write_whole(directory / PAGE, render(comparison, plots))
+    write_text(directory / PAGE, render(comparison, plots))
     return directory / PAGE

@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 
 from ...errors import ResultError
 from ...files.file_names import file_names
-from ...results.atomic_file import drafted
+from ...results.atomic_file import atomic_write
 from ...results.result import Result
 from .curves import algorithm_of, curves_of, repeats_of
 from .drawing import (
@@ -156,14 +156,14 @@ def save_plot(figure: Figure, path: Path) -> Path:
     """Write a plot as PNG, 200 dots an inch, without a date or a program's name in it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     FigureCanvasAgg(figure)
-    with any_letter(), drafted(path) as draft:
+    with any_letter(), atomic_write(path) as draft:
         figure.savefig(draft, dpi=DPI, format="png", metadata={"Software": None})
     return path
 
 
 def save_pdf(figure: Figure, path: Path) -> Path:
     """Write a plot as PDF for a paper: letters as letters, without a date or a program's name."""
-    with mpl.rc_context({"pdf.fonttype": 42}), any_letter(), drafted(path) as draft:
+    with mpl.rc_context({"pdf.fonttype": 42}), any_letter(), atomic_write(path) as draft:
         figure.savefig(
             draft, format="pdf", metadata={"CreationDate": None, "Producer": None, "Creator": None}
         )

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...errors import ResultError
-from ...results.atomic_file import write_whole
+from ...results.atomic_file import write_text
 from ...results.directory import CONTROL, REPORT
 from ...results.journal_check import check_rows
 from ...results.log import logs_of
@@ -36,6 +36,7 @@ from ..plots import (
 )
 from ..templates import template
 from .captions import caption, marks, seeds_text, statistic_of
+from .caveats import floor, is_static, optics
 from .configuration import (
     command,
     facts,
@@ -47,10 +48,9 @@ from .configuration import (
     title,
     variations,
 )
-from .endings import Ending, breaks, endings, named_level
+from .outcomes import Ending, breaks, endings, named_level
 from .pictures import data_url, pictures_text, shown_pictures
 from .rows import all_cells, heads, level_rows
-from .trust import floor, is_static, optics
 
 MAX_CARDS = 12
 SHORT_LIST = 6
@@ -86,7 +86,7 @@ def write_report(path: Path, *, pdf: bool = False) -> Path:
     plots = draw_plots(result, directory / "plots", control=control, pdf=pdf)
     target = directory / REPORT
     page = render(result, directory, plots=plots, control=control, unchecked=unchecked)
-    write_whole(target, page)
+    write_text(target, page)
     return target
 
 

@@ -15,7 +15,7 @@ from PIL import Image
 from ...results.per_level import rows_by_level, seeds_of
 from ...results.result import Result, TakenPicture
 from ..plots import repeats_of
-from .endings import named_level
+from .outcomes import named_level
 from .overlay import overlay
 
 MAX_PICTURES = 40

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ...results.result import Column, Result
 from ...results.table import exact_decimals, lines, shown_columns, unit_of
 from ..plots import written_unit
-from .endings import kind_of
+from .outcomes import kind_of
 
 MAX_LINES = 1000
 """Levels in the table; the others are left to result.json, and the report says so."""

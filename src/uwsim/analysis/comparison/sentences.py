@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from ...results.result import Column
 from ...statistics import Interval, smallest_p
 from ..plots import written_unit
-from .entries import Entry
-from .findings import AtLevel, Comparison, Difference, Overall, Versus
+from .inputs import Entry
 from .matrix import too_few
+from .model import AtLevel, Comparison, Difference, Overall, Versus
 from .pairs import Level
 from .repeats import ALPHA
 

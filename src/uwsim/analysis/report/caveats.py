@@ -9,7 +9,7 @@ import numpy as np
 
 from ...results.result import FLOOR, Result
 from ..plots import is_fog_swept
-from .endings import Ending
+from .outcomes import Ending
 
 PAPER_FOG, PAPER_DISTANCE, PAPER_VISIBILITY = 1.1, 1.36, 0.86
 """What the UWSim benchmarking paper (Perez et al.) states: [1/m], [m], 1."""

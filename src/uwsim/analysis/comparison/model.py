@@ -8,7 +8,7 @@ from typing import Literal
 
 from ...results.result import Column
 from ...statistics import Interval, Rate, fewest_for, holm, smallest_p
-from .entries import Entry
+from .inputs import Entry
 from .pairs import Level
 from .repeats import ALPHA
 
