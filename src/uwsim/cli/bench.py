@@ -174,7 +174,7 @@ def bench(
         run_and_finish(runs, executor, workers, watch, context.obj)
 
 
-def with_sources(bench: Run, files: Sequence[InputFile]) -> Run:
+def with_sources(run: Run, files: Sequence[InputFile]) -> Run:
     """Return the same with the sources of its algorithm among its inputs.
 
     Args:
@@ -185,8 +185,8 @@ def with_sources(bench: Run, files: Sequence[InputFile]) -> Run:
     from ..runs.inputs_read import of_algorithm
 
     with recorded() as sources:
-        inputs = {**bench.inputs, **of_algorithm(bench.plan)}
-    return replace(bench, inputs=inputs, files=watchable([*files, *sources]))
+        inputs = {**run.inputs, **of_algorithm(bench.plan)}
+    return replace(run, inputs=inputs, files=watchable([*files, *sources]))
 
 
 def run_and_finish(
