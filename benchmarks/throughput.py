@@ -24,7 +24,7 @@ from visibility import UWSIM, run
 from uwsim.assets.find import find
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import Simulation, Studio
+from uwsim.simulation import RendererPool, Simulation
 
 TIMES = 1.8
 LEVELS = 40
@@ -60,9 +60,9 @@ def wall_s(benchmark: Path, out: str, workers: int, threads: str | None) -> floa
     return wall
 
 
-def begin_and_end(scene: SceneSpec, studio: Studio | None) -> None:
+def begin_and_end(scene: SceneSpec, pool: RendererPool | None) -> None:
     """Do what every unit does once: make the scene live, draw with noise and without, close."""
-    simulation = Simulation(scene, studio=studio)
+    simulation = Simulation(scene, pool=pool)
     simulation.open()
     camera = simulation.world.camera(CAMERA)
     camera.shoot()
@@ -82,7 +82,7 @@ def measure() -> dict[str, object]:
         outs = ("one-thread", "one", "two")
         results = {(folder / out / "result.json").read_bytes() for out in outs}
     scene = read_scene(find("currents-scene.xml")).nominal
-    studio = Studio()
+    pool = RendererPool()
     return {
         "levels": LEVELS,
         "1 worker, 1 thread: wall_s": round(alone, 2),
@@ -96,7 +96,7 @@ def measure() -> dict[str, object]:
         "2 workers over 1 as it comes: times": round(as_it_comes / two, 3),
         "same bytes": len(results) == 1,
         "a unit beyond its steps": milliseconds(
-            lambda: begin_and_end(scene, studio), calls=3, batches=5
+            lambda: begin_and_end(scene, pool), calls=3, batches=5
         ),
         "the same with a renderer of its own": milliseconds(
             lambda: begin_and_end(scene, None), calls=3, batches=5

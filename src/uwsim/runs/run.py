@@ -36,7 +36,7 @@ from ..results.result import (
 )
 from ..results.result_file import save
 from ..results.summary import save_summary
-from ..simulation import Simulation, Studio
+from ..simulation import RendererPool, Simulation
 from .inputs_read import inputs_of
 from .plan import Plan, Trial
 from .trial.floor import largest
@@ -312,7 +312,7 @@ def _run(plan: Plan, renderer: str) -> dict[str, object]:
     }
 
 
-def hash_inputs(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, object], str]:
+def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[dict[str, object], str]:
     """Open the scene once: hash every file that is read, and name the renderer.
 
     Every name of the benchmark is looked up on the way, so that no name can fail later. Inside
@@ -320,7 +320,7 @@ def hash_inputs(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, obj
 
     Args:
         plan: what will be played.
-        studio: lends the renderer; without one it is made, and closed again.
+        pool: lends the renderer; without one it is made, and closed again.
 
     Returns:
         The ``inputs`` of the result, and what draws the pictures.
@@ -334,7 +334,7 @@ def hash_inputs(plan: Plan, studio: Studio | None = None) -> tuple[dict[str, obj
             timestep=plan.timestep,
             data_path=plan.data_path,
             compatibility=plan.compatibility,
-            studio=studio,
+            pool=pool,
         )
         try:
             with attribute_errors_to(plan.plugins):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from .calls import BEFORE, Calls, Counter, Cut, open_call
 from .node import STOPPED, InProcessNode, latency_of, what_broke
+from .renderer_pool import RendererPool
 from .simulation import Simulation
-from .studio import Studio
 
 __all__ = [
     "BEFORE",
@@ -14,8 +14,8 @@ __all__ = [
     "Counter",
     "Cut",
     "InProcessNode",
+    "RendererPool",
     "Simulation",
-    "Studio",
     "latency_of",
     "open_call",
     "what_broke",

@@ -24,7 +24,7 @@ from ..rendering.water import Light, Water
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from .parts import Part, parts_of
-from .studio import Studio
+from .renderer_pool import RendererPool
 
 ALL_TARGETS = frozenset({"colour", "range", "ids"})
 
@@ -38,7 +38,7 @@ class Scenery:
         state: where everything is.
         data_path: folders in which files are looked for.
         compatibility: the original's slips asked for.
-        studio: lends the renderer; without one the scenery has a renderer of its own.
+        pool: lends the renderer; without one the scenery has a renderer of its own.
     """
 
     STATE = ("water", "light")
@@ -52,11 +52,11 @@ class Scenery:
         data_path: tuple[Path, ...],
         *,
         compatibility: frozenset[str],
-        studio: Studio | None,
+        pool: RendererPool | None,
     ) -> None:
         self._state = state
-        self._own_studio = Studio()
-        self._studio = studio or self._own_studio
+        self._own_studio = RendererPool()
+        self._pool = pool or self._own_studio
         self._renderer: Renderer | None = None
         self._handles: list[int] = []  # of each part
         self._drawn_version = -1
@@ -201,13 +201,13 @@ class Scenery:
 
     def _open(self) -> Renderer:
         if self._renderer is None:
-            self._renderer = self._studio.borrow()
+            self._renderer = self._pool.acquire()
         return self._renderer
 
     def close(self) -> None:
         """Give the renderer back."""
         if self._renderer is not None:
-            self._studio.give_back(self._renderer)
+            self._pool.release(self._renderer)
             self._renderer = None
             self._handles = []
             self._drawn_version = -1

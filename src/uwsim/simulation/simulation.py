@@ -37,7 +37,7 @@ class Simulation:
     Args:
         scene: what the file says; what varies in it is drawn for the seed.
         options: those of `uwsim.simulation.world.SceneWorld`: ``seed``, ``stream_prefix``,
-            ``timestep``, ``integrator``, ``data_path``, ``compatibility``, ``studio``,
+            ``timestep``, ``integrator``, ``data_path``, ``compatibility``, ``pool``,
             ``is_blind``.
     """
 

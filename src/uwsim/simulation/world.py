@@ -27,8 +27,8 @@ from .checks.plausibility import doubts_about
 from .collision_shapes import simulated_shapes
 from .dynamics import read_dynamics
 from .floor import set_on_floor
+from .renderer_pool import RendererPool
 from .scenery import Scenery
-from .studio import Studio
 from .touch import Touch
 from .vehicles import SceneVehicle, vehicles_of
 
@@ -45,7 +45,7 @@ class SceneWorld:
         data_path: folders in which files are looked for.
         compatibility: the original's slips asked for.
         runs_code: let Python code that the scene names run; without it that water is still.
-        studio: lends the renderer; without one the scene has a renderer of its own.
+        pool: lends the renderer; without one the scene has a renderer of its own.
         is_blind: images on topics are black, nothing is drawn for them.
     """
 
@@ -60,7 +60,7 @@ class SceneWorld:
         data_path: tuple[Path, ...] = (),
         compatibility: frozenset[str] = frozenset(),
         runs_code: bool = True,
-        studio: Studio | None = None,
+        pool: RendererPool | None = None,
         is_blind: bool = False,
     ) -> None:
         data_path = tuple(Path(folder) for folder in data_path)
@@ -89,7 +89,7 @@ class SceneWorld:
             self.state,
             data_path,
             compatibility=compatibility,
-            studio=studio,
+            pool=pool,
         )
         """What it looks like."""
         self._bodies = name_bodies(

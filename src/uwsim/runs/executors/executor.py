@@ -19,7 +19,7 @@ from ...errors import RUN_ERRORS, RunFailed, UwsimError
 from ...interrupts import is_of_user
 from ...results.journal import path_of
 from ...results.result import Result
-from ...simulation import Calls, Cut, Studio
+from ...simulation import Calls, Cut, RendererPool
 from ..plan import Plan, Trial
 from ..run import Run
 from ..trial.status import PROCESS_ENDED
@@ -171,11 +171,11 @@ class SerialExecutor:
 
     def execute(self, queue: JobQueue) -> None:
         """Play everything."""
-        studio = Studio()
+        pool = RendererPool()
         try:
             while (job := queue.take()) is not None:
                 try:
-                    for _ in run_and_record(job, studio, Calls()):
+                    for _ in run_and_record(job, pool, Calls()):
                         queue.level(job)
                 except Exception as error:
                     queue.failed(job, error)
@@ -186,15 +186,15 @@ class SerialExecutor:
                 else:
                     queue.done(job)
         finally:
-            studio.close()
+            pool.close()
 
 
-def run_and_record(job: Job, studio: Studio, calls: Calls) -> Iterator[Event]:
+def run_and_record(job: Job, pool: RendererPool, calls: Calls) -> Iterator[Event]:
     """Play a trial where its result is; yields the levels that were not on disk before."""
     writer = JournalWriter(job.run, job.trial)
     here = Path.cwd()  # an algorithm may go elsewhere
     try:
-        for event in run_trial(job.run.plan, job.trial, studio, calls):
+        for event in run_trial(job.run.plan, job.trial, pool, calls):
             with chdir(here):
                 is_new = writer.keep(event)
             if is_new:

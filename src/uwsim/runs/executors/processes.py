@@ -20,7 +20,7 @@ from multiprocessing.connection import Connection, wait
 
 from ...environment import environment
 from ...interrupts import is_of_user
-from ...simulation import BEFORE, Calls, Counter, Cut, Studio, open_call
+from ...simulation import BEFORE, Calls, Counter, Cut, RendererPool, open_call
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 from .worker import TrialFailed, picklable
@@ -208,11 +208,11 @@ def how(exit_code: int | None) -> str:
 def work(pipe: Connection, parent: Connection, counter: Counter) -> None:
     """Play what comes through the pipe until ``None`` comes, or until the parent has ended."""
     exit_with_parent(parent)
-    studio = Studio()
+    pool = RendererPool()
     try:
         while (job := pipe.recv()) is not None:
             try:
-                for _ in run_and_record(job, studio, Calls(counter, job.cut)):
+                for _ in run_and_record(job, pool, Calls(counter, job.cut)):
                     pipe.send(LevelKept())
             except BaseException as error:
                 if is_of_user(error):
@@ -223,4 +223,4 @@ def work(pipe: Connection, parent: Connection, counter: Counter) -> None:
     except (EOFError, OSError):
         pass  # the employer has gone
     finally:
-        studio.close()
+        pool.close()

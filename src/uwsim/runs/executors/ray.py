@@ -27,7 +27,7 @@ from ...environment import environment, not_chosen
 from ...errors import BadSetting, MissingExtra, RunFailed, UwsimError
 from ...files.scratch import OWNER, scratch_folder
 from ...results import journal
-from ...simulation import Studio
+from ...simulation import RendererPool
 from ..plan import Trial
 from ..run import Run, hash_inputs
 from .executor import ENVIRONMENT, Job, JobQueue
@@ -208,7 +208,7 @@ class Worker:
 
     def __init__(self) -> None:
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # for its employer alone
-        self._studio = Studio()
+        self._pool = RendererPool()
         self._known: list[journal.Record] = []
 
     def execute(
@@ -217,7 +217,7 @@ class Worker:
         """Play a trial, if this machine is like the one that asks; yields what is to be kept."""
         try:
             self._check(run, trial, head)
-            yield from run_trial(run.plan, trial, self._studio)
+            yield from run_trial(run.plan, trial, self._pool)
         except Exception as error:
             yield TrialFailed(picklable(error))
 
@@ -236,7 +236,7 @@ class Worker:
         if asked in self._known:
             return
         try:
-            inputs, renderer = hash_inputs(run.plan, self._studio)
+            inputs, renderer = hash_inputs(run.plan, self._pool)
         except UwsimError as error:
             raise RunFailed(f"Worker on {platform.node()}: {error}") from error
         if run.plan.is_blind:

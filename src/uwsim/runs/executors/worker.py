@@ -18,7 +18,7 @@ import numpy.typing as npt
 from ...errors import RunFailed
 from ...files.file_names import file_names
 from ...results import journal
-from ...simulation import Calls, Studio
+from ...simulation import Calls, RendererPool
 from ..input_watch import Watch
 from ..plan import Plan, Trial
 from ..run import Run
@@ -57,20 +57,20 @@ Event = LevelEnded | TrialEnded
 
 
 def run_trial(
-    plan: Plan, trial: Trial, studio: Studio, calls: Calls | None = None
+    plan: Plan, trial: Trial, pool: RendererPool, calls: Calls | None = None
 ) -> Iterator[Event]:
     """Play a trial; yields each level as it ends, and at last the end of the trial.
 
     Args:
         plan: what is played.
         trial: one of its trials.
-        studio: lends the renderer.
+        pool: lends the renderer.
         calls: counts those into the algorithm.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    for n, played in enumerate(execute(plan, trial, studio=studio, calls=calls)):
+    for n, played in enumerate(execute(plan, trial, pool=pool, calls=calls)):
         if isinstance(played, TrialEnd):
             yield TrialEnded(record=_end(played))
         else:

@@ -31,7 +31,7 @@ from ...bus import Algorithm
 from ...errors import NeverStarted, RunFailed, UwsimError
 from ...interrupts import is_of_user
 from ...messages import String
-from ...simulation import Calls, Simulation, Studio, what_broke
+from ...simulation import Calls, RendererPool, Simulation, what_broke
 from ..plan import Plan, Trial
 from .fingerprint import Checkpoints, Fingerprinter
 from .floor import Floor
@@ -98,14 +98,14 @@ class TrialEnd:
 
 
 def execute(
-    plan: Plan, unit: Trial, *, studio: Studio | None = None, calls: Calls | None = None
+    plan: Plan, unit: Trial, *, pool: RendererPool | None = None, calls: Calls | None = None
 ) -> Iterator[Row | TrialEnd]:
     """Play a unit; yields a Row as each level ends, and at last the UnitEnd.
 
     Args:
         plan: what is played.
         unit: one of its units.
-        studio: lends the renderer; without one the unit has a renderer of its own.
+        pool: lends the renderer; without one the unit has a renderer of its own.
         calls: counts those into the algorithm.
 
     Raises:
@@ -119,7 +119,7 @@ def execute(
         data_path=plan.data_path,
         compatibility=plan.compatibility,
         is_blind=plan.is_blind,
-        studio=studio,
+        pool=pool,
     )
     try:
         with (

@@ -1,7 +1,7 @@
 """Renderers lent to simulations that come one after the other.
 
 A new OpenGL context has to compile its shaders and take in every texture again, which costs as
-much as dozens of pictures. A studio belongs to whoever plays several simulations in one process.
+much as dozens of pictures. A pool belongs to whoever plays several simulations in one process.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from ..rendering.renderer import Renderer
 
 
-class Studio:
+class RendererPool:
     """Owns renderers and lends them, each to one simulation at a time.
 
     What is drawn does not depend on who had the renderer before. Use it from one thread.
@@ -18,7 +18,7 @@ class Studio:
     def __init__(self) -> None:
         self._idle: list[Renderer] = []
 
-    def borrow(self) -> Renderer:
+    def acquire(self) -> Renderer:
         """Return an empty renderer, made if none is idle.
 
         Raises:
@@ -26,7 +26,7 @@ class Studio:
         """
         return self._idle.pop() if self._idle else Renderer()
 
-    def give_back(self, renderer: Renderer) -> None:
+    def release(self, renderer: Renderer) -> None:
         """Take a renderer back; its models stay on the graphics side."""
         renderer.clear()
         self._idle.append(renderer)

@@ -8,13 +8,13 @@ import numpy as np
 
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import Simulation, Studio
+from uwsim.simulation import RendererPool, Simulation
 
 SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
 
 
-def pictures(scene: SceneSpec, studio: Studio | None) -> list[np.ndarray]:
-    simulation = Simulation(scene, seed=3, studio=studio)
+def pictures(scene: SceneSpec, pool: RendererPool | None) -> list[np.ndarray]:
+    simulation = Simulation(scene, seed=3, pool=pool)
     camera = simulation.world.camera("bowtech1")
     exact = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics)
     assert exact.colour is not None
@@ -28,20 +28,20 @@ def pictures(scene: SceneSpec, studio: Studio | None) -> list[np.ndarray]:
 def test_pictures_are_the_same_whoever_had_the_renderer_before() -> None:
     scene = read_scene(SCENES / "visibility-scene.xml")
     other = replace(read_scene(SCENES / "currents-scene.xml").nominal, objects=())
-    studio = Studio()
-    pictures(other, studio)
-    first, second = pictures(scene, studio), pictures(scene, studio)
+    pool = RendererPool()
+    pictures(other, pool)
+    first, second = pictures(scene, pool), pictures(scene, pool)
     for ours, again, alone in zip(first, second, pictures(scene, None), strict=True):
         np.testing.assert_array_equal(ours, alone)
         np.testing.assert_array_equal(again, alone)
-    studio.close()
+    pool.close()
 
 
 def test_two_simulations_at_once_do_not_see_each_other() -> None:
     scene = read_scene(SCENES / "visibility-scene.xml")
-    studio = Studio()
-    emptier = Simulation(replace(scene, objects=scene.objects[:1]), studio=studio)
-    whole = Simulation(scene, studio=studio)
+    pool = RendererPool()
+    emptier = Simulation(replace(scene, objects=scene.objects[:1]), pool=pool)
+    whole = Simulation(scene, pool=pool)
     camera = emptier.world.camera("bowtech1")
     with_all = whole.world.scenery.picture(camera.world_from_camera, camera.intrinsics).ids
     with_one = emptier.world.scenery.picture(camera.world_from_camera, camera.intrinsics).ids
@@ -50,16 +50,16 @@ def test_two_simulations_at_once_do_not_see_each_other() -> None:
     assert set(np.unique(with_one)) < set(np.unique(with_all))
     for simulation in (emptier, whole):
         simulation.close()
-    first, second = studio.borrow(), studio.borrow()
+    first, second = pool.acquire(), pool.acquire()
     assert first is not second
     for renderer in (first, second):
-        studio.give_back(renderer)
-    studio.close()
+        pool.release(renderer)
+    pool.close()
 
 
 def test_a_second_simulation_in_a_studio_gets_the_same_renderer() -> None:
-    studio = Studio()
-    first = studio.borrow()
-    studio.give_back(first)
-    assert studio.borrow() is first
+    pool = RendererPool()
+    first = pool.acquire()
+    pool.release(first)
+    assert pool.acquire() is first
     first.close()
