@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from uwsim import chance
+from uwsim import rng
 from uwsim.bus import Bus
 from uwsim.errors import AssetNotFound, UnknownName
 from uwsim.geometry import Intrinsics, Pose
@@ -157,7 +157,7 @@ class FakeWorld:
         return self.cameras[name]
 
     def stream(self, name: str) -> np.random.Generator:
-        return chance.stream(self._seed, name)
+        return rng.stream(self._seed, name)
 
     def find(self, name: str, *, beside: str) -> Path:
         path = Path(beside).parent / name

@@ -12,7 +12,7 @@ PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
 GROUND = {
     "errors",
     "geometry",
-    "chance",
+    "rng",
     "compatibility",
     "environment",
     "jit",

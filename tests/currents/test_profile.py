@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 
-from uwsim.chance import stream
 from uwsim.currents import (
     CurrentSpec,
     LayerSpec,
@@ -18,6 +17,7 @@ from uwsim.currents import (
 )
 from uwsim.errors import BadSetting
 from uwsim.geometry import Pose
+from uwsim.rng import stream
 
 SURFACE = (0.4, -0.2, 0.0)
 POWER = PowerProfileSpec(velocity=SURFACE, depth=20.0)

@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.chance import stream
 from uwsim.currents import (
     CURRENTS,
     Constant,
@@ -22,6 +21,7 @@ from uwsim.currents import (
     bind_currents,
 )
 from uwsim.errors import SceneError
+from uwsim.rng import stream
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.schema import slots
 from uwsim.world import Flow

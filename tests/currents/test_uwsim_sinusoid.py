@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.special import jv
 
-from uwsim.chance import stream
 from uwsim.currents import Current, LateCurrent, Place, UwsimSinusoidSpec
+from uwsim.rng import stream
 
 ORIGIN = np.zeros((1, 3))
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from .constant import Constant, ConstantSpec
 from .current import FASTEST, Current, CurrentSpec, Place
+from .delayed import LateCurrent
 from .field import Field, FieldSpec, Grid, read_grid
 from .gauss_markov import GaussMarkov, GaussMarkovSpec
-from .late import LateCurrent
 from .profile import (
     Layers,
     LayerSpec,

@@ -19,7 +19,7 @@ import numpy as np
 
 from ..schema import element
 from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
-from .draws import Draws
+from .random_table import Draws
 
 Triple = tuple[float, float, float]
 

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 from ..schema import element
 from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
-from .draws import Draws
+from .random_table import Draws
 
 Vector = tuple[float, float, float]
 LEAST_PERIOD = 0.01

@@ -28,7 +28,7 @@ from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from ..chance import stream
+from ..rng import stream
 
 GRID = 8
 """Intervals of the first seed's grid."""

@@ -27,8 +27,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
-from ..chance import stream
 from ..errors import BadSetting
+from ..rng import stream
 from ..schema import NAMESPACE, Faults, element
 from .settings import Place, locate, overlaps
 

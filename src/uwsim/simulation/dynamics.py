@@ -11,12 +11,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
 
-from ..chance import stream
 from ..currents import Place, PythonFunctionSpec
 from ..errors import Fault, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import LEAST_MASS
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
 from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle_into
+from ..rng import stream
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.vehicle import VehicleSpec

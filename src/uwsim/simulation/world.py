@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ..bus import Bus
-from ..chance import stream
 from ..devices.device import DeviceSpec
 from ..errors import Fault, UnknownName
 from ..geometry import Intrinsics, Pose
 from ..physics.state import State
+from ..rng import stream
 from ..scene.reader import angle_notices
 from ..scene.spec import Integrator, SceneSpec, with_integrator
 from ..scene.variation import varied

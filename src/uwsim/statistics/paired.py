@@ -9,8 +9,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ..chance import stream
 from ..geometry import Array
+from ..rng import stream
 
 MOST_EXACT = 20
 """Up to so many differences every one of the 2^n sign patterns is counted."""

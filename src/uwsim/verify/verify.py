@@ -14,12 +14,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from ..chance import stream
 from ..files.scratch import scratch_folder
 from ..results import journal
 from ..results.leaves import leaves
 from ..results.result import Result
 from ..results.result_file import dumps
+from ..rng import stream
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
 from ..runs.executors.worker import PICTURES
 from ..runs.plan import Plan, Trial

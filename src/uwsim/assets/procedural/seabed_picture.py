@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from ... import chance
+from ... import rng
 from ..mesh import Texture
 from .textures import Grey, lit, noise, step
 
@@ -53,7 +53,7 @@ def stones(
         gap: Half the width of the joints [pixels].
         bend: How far borders are bent, in typical sizes of a stone.
     """
-    draw = chance.stream(0, f"assets/{name}/stones")
+    draw = rng.stream(0, f"assets/{name}/stones")
     seeds = np.ones((height, width), dtype=np.uint8)
     seeds[draw.integers(0, height, count), draw.integers(0, width, count)] = 0
     _, labels = cv2.distanceTransformWithLabels(
@@ -170,7 +170,7 @@ def _painted(
 def _scatter_shells(picture: Pixels) -> None:
     """Shells and pebbles: small bright or dark ellipses with a shadow."""
     h, w = picture.shape[:2]
-    draw = chance.stream(0, "assets/tank/mosaic/shells")
+    draw = rng.stream(0, "assets/tank/mosaic/shells")
     for _ in range(380):
         centre = (int(draw.integers(0, w)), int(draw.integers(0, h)))
         axes = (int(draw.integers(2, 8)), int(draw.integers(2, 5)))
@@ -186,7 +186,7 @@ def _scatter_shells(picture: Pixels) -> None:
 
 def _exposures(h: int, w: int) -> Grey:
     """Each photograph of the mosaic was a little brighter or darker, and dimmer at its rim."""
-    draw = chance.stream(0, "assets/tank/mosaic/seams")
+    draw = rng.stream(0, "assets/tank/mosaic/seams")
     rows, columns = 6, 3
     gain = np.ones((h // 2, w // 2), dtype=np.float32)
     for r in range(rows):

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from ... import chance
+from ... import rng
 from ..mesh import Texture
 
 Grey = npt.NDArray[np.float32]
@@ -41,7 +41,7 @@ def noise(
         gain: Weight of each grid relative to the one before.
         tiles: Whether opposite sides fit together.
     """
-    draw = chance.stream(0, f"assets/{name}")
+    draw = rng.stream(0, f"assets/{name}")
     short = min(height, width)
     rows, columns = round(cells * height / short), round(cells * width / short)
     total = draw.standard_normal((rows, columns), dtype=np.float32)
@@ -176,7 +176,7 @@ def concrete(name: str, colour: Colour, *, size: int = 512, joints: int = 0) -> 
     picture = plain(size, size, colour) * (1.0 + 0.07 * clouds)[:, :, None]
     picture *= (1.0 - 0.30 * step(1.9, 2.6, pores) + 0.02 * pores)[:, :, None]
     if joints:
-        draw = chance.stream(0, f"assets/{name}/tiles")
+        draw = rng.stream(0, f"assets/{name}/tiles")
         shade = draw.normal(1.0, 0.035, (joints, joints)).astype(np.float32)
         picture *= cv2.resize(shade, (size, size), interpolation=cv2.INTER_NEAREST)[:, :, None]
         edge = (np.arange(size) * joints / size) % 1.0
