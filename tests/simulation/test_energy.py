@@ -15,7 +15,7 @@ from uwsim.devices.thruster_fault import ThrusterFaultSpec
 from uwsim.errors import UnknownName
 from uwsim.messages import Float64MultiArray, JointState, MultiArrayLayout, header
 from uwsim.physics.actuation.power import power_table
-from uwsim.physics.actuation.power_law import joint_power, thruster_power
+from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
 from uwsim.physics.compile import servo_gains
 from uwsim.physics.hydrodynamics import VehicleHydrodynamics
 from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets

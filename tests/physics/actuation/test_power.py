@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from uwsim.physics.actuation.power import power_table
-from uwsim.physics.actuation.power_law import joint_power, thruster_power
+from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
 from uwsim.physics.hydrodynamics import ThrusterSpec, VehicleHydrodynamics, vehicle_faults
 from uwsim.physics.hydrodynamics.spec import JointDrive
 from uwsim.physics.vehicle_file import VehicleError, read_vehicle, vehicle_sets

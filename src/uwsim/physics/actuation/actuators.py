@@ -50,9 +50,9 @@ class Actuators:
             index: number of the vehicle.
             refresh: brings the places in ``data`` up to date.
         """
-        from . import power_law
+        from . import power_kernel
 
-        self._law, self._refresh = power_law, refresh
+        self._law, self._refresh = power_kernel, refresh
         moving = [joint for joint in robot.joints if joint.moves]
         self.thrusters = tuple(spec.name for spec in vehicle.thrusters)
         """Names of its thrusters."""

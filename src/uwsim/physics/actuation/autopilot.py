@@ -111,9 +111,9 @@ class Autopilot:
             stiffness: with which the hull rights itself [N m/rad].
             thrusters: in the base's frame; without those of the set, all on the base.
         """
-        from . import autopilot_law
+        from . import autopilot_kernel
 
-        self._law = autopilot_law
+        self._law = autopilot_kernel
         body = vehicle.body(link)
         gains = gains or Gains()
         lag = max([LEAST_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])

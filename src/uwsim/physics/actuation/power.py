@@ -37,7 +37,7 @@ from ..hydrodynamics.spec import Numbers, ThrusterSpec
 
 
 def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array:
-    """Return what `power_law.thruster_power` computes with, (2, 1 + n).
+    """Return what `power_kernel.thruster_power` computes with, (2, 1 + n).
 
     Args:
         thruster: what the file says of it.

@@ -1,7 +1,7 @@
 """The joints of a simulated vehicle: servos that hold, follow or let go.
 
-A servo pulls its joint to a target (`servo_law`), with a stiffness and damping that follow from its
-strength, and carries what hangs on the joint. How strong it is and how fast its target moves at
+A servo pulls its joint to a target (`servo_kernel`), with a stiffness and damping that follow from
+its strength, and carries what hangs on the joint. How strong it is and how fast its target moves at
 most is said by the URDF. A position sets where the target goes, a velocity moves it until the next
 command, both within the limits of the URDF. An effort switches the servo off and acts on the joint
 alone; its limits are then stops. Joints that mimic follow the targets, or where the leader has no
@@ -36,7 +36,7 @@ class Servos:
         self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotSpec, index: int
     ) -> None:
         """Find the joints and actuators of the vehicle number ``index``."""
-        from .servo_law import pull
+        from .servo_kernel import pull
 
         self._law = pull
         self._model, self._data, self._robot = model, data, robot
