@@ -30,7 +30,7 @@ WORDS = (
 SIGNS = ("(", ")", ",", "?", ":", "^", "-", "*", "/", "&&", "||", "<", "==", " ", ".", "1e")
 NAMES = ("a", "b", "_pi", "max", "min", "sin", "sqrt", "rint", "if", "ln", "2", "0.5", "1e300")
 SCORE = "a > 0 ? 100 - 2*b : max(a, b, 0)^2 + sqrt(sin(_pi))"
-MOST_LETTERS = 5000
+MAX_LETTERS = 5000
 """An error line is at most so long; `printable` cuts what is longer."""
 
 
@@ -59,7 +59,7 @@ def xml(kind: str, folder: Path, chance: random.Random) -> None:
     for fault in faults_of(path):
         is_score = "<function>" in fault.message  # shown with a mark below the place
         assert is_score or "\n" not in str(fault), f"two lines: {str(fault)[:200]!r}"
-        assert len(str(fault)) < MOST_LETTERS, f"{len(str(fault))} letters"
+        assert len(str(fault)) < MAX_LETTERS, f"{len(str(fault))} letters"
 
 
 def rewritten(text: str, chance: random.Random) -> str:

@@ -30,7 +30,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Literal
 
-MOST_LISTED = 16
+MAX_LISTED = 16
 """So many names are listed; of more the nearest `N_NEAREST`."""
 N_NEAREST = 3
 
@@ -179,10 +179,10 @@ class AllErrors:
 
 
 def choices(name: str, known: Iterable[str], *, called: str = "Known") -> str:
-    """Return " Did you mean 'x'? Known: x, y"; of more than `MOST_LISTED` the nearest alone."""
+    """Return " Did you mean 'x'? Known: x, y"; of more than `MAX_LISTED` the nearest alone."""
     names = list(known)
     meant = did_you_mean(name, names)
-    if len(names) <= MOST_LISTED:
+    if len(names) <= MAX_LISTED:
         return f"{meant} {called}: {', '.join(names) or 'none'}"
     near = difflib.get_close_matches(name, names, n=N_NEAREST, cutoff=0.0)
     return f"{meant} Nearest of {len(names)}: {', '.join(near)}"

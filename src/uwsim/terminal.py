@@ -8,11 +8,11 @@ from collections.abc import Iterable
 
 from .errors import Fault
 
-LONGEST_QUOTE = 300
+MAX_QUOTE_LENGTH = 300
 """Letters of what a file said that are shown: a word, or what stands between quotes."""
 
 
-LONGEST_LINE = 4000
+MAX_LINE_LENGTH = 4000
 """Letters of a line, whatever is in it."""
 
 
@@ -33,9 +33,9 @@ def printable(text: str) -> str:
 
 
 def _legible(line: str) -> str:
-    shown = LONG.sub(_shortened, line[: 10 * LONGEST_LINE])
-    if len(shown) > LONGEST_LINE or len(line) > 10 * LONGEST_LINE:
-        shown = f"{shown[:LONGEST_LINE]}…"
+    shown = LONG.sub(_shortened, line[: 10 * MAX_LINE_LENGTH])
+    if len(shown) > MAX_LINE_LENGTH or len(line) > 10 * MAX_LINE_LENGTH:
+        shown = f"{shown[:MAX_LINE_LENGTH]}…"
     return legible(shown)
 
 
@@ -47,14 +47,14 @@ def legible(text: str) -> str:
     )
 
 
-LONG = re.compile(rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{LONGEST_QUOTE + 1},}}""")
+LONG = re.compile(rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{MAX_QUOTE_LENGTH + 1},}}""")
 """What a file said: what stands between quotes, and what is long and has no gap."""
 
 
 def _shortened(found: re.Match[str]) -> str:
     text = found[0]
-    if len(text) <= LONGEST_QUOTE:
+    if len(text) <= MAX_QUOTE_LENGTH:
         return text
     end = text[-1] if text[0] in "'\"" else ""
-    left_out = len(text) - LONGEST_QUOTE - len(end)
-    return f"{text[:LONGEST_QUOTE]}… ({left_out} more letters){end}"
+    left_out = len(text) - MAX_QUOTE_LENGTH - len(end)
+    return f"{text[:MAX_QUOTE_LENGTH]}… ({left_out} more letters){end}"

@@ -148,7 +148,7 @@ def test_a_picture_too_large_to_be_opened_is_not_left_out_in_silence(inside: Pat
 
 
 def test_pictures_are_bounded_in_all_too(inside: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(looks, "MOST_PIXELS_IN_ALL", 300)
+    monkeypatch.setattr(looks, "MAX_PIXELS_IN_ALL", 300)
     Image.new("RGB", (10, 10)).save(inside / "p.png")
     text = "".join(f"newmtl m{i}\nmap_Kd p.png\n" for i in range(4))
     (inside / "m.obj").write_text(
@@ -290,7 +290,7 @@ def test_triangles_of_a_collada_file_are_counted_for_each_instance(
     nodes, library = '<node> <instance_node url="#n2"/> </node>', instances_of_instances(2, 5)
     (inside / "x.dae").write_text(dae(nodes, library))
     assert load_model(str(inside / "x.dae")).n_triangles == 25
-    monkeypatch.setattr(collada_limits, "MOST_TEXT", 24 * len("0 1 2"))
+    monkeypatch.setattr(collada_limits, "MAX_TEXT", 24 * len("0 1 2"))
     (inside / "y.dae").write_text(dae(nodes, library))
     with pytest.raises(AssetError, match=r"its instances stand for .* MiB of triangles"):
         load_model(str(inside / "y.dae"))

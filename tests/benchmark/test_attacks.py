@@ -33,8 +33,8 @@ MEASURES = f"""{TIME} <euclideanNorm> <name>e</name>
 def test_an_attack_ends_the_row_with_its_reason(
     tmp_path: Path, algorithm: type[Attacker], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(outbox, "MOST_MESSAGES", 100)
-    monkeypatch.setattr(outbox, "MOST_BYTES", 2**20)
+    monkeypatch.setattr(outbox, "MAX_MESSAGES", 100)
+    monkeypatch.setattr(outbox, "MAX_BYTES", 2**20)
     rows = rows_of(make_plan(tmp_path, algorithm, LEVELS, measures=MEASURES, start=INIT))
     assert [row.status for row in rows] == ["algorithm error"] * 2
     assert "algorithm raised at 0.4 s: " in rows[0].missing["total"]
@@ -71,7 +71,7 @@ class Delayed(Attacker):
 def test_messages_that_wait_for_their_latency_count(
     tmp_path: Path, latency: float, status: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(outbox, "MOST_MESSAGES", 100)
+    monkeypatch.setattr(outbox, "MAX_MESSAGES", 100)
     plan = make_plan(tmp_path, Delayed, LEVELS, measures=MEASURES.split("<positionError>")[0])
     [row, _] = rows_of(replace(plan, parameters={"latency_s": latency}))
     assert row.status == status

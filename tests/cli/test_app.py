@@ -228,7 +228,7 @@ def test_an_error_of_normal_length_is_shown_whole() -> None:
     said = f"'box.obj' is neither a file nor bundled. The file's folders: {folders}. Is 'x' meant?"
     assert faults.one_line(errors.BadSetting(said)) == f"uwsim: {said}"
     long = terminal.printable(" ".join(["word"] * 10_000))
-    assert len(long) == terminal.LONGEST_LINE + 1
+    assert len(long) == terminal.MAX_LINE_LENGTH + 1
 
 
 def test_what_the_system_refuses_while_a_run_is_on_is_a_failed_run() -> None:

@@ -7,7 +7,7 @@ from uwsim.assets import load_model, primitive
 from uwsim.assets.mesh import Mesh, Model
 from uwsim.errors import UwsimError
 from uwsim.physics.loose import box_drag, ellipsoid_added_mass, loose_hydrodynamics, loose_link
-from uwsim.physics.shapes import MOST_PIECES, Shape, bounds, shapes_of
+from uwsim.physics.shapes import MAX_PIECES, Shape, bounds, shapes_of
 from uwsim.scene.spec import PhysicsSpec
 
 SAME = np.eye(4)
@@ -83,7 +83,7 @@ def test_a_flat_patch_that_is_no_rectangle_becomes_a_prism_behind_its_face() -> 
 def test_the_tank_is_open_in_its_middle_and_has_a_floor() -> None:
     tank = load_model("terrain/CIRS/cirs_trident.osg", beside=None, data_path=())
     plates = shapes_of(tank, SAME, "trimesh", is_fixed=True)
-    assert len(plates) < MOST_PIECES
+    assert len(plates) < MAX_PIECES
     inside = [plate for plate in plates if holds(plate, (0.0, 0.0, -2.0))]
     below = [plate for plate in plates if holds(plate, (0.0, 0.0, -4.87))]
     assert inside == []
@@ -100,7 +100,7 @@ def holds(shape: Shape, point: tuple[float, float, float]) -> bool:
 
 def test_a_mesh_with_too_many_faces_says_what_to_do() -> None:
     rng = np.random.Generator(np.random.Philox(1))
-    points = rng.uniform(size=(3 * MOST_PIECES + 3, 3))
+    points = rng.uniform(size=(3 * MAX_PIECES + 3, 3))
     soup = mesh_of(points.tolist(), np.arange(len(points)).reshape(-1, 3).tolist())
     with pytest.raises(UwsimError, match="<collisionShape>"):
         shapes_of(soup, SAME, "trimesh", is_fixed=True)

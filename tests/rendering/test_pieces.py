@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uwsim.geometry import Array, Intrinsics, Pose, rotation_from_rpy
-from uwsim.rendering.minification import MOST_TEXELS, needs_no_copies
+from uwsim.rendering.minification import MAX_TEXELS, needs_no_copies
 from uwsim.rendering.pieces import crosses, densities, flat_normal, pieces
 
 CAMERA = Intrinsics.from_fovy(64, 48, np.radians(50.0))
@@ -101,9 +101,9 @@ def test_no_pixel_covers_more_texels_than_was_promised(tilt: float) -> None:
         return bool(chosen[0])
 
     promised = next(t for t in np.geomspace(0.1, 1e4, 4000) if not is_close(float(t)))
-    assert promised * largest <= MOST_TEXELS * 1.003
+    assert promised * largest <= MAX_TEXELS * 1.003
     if tilt == 0.0:
-        assert promised * largest == pytest.approx(MOST_TEXELS, rel=0.01)
+        assert promised * largest == pytest.approx(MAX_TEXELS, rel=0.01)
 
 
 def test_what_is_bent_or_behind_or_bare_keeps_its_copies() -> None:

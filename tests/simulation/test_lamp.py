@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from uwsim.cli.check import faults_of
-from uwsim.devices.lamp import MOST_LAMPS as MOST_IN_A_SCENE
+from uwsim.devices.lamp import MAX_LAMPS as MAX_IN_A_SCENE
 from uwsim.devices.lamp import LampSpec
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.geometry import Pose
 from uwsim.rendering.lamp import LARGEST_HALF_ANGLE
-from uwsim.rendering.lamps import MOST_LAMPS
+from uwsim.rendering.lamps import MAX_LAMPS
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
@@ -110,5 +110,5 @@ def test_the_check_finds_both_and_a_cone_too_wide(tmp_path: Path) -> None:
 
 
 def test_scene_and_renderer_know_the_same_bounds() -> None:
-    assert MOST_IN_A_SCENE == MOST_LAMPS
+    assert MAX_IN_A_SCENE == MAX_LAMPS
     assert np.degrees(LARGEST_HALF_ANGLE) * 2.0 == pytest.approx(160.0)

@@ -38,7 +38,7 @@ from .element_order import check_order
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
 from .plugin import PREFIX
-from .spec import LONGEST_TASK, BenchmarkSpec, FunctionSpec
+from .spec import MAX_TASK_DURATION, BenchmarkSpec, FunctionSpec
 from .triggers import TRIGGERS, NeverSpec, TriggerSpec
 from .updater_settings import locate_in_benchmark, same_levels
 from .updaters import (
@@ -59,7 +59,7 @@ from .warnings import never_started, too_short
 
 RESERVED = ("repeat", "seed", "total", "status", "ended_at")
 """Columns of a result that no measure may be called by."""
-LONGEST_NAME = 100
+MAX_NAME_LENGTH = 100
 """So many letters a measure may be called by."""
 ONE_KNOB = (CameraNoiseUpdaterSpec, SceneFogUpdaterSpec, SceneLightUpdaterSpec)
 """Updaters of which two in a nest turn the same knob."""
@@ -357,10 +357,10 @@ class _Reader:
                     f"the name {name!r} cannot stand in the function; "
                     "expected letters, digits and _, no digit first",
                 )
-            elif len(spec.name) > LONGEST_NAME:
+            elif len(spec.name) > MAX_NAME_LENGTH:
                 self.faults.add(
                     node,
-                    f"the name {name!r}... has {len(spec.name)} letters; at most {LONGEST_NAME}, "
+                    f"the name {name!r}... has {len(spec.name)} letters; at most {MAX_NAME_LENGTH}, "
                     "for files are called after it",
                 )
             elif spec.name in seen:
@@ -401,7 +401,7 @@ class _Reader:
         if deepest.seconds_per_level is None and isinstance(spec.stop_on, NeverSpec):
             self.faults.notice(
                 root.find("stopOn"),
-                f"no interval and no <stopOn>: it ends after {LONGEST_TASK:g} s, in timeout",
+                f"no interval and no <stopOn>: it ends after {MAX_TASK_DURATION:g} s, in timeout",
             )
 
     def children(self, box: etree._Element) -> list[etree._Element]:

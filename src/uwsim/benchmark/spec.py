@@ -11,7 +11,7 @@ from .measures import MeasureSpec
 from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec, chain
 
-LONGEST_TASK = 600.0
+MAX_TASK_DURATION = 600.0
 """A level without an interval ends after this, in ``timeout`` [s]."""
 
 

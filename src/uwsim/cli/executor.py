@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..runs.executors.executor import Executor
 
 RAY = "ray"
-MOST_WORKERS = 1024
+MAX_WORKERS = 1024
 """More processes than this on one machine are a slip of the pen."""
 
 CALLBACK_LIMIT = 600.0
@@ -67,9 +67,9 @@ def executor_of(workers: str, callback_limit: float) -> Executor:
 
         return RayExecutor()
     number = int(workers) if workers.isascii() and workers.isdigit() else -1
-    if not 0 <= number <= MOST_WORKERS:
+    if not 0 <= number <= MAX_WORKERS:
         raise BadSetting(
-            f"--workers {workers}: expected a number from 0 to {MOST_WORKERS}, or {RAY!r}."
+            f"--workers {workers}: expected a number from 0 to {MAX_WORKERS}, or {RAY!r}."
             f"{did_you_mean(workers, [RAY])}"
         )
     if number == 0:

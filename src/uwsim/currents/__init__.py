@@ -20,7 +20,7 @@ from .python_function import PythonFunction, PythonFunctionSpec
 from .target import TargetCurrent
 from .tidal import ConstituentSpec, Tidal, TidalSpec
 from .total import TotalCurrent, bind_currents
-from .uwsim_sinusoid import LEAST_PERIOD, UwsimSinusoid, UwsimSinusoidSpec
+from .uwsim_sinusoid import MIN_PERIOD, UwsimSinusoid, UwsimSinusoidSpec
 
 CURRENTS: dict[str, type[CurrentSpec]] = {
     "constant": ConstantSpec,
@@ -38,7 +38,7 @@ CURRENTS: dict[str, type[CurrentSpec]] = {
 __all__ = [
     "CURRENTS",
     "FASTEST",
-    "LEAST_PERIOD",
+    "MIN_PERIOD",
     "Constant",
     "ConstantSpec",
     "ConstituentSpec",

@@ -22,7 +22,7 @@ from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
 from .random_table import Draws
 
 Vector = tuple[float, float, float]
-LEAST_PERIOD = 0.01
+MIN_PERIOD = 0.01
 """No water swells and turns faster [s]."""
 RATE = 60.0
 """The random factors are drawn anew this often, and held between [Hz]."""
@@ -41,19 +41,19 @@ class UwsimSinusoidSpec(CurrentSpec):
         namespaced=True, default=0.0, minimum=-FASTEST, maximum=FASTEST
     )
     """Amplitude of its swelling [m/s]."""
-    speed_period: float = element(namespaced=True, default=1.0, minimum=LEAST_PERIOD)
+    speed_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)
     """Period of its swelling [s]."""
     theta: float = element(namespaced=True, default=math.pi / 2.0)
     """Polar angle from z of L [rad]."""
     theta_variation: float = element(namespaced=True, default=0.0)
     """Amplitude of its turning in theta [rad]."""
-    theta_period: float = element(namespaced=True, default=1.0, minimum=LEAST_PERIOD)
+    theta_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)
     """Period of its turning in theta [s]."""
     phi: float = element(namespaced=True, default=0.0)
     """Azimuth from y of L towards -x of L [rad]."""
     phi_variation: float = element(namespaced=True, default=0.0)
     """Amplitude of its turning in phi [rad]."""
-    phi_period: float = element(namespaced=True, default=1.0, minimum=LEAST_PERIOD)
+    phi_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)
     """Period of its turning in phi [s]."""
     random: float = element(namespaced=True, default=0.0, minimum=0, maximum=10)
     """Half-width of the uniform noise on speed and both angles, relative [1]."""

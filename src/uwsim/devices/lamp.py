@@ -20,7 +20,7 @@ from ..sensors.sensor import DIRECTIONS, LookAt
 from ..world import Body, Stage
 from .device import Device, DeviceSpec, DeviceVehicle
 
-MOST_LAMPS = 4
+MAX_LAMPS = 4
 """So many lamps may shine in a scene."""
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..runs.plan import Plan
     from . import Criterion, Range
 
-MOST_CUTS = 30
+MAX_CUTS = 30
 """A range is not cut finer than 2 to the power of minus this."""
 
 
@@ -122,7 +122,7 @@ def range_of(
     step = round_down(width / 100) if tolerance is None else tolerance
     if not 0.0 < step < width:
         raise BadSetting(f"--tolerance is {step:g}; expected more than 0 and less than {width:g}.")
-    if width / step > 2.0**MOST_CUTS:
+    if width / step > 2.0**MAX_CUTS:
         raise BadSetting(f"--tolerance {step:g} is too fine for a range of {width:g}.")
     return Range(start=near, stop=far, tolerance=step)
 

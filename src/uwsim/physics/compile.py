@@ -25,14 +25,14 @@ from .loose import loose_hydrodynamics, loose_link
 from .shapes import Shape
 from .world_tree import rebuild_world_tree
 
-LONGEST_STEP = 0.02
+MAX_STEP = 0.02
 """Of what is simulated: held in soaks up to 0.01 s, seen to diverge from 0.03 s on; the autopilot
 thinks this often [s]."""
 GRAVITY = 9.81
 """[m/s2]"""
-LEAST_MASS = 0.01
+MIN_MASS = 0.01
 """Of a link whose URDF gives none [kg]."""
-LEAST_INERTIA = 1e-4
+MIN_INERTIA = 1e-4
 """Of a link whose URDF gives none [kg m2]."""
 SERVO = (400.0, 60.0)
 """Stiffness [N m/rad or N/m] and damping of the servo that holds a joint of much effort."""
@@ -175,9 +175,9 @@ def compile_scene(
 def _check_step(timestep: float, *, is_simulated: bool) -> None:
     if not (0.0 < timestep < math.inf):
         raise BadSetting(f"The step is {timestep!r}; expected a time > 0 [s].")
-    if is_simulated and timestep > LONGEST_STEP:
+    if is_simulated and timestep > MAX_STEP:
         raise BadSetting(
-            f"The step is {timestep:g} s; expected {LONGEST_STEP:g} s at most where a vehicle is "
+            f"The step is {timestep:g} s; expected {MAX_STEP:g} s at most where a vehicle is "
             "simulated: with longer ones the motion grows beyond all bounds (0.002 is usual)."
         )
 
@@ -346,7 +346,7 @@ def _add_body(
     parent: mujoco.MjsBody, name: str, parent_from_body: Pose, link: LinkSpec | None
 ) -> mujoco.MjsBody:
     """Add a body; with a ``link`` its mass is the URDF's, without it stands for a pose alone."""
-    mass, inertia = (1.0, 1.0) if link is None else (LEAST_MASS, LEAST_INERTIA)
+    mass, inertia = (1.0, 1.0) if link is None else (MIN_MASS, MIN_INERTIA)
     body = parent.add_body(
         name=name,
         pos=parent_from_body.position.tolist(),

@@ -24,7 +24,7 @@ PARALLEL = 1.0 - 1e-6
 """Least cosine between the normals of a patch."""
 SPARE = 1e-3
 """Share of a convex polygon that may lie beside its triangles."""
-MOST_LINES = 64
+MAX_LINES = 64
 """Lines tried for a cut: those of the longest border edges."""
 
 Ints = npt.NDArray[np.int64]
@@ -196,7 +196,7 @@ def _border_lines(part: Array) -> list[tuple[Array, float]]:
         if size > found.get(line, (0.0,))[0]:
             found[line] = (size, normal, offset)
     ranked = sorted(found.values(), key=lambda one: -round(one[0] / LEVEL))
-    return [(normal, offset) for _, normal, offset in ranked[:MOST_LINES]]
+    return [(normal, offset) for _, normal, offset in ranked[:MAX_LINES]]
 
 
 def _clipped(part: Array, normal: Array, offset: float) -> Array:

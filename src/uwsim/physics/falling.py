@@ -8,7 +8,7 @@ multiplies the velocity of the centre of mass, and that of turning (Bullet, `app
 .. math:: (1 - d)^{\Delta t}
 
 Vehicles go where they are told, through walls if need be, and push what is loose: each jump counts
-as made evenly over the time since the one before (`LONGEST_JUMP` at most), for as much time after
+as made evenly over the time since the one before (`MAX_JUMP` at most), for as much time after
 it. Not modelled: limits of objects, Bullet's friction and its solvers (ours is MuJoCo's, with
 `compile.FRICTION`), ``physicsFrequency`` (the step is the simulation's).
 """
@@ -21,7 +21,7 @@ import numpy as np
 from ..geometry import Array
 from ..linear import turned
 from ..scene.spec import PhysicsSpec, SceneSpec
-from .touching import LONGEST_JUMP
+from .touching import MAX_JUMP
 
 HEAVY = 1e4
 """Mass and inertia of a vehicle's links: nothing that is loose moves them [kg, kg m2]."""
@@ -114,7 +114,7 @@ class _Mover:
         self._v = np.flatnonzero(np.isin(model.dof_jntid, joints))
         self._now: Array = data.qpos[self._q].copy()
         self._velocity: Array = np.zeros(len(self._v))
-        self._longest = max(1, round(LONGEST_JUMP / model.opt.timestep))
+        self._longest = max(1, round(MAX_JUMP / model.opt.timestep))
         self._since = 0  # steps since the last jump
         self._n_steps = 0  # that it took
 

@@ -38,7 +38,7 @@ THICKNESS = 0.1
 """Of the plates of a fixed trimesh; not more than its shortest extent, unless it is `FLAT` [m]."""
 FLAT = 0.01
 """A mesh no thicker than this is a plane [m]."""
-MOST_PIECES = 10_000
+MAX_PIECES = 10_000
 """Plates of one fixed trimesh; with 4000 a scene opens in 3 s and takes 8000 steps/s."""
 THINNEST = 1e-3
 """Least edge of a box [m]."""
@@ -137,9 +137,9 @@ def seen_from(up: Array, triangles: Array) -> Array:
 def _plates(triangles: Array, name: str) -> tuple[Shape, ...]:
     """Slabs and prisms behind the faces of triangles (n, 3, 3) [m]."""
     faces = convex_faces(triangles)
-    if len(faces) > MOST_PIECES:
+    if len(faces) > MAX_PIECES:
         raise UwsimError(
-            f"{name!r} as a fixed trimesh would be {len(faces)} plates; at most {MOST_PIECES}. "
+            f"{name!r} as a fixed trimesh would be {len(faces)} plates; at most {MAX_PIECES}. "
             "Name a simpler mesh in <collisionShape>, or another <collisionShapeType>."
         )
     if not faces:

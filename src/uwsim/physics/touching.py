@@ -20,7 +20,7 @@ from ..world import Contact
 from .compile import ALL, OBJECTS, SHAPES
 from .shapes import Shape
 
-LONGEST_JUMP = 1.0
+MAX_JUMP = 1.0
 """A jump after a longer rest counts as made in this time [s]."""
 
 
@@ -116,7 +116,7 @@ class _Mover:
 
     def __init__(self, pose: Callable[[], Pose], timestep: float) -> None:
         self._pose, self._timestep = pose, timestep
-        self._longest = max(1, round(LONGEST_JUMP / timestep))
+        self._longest = max(1, round(MAX_JUMP / timestep))
         self.now = self._before = pose()
         self._jumped_at = 0
         self._n_steps = 0  # that its last jump took

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..schema import element
-from .hydrodynamics.faults import LEAST_RADIUS, LIQUIDS, SLOWEST_ROTOR
+from .hydrodynamics.faults import LIQUIDS, MIN_RADIUS, SLOWEST_ROTOR
 from .hydrodynamics.spec import BEST_EFFICIENCY
 
 Triple = tuple[float, float, float]
@@ -77,7 +77,7 @@ class ThrusterElement:
     """First-order lag of the rotor [s]."""
     torque: float = 0.0
     """Torque about the direction per thrust, positive right-handed [m]."""
-    radius: float = element(default=0.05, minimum=LEAST_RADIUS)
+    radius: float = element(default=0.05, minimum=MIN_RADIUS)
     """Of the propeller: at the surface its thrust is lost over this height, and the power it
     draws is that of its disc [m]."""
     efficiency: float | None = element(default=None, above=0.0, maximum=BEST_EFFICIENCY)

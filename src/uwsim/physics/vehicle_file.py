@@ -53,7 +53,7 @@ from .hydrodynamics.spec import (
 )
 from .vehicle_elements import BodyElement, HydrodynamicsElement, ThrusterElement
 
-MOST_NUMBERS = 36
+MAX_NUMBERS = 36
 """In one element: a full matrix."""
 HEAD = 65536
 """Bytes of a file in which its root element begins."""
@@ -324,8 +324,8 @@ def _numbers(text: str, name: str, node: etree._Element, faults: Faults) -> Numb
     words = text.replace(",", " ").split()
     if text and not words:
         faults.add(_child(node, name), f"<{name}> holds {text[:40]!r}; expected numbers")
-    if len(words) > MOST_NUMBERS:
-        said = f"<{name}> holds {len(words)} numbers; expected {MOST_NUMBERS} at most"
+    if len(words) > MAX_NUMBERS:
+        said = f"<{name}> holds {len(words)} numbers; expected {MAX_NUMBERS} at most"
         faults.add(_child(node, name), said)
         return ()
     values = [number(word) for word in words]

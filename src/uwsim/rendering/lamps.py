@@ -19,7 +19,7 @@ from .lamp import Lamp
 from .program import Block, build
 from .projection import clip_from_camera, frustum
 
-MOST_LAMPS = 4
+MAX_LAMPS = 4
 """So many shine in one picture."""
 
 TILE = 512
@@ -57,8 +57,8 @@ class Lamps:
         self.texture.repeat_x = self.texture.repeat_y = False
         self._framebuffer = context.framebuffer(depth_attachment=self.texture)
         self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
-        self._slots = [Slots(context) for _ in range(MOST_LAMPS)]
-        self._drawn: list[object] = [None] * MOST_LAMPS
+        self._slots = [Slots(context) for _ in range(MAX_LAMPS)]
+        self._drawn: list[object] = [None] * MAX_LAMPS
         self.n_drawn = 0
         """How many maps were drawn since the beginning."""
 

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from ..geometry import Array, Intrinsics, Pose
 from ..linear import product
 
-MOST_TEXELS = 2.0**0.5
+MAX_TEXELS = 2.0**0.5
 """A pixel may cover so many, along its longer side: half a level of the smaller copies."""
 
 
@@ -48,7 +48,7 @@ def needs_no_copies(
     focal = min(intrinsics.fx, intrinsics.fy)
     with np.errstate(divide="ignore", invalid="ignore"):
         footprint = depths.max(axis=1) / focal * (1.0 + leaning * farthest / away)  # [m]
-        is_small = densities * footprint <= MOST_TEXELS
+        is_small = densities * footprint <= MAX_TEXELS
     is_flat = np.square(normals).sum(axis=1) > 0.0
     is_ahead = depths.min(axis=1) > 0.0
     chosen: npt.NDArray[np.bool_] = is_small & is_flat & is_ahead & (densities > 0.0)

@@ -8,9 +8,9 @@ import numpy.typing as npt
 from ..geometry import Array
 from ..linear import length, product
 
-LONGEST_PIECE = 2.0
+MAX_PIECE_LENGTH = 2.0
 """Pieces are no longer than this ... [m]"""
-MOST_PIECES = 4
+MAX_PIECES = 4
 """... unless there were more than so many along an axis."""
 FEWEST_TRIANGLES = 16
 """A model with fewer is not cut."""
@@ -51,7 +51,7 @@ def pieces(points: Array, triangles: Triangles, normals: Array) -> list[npt.NDAr
     if len(triangles) < FEWEST_TRIANGLES:
         return [everything]
     low, high = points.min(axis=0), points.max(axis=0)
-    counts = np.clip(np.ceil((high - low) / LONGEST_PIECE), 1, MOST_PIECES).astype(int)
+    counts = np.clip(np.ceil((high - low) / MAX_PIECE_LENGTH), 1, MAX_PIECES).astype(int)
     if counts.prod() == 1:
         return [everything]
     sizes = np.maximum((high - low) / counts, 1e-9)

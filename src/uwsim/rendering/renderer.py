@@ -20,7 +20,7 @@ from .frame import FRAME, Frame
 from .gpu_model import GpuModels
 from .instance import INSTANCE, Instances, Slots, in_view
 from .lamp import Lamp
-from .lamps import LAMPS, MOST_LAMPS, Lamps
+from .lamps import LAMPS, MAX_LAMPS, Lamps
 from .picture import Picture
 from .program import build
 from .projection import clip_from_camera, frustum
@@ -139,8 +139,8 @@ class Renderer:
         wanted = frozenset(targets)
         if not wanted or not wanted <= set(TARGETS) or colour not in STORES:
             raise ValueError(f"cannot draw {sorted(wanted)} as {colour!r}: {TARGETS}, {STORES}")
-        if len(lamps) > MOST_LAMPS:
-            raise ValueError(f"{len(lamps)} lamps are more than {MOST_LAMPS}")
+        if len(lamps) > MAX_LAMPS:
+            raise ValueError(f"{len(lamps)} lamps are more than {MAX_LAMPS}")
         view = View(
             place=world_from_camera.matrix.tobytes(),
             intrinsics=intrinsics,

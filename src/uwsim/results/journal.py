@@ -22,9 +22,9 @@ from .stored_shapes import END, HEAD, ROW
 FOLDER = "units"
 KINDS = {"unit": HEAD, "row": ROW, "end": END}
 """What a line may say -> the shape of that."""
-LONGEST_LINE = 200
+MAX_LINE_LENGTH = 200
 """So many letters of one difference are said."""
-MOST_LINES = 6
+MAX_LINES = 6
 """So many differences are said."""
 Record = dict[str, Any]
 
@@ -197,7 +197,7 @@ def _other_run(found: Record, head: Record) -> str:
         for name in dict.fromkeys([*before, *now])
         if before.get(name) != now.get(name)
     ]
-    return "; ".join(line[:LONGEST_LINE] for line in said[:MOST_LINES])
+    return "; ".join(line[:MAX_LINE_LENGTH] for line in said[:MAX_LINES])
 
 
 def _part(head: Record, name: str) -> Record:

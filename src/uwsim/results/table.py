@@ -31,7 +31,7 @@ from .result import Column, Result
 GAP = "-"
 ROOM_FOR_REASONS = 30
 """Columns of a terminal below which reasons stand under the table."""
-MOST_DECIMALS = 4
+MAX_DECIMALS = 4
 """Of a measure."""
 BIG = 1e7
 """Numbers from here on are written with an exponent."""
@@ -159,7 +159,7 @@ def rate_text(found: Rate) -> str:
 
 def number_text(value: float, decimals: int) -> str:
     """Return ``1.83``; ``1e+38`` and ``2.5e-09`` where decimals would drown or hide the number."""
-    is_small = decimals >= MOST_DECIMALS and 0 < abs(value) < 0.5 * 10**-decimals
+    is_small = decimals >= MAX_DECIMALS and 0 < abs(value) < 0.5 * 10**-decimals
     return f"{value:.3g}" if abs(value) >= BIG or is_small else f"{value:.{decimals}f}"
 
 
@@ -174,7 +174,7 @@ def sensible_decimals(values: Sequence[float]) -> int:
     sizes = sorted(abs(value) for value in values if value != 0)
     if not sizes:
         return 2
-    return min(MOST_DECIMALS, max(0, 2 - math.floor(math.log10(sizes[len(sizes) // 2]))))
+    return min(MAX_DECIMALS, max(0, 2 - math.floor(math.log10(sizes[len(sizes) // 2]))))
 
 
 def _head(result: Result, column: Column) -> tuple[str, str]:

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import chain
 
 from ..devices.force_sensor import ForceSensorSpec
-from ..devices.lamp import MOST_LAMPS, LampSpec
+from ..devices.lamp import MAX_LAMPS, LampSpec
 from ..schema import Faults
 from ..topics import InterfaceSpec, element_of
 from ..topics.interface import VehiclePublisherSpec
@@ -25,7 +25,7 @@ from .vehicle import VehicleSpec
 SOLVERS = ("dantzig", "solveprojectedgauss", "sequentialimpulse")
 SHAPES = ("box", "sphere", "compound box", "compound cylinder", "trimesh", "compound trimesh")
 
-MOST_NAMED = 8
+MAX_NAMED = 8
 """Objects that one notice names."""
 
 
@@ -54,8 +54,8 @@ def check_names(
         _check_interface(interface, known, faults)
     _check_sources(scene, faults)
     lamps = [lamp for vehicle in scene.vehicles if not vehicle.vr for lamp in vehicle.lamps]
-    for lamp in lamps[MOST_LAMPS:]:
-        faults.add(faults.node_of(lamp), f"<u:lamp> {lamp.name!r}: more than {MOST_LAMPS} lamps")
+    for lamp in lamps[MAX_LAMPS:]:
+        faults.add(faults.node_of(lamp), f"<u:lamp> {lamp.name!r}: more than {MAX_LAMPS} lamps")
     for thing in scene.objects:
         _check_physics(thing, faults)
     if scene.is_dynamic:
@@ -231,9 +231,9 @@ def _check_passable_objects(scene: SceneSpec, faults: Faults) -> None:
     nodes = [faults.node_of(thing) for thing in things]
     named = [
         f"{thing.name!r} (line {getattr(node, 'sourceline', '?')})"
-        for thing, node in zip(things[:MOST_NAMED], nodes, strict=False)
+        for thing, node in zip(things[:MAX_NAMED], nodes, strict=False)
     ]
-    more = f" and {len(things) - MOST_NAMED} more" if len(things) > MOST_NAMED else ""
+    more = f" and {len(things) - MAX_NAMED} more" if len(things) > MAX_NAMED else ""
     faults.notice(
         nodes[0],
         f"simulated vehicles pass through what has no <physics>: {', '.join(named)}{more}; "

@@ -23,7 +23,7 @@ from .variation import check_variations
 
 ROOT = "UWSimScene"
 """Name of the root element."""
-MOST_FILES = 200
+MAX_FILES = 200
 """So many different robots and models of a scene, and meshes of a robot, are looked for."""
 
 
@@ -143,7 +143,7 @@ def check_robot(path: Path, *, library: Library | None = None) -> list[Fault]:
     except SceneError as error:
         return list(error.faults)
     if robot is not None and library is not None:
-        for name in itertools.islice(dict.fromkeys(_meshes(robot)), MOST_FILES):
+        for name in itertools.islice(dict.fromkeys(_meshes(robot)), MAX_FILES):
             if why := library.unreadable(name, path):
                 faults.add(None, why)
             elif not library.has_model(name, path):
@@ -161,7 +161,7 @@ def _robots(
         return robots, said
     by_file: dict[str, RobotSpec | None] = {}
     for index, vehicle in enumerate(scene.vehicles):
-        if vehicle.file not in by_file and len(by_file) < MOST_FILES:
+        if vehicle.file not in by_file and len(by_file) < MAX_FILES:
             by_file[vehicle.file] = None
             try:
                 path = library.find_robot(vehicle.file, document.path)
@@ -194,7 +194,7 @@ def _check_models(scene: SceneSpec, document: Document, library: Library, faults
         first.setdefault(thing.file, thing)
         if thing.physics is not None and thing.physics.collision_shape:
             first.setdefault(thing.physics.collision_shape, thing)
-    for name, thing in itertools.islice(first.items(), MOST_FILES):
+    for name, thing in itertools.islice(first.items(), MAX_FILES):
         if why := library.unreadable(name, document.path):
             faults.add(faults.node_of(thing), why)
         elif not library.has_model(name, document.path):

@@ -11,11 +11,11 @@ from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from .spec import SceneSpec, SimParamsSpec
 
-MOST_PIXELS = 7680 * 4320
+MAX_PIXELS = 7680 * 4320
 """Largest picture of a camera [px]: 8K. Drawing it takes about 1 GB."""
-MOST_PIXELS_IN_ALL = 4 * MOST_PIXELS
+MAX_PIXELS_IN_ALL = 4 * MAX_PIXELS
 """Of all cameras of a scene [px]."""
-MOST_BEAMS = 100_000
+MAX_BEAMS = 100_000
 """Most beams of one sensor."""
 
 Picture = VirtualCameraSpec | VirtualRangeImageSpec | SimParamsSpec
@@ -26,27 +26,27 @@ def check_sizes(scene: SceneSpec, faults: Faults) -> None:
     n_all = 0
     for picture in (scene.sim_params, *_cameras(scene)):
         n = picture.resw * picture.resh
-        if n > MOST_PIXELS:
+        if n > MAX_PIXELS:
             faults.add(
                 faults.node_of(picture),
                 f"a picture of {picture.resw} x {picture.resh} pixels; at most "
-                f"{MOST_PIXELS / 1e6:.0f} million are drawn",
+                f"{MAX_PIXELS / 1e6:.0f} million are drawn",
             )
             continue
         n_all += n
-        if n_all > MOST_PIXELS_IN_ALL:
+        if n_all > MAX_PIXELS_IN_ALL:
             faults.add(
                 faults.node_of(picture),
                 f"with this one, the pictures of the scene have {n_all / 1e6:.0f} million pixels; "
-                f"at most {MOST_PIXELS_IN_ALL / 1e6:.0f} are drawn",
+                f"at most {MAX_PIXELS_IN_ALL / 1e6:.0f} are drawn",
             )
             break
     for fan in _fans(scene):
-        if abs(fan.final_angle - fan.init_angle) >= MOST_BEAMS * fan.angle_incr:
+        if abs(fan.final_angle - fan.init_angle) >= MAX_BEAMS * fan.angle_incr:
             faults.add(
                 faults.node_of(fan),
                 f"from {fan.init_angle:g} to {fan.final_angle:g} degrees in steps of "
-                f"{fan.angle_incr:g} are more than {MOST_BEAMS} beams",
+                f"{fan.angle_incr:g} are more than {MAX_BEAMS} beams",
             )
 
 

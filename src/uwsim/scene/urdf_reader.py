@@ -37,7 +37,7 @@ from .urdf import (
     VisualSpec,
 )
 
-LONGEST_CHAIN = 256
+MAX_CHAIN = 256
 """Most joints between the root and a link."""
 
 MOVABLE = ("revolute", "continuous", "prismatic")
@@ -116,10 +116,10 @@ def _tree(
         joint = waiting.pop()
         ordered.append(joint)
         depths[joint.child] = depths[joint.parent] + 1
-        if depths[joint.child] > LONGEST_CHAIN:
+        if depths[joint.child] > MAX_CHAIN:
             faults.add(
                 faults.node_of(joint),
-                f"joint {joint.name!r} ends a chain of more than {LONGEST_CHAIN} joints",
+                f"joint {joint.name!r} ends a chain of more than {MAX_CHAIN} joints",
             )
             return None
         waiting += reversed(children.get(joint.child, []))

@@ -4,7 +4,7 @@ Every link of a vehicle, as the box around its collision geometry, else around w
 and the objects that `uwsim.scene.spec.SceneSpec.solid_objects` names. Where a vehicle is simulated,
 or the scene asks for the original's physics, an object is loose if it has a mass and is not
 ``isKinematic``; elsewhere it stands still. Solid scenery without ``<physics>`` is its faces; of a
-mesh of more than `MOST_TRIANGLES` those of a simpler one. Not modelled: contacts of a vehicle with
+mesh of more than `MAX_TRIANGLES` those of a simpler one. Not modelled: contacts of a vehicle with
 itself, of objects that stand still with each other; limits of objects; hollows between the hulls of
 a link.
 """
@@ -29,7 +29,7 @@ from ..scene.urdf import RobotSpec, VisualSpec
 from ..scene.vehicle import VehicleSpec
 from .parts import object_model, visual_model
 
-MOST_TRIANGLES = 8000
+MAX_TRIANGLES = 8000
 """Of solid scenery without ``<physics>`` as it is touched: a mesh of more is simplified."""
 
 
@@ -163,10 +163,10 @@ def standing_faces(
 def _touched_model(
     thing: ObjectSpec, physics: PhysicsSpec, scene: SceneSpec, data_path: tuple[Path, ...]
 ) -> Model:
-    """The mesh that an object is touched as, of `MOST_TRIANGLES` at most without ``<physics>``."""
+    """The mesh that an object is touched as, of `MAX_TRIANGLES` at most without ``<physics>``."""
     file = physics.collision_shape or thing.file
     beside = Path(scene.path).parent if scene.path else None
-    most = MOST_TRIANGLES if thing.physics is None else None
+    most = MAX_TRIANGLES if thing.physics is None else None
     return object_model(file, scene, beside, data_path, max_triangles=most)
 
 

@@ -13,7 +13,7 @@ from typing import Literal
 
 from ..currents import Place, PythonFunctionSpec
 from ..errors import Fault, SceneError, UnknownName, UwsimError, did_you_mean
-from ..physics.compile import LEAST_MASS
+from ..physics.compile import MIN_MASS
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
 from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle_into
 from ..rng import stream
@@ -28,9 +28,9 @@ from .checks.scene_lines import SceneLines
 
 Severity = Literal["fault", "notice"]
 U = f"{{{NAMESPACE}}}"
-MOST_NAMED = 8
+MAX_NAMED = 8
 """Links that one notice names."""
-LEAST_LIFT = 0.1
+MIN_LIFT = 0.1
 """What other water must add to the buoyancy of a vehicle to be told [N]."""
 LIGHTEST = 100.0
 """Buoyancy per weight that no vehicle has: the lightest foam has 10 kg/m3 [1]."""
@@ -128,10 +128,10 @@ class Search:
         given = {body.link: body.mass for body in dynamics.bodies}
         names = [one.name for one in robot.links if not (given.get(one.name) or one.mass)]
         if names and len(names) < len(robot.links):  # of one without any mass all is said
-            shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
+            shown = ", ".join(names[:MAX_NAMED]) + (", ..." if len(names) > MAX_NAMED else "")
             self._say(
                 f"{len(names)} links of the vehicle {vehicle!r} have no mass and are given "
-                f"{1e3 * LEAST_MASS:g} g each ({shown}); a <mass> in its URDF or its set says more",
+                f"{1e3 * MIN_MASS:g} g each ({shown}); a <mass> in its URDF or its set says more",
                 *("vehicle", index, f"{U}dynamics", 0),
                 severity="notice",
             )
@@ -160,7 +160,7 @@ class Search:
         self.dynamics[index] = before.in_water(density)
         lift = 9.81 * (density - before.density) * sum(body.volume for body in before.bodies)
         name = self._scene.vehicles[index].name
-        if abs(lift) >= LEAST_LIFT:
+        if abs(lift) >= MIN_LIFT:
             self._say(
                 f"the water has {density:.6g} kg/m3 and the set {before.name!r} of {name!r} was "
                 f"trimmed in {before.density:.6g}: it is {abs(lift):.3g} N "

@@ -7,9 +7,9 @@ from collections import deque
 from ..errors import NotAllowed
 from ..message_fields import size_of
 
-MOST_MESSAGES = 10_000
+MAX_MESSAGES = 10_000
 """So many of one algorithm may be on their way: published in this step, or delayed."""
-MOST_BYTES = 256 * 2**20
+MAX_BYTES = 256 * 2**20
 """So much they may hold together."""
 
 
@@ -29,10 +29,10 @@ class Outbox:
         while self._waiting and self._waiting[0][0] < step:
             self._n_bytes -= self._waiting.popleft()[1]
         size = size_of(message)
-        if len(self._waiting) >= MOST_MESSAGES:
-            raise NotAllowed(f"more than {MOST_MESSAGES} of its messages wait to be delivered")
-        if self._n_bytes + size > MOST_BYTES:
-            most = f"{MOST_BYTES // 2**20} MiB"
+        if len(self._waiting) >= MAX_MESSAGES:
+            raise NotAllowed(f"more than {MAX_MESSAGES} of its messages wait to be delivered")
+        if self._n_bytes + size > MAX_BYTES:
+            most = f"{MAX_BYTES // 2**20} MiB"
             raise NotAllowed(f"messages of more than {most} wait to be delivered")
         self._waiting.append((step + delay_steps, size))
         self._n_bytes += size

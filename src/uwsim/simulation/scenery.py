@@ -17,7 +17,7 @@ from ..linear import product
 from ..physics.state import State
 from ..rendering.grey import grey_truncated
 from ..rendering.lamp import Lamp
-from ..rendering.lamps import MOST_LAMPS
+from ..rendering.lamps import MAX_LAMPS
 from ..rendering.noise import add_noise
 from ..rendering.renderer import Picture, Renderer
 from ..rendering.water import Light, Water
@@ -73,8 +73,8 @@ class Scenery:
     def hang(self, lamps: Iterable[MountedLamp]) -> None:
         """Let these lamps shine; raises UwsimError if they are too many."""
         self._mounted_lamps = tuple(lamps)
-        if (n_lamps := len(self._mounted_lamps)) > MOST_LAMPS:
-            raise UwsimError(f"{n_lamps} lamps shine in the scene; at most {MOST_LAMPS} may.")
+        if (n_lamps := len(self._mounted_lamps)) > MAX_LAMPS:
+            raise UwsimError(f"{n_lamps} lamps shine in the scene; at most {MAX_LAMPS} may.")
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
         """Where a part stands now, with its scale, (4, 4) [m]."""

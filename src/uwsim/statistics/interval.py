@@ -14,7 +14,7 @@ from ..rng import stream
 
 N_RESAMPLES = 10_000
 """Drawn once for each number of values, the same for all data."""
-MOST_RESAMPLED = 200
+MAX_RESAMPLED = 200
 """With more values than these the bootstrap-t and Student's interval are the same to the eye."""
 
 
@@ -45,7 +45,7 @@ def mean_interval(values: Sequence[float], *, confidence: float = 0.95) -> Inter
     (Efron 1982, section 10.10; Hall 1988), where every value of a resample :math:`x^*` carries a
     normal error of variance :math:`s^2/n` (Hesterberg 2004): resamples then spread as widely as
     samples do, never collapse onto one value, and the limits are finite from two values on. Above
-    `MOST_RESAMPLED` values Student's quantiles stand for :math:`t^*`.
+    `MAX_RESAMPLED` values Student's quantiles stand for :math:`t^*`.
 
     Chosen by measured coverage, ``docs/statistics.md``: 95 % for normal values of any number, at
     least 93 % for skewness up to 2 from 10 values on; below what is promised for long tails.
@@ -72,7 +72,7 @@ def _quantiles(standardised: Array, tail: float) -> tuple[float, float]:
     from scipy.special import stdtrit
 
     n = len(standardised)
-    if n > MOST_RESAMPLED:
+    if n > MAX_RESAMPLED:
         quantile = float(stdtrit(n - 1, 1 - tail))
         return -quantile, quantile
     drawn = _resamples(n)

@@ -12,11 +12,11 @@ import numpy.typing as npt
 from ..geometry import Array
 from ..rng import stream
 
-MOST_EXACT = 20
+MAX_EXACT = 20
 """Up to so many differences every one of the 2^n sign patterns is counted."""
 N_FLIPS = 99_999
 """Sign patterns drawn beyond that."""
-MOST_COUNTED = 200
+MAX_COUNTED = 200
 """From here on the limiting distribution is the same to any digit that is printed."""
 
 
@@ -26,8 +26,8 @@ def sign_flip(differences: Sequence[float]) -> float | None:
     If neither of a pair is better, each difference could as well have had the other sign. p is the
     share of all :math:`2^n` sign patterns whose mean is at least as far from zero as the one found
     (Fisher 1935, section 21; Pitman 1937): exact, whatever the distribution, and never below
-    :math:`2/2^n`. Beyond `MOST_EXACT` differences p is :math:`(b+1)/(m+1)` over `N_FLIPS` random
-    patterns (Phipson and Smyth 2010), beyond `MOST_COUNTED` that of Student's paired t-test.
+    :math:`2/2^n`. Beyond `MAX_EXACT` differences p is :math:`(b+1)/(m+1)` over `N_FLIPS` random
+    patterns (Phipson and Smyth 2010), beyond `MAX_COUNTED` that of Student's paired t-test.
 
     None without differences.
     """
@@ -37,12 +37,12 @@ def sign_flip(differences: Sequence[float]) -> float | None:
     values = np.sort(np.asarray(differences, dtype=np.float64))
     total = abs(math.fsum(differences))
     limit = total - 1e-12 * math.fsum(map(abs, differences))
-    if n <= MOST_EXACT:
+    if n <= MAX_EXACT:
         sums = values[:1]  # the first sign may stand: the distribution is symmetric
         for value in values[1:]:
             sums = np.concatenate([sums - value, sums + value])
         return float(np.mean(np.abs(sums) >= limit))
-    if n > MOST_COUNTED:
+    if n > MAX_COUNTED:
         return _student(values)
     sums = np.zeros(N_FLIPS)
     for value, flips in zip(values.tolist(), _flips(n), strict=True):
@@ -55,7 +55,7 @@ def signed_rank(differences: Sequence[float]) -> float | None:
 
     :math:`W^+` is the sum of the ranks, by size, of the positive differences; zeros are left out,
     ties share their mean rank. Its distribution under :math:`2^n` equally likely sign patterns is
-    counted exactly, ties included, up to `MOST_COUNTED` differences; beyond, the normal limit.
+    counted exactly, ties included, up to `MAX_COUNTED` differences; beyond, the normal limit.
 
     None without differences; 1 when all are zero.
     """
@@ -65,7 +65,7 @@ def signed_rank(differences: Sequence[float]) -> float | None:
     n = len(values)
     if n == 0:
         return 1.0
-    if n > MOST_COUNTED:
+    if n > MAX_COUNTED:
         from scipy.stats import wilcoxon
 
         return float(wilcoxon(values, method="approx", correction=True).pvalue)
@@ -102,9 +102,9 @@ def smallest_p(n: int) -> float:
     mirror image are always as far from zero as the one found. Where m patterns are drawn none is
     below :math:`1/(m+1)`, and where Student's distribution is used there is no least one.
     """
-    if n <= MOST_EXACT:
+    if n <= MAX_EXACT:
         return min(1.0, 2.0 ** (1 - n))
-    return 1 / (N_FLIPS + 1) if n <= MOST_COUNTED else 0.0
+    return 1 / (N_FLIPS + 1) if n <= MAX_COUNTED else 0.0
 
 
 def fewest_for(alpha: float) -> int:

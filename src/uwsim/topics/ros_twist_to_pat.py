@@ -18,7 +18,7 @@ from ..messages import Twist, TwistStamped
 from ..vehicle import LARGEST, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
-LONGEST_GAP = 1.0
+MAX_GAP = 1.0
 """After a longer silence a velocity moves nothing [s]."""
 
 
@@ -80,4 +80,4 @@ class Gap:
         now, last = self._world.step, self._last
         self._last = now
         gap = 0.0 if last is None else (now - last) * self._world.timestep
-        return gap if gap <= LONGEST_GAP else 0.0
+        return gap if gap <= MAX_GAP else 0.0

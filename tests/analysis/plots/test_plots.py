@@ -29,7 +29,7 @@ from uwsim.analysis.plots import (
     small_multiples,
     value_plot,
 )
-from uwsim.analysis.plots.drawing import MOST_NAMED
+from uwsim.analysis.plots.drawing import MAX_NAMED
 from uwsim.errors import ResultError
 from uwsim.results.result import Column, Result
 
@@ -139,7 +139,7 @@ def test_many_curves_look_all_different_and_stand_in_a_legend_beside_the_axes() 
     assert figure.axes[0].get_legend() is None
     (legend,) = figure.legends
     shown = [text.get_text() for text in legend.get_texts()]
-    assert len(shown) == MOST_NAMED
+    assert len(shown) == MAX_NAMED
     assert (shown[0], shown[-1]) == ("current 0 m/s", "current 0.29 m/s")
 
 

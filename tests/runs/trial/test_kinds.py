@@ -112,7 +112,7 @@ def test_simple_with_the_originals_threshold_begins_a_jump_later(tmp_path: Path)
 def test_unending_ends_in_timeout_and_keeps_what_the_world_measured(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uwsim.runs.trial.trial.LONGEST_TASK", 3.0)
+    monkeypatch.setattr("uwsim.runs.trial.trial.MAX_TASK_DURATION", 3.0)
     played = play(tmp_path, "unending", scene="cirs")
     result = played.result
     assert result.values("status") == ("timeout",)

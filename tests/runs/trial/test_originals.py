@@ -155,7 +155,7 @@ def test_an_original_passes_the_check_with_its_scene(file: Path) -> None:
 def test_an_original_is_played_and_every_cell_has_a_value_or_a_reason(
     file: Path, slips: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uwsim.runs.trial.trial.LONGEST_TASK", LONGEST)
+    monkeypatch.setattr("uwsim.runs.trial.trial.MAX_TASK_DURATION", LONGEST)
     scene = read_scene(scene_for(file, read_benchmark(file)))
     plan = plan_of(file, scene, compatibility([slips] if slips == "uwsim" else []))
     if (

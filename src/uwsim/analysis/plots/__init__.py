@@ -11,7 +11,7 @@ from .curves import (
     repeats_of,
     written_unit,
 )
-from .drawing import CONTROL, MOST_INSIDE, is_fog_swept
+from .drawing import CONTROL, MAX_INSIDE, is_fog_swept
 from .over_levels import (
     OVERVIEW,
     compare_plot,
@@ -42,7 +42,7 @@ __all__ = [
     "INK",
     "LEVEL_WORDS",
     "MARKERS",
-    "MOST_INSIDE",
+    "MAX_INSIDE",
     "OVERVIEW",
     "PALETTE",
     "SIZE",

@@ -23,7 +23,7 @@ from .style import FAINT, INK, MARKERS, PALETTE, cut, level_label, plain
 
 CONTROL = "frozen"
 """The algorithm that only echoes what it was given: dashed in every plot."""
-MOST_NAMED = 18
+MAX_NAMED = 18
 """Curves that a legend names; of more the first, the last and some between."""
 FAR_ABOVE = 2.5
 """How many times higher than all else the control stands before it is left outside."""
@@ -33,7 +33,7 @@ FOLD = 28
 """Letters of an axis' name before it is folded."""
 FEW_LEVELS = 6
 """Levels up to which every one has its tick."""
-MOST_INSIDE = 4
+MAX_INSIDE = 4
 """Curves up to which the legend stands inside the axes."""
 
 
@@ -96,7 +96,7 @@ def draw_column(
 def add_legend(axes: Axes, n_curves: int) -> None:
     """Name the curves if there are several, beside the axes if there are many."""
     handles, names = legend_entries(axes)
-    if n_curves > MOST_INSIDE:
+    if n_curves > MAX_INSIDE:
         axes.figure.legend(handles, names, loc="outside right upper")
     elif len(handles) > 1:
         axes.legend(handles, names, loc="best")
@@ -105,8 +105,8 @@ def add_legend(axes: Axes, n_curves: int) -> None:
 def legend_entries(axes: Axes) -> tuple[list[Artist], list[str]]:
     """The legend's entries; of very many the first, the last and some between."""
     handles, names = axes.get_legend_handles_labels()
-    if len(handles) > MOST_NAMED:
-        kept = np.linspace(0, len(handles) - 1, MOST_NAMED).round().astype(int)
+    if len(handles) > MAX_NAMED:
+        kept = np.linspace(0, len(handles) - 1, MAX_NAMED).round().astype(int)
         handles, names = [handles[k] for k in kept], [names[k] for k in kept]
     return list(handles), names
 

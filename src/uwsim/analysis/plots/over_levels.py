@@ -26,7 +26,7 @@ from .curves import algorithm_of, curves_of, repeats_of
 from .drawing import (
     CONTROL,
     CONTROL_LOOK,
-    MOST_INSIDE,
+    MAX_INSIDE,
     add_legend,
     draw_column,
     draw_curve,
@@ -42,7 +42,7 @@ from .drawing import (
 from .style import DPI, SIZE, any_letter, cut, styled_figure, write_note
 
 OVERVIEW = "all-measures"
-MOST_IN_A_COLUMN = 8
+MAX_IN_A_COLUMN = 8
 """Panels that stand below each other; more stand in two columns."""
 
 
@@ -62,7 +62,7 @@ def small_multiples(result: Result, *, control: Result | None = None) -> Figure:
     columns = result.of_kind("measure", "score")
     drawn = [curves_of(result, column.name) for column in columns]
     n_curves = max(map(len, drawn), default=0)
-    across = 2 if len(columns) > MOST_IN_A_COLUMN else 1
+    across = 2 if len(columns) > MAX_IN_A_COLUMN else 1
     rows = max(1, math.ceil(len(columns) / across))
     with styled_figure(_with_room((SIZE[0] * across, 0.6 + 1.9 * rows), n_curves)) as figure:
         grid = figure.subplots(rows, across, sharex=True, squeeze=False).T.ravel()
@@ -172,7 +172,7 @@ def save_pdf(figure: Figure, path: Path) -> Path:
 
 def _with_room(size: tuple[float, float], n_curves: int) -> tuple[float, float]:
     """Widen a figure whose legend stands beside the axes."""
-    return (size[0] + 1.5, size[1]) if n_curves > MOST_INSIDE else size
+    return (size[0] + 1.5, size[1]) if n_curves > MAX_INSIDE else size
 
 
 def _same_axes(results: Sequence[Result], column: str) -> None:

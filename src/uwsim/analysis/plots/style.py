@@ -22,7 +22,7 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 INK, FAINT = "#222222", "#777777"
 DPI = 200
 SIZE = (5.0, 3.1)  # [inch]
-LONGEST_NAME = 36
+MAX_NAME_LENGTH = 36
 """Letters of a name before it is cut."""
 
 LEVEL_WORDS = {
@@ -91,7 +91,7 @@ def plain(text: str) -> str:
     return re.sub(r"(?<!\\)\$", r"\\$", text)
 
 
-def cut(name: str, longest: int = LONGEST_NAME) -> str:
+def cut(name: str, longest: int = MAX_NAME_LENGTH) -> str:
     """Leave the middle of a very long name out."""
     if len(name) <= longest:
         return name

@@ -26,7 +26,7 @@ from ...results.result_file import file_of, load
 from ...results.table import number_text, sensible_decimals, unit_of
 from ..plots import (
     LEVEL_WORDS,
-    MOST_INSIDE,
+    MAX_INSIDE,
     OVERVIEW,
     algorithm_of,
     draw_plots,
@@ -124,7 +124,7 @@ def render(
             (caption(result, column), data_url(plot.read_bytes(), "png"))
             for column, plot in zip(columns, drawn, strict=False)
         ],
-        are_wide=_n_curves(result) > MOST_INSIDE,
+        are_wide=_n_curves(result) > MAX_INSIDE,
         marks=marks(result, has_control=control is not None),
         pictures=pictures,
         which_pictures=pictures_text(result, len(pictures)),

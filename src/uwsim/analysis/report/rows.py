@@ -15,7 +15,7 @@ MAX_CELLS = 15_000
 """Cells of the table of all columns; the report says so, too."""
 LONG_REASON = 80
 """Letters from which on a reason is not told again for its numbers."""
-LONGEST_REASON = 100
+MAX_REASON_LENGTH = 100
 """Letters of a reason behind a cell of that table."""
 Head = tuple[str, str]
 """Name and unit of a column."""
@@ -106,7 +106,7 @@ def _cell(result: Result, row: int, column: Column, decimals: int | None) -> tup
     value = result.rows[row][result.index(column.name)]
     if value is None:
         why = result.why(row, column.name) or "no reason was given"
-        return "–", why if len(why) <= LONGEST_REASON else f"{why[: LONGEST_REASON - 1]}…"
+        return "–", why if len(why) <= MAX_REASON_LENGTH else f"{why[: MAX_REASON_LENGTH - 1]}…"
     if isinstance(value, str):
         return value, ""
     return (f"{value:.{decimals}f}" if decimals is not None else _number(value)), ""

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element, ParseError, fromstring
 
-MOST_NODES = 20_000
+MAX_NODES = 20_000
 """Most nodes and geometries, instances counted each."""
 DEEPEST = 100
 """Longest chain of nodes, instances followed."""
-MOST_TEXT = 64 * 2**20
+MAX_TEXT = 64 * 2**20
 """Most letters of indices in all geometries, instances counted each."""
 
 
@@ -35,10 +35,10 @@ def too_much(data: bytes) -> str:
         weighed = [counts.of(scene) for scene in scenes]
     except _TooDeep:
         return f"its nodes form a loop, or a chain of more than {DEEPEST}"
-    if (n := sum(nodes for nodes, _, _ in weighed)) > MOST_NODES:
-        return f"its nodes stand for {n:.3g}; at most {MOST_NODES} are read"
-    if (letters := sum(text for _, text, _ in weighed)) > MOST_TEXT:
-        most = MOST_TEXT >> 20
+    if (n := sum(nodes for nodes, _, _ in weighed)) > MAX_NODES:
+        return f"its nodes stand for {n:.3g}; at most {MAX_NODES} are read"
+    if (letters := sum(text for _, text, _ in weighed)) > MAX_TEXT:
+        most = MAX_TEXT >> 20
         return f"its instances stand for {letters / 2**20:.3g} MiB of triangles; at most {most}"
     return ""
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 import json
 from typing import Any
 
-MOST_ENTRIES = 20_000
+MAX_ENTRIES = 20_000
 """Most nodes, primitives, accessors, pictures, ... of one kind."""
 DEEPEST = 100
 """Longest chain of nodes."""
-MOST_ELEMENTS = 12_000_000
+MAX_ELEMENTS = 12_000_000
 """Most elements of an accessor, and of all accessors without data."""
 LARGEST_HEADER = 32 * 2**20
 """Largest header of a .glb [bytes]."""
@@ -47,8 +47,8 @@ def _too_many(tree: dict[str, Any]) -> str:
         for primitive in mesh["primitives"]
     ]
     for kind, found in kinds.items():
-        if len(found) > MOST_ENTRIES:
-            return f"has {len(found)} {kind}; at most {MOST_ENTRIES} are read"
+        if len(found) > MAX_ENTRIES:
+            return f"has {len(found)} {kind}; at most {MAX_ENTRIES} are read"
     return _too_deep(_entries(tree, "nodes"))
 
 
@@ -60,8 +60,8 @@ def _too_deep(nodes: list[dict[str, Any]]) -> str:
         else []
         for node in nodes
     ]
-    if sum(map(len, children)) > MOST_ENTRIES:
-        return f"its nodes have more than {MOST_ENTRIES} children"
+    if sum(map(len, children)) > MAX_ENTRIES:
+        return f"its nodes have more than {MAX_ENTRIES} children"
     n_parents, depth = [0] * len(nodes), [0] * len(nodes)
     for child in (child for found in children for child in found):
         n_parents[child] += 1
@@ -83,8 +83,8 @@ def _too_large(tree: dict[str, Any]) -> str:
         count = accessor.get("count")
         n = count if isinstance(count, int) else 0
         empty += 0 if "bufferView" in accessor else n
-        if max(n, empty) > MOST_ELEMENTS:
-            return f"has accessors of {max(n, empty)} elements; at most {MOST_ELEMENTS} are read"
+        if max(n, empty) > MAX_ELEMENTS:
+            return f"has accessors of {max(n, empty)} elements; at most {MAX_ELEMENTS} are read"
     return ""
 
 

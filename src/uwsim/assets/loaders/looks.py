@@ -15,9 +15,9 @@ from ..mesh import Texture
 
 LARGEST_PICTURE = 2048
 """Textures are reduced to this many pixels a side."""
-MOST_PIXELS = 8192 * 8192
+MAX_PIXELS = 8192 * 8192
 """Largest picture [px]: it is decoded whole."""
-MOST_PIXELS_IN_ALL = 4 * MOST_PIXELS
+MAX_PIXELS_IN_ALL = 4 * MAX_PIXELS
 """Of all pictures of a model [px]."""
 FORMATS = ("BMP", "DDS", "GIF", "JPEG", "MPO", "PNG", "PPM", "SGI", "TGA", "TIFF", "WEBP")
 """Pictures that are decoded; Pillow knows others, some of them programs."""
@@ -34,7 +34,7 @@ def check_size(data: bytes, name: object) -> None:
             pass
     except Image.DecompressionBombError as error:
         raise AssetError(
-            f"{name}: a picture of too many pixels; at most {MOST_PIXELS / 1e6:.0f} million are "
+            f"{name}: a picture of too many pixels; at most {MAX_PIXELS / 1e6:.0f} million are "
             "read."
         ) from error
     except Exception:  # no picture, or a broken one: whoever wants one says so
@@ -86,10 +86,10 @@ class Looks:
         """Decode a picture, which trimesh has only opened."""
         n = image.width * image.height
         self._n_pixels += n
-        if n > MOST_PIXELS or self._n_pixels > MOST_PIXELS_IN_ALL:
+        if n > MAX_PIXELS or self._n_pixels > MAX_PIXELS_IN_ALL:
             raise AssetError(
                 f"{self._path}: a picture of {image.width} x {image.height} pixels; at most "
-                f"{MOST_PIXELS / 1e6:.0f} million are read, and {MOST_PIXELS_IN_ALL / 1e6:.0f} "
+                f"{MAX_PIXELS / 1e6:.0f} million are read, and {MAX_PIXELS_IN_ALL / 1e6:.0f} "
                 "in a model."
             )
         if image.format not in (None, *FORMATS):

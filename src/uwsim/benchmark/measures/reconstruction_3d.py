@@ -32,7 +32,7 @@ ORIGINAL_FIELDS = {
     "outliers %": "outlier_share",
 }
 """The original's name of a detail -> ours."""
-MOST_NOTES = 5
+MAX_NOTES = 5
 """So many kinds of unreadable cloud are told of."""
 
 
@@ -154,7 +154,7 @@ class Reconstruction3D(Measure):
             try:
                 found = points(cloud)
             except BadSetting as error:
-                if len(self._refused) < MOST_NOTES:
+                if len(self._refused) < MAX_NOTES:
                     self._refused[f"a cloud on {self._topic!r} was not used: {error}"] = None
                 continue
             self._n_clouds += 1

@@ -23,7 +23,7 @@ from ...errors import BadSetting
 from ...geometry import Array
 from ...world import Box
 
-MOST_NODES = 20_000_000
+MAX_NODES = 20_000_000
 """More nodes than this are refused."""
 ON_NODE = 1e-9
 """A point this near to a node lies on it [cell]."""
@@ -68,9 +68,9 @@ class Coverage:
         self.counts: tuple[int, int, int] = counts
         """Nodes along each axis."""
         nx, ny, nz = counts
-        if nx * ny + 2 * (nx * nz + ny * nz) > MOST_NODES:
+        if nx * ny + 2 * (nx * nz + ny * nz) > MAX_NODES:
             raise BadSetting(
-                f"<levelOfDetail> {level_of_detail:g} m makes more than {MOST_NODES} cells on a "
+                f"<levelOfDetail> {level_of_detail:g} m makes more than {MAX_NODES} cells on a "
                 f"box of {extents[0]:.3g} x {extents[1]:.3g} x {extents[2]:.3g} m; "
                 "choose a larger one."
             )

@@ -22,7 +22,7 @@ import numpy as np
 
 from ...currents import (
     FASTEST,
-    LEAST_PERIOD,
+    MIN_PERIOD,
     LateCurrent,
     Place,
     TargetCurrent,
@@ -37,7 +37,7 @@ from .updater import SceneUpdater
 
 STILL_WATER = 2.0
 """After each change of level there is no current for so long [s]."""
-LONGEST_OFFSET = 3600.0
+MAX_OFFSET = 3600.0
 """A clock that began earlier is a slip: all its random factors would have to be drawn first [s]."""
 RESET = "dynamics/reset"
 """The service called when a level begins, if somebody offers it."""
@@ -73,7 +73,7 @@ class CurrentForceUpdaterSpec(SweepSpec):
     """Its direction [rad]."""
     force_variation: float = element(minimum=-FASTEST, maximum=FASTEST)
     """Amplitude of its swelling [m/s]."""
-    force_period: float = element(minimum=LEAST_PERIOD)
+    force_period: float = element(minimum=MIN_PERIOD)
     """Period of its swelling [s]."""
     direction_variation: SphericalSpec
     """Amplitudes of its turning [rad]."""
@@ -88,7 +88,7 @@ class CurrentForceUpdaterSpec(SweepSpec):
     publish_as_force: bool = element(default=False, attribute=True)
     """Whether the current is published as a force instead of moving the vehicle."""
     time_offset: float = element(
-        default=0.0, attribute=True, namespaced=True, minimum=0.0, maximum=LONGEST_OFFSET
+        default=0.0, attribute=True, namespaced=True, minimum=0.0, maximum=MAX_OFFSET
     )
     """What the current's clock shows when a level begins [s] (``u:timeOffset``)."""
 
@@ -101,12 +101,12 @@ class CurrentForceUpdaterSpec(SweepSpec):
         periods = {}
         for angle in ("theta", "phi"):
             period = getattr(self.direction_period, angle)
-            if period < LEAST_PERIOD and getattr(self.direction_variation, angle) != 0.0:
+            if period < MIN_PERIOD and getattr(self.direction_variation, angle) != 0.0:
                 raise BadSetting(
                     f"<directionPeriod> has {angle} {period:g}; expected a number >= "
-                    f"{LEAST_PERIOD:g} [s], as <directionVariation> lets {angle} turn."
+                    f"{MIN_PERIOD:g} [s], as <directionVariation> lets {angle} turn."
                 )
-            periods[angle] = period if period >= LEAST_PERIOD else 1.0
+            periods[angle] = period if period >= MIN_PERIOD else 1.0
         return UwsimSinusoidSpec(
             speed=value,
             speed_variation=self.force_variation,

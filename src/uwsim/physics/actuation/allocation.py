@@ -4,7 +4,7 @@ One newton of thruster i along its direction d at the place r gives the force an
 :math:`(d, (r - r_0) \times d)` about the reference :math:`r_0`; they are the columns of the matrix
 B (Fossen, *Handbook of Marine Craft*, 2011, section 12.3). An axis is *driven* if thrusts can give
 its force or moment alone, nothing along the other axes that are driven: if its row of B is not made
-of theirs, by more than `LEAST_LEVER`. Where rows are made of one another the first in the order
+of theirs, by more than `MIN_LEVER`. Where rows are made of one another the first in the order
 `FIRST` is driven and the others are left to the hull.
 
 Roll and pitch that are not driven are held by weight and buoyancy alone. A force that comes with a
@@ -33,7 +33,7 @@ UNITS = ("N", "N", "N", "N m", "N m", "N m")
 SURGE, SWAY, HEAVE, ROLL, PITCH, YAW = range(6)
 FIRST = (SURGE, YAW, HEAVE, SWAY, PITCH, ROLL)
 """What is driven first where thrusters cannot do all."""
-LEAST_LEVER = 0.02
+MIN_LEVER = 0.02
 """What moves a vehicle less than this per newton of its thrusters is not asked of them [1, m]."""
 LEAN = math.radians(20.0)
 """How far thrusters may push a hull over that rights itself [rad]."""
@@ -99,7 +99,7 @@ def allocate(
     if HEAVE in axes and PITCH not in axes:
         level = driven_axes(wrenches, [axis for axis in FIRST if axis != HEAVE])
         full = max(found.full_reach(HEAVE))
-        is_weak = stiffness <= 0.0 and _moment(found, HEAVE)[PITCH] > LEAST_LEVER
+        is_weak = stiffness <= 0.0 and _moment(found, HEAVE)[PITCH] > MIN_LEVER
         if PITCH in level and (is_weak or found.most[HEAVE] < ENOUGH * full):
             return _allocation(wrenches, level, least, greatest, stiffness)
     return found
@@ -141,7 +141,7 @@ def driven_axes(wrenches: Array, order: Sequence[int]) -> tuple[int, ...]:
         for unit in basis:
             rest -= dot(rest, unit) * unit
         size = length(rest)
-        if size > LEAST_LEVER:
+        if size > MIN_LEVER:
             basis.append(rest / size)
             driven.append(axis)
     return tuple(sorted(driven))

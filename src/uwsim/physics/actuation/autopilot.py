@@ -69,7 +69,7 @@ class Gains:
     """Yaw rate wished for per heading error [1/s]."""
 
 
-LEAST_LAG = 0.08
+MIN_LAG = 0.08
 """Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
 Mode = Literal["velocity", "position", "wrench", "thrusters"]
 
@@ -116,7 +116,7 @@ class Autopilot:
         self._law = autopilot_kernel
         body = vehicle.body(link)
         gains = gains or Gains()
-        lag = max([LEAST_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
+        lag = max([MIN_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
         held = [gains.depth, gains.position, gains.heading]
         self._lag = 2.5 * lag
         self._gains = np.array([*held, 0.32 / lag, 0.032 / lag**2])  # the last in [1/s], [1/s2]

@@ -15,7 +15,7 @@ DEPTH, POSITION, HEADING, VELOCITY, INTEGRAL = range(5)
 """Places of the gains, as `loops` takes them."""
 FASTEST = 0.5
 """What position hold wishes for at most [m/s]."""
-FASTEST_CLIMB = 0.3
+MAX_CLIMB_RATE = 0.3
 """What depth hold wishes for at most [m/s]."""
 STEEPEST_DIVE = 0.35
 """Angle at which a vehicle without heave goes up and down at most [rad]."""
@@ -94,7 +94,7 @@ def loops(
     up = rotation[2, 2]  # how much of W's z lies along the base's z: +-1 when level
     target[2] += commanded[2] * up * dt
     climb = gains[DEPTH] * (target[2] - position[2])
-    wanted[2] += min(max(climb, -FASTEST_CLIMB), FASTEST_CLIMB) * up
+    wanted[2] += min(max(climb, -MAX_CLIMB_RATE), MAX_CLIMB_RATE) * up
     cosine, sine = math.cos(commanded[5] * dt), math.sin(commanded[5] * dt)
     across = along = 0.0  # of the wanted x axis, in the base
     for k in range(3):
@@ -112,7 +112,7 @@ def loops(
         wanted[0] *= min(max((STEEP - abs(lean)) / (STEEP - LEVEL), 0.0), 1.0)
     elif drives[2] == 0.0:
         ahead_speed = velocity[0]
-        slope = min(max(climb, -FASTEST_CLIMB), FASTEST_CLIMB) + commanded[2] * up
+        slope = min(max(climb, -MAX_CLIMB_RATE), MAX_CLIMB_RATE) + commanded[2] * up
         slope *= ahead_speed / (ahead_speed * ahead_speed + SLOW * SLOW)
         dive = -side * min(max(slope, -STEEPEST_DIVE), STEEPEST_DIVE)
     speeding = (wanted - model) / max(lag, dt)

@@ -25,9 +25,9 @@ from .spec import (
 
 LONGEST = 500.0
 """No length or place of a vehicle is beyond that of the longest ship [m]."""
-LEAST_RADIUS = 0.001
+MIN_RADIUS = 0.001
 """Of a propeller [m]."""
-LEAST_INERTIA = 1e-12
+MIN_INERTIA = 1e-12
 """What the engine still takes for one [kg m2]."""
 SLOWEST_ROTOR = 60.0
 """Longest lag of a thruster [s]."""
@@ -113,8 +113,8 @@ def thruster_faults(thruster: ThrusterSpec) -> list[str]:
             f"{who}: time constant is {thruster.time_constant:g}; expected >= 0 and "
             f"<= {SLOWEST_ROTOR:g} [s]"
         )
-    if not thruster.radius >= LEAST_RADIUS:
-        faults.append(f"{who}: radius is {thruster.radius:g}; expected >= {LEAST_RADIUS:g} [m]")
+    if not thruster.radius >= MIN_RADIUS:
+        faults.append(f"{who}: radius is {thruster.radius:g}; expected >= {MIN_RADIUS:g} [m]")
     if abs(thruster.torque) > 2.0 * thruster.radius > 0.0:
         faults.append(
             f"{who}: torque is {thruster.torque:g} per thrust; expected at most the propeller's "
@@ -278,10 +278,10 @@ def _inertia_faults(who: str, inertia: Numbers) -> list[str]:
         return [f"{who}: inertia has {len(inertia)} numbers; expected xx yy zz xy xz yz"]
     xx, yy, zz, xy, xz, yz = inertia
     principal = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
-    if not principal[0] > LEAST_INERTIA:
+    if not principal[0] > MIN_INERTIA:
         return [
             f"{who}: inertia has the least principal moment {principal[0]:g}; "
-            f"expected > {LEAST_INERTIA:g} [kg m2]"
+            f"expected > {MIN_INERTIA:g} [kg m2]"
         ]
     if principal[2] > (principal[0] + principal[1]) * (1.0 + 1e-6):
         return [

@@ -26,7 +26,7 @@ from ..trial.status import PROCESS_ENDED
 from .worker import Event, JournalWriter, picklable, run_trial
 
 OnLevel = Callable[[], None]
-MOST_RETRIES = 3
+MAX_RETRIES = 3
 """How often a trial is played again after it has lost its worker."""
 ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
 """Of a worker, where the user has not said otherwise: no threads beside its own, for there is one
@@ -125,7 +125,7 @@ class JobQueue:
             self._calls_lost.add((job, call))
         job.run.n_lost += 1
         self._losses[job] += 1
-        if self._losses[job] <= MOST_RETRIES:
+        if self._losses[job] <= MAX_RETRIES:
             self._waiting.appendleft(job)
             return
         times = self._losses[job]

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from ...benchmark.plugin import attribute_errors_to
 from ...benchmark.plugin_checks import check_values, parameters_of
 from ...benchmark.score import parse
-from ...benchmark.spec import LONGEST_TASK
+from ...benchmark.spec import MAX_TASK_DURATION
 from ...benchmark.updater_settings import benchmark_of_seed
 from ...benchmark.updaters import (
     Level,
@@ -332,7 +332,7 @@ class _Execution:
         monitor.begin_level()
         measures = self._bind_measures()
         length = interval(self._updater)
-        n_steps = round((LONGEST_TASK if length is None else length) / plan.timestep)
+        n_steps = round((MAX_TASK_DURATION if length is None else length) / plan.timestep)
         stopped, ended = False, None
         _tick(measures)
         monitor.listen(simulation.time)
@@ -349,7 +349,7 @@ class _Execution:
         for gated in measures:
             gated.end()
             check_values(gated.measure)
-        overran = LONGEST_TASK if length is None and not stopped and ended is None else None
+        overran = MAX_TASK_DURATION if length is None and not stopped and ended is None else None
         status, why = monitor.status(measures, overran=overran, ended=ended)
         for gated in measures:
             self._notes.update((f"{gated.spec.name}: {note}", None) for note in gated.measure.notes)

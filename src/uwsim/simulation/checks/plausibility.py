@@ -25,9 +25,9 @@ from .start_doubts import Starts
 from .thrust_warnings import thrust_said
 from .vehicle_doubts import OF_SIMULATED, candidate_of, size_said
 
-MOST_VEHICLES = 50
+MAX_VEHICLES = 50
 """So many vehicles of a scene are looked at."""
-MOST_LOOSE = 200
+MAX_LOOSE = 200
 """So many loose objects, too."""
 
 
@@ -46,7 +46,7 @@ def doubts_about(
         data_path: folders in which files are looked for.
     """
     lines = SceneLines(scene)
-    vehicles = sorted(robots)[:MOST_VEHICLES]
+    vehicles = sorted(robots)[:MAX_VEHICLES]
     found = []
     for index in vehicles:
         vehicle = scene.vehicles[index]
@@ -102,6 +102,6 @@ def _of_starts(
         for index in vehicles:
             if "start" not in scene.vehicles[index].accepts:
                 yield "vehicle", index, starts.of_vehicle(index)
-        for index in loose[:MOST_LOOSE]:
+        for index in loose[:MAX_LOOSE]:
             if "start" not in scene.objects[index].accepts:
                 yield "object", index, starts.of_object(index)

@@ -9,7 +9,7 @@ from ...physics.actuation.allocation import (
     AXES,
     HEAVE,
     LEAN,
-    LEAST_LEVER,
+    MIN_LEVER,
     PITCH,
     SURGE,
     SWAY,
@@ -86,7 +86,7 @@ def _reach(found: Allocation, axis: int) -> str:
 
 
 def _is_coupled(found: Allocation, axis: int) -> bool:
-    return bool(length(found.wrenches[axis]) > LEAST_LEVER)
+    return bool(length(found.wrenches[axis]) > MIN_LEVER)
 
 
 def _together(found: Allocation, axis: int) -> str:

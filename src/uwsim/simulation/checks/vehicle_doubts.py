@@ -15,7 +15,7 @@ import numpy as np
 from ...linear import dot
 from ...physics.actuation.allocation import curve, thrusters_on_base
 from ...physics.balance import Balance, balance_of
-from ...physics.compile import LEAST_INERTIA
+from ...physics.compile import MIN_INERTIA
 from ...physics.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
 from ...scene.doubts import VehicleDoubt
 from ...scene.spec import SceneSpec
@@ -180,7 +180,7 @@ def inertia_said(one: Candidate) -> str:
         given = link.inertia if body is None or body.inertia is None else body.inertia
         moments = given[:3]
         is_said = min(moments) > 0.0
-        used = max(moments) if is_said else LEAST_INERTIA
+        used = max(moments) if is_said else MIN_INERTIA
         edges = np.sort(box.extent)
         least, greatest = (share * edges[2] for share in GYRATION)
         if least <= math.sqrt(used / mass) <= greatest and min(moments) >= 0.0:
@@ -188,7 +188,7 @@ def inertia_said(one: Candidate) -> str:
         usual = mass / 12.0 * float(edges[1] ** 2 + edges[2] ** 2)  # the greatest of its box
         said.append(
             f"its link {link.name!r} has {mass:.4g} kg and the inertia {_list(moments)}"
-            + ("" if is_said else f" (it is simulated with {LEAST_INERTIA:g})")
+            + ("" if is_said else f" (it is simulated with {MIN_INERTIA:g})")
             + f"; a box of its size, {_list(box.extent)} m, has {usual:.2g} kg m2 at most"
         )
     return "; ".join(said[:3])
