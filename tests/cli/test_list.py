@@ -16,7 +16,7 @@ from uwsim.cli import main
 from uwsim.cli.list import KINDS, first_line, head_comment, limit_in, without_title
 from uwsim.physics.vehicle_file import find_vehicle, read_vehicle
 from uwsim.runs.tables import bundled_tables
-from uwsim.scene.not_yet import not_simulated
+from uwsim.scene.unsupported import not_simulated
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.schema import Faults
 from uwsim.simulation.bodies import find_file

@@ -11,7 +11,7 @@ from uwsim.devices.device import DeviceSpec
 from uwsim.devices.thruster_fault import ThrusterFault, ThrusterFaultSpec
 from uwsim.geometry import Pose
 from uwsim.scene.mounts import Stand
-from uwsim.scene.not_yet import limit_of
+from uwsim.scene.unsupported import limit_of
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation.vehicles import SceneVehicle
 

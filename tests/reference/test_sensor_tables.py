@@ -11,7 +11,7 @@ from uwsim import messages
 from uwsim.cli.check import faults_of
 from uwsim.devices import DEVICES
 from uwsim.reference.sensor_tables import filled
-from uwsim.scene.not_yet import limit_of
+from uwsim.scene.unsupported import limit_of
 from uwsim.schema.names import local
 from uwsim.sensors import SENSORS
 from uwsim.topics import INTERFACES

@@ -11,7 +11,7 @@ import pytest
 
 from uwsim.devices import DEVICES
 from uwsim.messages import Float64
-from uwsim.scene.not_yet import limit_of
+from uwsim.scene.unsupported import limit_of
 from uwsim.scene.reader import read_scene
 from uwsim.schema import slots
 from uwsim.schema.names import local

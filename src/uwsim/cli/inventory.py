@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import Fault
-from ..scene.not_yet import READ_ONLY, limit_of
 from ..scene.spec import ObjectSpec, SceneSpec
+from ..scene.unsupported import READ_ONLY, limit_of
 from ..scene.urdf import JointSpec
 from ..scene.variation import draw
 from ..scene.vehicle import VehicleSpec

@@ -78,7 +78,7 @@ def documents(kind: str, entries: Mapping[str, str]) -> list[dict[str, str]]:
 
 def limit_in(kind: str, name: str) -> str:
     """Say how far something is simulated; an empty text: wholly, or it is nothing to simulate."""
-    from ..scene.not_yet import limit_of
+    from ..scene.unsupported import limit_of
 
     parent = {"sensors": "vehicle", "devices": "vehicle", "interfaces": "rosInterfaces"}.get(kind)
     return "" if parent is None else limit_of(parent, clark(name))

@@ -52,9 +52,9 @@ today's names only, and neither the limits of numbers nor the parts of a plugin.
 
 def page() -> str:
     """Return ``docs/dialect.md``."""
-    from ..scene.not_yet import limit_of
     from ..scene.reader import ROOT
     from ..scene.spec import SceneSpec
+    from ..scene.unsupported import limit_of
 
     parts = [HEAD]
     done: set[type] = set()
@@ -168,7 +168,7 @@ def _section(
         limit: how far it is simulated; empty: wholly.
         homes: where the sections of specs are; of others under their own name on this page.
     """
-    from ..scene.not_yet import limit_of
+    from ..scene.unsupported import limit_of
 
     doc = (inspect.getdoc(cls) or "").strip()
     module = sys.modules[cls.__module__].__doc__ or ""

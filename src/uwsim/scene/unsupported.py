@@ -35,7 +35,7 @@ def _is_simulated(spec: type) -> bool:
     return spec.is_simulated() if issubclass(spec, InterfaceSpec) else hasattr(spec, "bind")
 
 
-NOT_YET: dict[tuple[str, str], str] = {
+UNSUPPORTED: dict[tuple[str, str], str] = {
     **{("oceanState", name): "waves" for name in WAVES},
     ("simParams", "disableShaders"): "the window",
     ("simParams", "enablePhysics"): "physics of contacts",
@@ -77,7 +77,7 @@ def limit_of(parent: str, name: str) -> str:
     """Say how far an element below ``parent`` is simulated; an empty text: wholly."""
     if (parent, name) in FALL:
         return FALLS_ALONE
-    return READ_ONLY if (parent, name) in NOT_YET else ""
+    return READ_ONLY if (parent, name) in UNSUPPORTED else ""
 
 
 def not_simulated(root: etree._Element, faults: Faults) -> None:
@@ -90,7 +90,7 @@ def not_simulated(root: etree._Element, faults: Faults) -> None:
         if parent is None:
             continue
         place = (str(parent.tag), str(node.tag))
-        kind = NOT_YET.get(place)
+        kind = UNSUPPORTED.get(place)
         if place in FALL and falls:
             kind = None
         elif (is_dynamic or falls) and parent.tag == "physics" and node.tag in LIMITS:
