@@ -1,4 +1,4 @@
-"""Side files of hydrodynamics: read whole, with every fault at once."""
+"""Hydrodynamics files of hydrodynamics: read whole, with every fault at once."""
 
 from __future__ import annotations
 

@@ -136,7 +136,7 @@ def faults_of(
             settled=partial(settled, data_path=data_path),
         )
     if root == "hydrodynamics":
-        return faults_of_side_file(file)
+        return faults_of_hydrodynamics_file(file)
     said = (
         f"the root element is {shown_tag(root)}; expected <{ROOT}>, <benchmark>, <robot> or "
         "<hydrodynamics>"
@@ -144,8 +144,9 @@ def faults_of(
     return [Fault(file=str(file), line=int(str(node.sourceline)), message=said)]
 
 
-def faults_of_side_file(file: Path) -> list[Fault]:
-    """Return everything wrong with a vehicle's side file; its links are looked up with a scene."""
+def faults_of_hydrodynamics_file(file: Path) -> list[Fault]:
+    """Return everything wrong with a vehicle's hydrodynamics file; its links are looked up with a
+    scene."""
     from ..physics.vehicle_file import read_vehicle_into
     from ..schema import Faults
 

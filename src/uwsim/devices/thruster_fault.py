@@ -22,7 +22,7 @@ class ThrusterFaultSpec(DeviceSpec):
     """A ``<u:fault>``: a thruster of a simulated vehicle loses thrust."""
 
     thruster: str = element(namespaced=True)
-    """Its name in the vehicle's side file."""
+    """Its name in the vehicle's hydrodynamics file."""
     loss: float = element(namespaced=True, default=1.0, minimum=0.0, maximum=1.0)
     """Share of the thrust that is lost; 1 is dead [1]."""
     start: float = element(namespaced=True, default=0.0, minimum=0.0)

@@ -287,7 +287,7 @@ class State:
         )
 
     def thrusters(self, index: int) -> tuple[str, ...]:
-        """Names of the thrusters of a vehicle, in the order of its side file."""
+        """Names of the thrusters of a vehicle, in the order of its hydrodynamics file."""
         if index not in self._dynamics:
             return ()
         return tuple(thruster.name for thruster in self._dynamics[index].thrusters)

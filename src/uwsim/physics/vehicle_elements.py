@@ -1,4 +1,4 @@
-"""The elements of a vehicle's side file, as `vehicle_file` reads them."""
+"""The elements of a vehicle's hydrodynamics file, as `vehicle_file` reads them."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class JointElement:
 
 @dataclass(frozen=True, kw_only=True)
 class HydrodynamicsElement:
-    """A side file."""
+    """A hydrodynamics file."""
 
     name: str = element(attribute=True)
     """What scenes call the set in ``<u:dynamics>``."""
@@ -111,7 +111,7 @@ class HydrodynamicsElement:
     density: float = element(default=1000.0, minimum=LIQUIDS[0], maximum=LIQUIDS[1])
     """Of the water the numbers were given for [kg/m3]."""
     include: tuple[str, ...] = ()
-    """Other side files, beside this one."""
+    """Other hydrodynamics files, beside this one."""
     body: tuple[BodyElement, ...] = ()
     """One a link, at most."""
     thruster: tuple[ThrusterElement, ...] = ()

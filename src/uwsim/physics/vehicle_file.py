@@ -1,4 +1,4 @@
-"""A vehicle's side file: what a URDF cannot say about a robot in water.
+"""A vehicle's hydrodynamics file: what a URDF cannot say about a robot in water.
 
 .. code-block:: xml
 
@@ -60,7 +60,7 @@ HEAD = 65536
 
 
 class VehicleError(FileError):
-    """A side file is wrong."""
+    """A hydrodynamics file is wrong."""
 
 
 @dataclass
@@ -81,7 +81,7 @@ def vehicle_sets() -> dict[str, Path]:
 
 
 def find_vehicle(name: str, beside: Path | None = None) -> Path:
-    """Find the side file of a set: ``name.xml`` beside the scene, or a bundled one.
+    """Find the hydrodynamics file of a set: ``name.xml`` beside the scene, or a bundled one.
 
     Raises:
         UnknownName: there is none.
@@ -98,12 +98,13 @@ def find_vehicle(name: str, beside: Path | None = None) -> Path:
 
 
 def _bundled() -> Path:
-    """The folder of the bundled side files; ``<include>`` looks here after the file's own."""
+    """The folder of the bundled hydrodynamics files; ``<include>`` looks here after the file's
+    own."""
     return Path(str(files("uwsim"))) / "data" / "vehicles"
 
 
 def _own_sets(beside: Path | None) -> list[str]:
-    """Names of the side files that lie beside a scene."""
+    """Names of the hydrodynamics files that lie beside a scene."""
     found = []
     with suppress(OSError):
         found_here = [] if beside is None else sorted(beside.parent.glob("*.xml"))
@@ -117,7 +118,7 @@ def _own_sets(beside: Path | None) -> list[str]:
 def read_vehicle(
     path: Path | str, links: Iterable[str] | None = None, joints: Iterable[str] | None = None
 ) -> VehicleHydrodynamics:
-    """Read a side file.
+    """Read a hydrodynamics file.
 
     Args:
         path: the file.
@@ -141,7 +142,7 @@ def read_vehicle_into(
     faults: Faults,
     joints: Iterable[str] | None = None,
 ) -> VehicleHydrodynamics | None:
-    """Read a side file into ``faults``; None when it has some."""
+    """Read a hydrodynamics file into ``faults``; None when it has some."""
     parts = _Parts(None if links is None else list(links), None if joints is None else list(joints))
     head = _read_file(path, faults, parts, ())
     if head is None or faults.any:
@@ -214,7 +215,7 @@ def _include(
     parts: _Parts,
     above: tuple[Path, ...],
 ) -> None:
-    """Read another side file, beside the first or bundled, into ``parts``."""
+    """Read another hydrodynamics file, beside the first or bundled, into ``parts``."""
     inner = Faults(path)
     try:
         other = next(

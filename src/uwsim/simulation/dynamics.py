@@ -1,7 +1,7 @@
 """What of a scene is simulated: the vehicles' hydrodynamics, and every name that belongs to it.
 
 Looked up before anything is simulated, and wrong ones said all at once with their lines: sets and
-side files, thrusters that fail, interfaces that want a simulated vehicle, topics that two
+hydrodynamics files, thrusters that fail, interfaces that want a simulated vehicle, topics that two
 interfaces use for different messages, files of currents.
 """
 
@@ -176,7 +176,7 @@ class Search:
             self._say(
                 f"the vehicle {vehicle.name!r} is simulated (<u:dynamics>) and has a <scaleFactor> "
                 f"of {x:g} {y:g} {z:g}; expected 1 1 1: what a scaled vehicle weighs and resists "
-                "nobody has said. Change its URDF and its side file instead",
+                "nobody has said. Change its URDF and its hydrodynamics file instead",
                 *("vehicle", index, "scaleFactor", 0),
             )
 

@@ -56,7 +56,8 @@ class SceneVehicle:
 
     @property
     def thrusters(self) -> tuple[str, ...]:
-        """Names of its thrusters, in the order of its side file; none if it is not simulated."""
+        """Names of its thrusters, in the order of its hydrodynamics file; none if it is not
+        simulated."""
         return self._state.thrusters(self._index)
 
     @property

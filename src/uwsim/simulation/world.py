@@ -78,7 +78,7 @@ class SceneWorld:
         self._bus = Bus()
         self._dynamics = dynamics = read_dynamics(scene, self.robots, data_path)
         self.files = {path.name: path for one in dynamics.values() for path in one.files}
-        """Side files of vehicles, and files of currents, by name."""
+        """Hydrodynamics files of vehicles, and files of currents, by name."""
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
         self.state = State(scene, self.robots, dynamics, timestep, shapes)
         """Where everything is, and what moves it."""

@@ -42,8 +42,8 @@ class AutopilotTopicSpec(VehicleTopicSpec):
 class ROSThrustersToPATSpec(AutopilotTopicSpec):
     """Commands the thrusters of a simulated vehicle by std_msgs/Float64MultiArray.
 
-    One value from -1 to 1 a thruster, in the order of the vehicle's side file; held until the
-    next command of any kind. The autopilot holds nothing meanwhile.
+    One value from -1 to 1 a thruster, in the order of the vehicle's hydrodynamics file; held until
+    the next command of any kind. The autopilot holds nothing meanwhile.
     """
 
     messages: ClassVar[Mapping[str, type]] = {"topic": Float64MultiArray}

@@ -1,4 +1,4 @@
-"""What thrusters and joints draw: the laws, their limits, and what a side file may say."""
+"""What thrusters and joints draw: the laws, their limits, and what a hydrodynamics file may say."""
 
 from __future__ import annotations
 

@@ -59,10 +59,10 @@ class Energy(Measure):
 
     over the thrusters and joints i of the vehicle, by the trapezoidal rule over the simulation's
     steps. What a thruster draws at a thrust and a joint at a torque and a speed stands in
-    ``docs/energy-and-control.md``, with coefficients from the vehicle's side file. Details: the
-    energy of all thrusters, of all joints, of the hotel load, of each thruster and of each joint;
-    the mean and the highest power; and the charge left, :math:`\max(0, 1 - E/C)`, of a battery of
-    capacity C that was full when the measure first went on.
+    ``docs/energy-and-control.md``, with coefficients from the vehicle's hydrodynamics file.
+    Details: the energy of all thrusters, of all joints, of the hotel load, of each thruster and of
+    each joint; the mean and the highest power; and the charge left, :math:`\max(0, 1 - E/C)`, of a
+    battery of capacity C that was full when the measure first went on.
 
     A vehicle that is not simulated has no forces and so no energy.
     """

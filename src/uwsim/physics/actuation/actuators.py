@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 
 class Actuators:
-    """The thrusters of a vehicle in the order of its side file, then its joints in the URDF's."""
+    """The thrusters of a vehicle in the order of its hydrodynamics file, then its joints in the
+    URDF's."""
 
     def __init__(
         self,
@@ -45,7 +46,7 @@ class Actuators:
             model: the engine's.
             data: its state.
             water: around the vehicle.
-            vehicle: what its side file says.
+            vehicle: what its hydrodynamics file says.
             robot: its links and joints.
             index: number of the vehicle.
             refresh: brings the places in ``data`` up to date.
