@@ -122,8 +122,8 @@ def test_a_torpedo_with_a_stern_thruster_alone_lets_go_what_it_cannot_hold(
 def test_what_was_let_go_does_not_wind_up(tmp_path: Path) -> None:
     simulation = torpedo(tmp_path, STERN)
     drive(simulation, 0.5, 30.0)
-    pilot = simulation.world.state.pilot(0)
-    assert pilot._integral[1:] == pytest.approx(np.zeros(5), abs=0.0)
+    autopilot = simulation.world.state.autopilot(0)
+    assert autopilot._integral[1:] == pytest.approx(np.zeros(5), abs=0.0)
 
 
 def test_a_small_lever_of_the_heave_thruster_is_borne_by_the_hull(tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ def bluerov(current: Current) -> Simulation:
     )
     simulation.open()
     simulation.world.set_current(current)
-    simulation.world.state.pilot(0).push(np.zeros(3), np.zeros(3))  # adrift
+    simulation.world.state.autopilot(0).push(np.zeros(3), np.zeros(3))  # adrift
     return simulation
 
 

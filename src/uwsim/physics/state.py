@@ -134,7 +134,7 @@ class State:
             given = vehicle.joint_values[:n_joints]
             values[: len(given)] = given
             self.set_joints(index, values)
-        self._pilots = {i: self._make_pilot(i) for i in dynamics}
+        self._autopilots = {i: self._make_autopilot(i) for i in dynamics}
         self._thrusters = {
             i: [
                 self._water.thruster(vehicle_thruster(i, thruster.name))
@@ -207,9 +207,9 @@ class State:
             return
         self._set_current(velocity, acceleration, rotation)
         is_due = self._n_steps % self._pilot_steps == 0
-        for index, pilot in self._pilots.items():
-            if is_due or pilot.has_news:
-                self._fly(index, pilot, velocity)
+        for index, autopilot in self._autopilots.items():
+            if is_due or autopilot.has_news:
+                self._update_autopilot(index, autopilot, velocity)
         for servos in self._servos.values():
             servos.step(self._timestep)
         before = {i: self._frees[i].copy() for i in self._kinematic}
@@ -264,9 +264,9 @@ class State:
             return []
         return contacts_of(self._model, self._data, self._owners == owner, self._owner_names)
 
-    def pilot(self, index: int) -> Autopilot:
+    def autopilot(self, index: int) -> Autopilot:
         """Return the autopilot of a simulated vehicle."""
-        return self._pilots[index]
+        return self._autopilots[index]
 
     def servos(self, index: int) -> Servos:
         """Return the servos of a simulated vehicle's joints."""
@@ -314,7 +314,7 @@ class State:
             self._free_velocities[index][:] = 0.0
             for thruster in self._thrusters[index]:
                 self._stop_thruster(thruster)
-            self._pilots[index].hold(world_from_base)
+            self._autopilots[index].hold(world_from_base)
             self._contacts_hold = False
         self._moved()
 
@@ -381,34 +381,34 @@ class State:
         """Whether an object stays where it is."""
         return int(self._model.body_weldid[self._objects[index]]) == 0
 
-    def _make_pilot(self, index: int) -> Autopilot:
+    def _make_autopilot(self, index: int) -> Autopilot:
         pose = self.vehicle_pose(index)
         robot, dynamics = self._robots[index], self._dynamics[index]
         mass = float(self._model.body_subtreemass[self._bases[index]])
         values = self._scene.vehicles[index].joint_values
-        pilot = Autopilot(
+        autopilot = Autopilot(
             dynamics,
             robot.root,
             mass,
             stiffness=balance_of(robot, dynamics, values).stiffness(pose.rotation[2]),
             thrusters=thrusters_on_base(robot, dynamics.thrusters, values),
         )
-        pilot.hold(pose)
-        return pilot
+        autopilot.hold(pose)
+        return autopilot
 
     def _twist(self, index: int, world_from_base: Pose) -> Array:
         twist: Array = self._free_velocities[index].copy()
         twist[:3] = turned_back(world_from_base.rotation, twist[:3])
         return twist
 
-    def _fly(self, index: int, pilot: Autopilot, velocity: Array) -> None:
+    def _update_autopilot(self, index: int, autopilot: Autopilot, velocity: Array) -> None:
         """Let an autopilot think and set its thrusters."""
         assert self._water is not None
         pose = self.vehicle_pose(index)
         twist = self._twist(index, pose)
-        if not self._over_ground[index] and not pilot.is_over_ground:
+        if not self._over_ground[index] and not autopilot.is_over_ground:
             twist[:3] -= turned_back(pose.rotation, velocity[self._base_rows[index]])
-        commands = pilot.thrust(pose, twist, self._pilot_steps * self._timestep)
+        commands = autopilot.commands(pose, twist, self._pilot_steps * self._timestep)
         self._water.set_thrusters(self._data, commands, self._thrusters[index])
 
     def _stop_thruster(self, thruster: int) -> None:

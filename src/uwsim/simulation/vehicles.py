@@ -43,7 +43,7 @@ class SceneVehicle:
     @property
     def autopilot(self) -> Autopilot | None:
         """What steers it; None if it is not simulated."""
-        return self._state.pilot(self._index) if self._is_simulated else None
+        return self._state.autopilot(self._index) if self._is_simulated else None
 
     @property
     def servos(self) -> Servos | None:

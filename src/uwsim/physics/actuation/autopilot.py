@@ -202,7 +202,7 @@ class Autopilot:
         self._mode, self.has_news = "thrusters", True
         self._commands = commands.copy()
 
-    def thrust(self, world_from_base: Pose, velocity: Array, dt: float) -> Array:
+    def commands(self, world_from_base: Pose, velocity: Array, dt: float) -> Array:
         """Return the commands of the thrusters, (n,) [1].
 
         Args:
