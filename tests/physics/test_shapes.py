@@ -6,7 +6,12 @@ import pytest
 from uwsim.assets import load_model, primitive
 from uwsim.assets.mesh import Mesh, Model
 from uwsim.errors import UwsimError
-from uwsim.physics.loose import box_drag, ellipsoid_added_mass, loose_hydrodynamics, loose_link
+from uwsim.physics.free_objects import (
+    box_drag,
+    ellipsoid_added_mass,
+    loose_hydrodynamics,
+    loose_link,
+)
 from uwsim.physics.shapes import MAX_PIECES, Shape, bounds, shapes_of
 from uwsim.scene.spec import PhysicsSpec
 

@@ -10,7 +10,7 @@ import pytest
 
 from uwsim.geometry import Pose
 from uwsim.physics.compile import compile_scene, object_body
-from uwsim.physics.loose import loose_link
+from uwsim.physics.free_objects import loose_link
 from uwsim.physics.shapes import Shape
 from uwsim.scene.spec import ObjectSpec, PhysicsSpec, SceneSpec, SimParamsSpec
 

@@ -9,7 +9,7 @@ from tests.simulation.simulated import SCENE, TWIST, command, make, position, ru
 from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.errors import UnknownName
 from uwsim.messages import Bool
-from uwsim.physics.loose import ellipsoid_added_mass
+from uwsim.physics.free_objects import ellipsoid_added_mass
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import ObjectSpec, PhysicsSpec
 from uwsim.simulation import Simulation

@@ -20,8 +20,8 @@ from ..linear import product
 from ..scene.spec import PhysicsSpec, SceneSpec
 from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
 from .engine_warnings import hush
+from .free_objects import loose_hydrodynamics, loose_link
 from .hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics, prepare
-from .loose import loose_hydrodynamics, loose_link
 from .shapes import Shape
 from .world_tree import rebuild_world_tree
 

@@ -14,7 +14,7 @@ from ..assets import bundled_robot, find, folders_searched
 from ..errors import AssetNotFound, UnknownName, UwsimError
 from ..geometry import Pose
 from ..linear import placed, product
-from ..physics.state import State
+from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.urdf_reader import read_urdf
@@ -97,7 +97,7 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
 def name_bodies(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
-    state: State,
+    state: Engine,
     parts: Sequence[Part],
     compatibility: frozenset[str] = frozenset(),
 ) -> dict[str, SceneBody]:

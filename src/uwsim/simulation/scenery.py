@@ -14,7 +14,7 @@ from ..devices.lamp import MountedLamp
 from ..errors import UwsimError
 from ..geometry import Array, Intrinsics, Pose
 from ..linear import product
-from ..physics.state import State
+from ..physics.engine import Engine
 from ..rendering.grey import grey_truncated
 from ..rendering.lamp import Lamp
 from ..rendering.lamps import MAX_LAMPS
@@ -48,7 +48,7 @@ class Scenery:
         self,
         scene: SceneSpec,
         robots: Mapping[int, RobotSpec],
-        state: State,
+        state: Engine,
         data_path: tuple[Path, ...],
         *,
         compatibility: frozenset[str],

@@ -52,7 +52,7 @@ class Simulation:
         self._drifting = [(i, v) for i, v in enumerate(scene.vehicles) if not state.is_simulated(i)]
         self._watchers: list[Callable[[], None]] = []
         self._wet_names = tuple(
-            "" if i is None else scene.vehicles[i].name for i in state.wet_vehicles()
+            "" if i is None else scene.vehicles[i].name for i in state.submerged_vehicles()
         )
         self._nodes: list[InProcessNode] = []
         self.images = {
@@ -245,7 +245,7 @@ class Simulation:
             state.fall()
             return
         middle = self.time - 0.5 * self.timestep  # of the step, where forces act
-        motion = water.at(state.wet_positions(), middle, self._wet_names)
+        motion = water.at(state.submerged_positions(), middle, self._wet_names)
         state.step(*motion)
 
     def _animate(self) -> None:

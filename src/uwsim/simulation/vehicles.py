@@ -8,7 +8,7 @@ from functools import partial
 from ..devices.sway import displaced
 from ..errors import UnknownName
 from ..geometry import Array, Pose
-from ..physics.state import State
+from ..physics.engine import Engine
 from ..scene.mounts import Stand, link_from_frame
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
@@ -31,7 +31,7 @@ class SceneVehicle:
     STATE = ("_offsets", "_losses")
     """What of it changes as time goes by."""
 
-    def __init__(self, index: int, stand: Stand, state: State) -> None:
+    def __init__(self, index: int, stand: Stand, state: Engine) -> None:
         self._index, self._stand, self._state = index, stand, state
         self.name = stand.vehicle.name
         """Its name in the scene."""
@@ -131,7 +131,7 @@ class SceneVehicle:
 
 
 def vehicles_of(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], state: State
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], state: Engine
 ) -> tuple[SceneVehicle, ...]:
     """The vehicles of a scene, in the file's order."""
     return tuple(

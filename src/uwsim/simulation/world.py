@@ -14,7 +14,7 @@ from ..bus import Bus
 from ..devices.device import DeviceSpec
 from ..errors import Fault, UnknownName
 from ..geometry import Intrinsics, Pose
-from ..physics.state import State
+from ..physics.engine import Engine
 from ..rng import stream
 from ..scene.reader import angle_notices
 from ..scene.spec import Integrator, SceneSpec, with_integrator
@@ -25,11 +25,11 @@ from ..world import TIMESTEP, Actuators, Contact
 from .bodies import SceneBody, find_body, find_file, name_bodies, read_robots
 from .checks.plausibility import doubts_about
 from .collision_shapes import simulated_shapes
+from .contacts import Contacts
 from .dynamics import read_dynamics
 from .floor import set_on_floor
 from .renderer_pool import RendererPool
 from .scenery import Scenery
-from .touch import Touch
 from .vehicles import SceneVehicle, vehicles_of
 
 
@@ -80,7 +80,7 @@ class SceneWorld:
         self.files = {path.name: path for one in dynamics.values() for path in one.files}
         """Hydrodynamics files of vehicles, and files of currents, by name."""
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
-        self.state = State(scene, self.robots, dynamics, timestep, shapes)
+        self.state = Engine(scene, self.robots, dynamics, timestep, shapes)
         """Where everything is, and what moves it."""
         self._vehicles = vehicles_of(scene, self.robots, self.state)
         self.scenery = Scenery(
@@ -95,7 +95,7 @@ class SceneWorld:
         self._bodies = name_bodies(
             scene, self.robots, self.state, self.scenery.parts, compatibility
         )
-        self.touch = Touch(scene, self.robots, self.state, data_path, timestep)
+        self.touch = Contacts(scene, self.robots, self.state, data_path, timestep)
         """Who touches whom."""
         self._sensors = self._bound_sensors()
         self._cameras = {

@@ -21,7 +21,7 @@ import numpy as np
 from ..geometry import Array
 from ..linear import turned
 from ..scene.spec import PhysicsSpec, SceneSpec
-from .touching import MAX_JUMP
+from .kinematic_contacts import MAX_JUMP
 
 HEAVY = 1e4
 """Mass and inertia of a vehicle's links: nothing that is loose moves them [kg, kg m2]."""

@@ -8,9 +8,9 @@ import pytest
 
 from tests.physics.water_models import free_body
 from uwsim.geometry import Pose
+from uwsim.physics.free_objects import box_added_mass, loose_hydrodynamics
 from uwsim.physics.hydrodynamics import BodyHydrodynamics
 from uwsim.physics.hydrodynamics.hydrodynamics import install
-from uwsim.physics.loose import box_added_mass, loose_hydrodynamics
 from uwsim.physics.shapes import Shape
 from uwsim.scene.spec import PhysicsSpec
 

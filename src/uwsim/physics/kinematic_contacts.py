@@ -24,7 +24,7 @@ MAX_JUMP = 1.0
 """A jump after a longer rest counts as made in this time [s]."""
 
 
-class Touching:
+class KinematicContacts:
     """Shapes laid over each other.
 
     Args:

@@ -25,11 +25,11 @@ from .balance import balance_of
 from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
 from .contacts import contacts_of
 from .engine_warnings import say_too_fast, speeds_of, too_fast, why_untrue
-from .falling import Falling
 from .hydrodynamics import VehicleHydrodynamics
 from .motion import Motion
 from .scaled import ScaledLinks, stretched_axes
 from .shapes import Shape
+from .uwsim_physics import Falling
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics
@@ -38,7 +38,7 @@ PILOT_PERIOD = 0.02
 """An autopilot thinks this often [s]."""
 
 
-class State:
+class Engine:
     """Where every link and object of a scene is, and how it moves.
 
     Joint vectors hold the movable, non-mimic joints in UWSim's order; mimic joints follow.
@@ -175,7 +175,7 @@ class State:
         """Whether a vehicle is moved by forces."""
         return index in self._dynamics
 
-    def wet_positions(self) -> Array:
+    def submerged_positions(self) -> Array:
         """Return where the water acts on bodies, in W, (n, 3) [m].
 
         At the centre of buoyancy; for a body that displaces nothing, where its matrices are about.
@@ -183,7 +183,7 @@ class State:
         self._refresh()
         return points_of(self._origins, self._axes, self._wet, self._felt_at)
 
-    def wet_vehicles(self) -> tuple[int | None, ...]:
+    def submerged_vehicles(self) -> tuple[int | None, ...]:
         """Return the number of the vehicle that each of them belongs to."""
         numbers: list[int | None] = []
         for i in self._wet.tolist():

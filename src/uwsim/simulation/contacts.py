@@ -1,7 +1,8 @@
 """Who touches whom: what the engine found, or shapes laid over each other.
 
 The engine knows contacts between simulated vehicles and objects with ``<physics>``. What it does
-not simulate is looked at by `uwsim.physics.touching`, from the first time that somebody asks.
+not simulate is looked at by `uwsim.physics.kinematic_contacts`, from the first time that somebody
+asks.
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ from typing import Any
 
 from ..errors import UwsimError
 from ..geometry import Pose
-from ..physics.state import State
-from ..physics.touching import Touching
+from ..physics.engine import Engine
+from ..physics.kinematic_contacts import KinematicContacts
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..world import Contact
@@ -23,7 +24,7 @@ from .collision_shapes import collision_shapes
 from .snapshot import put_state, state_of
 
 
-class Touch:
+class Contacts:
     """The contacts of a scene.
 
     Args:
@@ -41,13 +42,13 @@ class Touch:
         self,
         scene: SceneSpec,
         robots: Mapping[int, RobotSpec],
-        state: State,
+        state: Engine,
         data_path: tuple[Path, ...],
         timestep: float,
     ) -> None:
         self._scene, self._robots, self._state = scene, robots, state
         self._data_path, self._timestep = data_path, timestep
-        self._touching: Touching | None = None
+        self._touching: KinematicContacts | None = None
         self._step = 0
 
     def is_possible(self, name: str) -> bool:
@@ -97,7 +98,7 @@ class Touch:
             raise untouchable(name, what if kind == "vehicle" else "its mesh is empty")
         return contacts
 
-    def _lay(self) -> Touching:
+    def _lay(self) -> KinematicContacts:
         scene, state = self._scene, self._state
         vehicles = range(len(scene.vehicles))
         solid = scene.solid_objects
@@ -112,4 +113,4 @@ class Touch:
             )
         names = {f"vehicle/{i}": vehicle.name for i, vehicle in enumerate(scene.vehicles)}
         names |= {f"object/{i}": thing.name for i, thing in enumerate(scene.objects)}
-        return Touching(shapes, poses, names, lambda: state.version, self._timestep)
+        return KinematicContacts(shapes, poses, names, lambda: state.version, self._timestep)
