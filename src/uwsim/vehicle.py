@@ -61,8 +61,7 @@ class Vehicle(Protocol):
 
     @property
     def thrusters(self) -> tuple[str, ...]:
-        """Names of its thrusters, in the order of its hydrodynamics file; none if it is not
-        simulated."""
+        """Names of its thrusters as in its hydrodynamics file; none if it is not simulated."""
 
     @property
     def autopilot(self) -> Autopilot | None:

@@ -360,8 +360,8 @@ class _Reader:
             elif len(spec.name) > MAX_NAME_LENGTH:
                 self.faults.add(
                     node,
-                    f"the name {name!r}... has {len(spec.name)} letters; at most {MAX_NAME_LENGTH}, "
-                    "for files are called after it",
+                    f"the name {name!r}... has {len(spec.name)} letters; at most "
+                    f"{MAX_NAME_LENGTH}, for files are called after it",
                 )
             elif spec.name in seen:
                 first = self.faults.node_of(seen[spec.name])

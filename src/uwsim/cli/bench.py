@@ -185,7 +185,7 @@ def with_sources(run: Run, files: Sequence[InputFile]) -> Run:
     from ..runs.inputs_read import of_algorithm
 
     with recorded() as sources:
-        inputs = {**run.inputs, **of_algorithm(bench.plan)}
+        inputs = {**run.inputs, **of_algorithm(run.plan)}
     return replace(run, inputs=inputs, files=watchable([*files, *sources]))
 
 

@@ -145,8 +145,7 @@ def faults_of(
 
 
 def faults_of_hydrodynamics_file(file: Path) -> list[Fault]:
-    """Return everything wrong with a vehicle's hydrodynamics file; its links are looked up with a
-    scene."""
+    """Return everything wrong with a hydrodynamics file; its links are looked up with a scene."""
     from ..physics.vehicle_file import read_vehicle_into
     from ..schema import Faults
 

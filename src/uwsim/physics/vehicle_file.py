@@ -98,8 +98,7 @@ def find_vehicle(name: str, beside: Path | None = None) -> Path:
 
 
 def _bundled() -> Path:
-    """The folder of the bundled hydrodynamics files; ``<include>`` looks here after the file's
-    own."""
+    """The folder of the bundled hydrodynamics files; ``<include>`` searches it last."""
     return Path(str(files("uwsim"))) / "data" / "vehicles"
 
 

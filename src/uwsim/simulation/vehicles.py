@@ -56,8 +56,7 @@ class SceneVehicle:
 
     @property
     def thrusters(self) -> tuple[str, ...]:
-        """Names of its thrusters, in the order of its hydrodynamics file; none if it is not
-        simulated."""
+        """Names of its thrusters as in its hydrodynamics file; none if it is not simulated."""
         return self._state.thrusters(self._index)
 
     @property

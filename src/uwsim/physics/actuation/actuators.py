@@ -27,8 +27,7 @@ if TYPE_CHECKING:
 
 
 class Actuators:
-    """The thrusters of a vehicle in the order of its hydrodynamics file, then its joints in the
-    URDF's."""
+    """The thrusters of a vehicle as in its hydrodynamics file, then its joints as in the URDF."""
 
     def __init__(
         self,
