@@ -104,7 +104,7 @@ def verify(
 ) -> None:
     """Replay a sample of a stored result and compare it with what is stored, byte for byte.
 
-    A trial of work is what is played in one go: a seed's whole sweep, or one level of it where the
+    A trial is what is played in one go: a seed's whole sweep, or one level of it where the
     benchmark is independent. Files are found by name (beside the result, here, bundled) and known
     by the hash that was recorded; others are refused. Before any replay, every file of the result
     is made anew from its trials and compared, every total is worked out from its row, and every

@@ -1,6 +1,6 @@
 """Playing single levels with single seeds, each once: what is on disk is not played again.
 
-Each is a trial of work of the independent mode (DESIGN 5): the algorithm settles at the updaters'
+Each is a trial of the independent mode (DESIGN 5): the algorithm settles at the updaters'
 initial values, then the level is ramped in. The pictures and the noise of a level depend on the
 seed and on the level's values, never on what was played before.
 """
@@ -92,7 +92,7 @@ class Evaluations:
         return self.made[seed, value].judgement.is_broken
 
     def trial(self, seed: int, value: float) -> Trial:
-        """Return the trial of work of a run. Its number follows from its seed and what it asked."""
+        """Return the trial of a run. Its number follows from its seed and what it asked."""
         level = Level(
             tuple((name, value if name == self._over else v) for name, v in self._at.values)
         )

@@ -47,7 +47,7 @@ class Engine:
 
     STATE = (
         "_engine",
-        "_pilots",
+        "_autopilots",
         "_servos",
         "_falling",
         "_n_steps",

@@ -1,4 +1,4 @@
-"""Rows on disk as they finish: one file a trial of work, one line a row.
+"""Rows on disk as they finish: one file a trial, one line a row.
 
 A line is written whole and flushed before the next level begins, so a killed run loses at most the
 level it was in. The first line says what the unit is, the last that it is done. A line that was

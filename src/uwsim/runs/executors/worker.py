@@ -1,4 +1,4 @@
-"""One trial of work in two halves: performed where there is a processor, kept where the result is.
+"""One trial in two halves: performed where there is a processor, kept where the result is.
 
 The two may be on different machines: what goes from one to the other is numbers, text and the bytes
 of pictures, never a path.
