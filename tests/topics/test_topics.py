@@ -11,8 +11,8 @@ import pytest
 
 from uwsim.devices import DEVICES
 from uwsim.messages import Float64
-from uwsim.scene.unsupported import limit_of
 from uwsim.scene.reader import read_scene
+from uwsim.scene.unsupported import limit_of
 from uwsim.schema import slots
 from uwsim.schema.names import local
 from uwsim.sensors import SENSORS
