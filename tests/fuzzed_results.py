@@ -153,7 +153,7 @@ def read_for_verify(sound: Sound, directory: Path) -> None:
     printable(head(stored, directory, len(units), len(plan.units())))
     if units:
         made_otherwise(stored, directory, bench.head(units[0])["run"])
-        verify(directory, stored, bench, units, crew=Copies(sound))
+        verify(directory, stored, bench, units, executor=Copies(sound))
 
 
 def read_for_resume(sound: Sound, directory: Path) -> None:

@@ -13,8 +13,8 @@ from uwsim.results.atomic_file import atomic_write, write_text
 OTHER = """
 import sys
 from pathlib import Path
-from uwsim.results.atomic_file import write_whole
-write_whole(Path(sys.argv[1]), "other")
+from uwsim.results.atomic_file import write_text
+write_text(Path(sys.argv[1]), "other")
 """
 
 

@@ -29,7 +29,7 @@ LAMP = LampSpec(
     orientation=(0.0, np.pi, np.pi / 2.0),
     intensity=2.0,
 )
-"""Beside the camera, looking down as it does."""
+"""BackgroundProcess the camera, looking down as it does."""
 
 
 def night(*lamps: LampSpec, vr: bool = False) -> SceneSpec:

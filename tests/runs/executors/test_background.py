@@ -82,7 +82,7 @@ PARENT = """
 import time
 from uwsim.cli.bench import load_reporter
 from uwsim.runs.executors.background import BackgroundProcess
-with Beside(load_reporter) as beside:
+with BackgroundProcess(load_reporter) as background:
     print(background._process.pid, flush=True)
     time.sleep(60)
 """

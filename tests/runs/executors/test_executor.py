@@ -141,7 +141,7 @@ def test_a_lost_unit_is_the_next_to_be_played_and_three_times_at_most(tmp_path: 
         "Finished rows are kept; go on with --resume."
     )
     assert queue.take() is None
-    assert first.bench.n_lost == 4
+    assert first.run.n_lost == 4
 
 
 def test_a_unit_that_is_lost_twice_in_one_call_is_played_without_it(tmp_path: Path) -> None:
