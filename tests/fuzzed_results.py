@@ -171,7 +171,7 @@ class Copies:
 
     sound: Sound
 
-    def play(self, roster: Any) -> None:
+    def execute(self, roster: Any) -> None:
         """Copy the units that are asked for."""
         while (job := roster.take()) is not None:
             place = job.bench.out / "units"
