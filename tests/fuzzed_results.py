@@ -171,10 +171,10 @@ class Copies:
 
     sound: Sound
 
-    def execute(self, roster: Any) -> None:
-        """Copy the units that are asked for."""
-        while (job := roster.take()) is not None:
-            place = job.bench.out / "units"
+    def execute(self, queue: Any) -> None:
+        """Copy the trials that are asked for."""
+        while (job := queue.take()) is not None:
+            place = job.run.out / "units"
             shutil.copytree(self.sound.folder / "out" / "units", place, dirs_exist_ok=True)
 
 

@@ -174,8 +174,8 @@ WRONG = {
         "robot",
         'ixx="0.5" iyy="0.6" izz="0.7"',
         'ixx="0" iyy="0" izz="0"',
-        "link 'base_link' has 19.9 kg and the inertia 0 0 0 (it is simulated with 0.0001); a box of "
-        "its size, 0.5 0.4 0.3 m, has 0.68 kg m2 at most",
+        "link 'base_link' has 19.9 kg and the inertia 0 0 0 (it is simulated with 0.0001); a box "
+        "of its size, 0.5 0.4 0.3 m, has 0.68 kg m2 at most",
     ),
     "negative inertia": ("inertia", "robot", 'ixx="0.5"', 'ixx="-0.5"', "the inertia -0.5 0.6 0.7"),
     "inertia in kg mm2": (
