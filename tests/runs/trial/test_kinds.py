@@ -113,7 +113,8 @@ def test_unending_ends_in_timeout_and_keeps_what_the_world_measured(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("uwsim.runs.trial.trial.MAX_TASK_DURATION", 3.0)
-    played = play(tmp_path, "unending", scene="cirs")
+    # in this process, where the limit is set
+    played = play(tmp_path, "unending", "--workers", "0", scene="cirs")
     result = played.result
     assert result.values("status") == ("timeout",)
     assert result.numbers("taskTime") == (3.0,)
