@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..analysis.comparison.repeats_note import repeats_note
+from ..analysis.repeats_note import repeats_note
 from ..errors import AllErrors, BadSetting, RunFailed
 from ..files.file_names import file_names
 from ..files.input_files import InputFile, recorded

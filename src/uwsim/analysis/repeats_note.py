@@ -13,11 +13,13 @@ def repeats_note(n_results: int, n_levels: int, repeats: int) -> str | None:
         n_levels: of the sweep.
         repeats: seeds of each.
     """
-    from .repeats import fewest_repeats
-
     is_alone = n_results < 2
+    if is_alone and repeats == 1:
+        return None
+    from .comparison.repeats import fewest_repeats  # statistics take a second to load
+
     sweep, level = fewest_repeats(n_results, n_levels)
-    if is_alone and (repeats == 1 or repeats >= level):
+    if is_alone and repeats >= level:
         return None
     what = "comparing this result with one other" if is_alone else f"comparing {n_results} results"
     needs = f"needs at least {sweep} repeats"

@@ -9,7 +9,7 @@ import pytest
 from tests.compared_results import entries, noisy
 from tests.short_benchmark import write_benchmark
 from uwsim.analysis.comparison import compare, shared_column
-from uwsim.analysis.comparison.repeats_note import repeats_note
+from uwsim.analysis.repeats_note import repeats_note
 from uwsim.cli import main
 
 
