@@ -59,7 +59,7 @@ def test_the_newest_release_is_this_version() -> None:
     assert releases[:1] in ([], [metadata.version("uwsim")])
 
 
-def test_each_slip_of_form_is_found() -> None:
+def test_each_mistake_of_form_is_found() -> None:
     good = "# Changelog\n\n## [Unreleased]\n\n### Added\n\n- A thing.\n\n"
     assert faults(good) == []
     for bad in (

@@ -228,17 +228,17 @@ def track(
     if distance is None:
         raise ResultError("The result does not say how far the target is (fact d).")
     truth = _columns(logs["objectCentered"], ("x", "y"), level, seed)
-    slip = _columns(logs["centroid"], ("total", "x", "y"), level, seed)
+    centroid = _columns(logs["centroid"], ("total", "x", "y"), level, seed)
     place = _columns(logs["offset"], ("x", "y"), level, seed)
-    n = min(len(truth), len(slip), len(place))
-    truth, slip, place = truth[:n], slip[:n], place[:n]
-    right = -(truth[:, 1] + slip[:, 2])  # [px]
-    up = -(truth[:, 2] - slip[:, 3])  # [px]
+    n = min(len(truth), len(centroid), len(place))
+    truth, centroid, place = truth[:n], centroid[:n], place[:n]
+    right = -(truth[:, 1] + centroid[:, 2])  # [px]
+    up = -(truth[:, 2] - centroid[:, 3])  # [px]
     return Track(
         time=place[:, 0] - place[0, 0],
         vehicle=np.stack([-place[:, 1], place[:, 2]], axis=1),
         seen=np.stack([right, up], axis=1) * distance[0] / focal,
-        tracker=slip[:, 1],
+        tracker=centroid[:, 1],
     )
 
 

@@ -1,4 +1,4 @@
-"""The original's slips that can be had back by name: one table for files and ``--compat``.
+"""Compatibility quirks of the original, restored by name: one table for files and ``--compat``.
 
 By default every one of these is repaired. ``u:compatibility="thresholds rows"`` on ``<benchmark>``
 or ``--compat thresholds,rows`` brings the named ones back; ``uwsim`` brings back all but those of

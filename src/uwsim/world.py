@@ -146,7 +146,7 @@ class World(Protocol):
 
     @property
     def compatibility(self) -> frozenset[str]:
-        """The names of the original's slips asked for (`uwsim.compatibility`)."""
+        """The names of the compatibility quirks that are on (`uwsim.compatibility`)."""
 
     def body(self, name: str) -> Body:
         """Find a vehicle, link or object by its route ``a/b``; UnknownName if none."""

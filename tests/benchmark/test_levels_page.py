@@ -1,4 +1,4 @@
-"""What docs/levels.md says of triggers, updaters and the original's slips is so."""
+"""What docs/levels.md says of triggers, updaters and compatibility quirks is so."""
 
 from __future__ import annotations
 

@@ -264,7 +264,7 @@ def test_a_result_without_plugins_does_not_mention_them(folder: Path) -> None:
         (PARTS + "\nALGORITHMS = {'esm': Idle}", "'esm' is a name of uwsim; call it otherwise"),
     ],
 )
-def test_each_slip_of_a_plugin_is_one_clean_fault(tmp_path: Path, text: str, wrong: str) -> None:
+def test_each_mistake_in_a_plugin_is_one_clean_fault(tmp_path: Path, text: str, wrong: str) -> None:
     found = said(plugin(tmp_path, text))
     assert wrong in found
     assert len(found.splitlines()) == 1

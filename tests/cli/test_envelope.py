@@ -218,7 +218,7 @@ def test_runs_that_another_search_writes_are_not_overwritten(
         (["--resume", "--overwrite"], "--resume and --overwrite exclude each other."),
     ],
 )
-def test_each_slip_is_one_clean_fault_and_nothing_is_written(
+def test_each_mistake_is_one_clean_fault_and_nothing_is_written(
     folder: Path, capsys: pytest.CaptureFixture[str], options: list[str], wrong: str
 ) -> None:
     given = ["--until", "strain > 5", *options]
@@ -229,9 +229,11 @@ def test_each_slip_is_one_clean_fault_and_nothing_is_written(
     assert not (folder / "b.envelope").exists()
 
 
-def test_all_slips_are_said_at_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_mistakes_are_reported_at_once(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     call = ["envelope", "b.xml", "--plugin", "own.py", "--over", "load", "--until", "stran > 5"]
-    slips = [
+    mistakes = [
         "--to",
         "-1",
         "--confidence",
@@ -243,10 +245,10 @@ def test_all_slips_are_said_at_once(folder: Path, capsys: pytest.CaptureFixture[
         "--workers",
         "two",
     ]
-    assert main([*call, *slips]) == 2
+    assert main([*call, *mistakes]) == 2
     said = capsys.readouterr().err
     assert sum(line.startswith("uwsim: ") for line in said.splitlines()) == 3
-    assert main([*call, *slips[:6]]) == 2
+    assert main([*call, *mistakes[:6]]) == 2
     said = capsys.readouterr().err
     assert sum(line.startswith("uwsim: ") for line in said.splitlines()) == 4
 

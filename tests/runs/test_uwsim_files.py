@@ -135,8 +135,8 @@ def test_a_missing_path_cancels_a_missing_estimate_in_the_original() -> None:
             (1.0, 2.0, 3.0, 5.0, 8.0),
         ),
     )
-    slip = frozenset({"rows"})
-    assert dat_text(result, compatibility=slip, measures=(CORNERS, path)).split("\n") == [
+    quirk = frozenset({"rows"})
+    assert dat_text(result, compatibility=quirk, measures=(CORNERS, path)).split("\n") == [
         "None\tcorners\tpath\tTOTAL\tSimTime\t",
         "1\t-1\t0\t2\t",
         "1\t2\t3\t5\t8\t",

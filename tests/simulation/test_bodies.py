@@ -48,7 +48,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
     scene = read_scene(SCENE).nominal
     black_box = next(thing for thing in scene.objects if thing.name == "blackbox")
     sizes = []
-    for scale, slips in (
+    for scale, quirks in (
         ((1.0, 1.0, 1.0), frozenset[str]()),
         ((2.0, 3.0, 0.5), frozenset[str]()),
         ((2.0, 3.0, 0.5), frozenset({"box-scale"})),
@@ -56,7 +56,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
         thing = replace(black_box, scale_factor=scale, offsetr=(0.0, 0.0, 0.0))
         simulation = Simulation(
             replace(scene, vehicles=(), objects=(thing,), ros_interfaces=()),
-            compatibility=slips,
+            compatibility=quirks,
         )
         box = simulation.world.body("blackbox").box
         simulation.close()
@@ -76,7 +76,7 @@ def test_what_an_object_that_never_moves_hands_out_is_a_copy() -> None:
     assert (body.world_from_body.rotation == turn).all()
 
 
-def test_all_slips_of_the_original_leave_a_camera_where_scenes_since_2014_put_it() -> None:
+def test_all_quirks_of_the_original_leave_a_camera_where_scenes_since_2014_put_it() -> None:
     assert compatibility(["uwsim"]) == COMPATIBILITY.keys() - {"visual-frames"}
     scene = read_scene(SCENE).nominal
     looks = {}

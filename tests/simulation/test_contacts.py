@@ -184,7 +184,7 @@ def test_a_vehicle_pushes_a_loose_box_before_it() -> None:
     assert position(simulation)[1] > 3.0
 
 
-def test_with_the_slip_collision_only_what_is_listed_first_counts() -> None:
+def test_with_the_quirk_collision_only_what_is_listed_first_counts() -> None:
     simulation = make(objects=(FLOOR, box(3.0, 1.0, 4.7)))
     run(simulation, 2.0)
     firsts = [contact.is_first for contact in simulation.world.contacts("blackbox")]

@@ -222,8 +222,8 @@ def _declared(plugin: Plugin, faults: list[Fault]) -> Iterator[tuple[str, str, t
 
     given = [name for name in DECLARED if hasattr(module, name)]
     if not given:
-        slips = [did_you_mean(name, DECLARED) for name in vars(module) if name.isupper()]
-        near = next(filter(None, slips), "")
+        nearest = [did_you_mean(name, DECLARED) for name in vars(module) if name.isupper()]
+        near = next(filter(None, nearest), "")
         add(f"declares none of {', '.join(DECLARED)}: dicts of name -> class.{near}")
     for table in given:
         entries = getattr(module, table)

@@ -50,8 +50,8 @@ class BenchmarkSpec:
     )
     """How levels follow each other; None: sequential."""
     compatibility: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
-    """Slips of the original to play with (`uwsim.compatibility`), separated by blanks; ``uwsim``
-    is all of them but ``visual-frames``."""
+    """Compatibility quirks of the original to reproduce (`uwsim.compatibility`), separated by
+    blanks; ``uwsim`` is all of them but ``visual-frames``."""
     patience: float | None = element(default=None, attribute=True, namespaced=True, above=0.0)
     """How long the start is waited for, in simulation time [s]; None: 10 s."""
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 RAY = "ray"
 MAX_WORKERS = 1024
-"""More processes than this on one machine are a slip of the pen."""
+"""More processes than this on one machine are taken for a typing error."""
 
 CALLBACK_LIMIT = 600.0
 """How long a call into an algorithm may take, unless the user says otherwise [s]."""

@@ -130,13 +130,13 @@ def render(
     with wrong.kept():
         if spec is not None and no_code:
             refuse_code(spec)
-    slips = compatibility_of(compat or [], wrong)
+    quirks = compatibility_of(compat or [], wrong)
     wrong.check()
     assert spec is not None
     assert wanted is not None
     announce_code(spec)
     warn_of_stand_ins(spec, folders)
-    simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=slips)
+    simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=quirks)
     try:
         say_notices(simulation.world.warnings)
         shot = wanted.shoot(simulation, spec)

@@ -16,7 +16,7 @@ from ..linear import product
 Array = npt.NDArray[np.float64]
 FASTEST = 100.0
 """No water that a file or a function speaks of moves faster: turbidity currents and tsunamis reach
-some 30 m/s. What is faster is a slip, mostly of units [m/s]."""
+some 30 m/s. What is faster is taken for a mistake, mostly of units [m/s]."""
 DIFFERENCE = 1e-3
 """Half the span of the central difference that stands for the acceleration [s]."""
 

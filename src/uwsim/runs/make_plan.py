@@ -25,7 +25,7 @@ MAX_REPEATS = 10_000
 OF_ALGORITHM = "algorithm."
 """Begins the ``--set`` that are parameters of the algorithm."""
 LONGEST = 1e8
-"""A benchmark that would simulate longer than this is a slip of the pen [s]."""
+"""A benchmark that would simulate longer than this is taken for a typing error [s]."""
 
 
 def make_plan(
@@ -100,7 +100,7 @@ def make_plan(
     with wrong.kept():
         chosen_mode = mode_of(mode or (None if spec is None else spec.mode))
     of_file = () if spec is None else spec.compatibility
-    slips = compatibility_of([*of_file, *compat], wrong)
+    quirks = compatibility_of([*of_file, *compat], wrong)
     chosen = levels_of(levels, spec, wrong)
     with wrong.kept():
         check_length(spec, chosen, repeat)
@@ -119,7 +119,7 @@ def make_plan(
         seed=seed,
         repeats=repeat,
         chosen=chosen,
-        compatibility=slips,
+        compatibility=quirks,
         data_path=data_path,
         plugins=own,
     )
@@ -231,7 +231,7 @@ def mode_of(mode: str | None) -> Mode:
 
 
 def compatibility_of(compat: Sequence[str], wrong: AllErrors) -> frozenset[str]:
-    """Return the slips that ``--compat`` asks for; keeps each name that is none."""
+    """Return the quirks of ``--compat``; an unknown name goes into ``wrong``."""
     from ..compatibility import compatibility
 
     found: frozenset[str] = frozenset()

@@ -78,7 +78,7 @@ class Plan:
     chosen: tuple[tuple[str, float], ...] = ()
     """``--level``: only levels whose reference has one of these values."""
     compatibility: frozenset[str] = frozenset()
-    """The original's slips asked for."""
+    """The compatibility quirks that are on."""
     timestep: float = TIMESTEP
     """Length of a physics step [s]."""
     data_path: tuple[Path, ...] = ()

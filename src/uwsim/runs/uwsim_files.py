@@ -70,7 +70,7 @@ def dat_text(
 
     Args:
         result: what was found.
-        compatibility: slips of the original; ``rows`` matters here.
+        compatibility: compatibility quirks; ``rows`` matters here.
         measures: of the benchmark; one that is not given has one field, its value.
     """
     specs = {spec.name: spec for spec in measures}

@@ -20,7 +20,7 @@ from .names import NAMESPACE, local
 FARTHEST = 1e6
 """Greatest length that a scene needs [m]."""
 LARGEST = 1e9
-"""Greatest number that any quantity needs, in whatever unit; larger ones are slips."""
+"""Greatest number that any quantity needs, in whatever unit; larger ones are mistakes of units."""
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,7 @@ class Scenery:
         robots: the robot of each vehicle, by its number.
         state: where everything is.
         data_path: folders in which files are looked for.
-        compatibility: the original's slips asked for.
+        compatibility: names of the compatibility quirks that are on.
         pool: lends the renderer; without one the scenery has a renderer of its own.
     """
 

@@ -43,7 +43,7 @@ class SceneWorld:
         timestep: length of a step [s].
         integrator: ``implicitfast`` or ``RK4`` instead of the file's (`SimParamsSpec`).
         data_path: folders in which files are looked for.
-        compatibility: the original's slips asked for.
+        compatibility: names of the compatibility quirks that are on.
         runs_code: let Python code that the scene names run; without it that water is still.
         pool: lends the renderer; without one the scene has a renderer of its own.
         is_blind: images on topics are black, nothing is drawn for them.
@@ -149,7 +149,7 @@ class SceneWorld:
 
     @property
     def compatibility(self) -> frozenset[str]:
-        """The original's slips asked for."""
+        """The compatibility quirks that are on."""
         return self._compatibility
 
     def body(self, name: str) -> SceneBody:

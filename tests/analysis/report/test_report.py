@@ -394,7 +394,7 @@ def test_without_provenance_the_command_is_put_together(tmp_path: Path) -> None:
         "--set 'vehicle[g].virtualCamera[c].std=0.016' --level fog=0.2 --compat thresholds"
     ) in text
     assert "Only these levels of the sweep were played: fog=0.2." in text
-    assert "Played with slips of the original: thresholds." in text
+    assert "Compatibility quirks: thresholds." in text
 
 
 def test_an_unfinished_result_says_so_first(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Collision: the original's score, what it is made of, and the original's slips."""
+"""Collision: the original's score, what it is made of, and compatibility quirks."""
 
 from __future__ import annotations
 

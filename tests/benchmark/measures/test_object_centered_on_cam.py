@@ -11,8 +11,8 @@ from uwsim.benchmark.measures import ObjectCenteredOnCam, ObjectCenteredOnCamSpe
 F = 120.0 / np.tan(np.radians(25.0))
 
 
-def looking(body: FakeBody, value: str = "last", *slips: str) -> ObjectCenteredOnCam:
-    world = FakeWorld({"box": body}, {"cam": FakeCamera()}, compatibility=frozenset(slips))
+def looking(body: FakeBody, value: str = "last", *quirks: str) -> ObjectCenteredOnCam:
+    world = FakeWorld({"box": body}, {"cam": FakeCamera()}, compatibility=frozenset(quirks))
     spec = ObjectCenteredOnCamSpec(name="o", target="box", camera="cam", value=value)  # type: ignore[arg-type]
     return spec.bind(world)
 

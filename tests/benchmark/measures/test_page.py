@@ -1,4 +1,4 @@
-"""What docs/measures.md says of measures, their details and the original's slips is so."""
+"""What docs/measures.md says of measures, their details and compatibility quirks is so."""
 
 from __future__ import annotations
 

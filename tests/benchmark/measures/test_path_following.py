@@ -167,10 +167,10 @@ def test_a_path_turns_and_moves_with_the_frame_it_is_given_in() -> None:
 
 
 @pytest.mark.parametrize(
-    ("place", "turn", "slip"), [((5.0, -2.0, 1.0), 0.9, True), ((0.0, 0.0, 0.0), 0.9, False)]
+    ("place", "turn", "quirk"), [((5.0, -2.0, 1.0), 0.9, True), ((0.0, 0.0, 0.0), 0.9, False)]
 )
 def test_the_original_adds_the_place_of_the_frame_to_the_path(
-    place: tuple[float, float, float], turn: float, slip: bool
+    place: tuple[float, float, float], turn: float, quirk: bool
 ) -> None:
     frame = FakeBody(place, rotation=rotation_z(turn))
     body = FakeBody(tuple(np.array(place) + rotation_z(turn) @ np.array([2.0, 1.0, 0.0])))
@@ -179,7 +179,7 @@ def test_the_original_adds_the_place_of_the_frame_to_the_path(
     moved = Polyline(np.array(STRAIGHT) + np.array(place))
     expected, _ = moved.nearest(0, np.array([2.0, 1.0, 0.0]))
     assert measure.details["distance"] == pytest.approx(expected, abs=EXACT)
-    assert (abs(expected - 1.0) > 1e-6) is slip
+    assert (abs(expected - 1.0) > 1e-6) is quirk
 
 
 def test_without_from_the_path_is_in_the_world() -> None:

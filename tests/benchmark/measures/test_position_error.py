@@ -113,11 +113,11 @@ def test_the_original_measures_in_the_world_and_takes_the_topic_to_be_in_it() ->
 
 
 def test_the_original_starts_at_100_and_is_minus_1_until_it_is_told_where() -> None:
-    for slips, values in (
+    for quirks, values in (
         (frozenset[str](), [None, None, None, 3.0]),
         (frozenset({"position-start"}), [100.0, 100.0, -1.0, 3.0]),
     ):
-        world = FakeWorld({"v": FakeBody((4.0, 0.0, 0.0))}, compatibility=slips)
+        world = FakeWorld({"v": FakeBody((4.0, 0.0, 0.0))}, compatibility=quirks)
         error = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0), topic="g").bind(
             world
         )

@@ -1,4 +1,4 @@
-"""Reconstruction from point clouds: frames, what counts, and the original's slips."""
+"""Reconstruction from point clouds: frames, what counts, and compatibility quirks."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ FRONT = np.array([[0.52, 0.0, 0.2], [0.50, 0.1, 0.3], [0.46, -0.1, 0.25], [2.0, 
 
 
 def sea(
-    *slips: str, target: Pose | None = None, frame: Pose | None = None, box: Box | None = BLACK_BOX
+    *quirks: str, target: Pose | None = None, frame: Pose | None = None, box: Box | None = BLACK_BOX
 ) -> FakeWorld:
     target, frame = target or Pose.identity(), frame or Pose.identity()
     bodies = {
         "blackbox": FakeBody(tuple(target.position), rotation=target.rotation, box=box),
         "arm": FakeBody(tuple(frame.position), rotation=frame.rotation),
     }
-    return FakeWorld(bodies, compatibility=frozenset(slips))
+    return FakeWorld(bodies, compatibility=frozenset(quirks))
 
 
 def bound(world: FakeWorld, lod: float = 0.1) -> Reconstruction3D:
@@ -154,8 +154,8 @@ def test_the_originals_box_is_right_for_quarter_turns_and_wrong_for_others() -> 
     for turn, is_right in ((math.pi / 2, True), (math.pi / 4, False)):
         target = Pose(np.array([1.0, 2.0, 0.0]), rotation_z(turn))
         values = []
-        for slips in ((), ("reconstruction-box",)):
-            world = sea(*slips, target=target)
+        for quirks in ((), ("reconstruction-box",)):
+            world = sea(*quirks, target=target)
             measure = bound(world)
             measure.start()
             send(world, measure, cloud(in_frame(world, FRONT)))
@@ -175,12 +175,12 @@ def test_the_originals_box_at_45_degrees_by_hand() -> None:
 
 def test_the_original_divides_by_another_number_of_nodes() -> None:
     shares = {}
-    for slips in ((), ("reconstruction-coverage",)):
-        world = sea(*slips, box=Box((0.0, 0.0, 0.0), (1.0, 0.5, 0.375)))
+    for quirks in ((), ("reconstruction-coverage",)):
+        world = sea(*quirks, box=Box((0.0, 0.0, 0.0), (1.0, 0.5, 0.375)))
         measure = bound(world, 0.125)
         measure.start()
         send(world, measure, cloud(np.array([[1.0, 0.0625, 0.0]])))
-        shares[slips] = measure.details["coverage"]
+        shares[quirks] = measure.details["coverage"]
     assert shares == {
         (): pytest.approx(2 / 117, abs=EXACT),
         ("reconstruction-coverage",): pytest.approx(2 / 124, abs=EXACT),

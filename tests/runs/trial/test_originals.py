@@ -150,16 +150,16 @@ def test_an_original_passes_the_check_with_its_scene(file: Path) -> None:
     assert main(["check", str(file), "--scene", str(scene)]) == 0
 
 
-@pytest.mark.parametrize("slips", ["repaired", "uwsim"])
+@pytest.mark.parametrize("quirks", ["repaired", "uwsim"])
 @pytest.mark.parametrize("file", BENCHMARKS, ids=lambda file: file.stem)
 def test_an_original_is_played_and_every_cell_has_a_value_or_a_reason(
-    file: Path, slips: str, monkeypatch: pytest.MonkeyPatch
+    file: Path, quirks: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("uwsim.runs.trial.trial.MAX_TASK_DURATION", LONGEST)
     scene = read_scene(scene_for(file, read_benchmark(file)))
-    plan = plan_of(file, scene, compatibility([slips] if slips == "uwsim" else []))
+    plan = plan_of(file, scene, compatibility([quirks] if quirks == "uwsim" else []))
     if (
-        slips == "uwsim"
+        quirks == "uwsim"
         and len(plan.levels()) > 1
         and not isinstance(plan.benchmark.stop_on, NeverSpec)
     ):

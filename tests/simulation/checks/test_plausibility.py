@@ -228,12 +228,12 @@ WRONG = {
         "Not held: depth (heave)",
     ),
 }
-"""Slip: the doubt, the file, what stands there, what is written instead, what is said."""
+"""Mistake: the doubt, the file, what stands there, what is written instead, what is said."""
 
 
-@pytest.mark.parametrize("slip", WRONG)
-def test_a_slip_is_asked_about_until_it_is_said_to_be_meant(slip: str, tmp_path: Path) -> None:
-    doubt, kind, right, wrong, said = WRONG[slip]
+@pytest.mark.parametrize("mistake", WRONG)
+def test_a_mistake_is_warned_of_until_it_is_accepted(mistake: str, tmp_path: Path) -> None:
+    doubt, kind, right, wrong, said = WRONG[mistake]
     texts = {"robot": ROBOT, "water": WATER, "scene": SCENE}
     assert right in texts[kind]
     texts[kind] = texts[kind].replace(right, wrong)

@@ -70,7 +70,7 @@ def remarks(result: Result, unchecked: str | None = None) -> list[str]:
     if settings := pairs_of(run.get("settings")):
         said.append(f"Changed for this run: {', '.join(settings)}.")
     if names := _words(run.get("compatibility")):
-        said.append(f"Played with slips of the original: {', '.join(names)}.")
+        said.append(f"Compatibility quirks: {', '.join(names)}.")
     return said + [f"{note}." for note in _words(run.get("notes"))]
 
 

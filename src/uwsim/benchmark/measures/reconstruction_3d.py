@@ -127,18 +127,18 @@ class Reconstruction3D(Measure):
         box: Box,
         frame: Body | None,
     ) -> None:
-        slips = world.compatibility
+        quirks = world.compatibility
         self._target, self._frame, self._topic = target, frame, spec.topic
         self._inbox = world.bus.inbox(spec.topic, PointCloud2)
         rotation = target.world_from_body.rotation
-        self._box_from_target = rotation if "reconstruction-box" in slips else upright(rotation)
+        self._box_from_target = rotation if "reconstruction-box" in quirks else upright(rotation)
         turned = turned_box(box, self._box_from_target)
         self._points = Reconstruction(
             turned,
-            Coverage(turned, spec.level_of_detail, is_original="reconstruction-coverage" in slips),
+            Coverage(turned, spec.level_of_detail, is_original="reconstruction-coverage" in quirks),
         )
-        self._fixed = self._target_from_frame() if "reconstruction-transform" in slips else None
-        self._is_never_empty = "reconstruction-empty" in slips
+        self._fixed = self._target_from_frame() if "reconstruction-transform" in quirks else None
+        self._is_never_empty = "reconstruction-empty" in quirks
         self._was_on = False
         self._n_clouds = 0
         self._refused: dict[str, None] = {}  # what was wrong with clouds

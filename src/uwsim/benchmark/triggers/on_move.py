@@ -20,7 +20,7 @@ MOVED = 0.2
 
 
 def threshold(length: float, world: World) -> float:
-    """Return ``length`` [m], or its root where the original's slip is asked for.
+    """Return ``length`` [m], or its root under the quirk ``thresholds``.
 
     The original compares the *square* of a distance with these constants, so 0.2 acts as
     0.447 m and 0.3 as 0.548 m (compatibility ``thresholds``).

@@ -38,7 +38,7 @@ from .updater import SceneUpdater
 STILL_WATER = 2.0
 """After each change of level there is no current for so long [s]."""
 MAX_OFFSET = 3600.0
-"""A clock that began earlier is a slip: all its random factors would have to be drawn first [s]."""
+"""A clock may not begin earlier than this: all its random factors would have to be drawn [s]."""
 RESET = "dynamics/reset"
 """The service called when a level begins, if somebody offers it."""
 FORCE_TOPIC = "currentForce"

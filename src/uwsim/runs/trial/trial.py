@@ -374,24 +374,24 @@ class _Execution:
             name, measure = gated.spec.name, gated.measure
             blank = status != "ok" and measure.fed_by_algorithm
             units[name] = measure.unit
-            values[name], slip = (None, why) if blank else finite(gated.value)
+            values[name], reason = (None, why) if blank else finite(gated.value)
             if values[name] is None:
-                missing[name] = slip or measure.why or "nothing to measure"
+                missing[name] = reason or measure.why or "nothing to measure"
             for detail, value in measure.details.items():
                 unit = "1" if detail.split(".")[-1] == "n" else measure.unit
                 unit = measure.detail_units.get(detail, unit)
-                number, slip = (None, None) if blank else finite(value)
+                number, reason = (None, None) if blank else finite(value)
                 details[f"{name}.{detail}"] = (number, unit)
                 if number is None and gated.has_start_value:
-                    slip = measure.why
-                if slip is not None:
-                    missing[f"{name}.{detail}"] = slip
+                    reason = measure.why
+                if reason is not None:
+                    missing[f"{name}.{detail}"] = reason
             if not blank:
                 missing |= {f"{name}.{detail}": said for detail, said in measure.reasons.items()}
         score = self._expression.score(values)
-        total, slip = finite(score.value if status == "ok" else None)
+        total, reason = finite(score.value if status == "ok" else None)
         if total is None:
-            missing["total"] = why or score.why or f"the function: {slip}"
+            missing["total"] = why or score.why or f"the function: {reason}"
         logged = [gated for gated in measures if gated.spec.log is not None]
         return Row(
             values=level.values,

@@ -1,4 +1,4 @@
-"""What of a vehicle's numbers is worth asking about: slips of units, signs and powers of ten.
+"""Warnings about a vehicle's numbers: likely mistakes of units, signs and powers of ten.
 
 Nothing here is wrong for certain: a lander sinks, a spar buoy is 60 m long. What a vehicle's
 ``<u:accept>`` names is not asked.
