@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from uwsim import schema
 from uwsim.errors import FileError
-from uwsim.schema import Faults, element, number, parse, read, write
+from uwsim.schema import Faults, Original, element, number, parse, read, write
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,11 +36,11 @@ class ThingSpec:
     """How thick [1/m]."""
     count: int = 3
     """How many [px]."""
-    flag: bool = element(default=False, invalid=True)
+    flag: bool = element(default=False, original=Original(invalid=True))
     """Whether."""
     mode: Literal["fast", "slow"] = "fast"
     """How."""
-    lean: float = element(default=0.0, lenient=True)
+    lean: float = element(default=0.0, original=Original(lenient=True))
     """Tilt [deg]."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Where [m]."""
@@ -54,7 +54,7 @@ class ThingSpec:
     """One item."""
     buried: float = element(attribute=True, default=0.0)
     """How deep [1]."""
-    label: str = element(default="", aliases=("title",))
+    label: str = element(default="", original=Original(aliases=("title",)))
     """Text."""
     extra: str | None = element(namespaced=True, default=None)
     """An extension."""

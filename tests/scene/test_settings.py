@@ -43,7 +43,7 @@ class HullSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class BoatSpec:
-    hull: HullSpec = element(default_factory=HullSpec)
+    hull: HullSpec = element(default=HullSpec())
     keel: HullSpec | None = None
     lamps: tuple[LampSpec, ...] = element("lamp", default=())
     joint_values: tuple[float, ...] = element(item="joint", default=())

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..schema import element
+from ..schema import REQUIRED, Original, element
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,9 +54,9 @@ class AcousticCommsChannelSpec:
 class MacProtocolSpec:
     """A ``<macProtocol>``: who may send when."""
 
-    name: str = element(default="", required_by_dtd=True)
+    name: str = element(default="", original=REQUIRED)
     """Name of the protocol; empty for none."""
-    max_distance: float = element(default=0.0, lenient=True)
+    max_distance: float = element(default=0.0, original=Original(lenient=True))
     """Longest distance between two devices [m]."""
     max_backoff_slots: int = 4
     """Longest wait after a collision [slots]."""
@@ -68,7 +68,7 @@ class JitterSpec:
 
     tx: float = 0.0
     """When sending [ms]."""
-    rx: float = element(default=0.0, required_by_dtd=True)
+    rx: float = element(default=0.0, original=REQUIRED)
     """When receiving [ms]."""
 
 
@@ -76,9 +76,9 @@ class JitterSpec:
 class RateErrorModelSpec:
     """A ``<rateErrorModel>``: how likely a piece is lost."""
 
-    error_unit: str = element(default="bit", required_by_dtd=True)
+    error_unit: str = element(default="bit", original=REQUIRED)
     """What is lost: bit, byte or packet."""
-    error_rate_expr: str = element(default="0.01*m", required_by_dtd=True)
+    error_rate_expr: str = element(default="0.01*m", original=REQUIRED)
     """Its probability as a formula in the distance m [m]."""
 
 
@@ -98,17 +98,17 @@ class EnergyModelSpec:
 
     energy_level: float
     """Energy at the start [J]."""
-    turn_on_energy: float = element(default=0.0, required_by_dtd=True)
+    turn_on_energy: float = element(default=0.0, original=REQUIRED)
     """Energy to switch on [J]."""
-    turn_off_energy: float = element(default=0.0, required_by_dtd=True)
+    turn_off_energy: float = element(default=0.0, original=REQUIRED)
     """Energy to switch off [J]."""
-    p_t_consume: float = element("pTConsume", default=0.660, required_by_dtd=True)
+    p_t_consume: float = element("pTConsume", default=0.660, original=REQUIRED)
     """Power while sending [W]."""
-    p_r_consume: float = element("pRConsume", default=0.395, required_by_dtd=True)
+    p_r_consume: float = element("pRConsume", default=0.395, original=REQUIRED)
     """Power while receiving [W]."""
-    p_idle: float = element("pIdle", default=0.0, required_by_dtd=True)
+    p_idle: float = element("pIdle", default=0.0, original=REQUIRED)
     """Power while idle [W]."""
-    p_t: float = element("pT", default=0.2818, required_by_dtd=True)
+    p_t: float = element("pT", default=0.2818, original=REQUIRED)
     """Power into the water [W]."""
 
 
@@ -138,7 +138,7 @@ class CustomCommsDeviceSpec:
     """Its address."""
     mac_protocol: MacProtocolSpec | None = None
     """Who may send when."""
-    bitrate: float = element(default=1000.0, required_by_dtd=True)
+    bitrate: float = element(default=1000.0, original=REQUIRED)
     """How fast it sends [bit/s]."""
     tx_fifo_size: int = 500000
     """How much waits to be sent at most [byte]."""
@@ -164,9 +164,9 @@ class CustomCommsDeviceSpec:
     """Shortest distance it reaches [m]."""
     rate_error_model: RateErrorModelSpec | None = None
     """How likely a piece is lost."""
-    tx_packet_builder: PacketBuilderSpec | None = element(default=None, required_by_dtd=True)
+    tx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)
     """Packs what is sent."""
-    rx_packet_builder: PacketBuilderSpec | None = element(default=None, required_by_dtd=True)
+    rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)
     """Unpacks what is received."""
     log_level: str = "off"
     """What is logged."""
@@ -218,9 +218,9 @@ class AcousticCommsDeviceSpec:
     """Length of the preamble [s]."""
     mac_protocol: MacProtocolSpec | None = None
     """Who may send when."""
-    tx_packet_builder: PacketBuilderSpec | None = element(default=None, required_by_dtd=True)
+    tx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)
     """Packs what is sent."""
-    rx_packet_builder: PacketBuilderSpec | None = element(default=None, required_by_dtd=True)
+    rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)
     """Unpacks what is received."""
     log_level: str = "off"
     """What is logged."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..schema import element
+from ..schema import REQUIRED, element
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,7 +24,7 @@ class DredgeToolSpec:
     """Its name."""
     target: str
     """The link it belongs to."""
-    offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), required_by_dtd=True)
+    offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
     """Read and not used, as in the original [m]."""
-    offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), required_by_dtd=True)
+    offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
     """Read and not used, as in the original [rad]."""

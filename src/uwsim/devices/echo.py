@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..schema import element
+from ..schema import REQUIRED, element
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,7 +18,7 @@ class EchoSpec:
 
     name: str
     """Its name."""
-    info: str = element(default="", required_by_dtd=True)
+    info: str = element(default="", original=REQUIRED)
     """The text; an empty one switches the device off."""
 
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..schema import element
+from ..schema import REQUIRED, element
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,7 +24,7 @@ class ForceSensorSpec:
     """Its name."""
     target: str
     """The link it belongs to."""
-    offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), required_by_dtd=True)
+    offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
     """Of the sensor on the link [m]."""
-    offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), required_by_dtd=True)
+    offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
     """Of the sensor on the link, about x, y, z: Rz Ry Rx [rad]."""

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 from ..geometry import Pose
 from ..schema import element
-from ..sensors.sensor import DIRECTIONS, LookAt
+from ..sensors.sensor import LookAt
 from ..world import Body, Stage
 from .device import Device, DeviceSpec, DeviceVehicle
 
@@ -41,7 +41,7 @@ class LampSpec(DeviceSpec):
         namespaced=True, default=(0.0, 0.0, 0.0), parts="rpy"
     )
     """Of the lamp in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    look_at: LookAt = element(namespaced=True, default=None, words=DIRECTIONS)
+    look_at: LookAt = element(namespaced=True, default=None)
     """Where it shines at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""
     fov: float = element(namespaced=True, default=60.0, above=0, maximum=160)

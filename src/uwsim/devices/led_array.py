@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..schema import element
+from ..schema import REQUIRED, element
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,10 +25,10 @@ class LedArraySpec:
     """Its name, which begins its topics."""
     relative_to: str
     """The link it rides on."""
-    position: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), required_by_dtd=True)
+    position: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
     """Of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(
-        default=(0.0, 0.0, 0.0), parts="rpy", required_by_dtd=True
+        default=(0.0, 0.0, 0.0), parts="rpy", original=REQUIRED
     )
     """Of the device in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     radio: float = element(default=0.02, above=0)

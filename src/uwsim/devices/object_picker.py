@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..schema import element
-from ..sensors.sensor import DIRECTIONS, LookAt
+from ..sensors.sensor import LookAt
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +31,6 @@ class ObjectPickerSpec:
     """Of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the device in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    look_at: LookAt = element(namespaced=True, default=None, words=DIRECTIONS)
+    look_at: LookAt = element(namespaced=True, default=None)
     """Where it looks at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""

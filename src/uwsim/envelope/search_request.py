@@ -135,14 +135,7 @@ def beyond(spec: SceneUpdaterSpec, value: float) -> str | None:
     if slot is None:
         low, high = min(spec.values()), max(spec.values())
         return None if low <= value <= high else f"from {low:g} to {high:g}"
-    xml = slot.xml
-    fits = (
-        (xml.minimum is None or value >= xml.minimum)
-        and (xml.maximum is None or value <= xml.maximum)
-        and (xml.above is None or value > xml.above)
-        and (xml.below is None or value < xml.below)
-    )
-    return None if fits else slot.expected
+    return None if slot.allows(value) else slot.expected
 
 
 def round_down(width: float) -> float:

@@ -203,8 +203,8 @@ def _kind(slot: Slot, homes: Mapping[type, str]) -> str:
     elif slot.kind == "triple":
         unit = f" [{slot.unit}]" if slot.unit else ""
         what = " ".join(f"`<{part}>`" for part in slot.xml.parts) + unit
-        if slot.xml.words:
-            what += ", or one of " + ", ".join(f"`{word}`" for word in slot.xml.words)
+        if slot.words:
+            what += ", or one of " + ", ".join(f"`{word}`" for word in slot.words)
     elif slot.kind == "hand":
         what = _family(slot)
     elif slot.xml.item:

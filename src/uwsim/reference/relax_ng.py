@@ -134,9 +134,9 @@ def _field(content: etree._Element, slot: Slot) -> None:
         for child, spec in slot.type.items():
             _ref(_sub(several, "element", **_named(child, within=slot)), spec)
     elif slot.kind == "triple":
-        if slot.xml.words:
+        if slot.words:
             node = _sub(node, "choice")
-            words = dataclasses.replace(slot, kind="word", type=slot.xml.words)
+            words = dataclasses.replace(slot, kind="word", type=slot.words)
             _data(node, words, may_be_empty=False)
         parts = _sub(node, "interleave")
         for part in slot.xml.parts:

@@ -220,7 +220,7 @@ def _key(entries: Sequence[Any], index: int) -> str:
 def _with_value(spec: Any, slot: schema.Slot, rest: list[str], text: str) -> Any:
     """Let the dialect read the value as if it stood in a file."""
     node = etree.Element(schema.camel(type(spec).__name__.removesuffix("Spec")))
-    if slot.kind == "triple" and not rest and text in slot.xml.words:
+    if slot.kind == "triple" and not rest and text in slot.words:
         etree.SubElement(node, slot.tag).text = text
     elif slot.kind == "triple":
         _write_triple(etree.SubElement(node, slot.tag), getattr(spec, slot.field), slot, rest, text)
@@ -264,7 +264,7 @@ def _write_triple(
     if not rest:
         words = text.replace(",", " ").split()
         if len(words) != len(letters):
-            words_too = f", or one of {', '.join(slot.xml.words)}" if slot.xml.words else ""
+            words_too = f", or one of {', '.join(slot.words)}" if slot.words else ""
             raise BadSetting(
                 f"<{slot.shown}> wants {len(letters)} numbers, as in '1 2 3'{words_too}."
             )

@@ -28,7 +28,7 @@ from ..devices.comms import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..errors import BadSetting
 from ..geometry import Pose, rotation_from_xyz
 from ..linear import product
-from ..schema import FARTHEST, NAMESPACE, element
+from ..schema import FARTHEST, NAMESPACE, REQUIRED, Original, element
 from ..topics import INTERFACES, InterfaceSpec
 from .doubts import ObjectDoubt
 from .on_floor import OnFloorSpec
@@ -53,9 +53,9 @@ Integrator = Literal["implicitfast", "RK4"]
 class FogSpec:
     """A ``<fog>``: how visibility falls with distance."""
 
-    density: float = element(default=0.1, required_by_dtd=True, minimum=0, maximum=1e6)
+    density: float = element(default=0.1, original=REQUIRED, minimum=0, maximum=1e6)
     """At a distance d the share ``1 - exp(-(density d)^2)`` of what is there is lost [1/m]."""
-    color: Triple = element(default=NIGHT_BLUE, parts="rgb", required_by_dtd=True)
+    color: Triple = element(default=NIGHT_BLUE, parts="rgb", original=REQUIRED)
     """What replaces what cannot be seen [0..1]."""
 
 
@@ -75,7 +75,7 @@ class OceanStateSpec:
     """Factor on waves that run against the wind [1]."""
     wave_scale: float = 1e-7
     """Amplitude of the wave spectrum [1]."""
-    is_not_choppy: bool = element(default=False, invalid=True)
+    is_not_choppy: bool = element(default=False, original=Original(invalid=True))
     """Whether waves move points only up and down."""
     choppy_factor: float = 2.5
     """How far waves move points sideways [1]."""
@@ -83,7 +83,7 @@ class OceanStateSpec:
     """Height from which crests foam; read and not used, as in the original [m]."""
     ocean_surface_height: float = element(default=0.0, minimum=-FARTHEST, maximum=FARTHEST)
     """Height of the water surface in the world, z up [m]."""
-    fog: FogSpec = element(default_factory=FogSpec)
+    fog: FogSpec = element(default=FogSpec())
     """How visibility falls with distance."""
     color: Triple = element(default=NIGHT_BLUE, parts="rgb")
     """Light scattered into the view by the water [0..1]."""
@@ -176,7 +176,7 @@ class SimParamsSpec:
 class ViewerCameraSpec:
     """A ``<camera>``: the viewer's, in the world (z up)."""
 
-    free_motion: bool = element(default=True, invalid=True)
+    free_motion: bool = element(default=True, original=Original(invalid=True))
     """1: the mouse moves it; 0: it follows ``objectToTrack``."""
     object_to_track: str = ""
     """Route of the node to follow."""
@@ -198,9 +198,9 @@ class ViewerCameraSpec:
 class NedOriginSpec:
     """A ``<nedOrigin>``: where on Earth the pose inputs of ``<fdm>`` count from."""
 
-    lat: float = element(default=0.0, lenient=True, required_by_dtd=True)
+    lat: float = element(default=0.0, original=Original(lenient=True, required=True))
     """Latitude [deg]."""
-    lon: float = element(default=0.0, lenient=True, required_by_dtd=True)
+    lon: float = element(default=0.0, original=Original(lenient=True, required=True))
     """Longitude [deg]."""
 
 
@@ -208,7 +208,7 @@ class NedOriginSpec:
 class NetTracingScriptSpec:
     """A ``<netTracingScript>``: a plug-in that watches the network simulation."""
 
-    class_name: str = element(default="", required_by_dtd=True)
+    class_name: str = element(default="", original=REQUIRED)
     """Name of the plug-in; empty or "default" is the built-in one."""
     lib_path: str = ""
     """Library that holds it."""
@@ -289,11 +289,9 @@ class ObjectSpec:
     """Its name; several may share one, searches find the first."""
     file: str
     """Its mesh."""
-    position: Triple = element(
-        default=ZERO, required_by_dtd=True, minimum=-FARTHEST, maximum=FARTHEST
-    )
+    position: Triple = element(default=ZERO, original=REQUIRED, minimum=-FARTHEST, maximum=FARTHEST)
     """In the file's frame [m]."""
-    orientation: Triple = element(default=ZERO, parts="rpy", required_by_dtd=True)
+    orientation: Triple = element(default=ZERO, parts="rpy", original=REQUIRED)
     """In the file's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6)
     """Scale along x, y, z [1]."""
@@ -357,9 +355,9 @@ class ObjectSpec:
 class SceneSpec:
     """A ``<UWSimScene>``."""
 
-    ocean_state: OceanStateSpec = element(default_factory=OceanStateSpec)
+    ocean_state: OceanStateSpec = element(default=OceanStateSpec())
     """The surface and the water."""
-    sim_params: SimParamsSpec = element(default_factory=SimParamsSpec)
+    sim_params: SimParamsSpec = element(default=SimParamsSpec())
     """Frames, window, physics, light."""
     camera: ViewerCameraSpec | None = None
     """The viewer's camera."""

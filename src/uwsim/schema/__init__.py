@@ -28,9 +28,10 @@ extensions live in ``urn:uwsim:1``. A DTD is never loaded, an entity never expan
 never asked. `Faults` in strict mode also holds a file against the order of the fields.
 """
 
+from .declaration import REQUIRED, Limits, Original, element
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
 from .faults import MAX_FAULTS, Faults
-from .grammar import FARTHEST, LARGEST, Slot, camel, element, field_docs, slots
+from .grammar import FARTHEST, LARGEST, Slot, camel, field_docs, slots
 from .names import NAMESPACE, advice, cut, shown_tag
 from .reading import read, read_choice, text_of
 from .values import TOKENS, number
@@ -44,9 +45,12 @@ __all__ = [
     "MAX_FAULTS",
     "MAX_NODES",
     "NAMESPACE",
+    "REQUIRED",
     "TOKENS",
     "Document",
     "Faults",
+    "Limits",
+    "Original",
     "Slot",
     "advice",
     "camel",

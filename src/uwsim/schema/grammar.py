@@ -1,4 +1,4 @@
-"""The grammar of a spec: what `element` says about a field, and the table made of it."""
+"""The grammar of a spec: the table of its fields, made from their declarations."""
 
 from __future__ import annotations
 
@@ -7,14 +7,16 @@ import dataclasses
 import functools
 import inspect
 import itertools
+import operator
 import re
 import textwrap
 import types
 import typing
-from collections.abc import Hashable, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import MISSING, dataclass
 from typing import Any, Literal, cast
 
+from .declaration import Xml
 from .names import NAMESPACE, local
 
 FARTHEST = 1e6
@@ -23,83 +25,13 @@ LARGEST = 1e9
 """Greatest number that any quantity needs, in whatever unit; larger ones are mistakes of units."""
 
 
-@dataclass(frozen=True)
-class Xml:
-    """What `element` keeps about a field."""
-
-    name: str | None = None
-    unit: str = ""
-    attribute: bool = False
-    text: bool = False
-    namespaced: bool = False
-    aliases: tuple[str, ...] = ()
-    parts: str = "xyz"
-    words: tuple[str, ...] = ()
-    item: str | None = None
-    choice: Mapping[str, type] | None = None
-    minimum: float | None = None
-    maximum: float | None = None
-    above: float | None = None
-    below: float | None = None
-    invalid: bool | None = None
-    lenient: bool = False
-    required_by_dtd: bool = False
-    pattern: str | None = None
-
-
-def element(
-    name: str | None = None,
-    *,
-    default: Any = MISSING,
-    default_factory: Any = MISSING,
-    unit: str = "",
-    attribute: bool = False,
-    text: bool = False,
-    namespaced: bool = False,
-    aliases: tuple[str, ...] = (),
-    parts: str = "xyz",
-    words: tuple[str, ...] = (),
-    item: str | None = None,
-    choice: Mapping[str, type] | None = None,
-    minimum: float | None = None,
-    maximum: float | None = None,
-    above: float | None = None,
-    below: float | None = None,
-    invalid: bool | None = None,
-    lenient: bool = False,
-    required_by_dtd: bool = False,
-) -> Any:
-    """Make a dataclass field that stands in the file otherwise than its name alone would say.
-
-    Args:
-        name: of the element or attribute; the field's in camelCase when absent.
-        default: when the element is absent or, of the original's, empty.
-        default_factory: as in `dataclasses.field`.
-        unit: for messages, when the documentation string does not name it in brackets.
-        attribute: it is an attribute of the element that the spec is read from.
-        text: it is the text of the element that the spec is read from.
-        namespaced: it is an extension, ``u:name``.
-        aliases: old names, read with a notice.
-        parts: names of a triple's elements, one letter each.
-        words: of a triple, what may stand in the place of its elements.
-        item: the element is a list; this is the name of its items.
-        choice: name -> spec of the children that may stand in the element, in any number.
-        minimum: smallest value allowed.
-        maximum: largest value allowed.
-        above: values must be greater.
-        below: values must be less.
-        invalid: what a flag that is neither 0 nor 1 is read as; the default when absent.
-        lenient: junk behind a number is a notice, not a fault (the original used atof).
-        required_by_dtd: the original's grammar wants it although it has a default.
-    """
-    xml = Xml(
-        name, unit, attribute, text, namespaced, aliases, parts, words, item, choice,
-        minimum, maximum, above, below, invalid, lenient, required_by_dtd,
-    )  # fmt: skip
-    metadata = {"xml": xml}
-    if default_factory is not MISSING:
-        return dataclasses.field(default_factory=default_factory, metadata=metadata)
-    return dataclasses.field(default=default, metadata=metadata)
+_SIGNS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
+    "minimum": (">=", operator.ge),
+    "maximum": ("<=", operator.le),
+    "above": (">", operator.gt),
+    "below": ("<", operator.lt),
+}
+"""How each of `Limits` is written, and the comparison that it stands for."""
 
 
 @dataclass(frozen=True)
@@ -124,6 +56,8 @@ class Slot:
     """Its default; MISSING when it must be there."""
     owner: type
     """The spec it belongs to."""
+    words: tuple[str, ...] = ()
+    """Of a triple, what may stand in the place of its elements."""
 
     @property
     def shown(self) -> str:
@@ -137,9 +71,7 @@ class Slot:
 
     @property
     def unit(self) -> str:
-        """Its unit, from `element` or the brackets of its documentation; may be empty."""
-        if self.xml.unit:
-            return self.xml.unit
+        """Its unit, from the brackets of its documentation; may be empty."""
         brackets = re.search(r"\[([^\]]+)\]", self.doc)
         return brackets[1] if brackets and self.kind in ("float", "int", "triple") else ""
 
@@ -149,22 +81,23 @@ class Slot:
         if self.kind == "word":
             said = "one of " + ", ".join(repr(word) for word in self.type)
             parts = " ".join(f"<{part}>" for part in self.xml.parts)
-            return f"{said}, or {parts}" if self.xml.words else said
+            return f"{said}, or {parts}" if self.words else said
         if self.kind == "bool":
             return "true or false" if self.xml.attribute else "0 or 1"
         words = {"float": "a number", "triple": "a number", "int": "a whole number"}
-        limits = [
-            f"{sign} {limit:g}"
-            for sign, limit in (
-                (">=", self.xml.minimum),
-                ("<=", self.xml.maximum),
-                (">", self.xml.above),
-                ("<", self.xml.below),
-            )
-            if limit is not None
-        ]
+        limits = [f"{sign} {limit:g}" for sign, limit, _ in self._limits()]
         said = " ".join([words.get(self.kind, "text"), *([" and ".join(limits)] if limits else [])])
         return f"{said} [{self.unit}]" if self.unit else said
+
+    def allows(self, value: float) -> bool:
+        """Whether a number is within the limits."""
+        return all(holds(value, limit) for _, limit, holds in self._limits())
+
+    def _limits(self) -> Iterator[tuple[str, float, Callable[[float, float], bool]]]:
+        limits = cast(Mapping[str, float], self.xml.limits)
+        for name, (sign, holds) in _SIGNS.items():
+            if name in limits:
+                yield sign, limits[name], holds
 
 
 def camel(name: str) -> str:
@@ -198,15 +131,15 @@ def _slot(cls: type, field: dataclasses.Field[Any], hint: Any) -> Slot:
     if field.default_factory is not MISSING:
         default = field.default_factory()
     optional, repeated = False, False
+    words: tuple[str, ...] = ()
     if typing.get_origin(hint) in (typing.Union, types.UnionType):
         inner = [arg for arg in typing.get_args(hint) if arg is not type(None)]
         optional, hint = len(inner) < len(typing.get_args(hint)), inner[0]
+        words = tuple(word for other in inner[1:] for word in typing.get_args(other))
     if _is_variadic(hint):
         repeated, hint = True, typing.get_args(hint)[0]
-        if default is MISSING and xml.choice is None:
-            default = MISSING
     kind, type_ = _kind(hint, xml)
-    return Slot(field.name, tag, kind, type_, repeated, optional, xml, default, cls)
+    return Slot(field.name, tag, kind, type_, repeated, optional, xml, default, cls, words)
 
 
 def _is_variadic(hint: Any) -> bool:

@@ -102,7 +102,7 @@ def _by_tag(
     assert isinstance(cls, type)
     table = slots(cls)
     new = {slot.tag: (index, slot) for index, slot in enumerate(table) if not slot.xml.attribute}
-    old = {alias: entry for entry in new.values() for alias in entry[1].xml.aliases}
+    old = {alias: entry for entry in new.values() for alias in entry[1].xml.original.aliases}
     return new, old
 
 
@@ -173,7 +173,7 @@ def _read_slot(
     if not nodes:
         if slot.default is MISSING and slot.repeated and slot.kind != "hand" and _repeats(slot):
             faults.add(parent, f"{shown(parent)} lacks <{slot.shown}>: at least one must stand")
-        elif slot.default is MISSING or (faults.strict and slot.xml.required_by_dtd):
+        elif slot.default is MISSING or (faults.strict and slot.xml.original.required):
             faults.add(parent, f"{shown(parent)} lacks <{slot.shown}>: {_purpose(slot)}")
         return BAD
     if slot.kind == "choice":
@@ -211,8 +211,8 @@ def _leaf(slot: Slot, node: etree._Element, faults: Faults) -> Any:
 def _read_triple(slot: Slot, node: etree._Element, faults: Faults) -> Any:
     values: dict[str, float] = {}
     seen: set[str] = set()
-    if slot.xml.words and not any(True for _ in _elements(node, faults)):
-        return _leaf(dataclasses.replace(slot, kind="word", type=slot.xml.words), node, faults)
+    if slot.words and not any(True for _ in _elements(node, faults)):
+        return _leaf(dataclasses.replace(slot, kind="word", type=slot.words), node, faults)
     _refuse_text(node, faults)
     for child in _elements(node, faults):
         tag = str(child.tag)

@@ -43,7 +43,7 @@ def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: s
         value = text
     elif slot.kind in ("float", "triple"):
         value = number(text)
-        is_lenient = (slot.xml.lenient or faults.lenient) and not _COMMA.fullmatch(text)
+        is_lenient = (slot.xml.original.lenient or faults.lenient) and not _COMMA.fullmatch(text)
         if value is None and is_lenient and (leading := _NUMBER.match(text)):
             value = number(leading[0])
             if value is not None:
@@ -63,14 +63,14 @@ def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: s
         if slot.xml.attribute and value is BAD:
             value = {"false": False, "true": True}.get(text, BAD)
         if value is BAD and not slot.xml.attribute and not slot.xml.namespaced:
-            value = slot.default if slot.xml.invalid is None else slot.xml.invalid
+            value = slot.default if (invalid := slot.xml.original.invalid) is None else invalid
             faults.notice(
                 node,
                 f"{shown} is {cut(text)}; expected 0 or 1; read as {value:d}, as the original does",
             )
     elif slot.kind == "word" and text in slot.type:
         value = text
-    if value is not BAD and slot.kind in ("float", "int", "triple") and not _within(slot, value):
+    if value is not BAD and slot.kind in ("float", "int", "triple") and not slot.allows(value):
         value = BAD
     if slot.kind in ("float", "triple") and value is not BAD and abs(value) > LARGEST:
         faults.add(node, f"{shown} is {cut(text)}; no quantity is beyond {LARGEST:g}")
@@ -91,13 +91,3 @@ def number(text: str) -> float | None:
         return None
     value = float(text)
     return value if math.isfinite(value) else None
-
-
-def _within(slot: Slot, value: float) -> bool:
-    xml = slot.xml
-    return not (
-        (xml.minimum is not None and value < xml.minimum)
-        or (xml.maximum is not None and value > xml.maximum)
-        or (xml.above is not None and value <= xml.above)
-        or (xml.below is not None and value >= xml.below)
-    )

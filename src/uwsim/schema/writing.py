@@ -35,7 +35,7 @@ def uses_extensions(spec: object) -> bool:
 def _fill(node: etree._Element, spec: object) -> None:
     for slot in slots(type(spec)):
         value = getattr(spec, slot.field)
-        if value is None or (value == slot.default and not slot.xml.required_by_dtd):
+        if value is None or (value == slot.default and not slot.xml.original.required):
             continue
         if slot.xml.attribute:
             node.set(slot.tag, _text(value, attribute=True))

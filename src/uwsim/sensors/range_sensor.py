@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..schema import FARTHEST, element
-from .sensor import DIRECTIONS, LookAt, SensorSpec
+from .sensor import LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +29,6 @@ class RangeSensorSpec(SensorSpec):
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    look_at: LookAt = element(namespaced=True, default=None, words=DIRECTIONS)
+    look_at: LookAt = element(namespaced=True, default=None)
     """Where it looks at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""

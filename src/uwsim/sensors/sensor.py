@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Literal, Protocol, get_args, runtime_checkable
+from typing import ClassVar, Literal, Protocol, runtime_checkable
 
 from ..world import Body, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
 """Of the vehicle, as it stands in its file."""
-DIRECTIONS: tuple[str, ...] = get_args(Direction)
 LookAt = tuple[float, float, float] | Direction | None
 """What ``<u:lookAt>`` may say: a point in L [m], a direction of the vehicle, or nothing."""
 

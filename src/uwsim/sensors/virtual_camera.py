@@ -23,7 +23,7 @@ from ..geometry import Intrinsics, Pose
 from ..messages import CameraInfo, Image, RegionOfInterest, header, image
 from ..schema import FARTHEST, element
 from ..world import Body, SensorWorld
-from .sensor import DIRECTIONS, Carrier, LookAt, SensorSpec
+from .sensor import Carrier, LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +82,7 @@ class VirtualCameraSpec(SensorSpec):
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    look_at: LookAt = element(namespaced=True, default=None, words=DIRECTIONS)
+    look_at: LookAt = element(namespaced=True, default=None)
     """Where it looks at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""
     baseline: float = element(default=0.0, minimum=-FARTHEST, maximum=FARTHEST)

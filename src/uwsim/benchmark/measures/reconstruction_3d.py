@@ -19,7 +19,7 @@ from ...errors import BadSetting
 from ...geometry import Array, Pose
 from ...linear import product
 from ...messages import PointCloud2, points
-from ...schema import element
+from ...schema import REQUIRED, element
 from ...world import Body, Box, World
 from ..metrics.coverage import Coverage
 from ..metrics.reconstruction import Reconstruction, turned_box, upright
@@ -44,7 +44,7 @@ class Reconstruction3DSpec(MeasureSpec):
     """Route of the body that is rebuilt."""
     topic: str
     """Topic of the clouds (sensor_msgs/PointCloud2)."""
-    from_: str | None = element("from", default=None, required_by_dtd=True)
+    from_: str | None = element("from", default=None, original=REQUIRED)
     """Route of the body in whose frame the clouds are given; without one they are in W, not L."""
     level_of_detail: float = element(default=0.003, above=0.0)
     """Cell size of the coverage [m]."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...schema import element
+from ...schema import Original, element
 from ...world import Stage
 from .sweep import Knob, SweepSpec
 
@@ -24,9 +24,9 @@ class CameraNoiseUpdaterSpec(SweepSpec):
 
     name: ClassVar[str] = "noise"
 
-    initial_value: float = element(aliases=("initialNoise",), minimum=0.0)
+    initial_value: float = element(original=Original(aliases=("initialNoise",)), minimum=0.0)
     """Noise of the first level: a standard deviation in colour units, 0..1."""
-    final_value: float = element(aliases=("finalNoise",), minimum=0.0)
+    final_value: float = element(original=Original(aliases=("finalNoise",)), minimum=0.0)
     """Noise that is not exceeded."""
 
     def bind(self, stage: Stage) -> Knob:

@@ -30,7 +30,7 @@ from ...currents import (
 )
 from ...errors import BadSetting, UnknownName
 from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
-from ...schema import element
+from ...schema import Original, element
 from ...world import Flow, Stage
 from .sweep import SweepSpec
 from .updater import SceneUpdater
@@ -65,9 +65,13 @@ class CurrentForceUpdaterSpec(SweepSpec):
     name: ClassVar[str] = "current"
     unit: ClassVar[str] = "m/s"
 
-    initial_value: float = element(aliases=("initialCurrent",), minimum=-FASTEST, maximum=FASTEST)
+    initial_value: float = element(
+        original=Original(aliases=("initialCurrent",)), minimum=-FASTEST, maximum=FASTEST
+    )
     """Speed of the current in the first level [m/s]."""
-    final_value: float = element(aliases=("finalCurrent",), minimum=-FASTEST, maximum=FASTEST)
+    final_value: float = element(
+        original=Original(aliases=("finalCurrent",)), minimum=-FASTEST, maximum=FASTEST
+    )
     """Speed that is not exceeded [m/s]."""
     spherical_direction: SphericalSpec
     """Its direction [rad]."""

@@ -30,7 +30,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from ...optics import DENSITY, LENGTHS
-from ...schema import element
+from ...schema import Original, element
 from .sweep import SweepSpec, endless
 from .updater import MAX_LEVELS
 
@@ -43,9 +43,9 @@ class FogSweepSpec(SweepSpec):
     unit: ClassVar[str] = "1/m"
     is_single: ClassVar[bool] = True
 
-    initial_value: float = element(aliases=("initialFog",), minimum=0.0)
+    initial_value: float = element(original=Original(aliases=("initialFog",)), minimum=0.0)
     """Fog density of the first level [1/m]; or a length [m], as ``u:unit`` says."""
-    final_value: float = element(aliases=("finalFog",), minimum=0.0)
+    final_value: float = element(original=Original(aliases=("finalFog",)), minimum=0.0)
     """Fog density, or length, that is not passed."""
     step: float = element()
     """What each level adds; below 0 only where lengths shrink."""

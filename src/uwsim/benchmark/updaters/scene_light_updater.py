@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...schema import element
+from ...schema import Original, element
 from ...world import Stage
 from .sweep import Knob, SweepSpec
 
@@ -24,9 +24,9 @@ class SceneLightUpdaterSpec(SweepSpec):
 
     name: ClassVar[str] = "light"
 
-    initial_value: float = element(aliases=("initialLight",), minimum=0.0)
+    initial_value: float = element(original=Original(aliases=("initialLight",)), minimum=0.0)
     """Light rate of the first level; 1 is as usual."""
-    final_value: float = element(aliases=("finalLight",), minimum=0.0)
+    final_value: float = element(original=Original(aliases=("finalLight",)), minimum=0.0)
     """Light rate that is not exceeded."""
 
     def bind(self, stage: Stage) -> Knob:

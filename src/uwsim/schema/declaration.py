@@ -1,0 +1,85 @@
+"""How a field of a spec is declared: what `element` says about it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass
+from typing import Any, TypedDict, Unpack
+
+
+@dataclass(frozen=True)
+class Original:
+    """How the original reads an element, where that is more than its name and type."""
+
+    aliases: tuple[str, ...] = ()
+    """Old names, read with a notice."""
+    required: bool = False
+    """Its DTD wants the element although it has a default."""
+    lenient: bool = False
+    """Junk behind a number is a notice, not a fault (the original uses atof)."""
+    invalid: bool | None = None
+    """What a flag that is neither 0 nor 1 is read as; the default when None."""
+
+
+REQUIRED = Original(required=True)
+"""An element that the original's DTD wants although it has a default."""
+
+
+class Limits(TypedDict, total=False):
+    """The limits of a number, as `element` takes them."""
+
+    minimum: float
+    """Smallest value allowed."""
+    maximum: float
+    """Largest value allowed."""
+    above: float
+    """Values must be greater."""
+    below: float
+    """Values must be less."""
+
+
+@dataclass(frozen=True)
+class Xml:
+    """What `element` keeps about a field."""
+
+    name: str | None = None
+    attribute: bool = False
+    text: bool = False
+    namespaced: bool = False
+    parts: str = "xyz"
+    item: str | None = None
+    choice: Mapping[str, type] | None = None
+    original: Original = Original()
+    limits: Limits = dataclasses.field(default_factory=Limits)
+
+
+def element(
+    name: str | None = None,
+    *,
+    default: Any = MISSING,
+    attribute: bool = False,
+    text: bool = False,
+    namespaced: bool = False,
+    parts: str = "xyz",
+    item: str | None = None,
+    choice: Mapping[str, type] | None = None,
+    original: Original = Xml.original,
+    **limits: Unpack[Limits],
+) -> Any:
+    """Make a dataclass field that stands in the file otherwise than its name alone would say.
+
+    Args:
+        name: of the element or attribute; the field's in camelCase when absent.
+        default: when the element is absent or, of the original's, empty.
+        attribute: it is an attribute of the element that the spec is read from.
+        text: it is the text of the element that the spec is read from.
+        namespaced: it is an extension, ``u:name``.
+        parts: names of a triple's elements, one letter each.
+        item: the element is a list; this is the name of its items.
+        choice: name -> spec of the children that may stand in the element, in any number.
+        original: how the original reads it.
+        limits: ``minimum``, ``maximum``, ``above`` and ``below`` of a number.
+    """
+    xml = Xml(name, attribute, text, namespaced, parts, item, choice, original, limits)
+    return dataclasses.field(default=default, metadata={"xml": xml})
