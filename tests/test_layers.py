@@ -20,6 +20,7 @@ GROUND = {
     "elementwise",
     "opencv",
     "optics",
+    "acoustics",
     "schema",
     "message_fields",
     "sampling",
