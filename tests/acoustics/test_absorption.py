@@ -28,9 +28,7 @@ def test_absorption_in_the_sea_is_that_of_francois_and_garrison(
 
 
 @pytest.mark.parametrize(("kilohertz", "decibels_per_km"), [(25, 0.16), (900, 210)])
-def test_fresh_water_takes_what_pure_water_takes(
-    kilohertz: float, decibels_per_km: float
-) -> None:
+def test_fresh_water_takes_what_pure_water_takes(kilohertz: float, decibels_per_km: float) -> None:
     found = absorption(1e3 * kilohertz, temperature=15, salinity=0, depth=0)
     assert 1e3 * found == pytest.approx(decibels_per_km, rel=0.03)
 

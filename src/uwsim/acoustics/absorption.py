@@ -1,8 +1,8 @@
 r"""Absorption of sound by sea water, after Francois and Garrison.
 
 R. E. Francois, G. R. Garrison, *Sound absorption based on ocean measurements. Part II: Boric acid
-contribution and equation for total absorption*, J. Acoust. Soc. Am. 72(6), 1982. With the relaxation
-frequencies :math:`f_1` of boric acid and :math:`f_2` of magnesium sulphate [kHz],
+contribution and equation for total absorption*, J. Acoust. Soc. Am. 72(6), 1982. With the
+relaxation frequencies :math:`f_1` of boric acid and :math:`f_2` of magnesium sulphate [kHz],
 
 .. math::
 

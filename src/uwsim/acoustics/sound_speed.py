@@ -1,8 +1,8 @@
 """Speed of sound in sea water, after Mackenzie.
 
-K. V. Mackenzie, *Nine-term equation for sound speed in the oceans*, J. Acoust. Soc. Am. 70(3), 1981:
-for 2 to 30 degrees Celsius, salinities of 25 to 40 and depths to 8000 m, there to 0.07 m/s. In fresh
-water of 15 degrees Celsius it is 0.6 m/s below the measured value.
+K. V. Mackenzie, *Nine-term equation for sound speed in the oceans*, J. Acoust. Soc. Am. 70(3),
+1981: for 2 to 30 degrees Celsius, salinities of 25 to 40 and depths to 8000 m, there to 0.07 m/s.
+In fresh water of 15 degrees Celsius it gives 0.8 m/s less than Bilaniuk and Wong (1993) measured.
 """
 
 from __future__ import annotations
