@@ -42,7 +42,7 @@ def absorption(
     f2 = 8.17 * 10.0 ** (8.0 - 1990.0 / kelvin) / (1.0 + 0.0018 * (salinity - 35.0))
     magnesium *= 1.0 - 1.37e-4 * depth + 6.2e-9 * depth**2
     water = _pure_water(temperature) * (1.0 - 3.83e-5 * depth + 4.9e-10 * depth**2)
-    per_km = (
+    per_km: float = (
         boric * f1 * f**2 / (f1**2 + f**2) + magnesium * f2 * f**2 / (f2**2 + f**2) + water * f**2
     )
     return per_km / 1000.0
