@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -88,6 +89,36 @@ def test_a_changed_source_is_compiled_anew(cache: Path) -> None:
     source.write_text(SOURCE.replace("2.0", "7.0"))
     os.utime(source, ns=(0, 0))  # Python's own cache goes by time and size, and a second is long
     assert fresh(cache).twice(1.0) == 7.0
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("FACTOR = 3.0", "FACTOR = 7.0"), ("1.0 * x", "7.0 / 3.0 * x")]
+)
+def test_a_changed_constant_or_function_of_another_module_is_compiled_anew(
+    cache: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str
+) -> None:
+    other = "from uwsim import jit\nFACTOR = 3.0\n\n@jit.njit\ndef same(x):\n    return 1.0 * x\n"
+    user = """
+from uwsim import jit
+import factors
+from factors import FACTOR, same
+
+@jit.njit
+def times(x):
+    return later(x)
+
+@jit.njit
+def later(x):
+    return (0.5 * FACTOR + 0.5 * factors.FACTOR) * same(x)
+"""
+    (cache.parent / "doubles.py").write_text(user)
+    monkeypatch.syspath_prepend(cache.parent)
+    for text, product in ((other, 3.0), (other.replace(old, new), 7.0)):
+        (cache.parent / "factors.py").write_text(text)
+        os.utime(cache.parent / "factors.py", ns=(0, len(text)))
+        sys.modules.pop("factors", None)
+        shutil.rmtree(cache.parent / "__pycache__", ignore_errors=True)
+        assert fresh(cache).times(1.0) == pytest.approx(product, abs=1e-12)
 
 
 def test_without_a_place_to_keep(cache: Path) -> None:

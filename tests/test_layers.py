@@ -15,6 +15,7 @@ GROUND = {
     "rng",
     "compatibility",
     "environment",
+    "compiled_source",
     "jit",
     "linear",
     "elementwise",

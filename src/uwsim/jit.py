@@ -2,16 +2,19 @@
 
 numba's own cache hands whatever lies on the disk to pickle and the linker: a file that was cut off
 ends every command, one with a changed byte may compute something else. Here each signature has a
-file of its own, which begins with its hash.
+file of its own, which begins with its hash, and what was compiled from other code or with other
+constants (`compiled_source`) is not used.
 """
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import os
 import pickle
 from collections.abc import Callable
 from pathlib import Path
+from types import FunctionType
 from typing import Any, ParamSpec, TypeVar, cast
 
 # Intel's functions, if they are installed, would be other code on other processors.
@@ -23,6 +26,7 @@ import numpy.typing as npt
 from numba.core.caching import FunctionCache, NullCache
 from numba.core.serialize import dumps
 
+from .compiled_source import source_digest
 from .files import disk_cache
 
 P = ParamSpec("P")
@@ -48,13 +52,13 @@ def elementwise(function: Callable[..., float]) -> Elementwise:
 class HashedCache(FunctionCache):
     """numba's cache of a function, with files that are checked by their hash."""
 
-    def __init__(self, function: Callable[..., object]) -> None:
+    def __init__(self, function: FunctionType) -> None:
         super().__init__(function)  # type: ignore[no-untyped-call]
         locator = self._impl.locator
         self._cache_file: Any = Signatures(
             folder=Path(locator.get_cache_path()),
             base=self._impl.filename_base,
-            stamp=locator.get_source_stamp(),
+            stamp=lambda: source_digest(function),
         )
 
     def save_overload(self, sig: object, data: object) -> None:
@@ -66,10 +70,17 @@ class HashedCache(FunctionCache):
 
 
 class Signatures:
-    """The files of one function: one for each signature and kind of processor."""
+    """The files of one function: one for each signature and kind of processor.
 
-    def __init__(self, *, folder: Path, base: str, stamp: object) -> None:
-        self._folder, self._base, self._stamp = folder, base, stamp
+    Args:
+        folder: where they are.
+        base: how their names begin.
+        stamp: returns what tells the code apart; asked when all that it calls is defined.
+    """
+
+    def __init__(self, *, folder: Path, base: str, stamp: Callable[[], str]) -> None:
+        self._folder, self._base = folder, base
+        self._find_stamp = functools.cache(stamp)
 
     def load(self, key: object) -> object | None:
         """Return what was compiled from this source for this key; None without it."""
@@ -77,11 +88,11 @@ class Signatures:
         if data is None:
             return None
         stamp, kept_key, compiled = pickle.loads(data)
-        return compiled if (stamp, kept_key) == (self._stamp, key) else None
+        return compiled if (stamp, kept_key) == (self._find_stamp(), key) else None
 
     def save(self, key: object, compiled: object) -> None:
         """Keep what was compiled; it takes the place of what an older source was compiled to."""
-        disk_cache.write(self._file(key), dumps((self._stamp, key, compiled)))  # type: ignore[no-untyped-call]
+        disk_cache.write(self._file(key), dumps((self._find_stamp(), key, compiled)))  # type: ignore[no-untyped-call]
 
     def flush(self) -> None:
         """Forget everything."""
@@ -96,6 +107,6 @@ class Signatures:
 def _cache(function: Callable[..., object]) -> Any:
     """A cache for a function, or none where there is no folder to keep it in."""
     try:
-        return HashedCache(function)
+        return HashedCache(cast("FunctionType", function))
     except RuntimeError:
         return NullCache()

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ...geometry import Array
 from ...jit import njit
-from ..hydrodynamics.columns import WATER_COLUMNS  # 12: numba's cache does not see it change
+from ..hydrodynamics.columns import WATER_COLUMNS
 from ..hydrodynamics.kernel import curve
 
 STATE, CONTROL, SITE, BODY, LOSS, ACTUATOR = range(6)

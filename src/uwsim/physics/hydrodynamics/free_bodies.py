@@ -13,7 +13,7 @@ import numpy as np
 
 from ...jit import njit
 from . import fields as f
-from .columns import BODY_COLUMNS, DRY, KIND, WATER_COLUMNS  # of 12; numba's cache is blind to it
+from .columns import BODY_COLUMNS, DRY, KIND, WATER_COLUMNS
 from .equations import Six, Three, to_body
 from .memory import Floats, Ints64, floats, ints, real, small, word
 from .midpoint import (

@@ -20,9 +20,7 @@ wrenches are summed up the tree, as in the composite-rigid-body algorithm, in Mu
 the centre of mass of the tree, world axes.
 
 After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), chapters 6 and 8.
-The equations of one body are in `equations`; here is where the numbers lie. numba's cache on disk
-watches only the file of the function that it compiled, so that this file must change with those
-that it compiles in: `COMPILED_IN` is their digest, and a test says what it should be.
+The equations of one body are in `equations`; here is where the numbers lie.
 
 Not modelled: the momentum of water shed when the submerged fraction changes, memory of waves,
 ground effect, flow of one body over another, thrust lost to inflow.
@@ -82,9 +80,6 @@ from .equations import (
 )
 from .free_bodies import keep_energy
 from .memory import Floats, Ints64, floats, ints, real, small, word
-
-COMPILED_IN = "b86d1dcc80eb9b69"
-"""Digest of the other modules: `columns` to `submersion`, by name."""
 
 _WET = 1e-300
 """Stands in the world's composite inertia, which nobody reads and MuJoCo clears with every M."""

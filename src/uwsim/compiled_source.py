@@ -1,0 +1,70 @@
+"""What a compiled function was compiled from: its code, what it calls, and the constants it names.
+
+numba's own cache on disk watches only the file of the function. A constant from another module, or
+a function that is compiled in, may change without it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from types import CodeType, FunctionType, ModuleType
+from typing import Any
+
+import numpy as np
+
+
+def source_digest(function: FunctionType) -> str:
+    """Return a digest of a function, of the functions that it calls and of its constants.
+
+    What numba does not compile from Python (functions of numpy, intrinsics) counts by its name.
+    """
+    digest = hashlib.sha256()
+    waiting, seen = [function], {function}
+    while waiting:
+        one = waiting.pop()
+        for name, value in _named(one):
+            python = getattr(value, "py_func", None)
+            if isinstance(python, FunctionType):
+                value = python.__qualname__
+                if python not in seen:
+                    seen.add(python)
+                    waiting.append(python)
+            digest.update(f"{name}={_constant(value)};".encode())
+        digest.update(_code(one.__code__))
+    return digest.hexdigest()
+
+
+def _named(function: FunctionType) -> Iterator[tuple[str, Any]]:
+    """What the names in a function's code stand for: globals, and attributes of modules."""
+    code, names = function.__code__, function.__globals__
+    modules = []
+    for name in code.co_names:
+        if name in names:
+            yield name, names[name]
+            if isinstance(names[name], ModuleType):
+                modules.append(names[name])
+    for module in modules:
+        for name in code.co_names:
+            if hasattr(module, name):
+                yield f"{module.__name__}.{name}", getattr(module, name)
+    for name, cell in zip(code.co_freevars, function.__closure__ or (), strict=True):
+        yield name, cell.cell_contents
+
+
+def _constant(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"{value.dtype}{value.shape}{value.tobytes().hex()}"
+    if isinstance(value, bool | int | float | complex | str | bytes | tuple | None):
+        return repr(value)
+    return str(getattr(value, "__name__", type(value).__qualname__))
+
+
+def _code(code: CodeType) -> bytes:
+    constants = []
+    for one in code.co_consts:
+        if isinstance(one, CodeType):
+            constants.append(_code(one).hex())
+        else:  # the order of a set is that of its hashes
+            constants.append(repr(sorted(map(repr, one)) if isinstance(one, frozenset) else one))
+    return code.co_code + repr((code.co_varnames, code.co_names, constants)).encode()
