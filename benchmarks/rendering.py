@@ -1,6 +1,6 @@
-"""Pictures of the `visibility` scene: tank, Girona 500 with its arm, black box. JSON on stdout.
+"""Images of the `visibility` scene: tank, Girona 500 with its arm, black box. JSON on stdout.
 
-The scene and the camera stand still unless the name says otherwise; every picture is drawn anew,
+The scene and the camera stand still unless the name says otherwise; every image is drawn anew,
 and read back. ``colour`` is 8 bit; ``colour + noise`` goes through 16 bit as cameras do.
 ``ratio`` is the CPU time over the promise of DESIGN 9.
 """
@@ -102,8 +102,8 @@ def measure() -> dict[str, object]:
         renderer.draw(eye, camera, WATER, Light(), targets=targets, **how)
 
     def noisy(camera: Intrinsics, targets: frozenset[str]) -> None:
-        picture = renderer.draw(down, camera, WATER, Light(), targets=targets, colour="linear16")
-        add_noise(picture.colour, 0.02, rng)
+        image = renderer.draw(down, camera, WATER, Light(), targets=targets, colour="linear16")
+        add_noise(image.colour, 0.02, rng)
 
     def swaying() -> None:
         nonlocal sway
@@ -112,14 +112,14 @@ def measure() -> dict[str, object]:
             renderer.place(handle, pose((0.1 * np.sin(sway), 0.0, 0.0), (0.0, 0.0, 0.0)) @ place)
         draw(small, COLOUR)
 
-    picture16 = renderer.draw(down, small, WATER, Light(), colour="linear16").colour
-    picture8 = add_noise(picture16, 0.02, rng)
+    image16 = renderer.draw(down, small, WATER, Light(), colour="linear16").colour
+    image8 = add_noise(image16, 0.02, rng)
     everything = frozenset(TARGETS)
     figures: dict[str, object] = {
         "renderer": renderer.description,
         "triangles_in_scene": n_triangles,
         "context_s": round(context_s, 4),
-        "first_picture_s": round(first_s, 4),
+        "first_image_s": round(first_s, 4),
         "320x240 colour": milliseconds(lambda: draw(small, COLOUR), target=3.0),
         "320x240 colour + range + ids": milliseconds(lambda: draw(small, everything), target=5.0),
         "320x240 colour + noise": milliseconds(lambda: noisy(small, COLOUR)),
@@ -133,8 +133,8 @@ def measure() -> dict[str, object]:
             lambda: draw(large, COLOUR, aside), calls=15
         ),
         "320x240 range": milliseconds(lambda: draw(small, frozenset({"range"}))),
-        "320x240 noise": milliseconds(lambda: add_noise(picture16, 0.02, rng), target=0.4),
-        "320x240 grey": milliseconds(lambda: grey_truncated(picture8)),
+        "320x240 noise": milliseconds(lambda: add_noise(image16, 0.02, rng), target=0.4),
+        "320x240 grey": milliseconds(lambda: grey_truncated(image8)),
     }
     renderer.close()
     return figures

@@ -1,7 +1,7 @@
 """What workers bring: 40 independent levels of `currents`, played by one worker and by two.
 
 Each run is a fresh process started from the command line, start to report; caches are warm. One
-worker is measured twice: with its own thread alone for its pictures, as each of several workers
+worker is measured twice: with its own thread alone for its images, as each of several workers
 has, and as it comes, when the software rasteriser takes what is left of the machine. The promise
 is about the first: so much does a second core bring. That all runs leave the same bytes is checked
 on the way.
@@ -65,8 +65,8 @@ def begin_and_end(scene: SceneSpec, pool: RendererPool | None) -> None:
     simulation = Simulation(scene, pool=pool)
     simulation.open()
     camera = simulation.world.camera(CAMERA)
-    camera.shoot()
-    simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics, fog=0.0)
+    camera.capture()
+    simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics, fog=0.0)
     simulation.close()
 
 

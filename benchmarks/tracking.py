@@ -1,8 +1,8 @@
-"""What a picture costs the trackers: DESIGN 9's ESM case, and the patch of `visibility`.
+"""What an image costs the trackers: DESIGN 9's ESM case, and the patch of `visibility`.
 
 Run ``python benchmarks/tracking.py``. The case: one 100x100 patch in 320x240, up to 3 px of motion
-a picture, noise of 4 grey levels, pyramid and loss test included, median of 500 pictures; the
-target of 2 ms is for ``esm``. The patch of `visibility` is 93x28 and stands still in RGB pictures
+an image, noise of 4 grey levels, pyramid and loss test included, median of 500 images; the
+target of 2 ms is for ``esm``. The patch of `visibility` is 93x28 and stands still in RGB images
 with a noise of 5.1; the conversion to grey counts there, and the target is 1 ms.
 """
 
@@ -21,7 +21,7 @@ from uwsim.algorithms.esm.pyramid import grey
 from uwsim.algorithms.tracker import LossTest, Tracker
 from uwsim.algorithms.tracker_node import TrackerNode
 
-PICTURES = 500
+IMAGES = 500
 WIDTH, HEIGHT = 320, 240
 
 
@@ -38,14 +38,14 @@ def texture() -> tuple[np.ndarray, np.ndarray]:
     return k, 2 * np.pi * rng.random(24)
 
 
-def pictures(quad: np.ndarray, step: float, sigma: float, *, rgb: bool) -> list[np.ndarray]:
-    """Pictures of a plane that moves by exactly ``step`` px each, around the middle."""
+def moving_images(quad: np.ndarray, step: float, sigma: float, *, rgb: bool) -> list[np.ndarray]:
+    """Images of a plane that moves by exactly ``step`` px each, around the middle."""
     k, phase = texture()
     rng = np.random.Generator(np.random.Philox(1))
     v, u = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     points = np.stack([u.ravel(), v.ravel()], axis=1)
     position, result = np.zeros(2), []
-    for i in range(PICTURES + 1):
+    for i in range(IMAGES + 1):
         inverse = between(quad + position, quad)
         plain = np.cos(warp(inverse, points) @ k + phase).sum(axis=1).reshape(HEIGHT, WIDTH)
         plain = 128.0 + 30.0 * plain / math.sqrt(12.0)
@@ -80,7 +80,7 @@ def cost(name: str, quad: np.ndarray, images: list[np.ndarray], target: float | 
         "wall_ms": round(median(wall), 3),
         "wall_ms_95": round(sorted(wall)[int(0.95 * len(wall))], 3),
         "iterations": round(sum(iterations) / len(iterations), 1),
-        "pictures": len(cpu),
+        "images": len(cpu),
     }
     if target is not None:
         figures |= {"target_ms": target, "ratio": round(median(cpu) / target, 3)}
@@ -90,12 +90,12 @@ def cost(name: str, quad: np.ndarray, images: list[np.ndarray], target: float | 
 def measure() -> dict[str, object]:
     result: dict[str, object] = {}
     quad = rectangle(100.0, 100.0)
-    images = pictures(quad, 3.0, 4.0, rgb=False)
+    images = moving_images(quad, 3.0, 4.0, rgb=False)
     for name in ("esm", "ssd-esm", "ic", "ecc", "orb"):
         target = 2.0 if name == "esm" else None
-        result[f"{name}, 100x100, 3 px a picture, noise 4"] = cost(name, quad, images, target)
+        result[f"{name}, 100x100, 3 px an image, noise 4"] = cost(name, quad, images, target)
     quad = rectangle(93.0, 28.0)
-    images = pictures(quad, 0.0, 5.1, rgb=True)
+    images = moving_images(quad, 0.0, 5.1, rgb=True)
     result["esm, 93x28, still, RGB, noise 5.1"] = cost("esm", quad, images, 1.0)
     return result
 

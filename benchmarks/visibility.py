@@ -32,8 +32,8 @@ simulation = Simulation(dataclasses.replace(scene, vehicles=(vehicle,)))
 simulation.open()
 for _ in range(500):
     simulation.advance()
-    simulation.world.camera(first.name).shoot()
-    simulation.world.camera("second").shoot()
+    simulation.world.camera(first.name).capture()
+    simulation.world.camera("second").capture()
 """
 
 
@@ -69,8 +69,8 @@ def measure() -> dict[str, object]:
         names = [column["name"] for column in result["columns"]]
         simulated_s = result["rows"][-1][names.index("ended_at")]
         frames = sum(stream["frames"] for stream in result["image_streams"])
-        picture = [*UWSIM, "render", "visibility-scene", "--camera", "bowtech1", "-o", "a.png"]
-        first_picture_s, first_picture_cpu_s, _ = best_of(3, picture, folder)
+        image = [*UWSIM, "render", "visibility-scene", "--camera", "bowtech1", "-o", "a.png"]
+        first_image_s, first_image_cpu_s, _ = best_of(3, image, folder)
         help_s, _, _ = best_of(5, [*UWSIM, "--help"], folder)
         _, _, two_cameras_mb = best_of(1, [sys.executable, "-c", TWO_CAMERAS], folder)
     return {
@@ -81,8 +81,8 @@ def measure() -> dict[str, object]:
         "visibility: rows": len(result["rows"]),
         "visibility: frames": frames,
         "visibility: peak_memory_mb": round(bench_mb, 1),
-        "cold start to first picture: wall_s": held(first_picture_s, 1.5),
-        "cold start to first picture: cpu_s": round(first_picture_cpu_s, 2),
+        "cold start to first image: wall_s": held(first_image_s, 1.5),
+        "cold start to first image: cpu_s": round(first_image_cpu_s, 2),
         "help: wall_s": held(help_s, 0.3),
         "two cameras: peak_memory_mb": held(two_cameras_mb, 500.0),
     }

@@ -26,17 +26,17 @@ def show(simulation: uwsim.Simulation) -> None:
     clear = None
     for fog in FOGS:
         simulation.world.set_fog(fog)
-        picture = simulation.image(CAMERA)
+        image = simulation.image(CAMERA)
         row, column = PIXEL
         # The fog's colour has no red, so all red light comes from the floor.
-        red = picture.colour[row - 8 : row + 9, column - 8 : column + 9, 0].mean()
+        red = image.colour[row - 8 : row + 9, column - 8 : column + 9, 0].mean()
         clear = red if clear is None else clear
-        distance = picture.range[row, column]  # [m]
+        distance = image.range[row, column]  # [m]
         print(
             f"fog {fog:.1f} 1/m, floor at {distance:.2f} m: "
             f"{red / clear:.2f} left, model {exp(-((fog * distance) ** 2)):.2f}"
         )
-        Image.fromarray(picture.colour).save(f"hello-fog-{fog:.1f}.png")
+        Image.fromarray(image.colour).save(f"hello-fog-{fog:.1f}.png")
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from paper.figures import picture_with_inset
+from paper.figures import image_with_inset
 from paper.station_figures import Line, over_current, over_time
 from paper.station_keeping import Loop, Station, Swing, Track, measured, predicted, steady, track
 from uwsim.analysis.plots import save_plot
@@ -69,8 +69,8 @@ def scene_figure(folder: Path) -> None:
     eye = looking(EYE, TARGET)
     try:
         camera = simulation.world.camera(CAMERA)
-        outside = simulation.world.scenery.picture(eye, viewer).colour[..., :3]
-        inside = simulation.world.scenery.picture(
+        outside = simulation.world.scenery.render_clean(eye, viewer).colour[..., :3]
+        inside = simulation.world.scenery.render_clean(
             camera.world_from_camera, camera.intrinsics
         ).colour[..., :3]
         # the mean current flows along y of the scene's frame, from stern to bow
@@ -81,7 +81,7 @@ def scene_figure(folder: Path) -> None:
         world = simulation.world.world_from_localized.transform(ends)
     finally:
         simulation.close()
-    figure = picture_with_inset(outside, inside, share=0.30)
+    figure = image_with_inset(outside, inside, share=0.30)
     tail, tip = (pixel(eye, viewer, point) for point in world)
     figure.axes[0].annotate(
         "", tip, tail, arrowprops={"arrowstyle": "-|>,head_width=0.5,head_length=0.9",
@@ -139,15 +139,15 @@ def time_figures(folder: Path, *, quick: bool) -> None:
         save_plot(drawn, folder / f"figure-{number}-{name}.png")
 
     draw(12, "distance", "distance to the objective [m]", lambda e: np.hypot(e[:, 0], e[:, 1]))
-    draw(13, "error-x", "X error, right in the picture [m]", lambda e: e[:, 0])
-    draw(14, "error-y", "Y error, up in the picture [m]", lambda e: e[:, 1])
+    draw(13, "error-x", "X error, right in the image [m]", lambda e: e[:, 0])
+    draw(14, "error-y", "Y error, up in the image [m]", lambda e: e[:, 1])
     panels = {}
     for level, title in LEVELS.items():
         seen = {name.upper(): runs[name, level][1] for name in results}
         panels[title] = [
             Line(name=name, time=kept.time, values=kept.tracker) for name, kept in seen.items()
         ]
-    note = "estimate and projected origin of the box, in the picture"
+    note = "estimate and projected origin of the box, in the image"
     drawn = over_time(panels, label="error of the tracked centroid [px]", note=note)
     save_plot(drawn, folder / "figure-15-tracker.png")
 

@@ -49,13 +49,13 @@ FINER = 2  # supersampling factor of the view
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Draw the pictures of the documentation.")
+    parser = argparse.ArgumentParser(description="Draw the images of the documentation.")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--trackers", type=Path, metavar="DIR", help="of several results")
     asked = parser.parse_args()
     folder: Path = asked.folder
     folder.mkdir(parents=True, exist_ok=True)
-    save(stacked(view(), camera_pictures()), folder / "tank.png")
+    save(stacked(view(), camera_images()), folder / "tank.png")
     tutorial(folder)
     if asked.trackers is not None:
         results = [load(path.parent) for path in sorted(asked.trackers.glob("*/result.json"))]
@@ -80,7 +80,7 @@ def view() -> Image.Image:
     return Image.fromarray(colour.astype(np.uint8)[..., :3]).resize(SIZE, Image.Resampling.LANCZOS)
 
 
-def camera_pictures() -> list[Image.Image]:
+def camera_images() -> list[Image.Image]:
     """The camera's last image of a level at each fog, with the truth and ESM's estimate."""
     levels = [word for fog in FOGS for word in ("--level", f"fog={fog}")]
     with TemporaryDirectory() as folder:
@@ -95,9 +95,9 @@ def camera_pictures() -> list[Image.Image]:
 def drawn(result: Result, directory: Path, fog: float) -> Image.Image:
     """One camera image with its quadrangles and its fog."""
     row = next(i for i, level in enumerate(result.numbers("fog")) if math.isclose(level or 0, fog))
-    picture = next(each for each in result.pictures if each.row == row)
-    pixels = np.asarray(Image.open(directory / picture.file).convert("RGB"))
-    framed = overlay(pixels, truth=picture.truth, estimate=picture.estimate, scale=3)
+    saved = next(each for each in result.images if each.row == row)
+    pixels = np.asarray(Image.open(directory / saved.file).convert("RGB"))
+    framed = overlay(pixels, truth=saved.truth, estimate=saved.estimate, scale=3)
     image = Image.fromarray(framed).resize(SMALL, Image.Resampling.LANCZOS)
     font = ImageFont.load_default(size=17)
     text = f"fog {fog:g} 1/m"

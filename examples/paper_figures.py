@@ -20,8 +20,8 @@ import numpy.typing as npt
 from PIL import Image
 
 from paper.figures import (
-    picture_grid,
-    picture_with_inset,
+    image_grid,
+    image_with_inset,
     visibility_over_distance,
     visibility_over_fog,
 )
@@ -73,17 +73,17 @@ def scene_figures(folder: Path) -> None:
         views = {}
         for fog in (0.0, PAPER_FOG):
             simulation.world.set_fog(fog)
-            outside = simulation.world.scenery.picture(looking(EYE, TARGET), viewer).colour
-            inside = simulation.world.scenery.picture(
+            outside = simulation.world.scenery.render_clean(looking(EYE, TARGET), viewer).colour
+            inside = simulation.world.scenery.render_clean(
                 camera.world_from_camera, camera.intrinsics
             ).colour
             views[fog] = outside[..., :3], inside[..., :3]
     finally:
         simulation.close()
-    save_plot(picture_with_inset(*views[0.0]), folder / "figure-03-scene.png")
+    save_plot(image_with_inset(*views[0.0]), folder / "figure-03-scene.png")
     captions = ["fog 0", f"fog {PAPER_FOG:g} m⁻¹"]
     for name, which in (("08-scene", 0), ("09-camera", 1)):
-        grid = picture_grid([views[fog][which] for fog in views], captions, columns=2)
+        grid = image_grid([views[fog][which] for fog in views], captions, columns=2)
         save_plot(grid, folder / f"figure-{name}-clear-and-fog.png")
 
 
@@ -127,9 +127,9 @@ class Plates:
             handle = self.renderer.add(model, 1)
             self.renderer.place(handle, below)
             water, light = replace(self.water, fog=fog), Light(shadows=False)
-            picture = self.renderer.draw(eye, self.intrinsics, water, light, targets={"colour"})
+            image = self.renderer.draw(eye, self.intrinsics, water, light, targets={"colour"})
             self.renderer.remove(handle)
-            levels.append(float(picture.colour[116:125, 156:165, :3].mean()))
+            levels.append(float(image.colour[116:125, 156:165, :3].mean()))
         return levels[0] - levels[1]
 
     def close(self) -> None:
@@ -172,8 +172,8 @@ def benchmark_figures(folder: Path, *, quick: bool) -> None:
     result = play("esm", folder / "visibility.result", quick=quick)
     control = play("frozen", folder / "frozen.result", quick=quick)
     wanted = [fog for fog in OVERLAY_FOGS if not quick or fog in QUICK_FOGS]
-    pictures, captions = tracked(result, folder / "visibility.result", wanted)
-    save_plot(picture_grid(pictures, captions, columns=3), folder / "figure-04-tracking.png")
+    images, captions = tracked(result, folder / "visibility.result", wanted)
+    save_plot(image_grid(images, captions, columns=3), folder / "figure-04-tracking.png")
     for number, column in ((5, "total"), (6, "centroid"), (7, "corners")):
         figure = value_plot(result, column, control=control)
         save_plot(figure, folder / f"figure-{number:02}-{column}.png")
@@ -194,11 +194,11 @@ def tracked(
 ) -> tuple[list[npt.NDArray[np.uint8]], list[str]]:
     """The camera's last images at these fogs, with truth, estimate and status."""
     drawn, captions = [], []
-    for picture in result.pictures:
-        fog, status = result.numbers("fog")[picture.row], result.values("status")[picture.row]
+    for image in result.images:
+        fog, status = result.numbers("fog")[image.row], result.values("status")[image.row]
         if fog is not None and min(abs(fog - wanted) for wanted in fogs) < 1e-9:
-            pixels = np.asarray(Image.open(directory / picture.file).convert("RGB"))
-            quads = {"truth": picture.truth, "estimate": picture.estimate}
+            pixels = np.asarray(Image.open(directory / image.file).convert("RGB"))
+            quads = {"truth": image.truth, "estimate": image.estimate}
             drawn.append(overlay(pixels, **quads, scale=3))
             captions.append(f"fog {fog:g} m⁻¹" + ("" if status == "ok" else f", {status}"))
     return drawn, captions

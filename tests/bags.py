@@ -19,8 +19,8 @@ BEGAN = 1_700_000_000_000_000_000  # ns
 NAMES = {"ros1": "dive.bag", "sqlite3": "dive", "mcap": "dive"}
 
 
-def picture(shade: int, encoding: str = "rgb8") -> np.ndarray:
-    """A picture of 5x4 pixels of all sorts of values, in the encoding's own order."""
+def sample_pixels(shade: int, encoding: str = "rgb8") -> np.ndarray:
+    """An image of 5x4 pixels of all sorts of values, in the encoding's own order."""
     channels = {"mono8": 1, "rgba8": 4, "bgra8": 4}.get(encoding, 3)
     values = (np.arange(4 * 5 * channels) * 13 + shade) % 256
     shape = (4, 5) if channels == 1 else (4, 5, channels)
@@ -30,14 +30,14 @@ def picture(shade: int, encoding: str = "rgb8") -> np.ndarray:
 def write_bag(
     folder: Path,
     kind: str,
-    pictures: Sequence[tuple[float, np.ndarray]],
+    frames: Sequence[tuple[float, np.ndarray]],
     *,
     encoding: str = "rgb8",
     padding: int = 0,
     with_info: bool = True,
     image_type: str = "sensor_msgs/msg/Image",
 ) -> Path:
-    """Write pictures at times [s], each with a camera's info 1 ms later; returns its path."""
+    """Write images at times [s], each with a camera's info 1 ms later; returns its path."""
     is_ros1 = kind == "ros1"
     store = get_typestore(Stores.ROS1_NOETIC if is_ros1 else Stores.ROS2_HUMBLE)
     types = store.types
@@ -52,7 +52,7 @@ def write_bag(
 
     def image(time: float, pixels: np.ndarray) -> Any:
         if image_type == "std_msgs/msg/String":
-            return types[image_type](data="no picture")
+            return types[image_type](data="no image")
         if image_type == "sensor_msgs/msg/CompressedImage":
             _, packed = cv2.imencode(".png", pixels)
             return types[image_type](header=header(time), format="png", data=packed.reshape(-1))
@@ -93,7 +93,7 @@ def write_bag(
         images = writer.add_connection(IMAGE, image_type, typestore=store)
         infos = writer.add_connection(INFO, "sensor_msgs/msg/CameraInfo", typestore=store)
         serialize = store.serialize_ros1 if is_ros1 else store.serialize_cdr
-        for time, pixels in pictures:
+        for time, pixels in frames:
             at = BEGAN + round(time * 1e9)
             writer.write(images, at, serialize(image(time, pixels), image_type))
             if with_info:

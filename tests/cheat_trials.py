@@ -1,6 +1,6 @@
-"""Cheating trials: what an algorithm that never looks at a picture gains by each way to cheat.
+"""Cheating trials: what an algorithm that never looks at an image gains by each way to cheat.
 
-Each cheat plays a short benchmark of a swaying vehicle, blind: its pictures are black, and all of
+Each cheat plays a short benchmark of a swaying vehicle, blind: its images are black, and all of
 them get the same first quad. `Holds` gives that quad for ever, which is what can be had without
 looking. What scores better has gained something; `GAINS` says which of them are known to, because
 nothing is kept from code in the same process. `Holds` is played once more behind all of them: if it
@@ -78,7 +78,7 @@ class HoldsAfterwards(Holds):
 
 
 class Bursts(Holds):
-    """Publishes two hundred guesses at every picture."""
+    """Publishes two hundred guesses at every image."""
 
     def cheat(self) -> None:
         for guess in self.node.random.normal(0.0, 20.0, (200, 8)):

@@ -21,7 +21,7 @@ class Absent:
 
 
 class Raises:
-    """Breaks at its fourth picture."""
+    """Breaks at its fourth image."""
 
     def start(self, node: Node) -> None:
         self.n = 0

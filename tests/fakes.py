@@ -57,7 +57,7 @@ class FakeCamera:
         std: float = 0.0,
     ) -> None:
         self.name, self.std = name, std
-        self.n_pictures: int | None = None
+        self.n_images: int | None = None
         self.intrinsics = intrinsics or Intrinsics.from_fovy(320, 240, np.radians(50.0))
         turned = np.eye(3) if rotation is None else np.array(rotation, dtype=float)
         self._pose = Pose(np.array(position, dtype=float), turned)

@@ -1,4 +1,4 @@
-"""Scenes, robots, benchmarks, meshes, pictures, currents' data and scores, damaged by chance."""
+"""Scenes, robots, benchmarks, meshes, images, currents' data and scores, damaged by chance."""
 
 from __future__ import annotations
 
@@ -121,8 +121,8 @@ def mesh(folder: Path, chance: random.Random) -> None:
 
 
 @functools.cache
-def pictures() -> dict[str, bytes]:
-    """A sound picture of each format."""
+def images() -> dict[str, bytes]:
+    """A sound image of each format."""
     found = {}
     for kind in ("PNG", "JPEG", "BMP", "GIF", "TIFF", "TGA", "WEBP", "PPM"):
         with io.BytesIO() as stream:
@@ -132,8 +132,8 @@ def pictures() -> dict[str, bytes]:
 
 
 def image(folder: Path, chance: random.Random) -> None:
-    """Damage the picture of a mesh and read the mesh."""
-    _, data = chance.choice(sorted(pictures().items()))
+    """Damage the image of a mesh and read the mesh."""
+    _, data = chance.choice(sorted(images().items()))
     (folder / "p.png").write_bytes(bent(data, chance))
     (folder / "m.mtl").write_text("newmtl m\nmap_Kd p.png\n")
     (folder / "m.obj").write_text(

@@ -1,4 +1,4 @@
-"""The documentation site is built, has its pages, formulas and pictures, and opens from disk."""
+"""The documentation site is built, has its pages, formulas and images, and opens from disk."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def test_every_page_is_reached_from_the_first(site: Path) -> None:
 
 
 @pytest.mark.slow
-def test_every_bundled_scene_has_its_picture(site: Path) -> None:
+def test_every_bundled_scene_has_its_image(site: Path) -> None:
     scenes = {path.stem for path in (ROOT / "src/uwsim/data/scenes").glob("*.xml")}
     assert {path.stem for path in (site / "scenes").glob("*.png")} == scenes
 

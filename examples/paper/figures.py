@@ -1,4 +1,4 @@
-"""Figures: camera pictures and the law of visibility, laid out as in a paper."""
+"""Figures: camera images and the law of visibility, laid out as in a paper."""
 
 from __future__ import annotations
 
@@ -20,27 +20,27 @@ def visibility(fog: float, distance: float) -> float:
     return 1.0 - math.exp(-((fog * distance) ** 2))
 
 
-def picture_grid(
-    pictures: Sequence[Pixels], captions: Sequence[str], *, columns: int, width: float = 6.6
+def image_grid(
+    images: Sequence[Pixels], captions: Sequence[str], *, columns: int, width: float = 6.6
 ) -> Figure:
-    """Lay pictures of one size out in rows, with captions (a), (b), ... below.
+    """Lay images of one size out in rows, with captions (a), (b), ... below.
 
     Args:
-        pictures: (h, w, 3) each.
-        captions: One a picture.
-        columns: Pictures a row.
+        images: (h, w, 3) each.
+        captions: One an image.
+        columns: Images a row.
         width: Of the figure [inch].
     """
-    rows = math.ceil(len(pictures) / columns)
-    height, across = pictures[0].shape[:2]
+    rows = math.ceil(len(images) / columns)
+    height, across = images[0].shape[:2]
     each = width / columns
     with styled_figure((width, rows * (each * height / across + 0.28))) as figure:
         grid = figure.subplots(rows, columns, squeeze=False).ravel()
         for i, axes in enumerate(grid):
             axes.axis("off")
-            if i < len(pictures):
-                axes.imshow(pictures[i], interpolation="nearest")
-                letter = f"({chr(ord('a') + i)}) " if len(pictures) > 1 else ""
+            if i < len(images):
+                axes.imshow(images[i], interpolation="nearest")
+                letter = f"({chr(ord('a') + i)}) " if len(images) > 1 else ""
                 axes.text(
                     0.5, -0.03, letter + captions[i], ha="center", va="top",
                     transform=axes.transAxes,
@@ -48,10 +48,10 @@ def picture_grid(
     return figure
 
 
-def picture_with_inset(
+def image_with_inset(
     scene: Pixels, inset: Pixels, *, share: float = 0.36, width: float = 6.6
 ) -> Figure:
-    """Show a scene with a camera's picture in its lower right corner, framed in white.
+    """Show a scene with a camera's image in its lower right corner, framed in white.
 
     Args:
         scene: (h, w, 3).
@@ -145,7 +145,7 @@ def largest_deviation(points: Sequence[tuple[float, float, float]]) -> float:
 def _finish(figure: Figure, points: Sequence[tuple[float, float, float]]) -> None:
     figure.axes[0].set(ylabel="visibility 1 − exp(−(f d)²)", ylim=(-0.03, 1.03))
     text = (
-        "points: measured from pictures of a black and a white plate; lines: the formula; "
+        "points: measured from images of a black and a white plate; lines: the formula; "
         f"largest difference {largest_deviation(points):.4f}"
     )
     figure.text(0.995, 0.004, text, ha="right", va="bottom", fontsize=5.5, color=FAINT)

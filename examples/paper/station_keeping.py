@@ -133,7 +133,7 @@ def steady(loop: Loop, swing: Swing, times: Array) -> tuple[Array, Array]:
 class Track:
     """One level of a run, seen from above: where the vehicle was, and where it saw its target.
 
-    All in the camera's axes: right of the picture, up in the picture.
+    All in the camera's axes: right of the image, up in the image.
     """
 
     time: Array
@@ -141,10 +141,10 @@ class Track:
     vehicle: Array
     """The vehicle's horizontal position, from any origin (n, 2) [m]."""
     seen: Array
-    """Where the tracked centroid was from the middle of the picture, at the target's distance
+    """Where the tracked centroid was from the middle of the image, at the target's distance
     (n, 2) [m]; NaN without an estimate."""
     tracker: Array
-    """Distance of estimate and truth in the picture (n,) [px]; NaN without an estimate."""
+    """Distance of estimate and truth in the image (n,) [px]; NaN without an estimate."""
 
     def reference(self, *, after: float = SETTLED, period: float = PERIOD) -> Array:
         """Return where the vehicle is when the tracked centroid is in the middle (2,) [m].
@@ -192,7 +192,7 @@ def amplitude(time: Array, values: Array, period: float) -> float:
 def measured(track: Track) -> Station:
     """Say how well the station was kept: the vehicle's position over whole periods after 30 s.
 
-    Along is up in the picture (the current flows from stern to bow), across is right.
+    Along is up in the image (the current flows from stern to bow), across is right.
     """
     chosen = whole_periods(track.time)
     time, error = track.time[chosen], track.error()[chosen]
@@ -212,7 +212,7 @@ def track(
 
     The tracked centroid is the truth (``objectCentered``) less the tracker's error (``centroid``);
     its metres are those at the distance d among the facts. The vehicle (``offset``) has its bow
-    along y of L, so that the picture's right is -x of L and its up y of L.
+    along y of L, so that the image's right is -x of L and its up y of L.
 
     Args:
         result: the run.

@@ -1,7 +1,7 @@
 """Build the documentation site: ``scripts/docs`` runs it, ``build/site/index.html`` is the result.
 
 The pages of ``docs/`` and those that they link to are copied; a page of the Python reference is
-added for each package, a picture for each bundled scene, a page for each notebook. Zensical makes
+added for each package, an image for each bundled scene, a page for each notebook. Zensical makes
 HTML of them, TeX formulas become MathML, and the result is checked: every link and anchor leads
 somewhere, and nothing is loaded from the network, so that the site opens from disk.
 """
@@ -34,7 +34,7 @@ def main() -> None:
     """Build the site."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path, help="folder of the site; it is made anew")
-    parser.add_argument("--no-pictures", action="store_true", help="draw no scenes")
+    parser.add_argument("--no-images", action="store_true", help="draw no scenes")
     arguments = parser.parse_args()
     work = arguments.out.resolve().with_suffix(".work")
     shutil.rmtree(work, ignore_errors=True)
@@ -43,7 +43,7 @@ def main() -> None:
     for name in ("style.css", "iframe-worker.js", "iframe-worker.LICENSE"):
         shutil.copy(HERE / name, pages)
     nav = copy_pages(pages)
-    nav.append(("Scenes", scene_pages(pages, draw=not arguments.no_pictures)))
+    nav.append(("Scenes", scene_pages(pages, draw=not arguments.no_images)))
     nav.append(("Notebooks", notebook_pages(pages)))
     nav.append(("Python reference", reference_pages(pages)))
     configure(work, nav)
@@ -99,16 +99,16 @@ def rewritten(text: str, folder: Path, outside: dict[Path, str]) -> str:
 
 
 def scene_pages(pages: Path, *, draw: bool) -> list[str]:
-    """Write the page of the bundled scenes, with a picture of each; return its name."""
+    """Write the page of the bundled scenes, with an image of each; return its name."""
     lines = ["# Bundled scenes", "", "Each as `uwsim render SCENE` draws it.", ""]
     (pages / "scenes").mkdir()
     for path in sorted((PACKAGE / "data" / "scenes").glob("*.xml")):
         lines += [f"## {path.stem}", "", first_comment(path), ""]
         if draw:
-            picture = f"scenes/{path.stem}.png"
+            image = f"scenes/{path.stem}.png"
             command = ["-m", "uwsim", "render", path.stem, "--view", "orbit", "--size", "960x600"]
-            run(sys.executable, *command, "-o", str(pages / picture))
-            lines += [f"![{path.stem}]({picture})", ""]
+            run(sys.executable, *command, "-o", str(pages / image))
+            lines += [f"![{path.stem}]({image})", ""]
         lines += ["```console", f"$ uwsim info {path.stem}", "```", ""]
     (pages / "scenes.md").write_text("\n".join(lines))
     return ["scenes.md"]

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .bus import Algorithm, Node
     from .errors import UwsimError
     from .geometry import Pose
-    from .rendering.renderer import Picture
+    from .rendering.renderer import RenderedImage
     from .results.result import Result
     from .simulation import Simulation
 
@@ -30,8 +30,8 @@ __version__ = "0.1.0"
 __all__ = [
     "Algorithm",
     "Node",
-    "Picture",
     "Pose",
+    "RenderedImage",
     "Result",
     "Simulation",
     "UwsimError",
@@ -47,7 +47,7 @@ __all__ = [
 _HOMES = {
     "Algorithm": "bus",
     "Node": "bus",
-    "Picture": "rendering.renderer",
+    "RenderedImage": "rendering.renderer",
     "Pose": "geometry",
     "Result": "results.result",
     "Simulation": "simulation",

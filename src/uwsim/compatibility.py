@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from .errors import UnknownName
 
 COMPATIBILITY: dict[str, str] = {
-    "bag-fog": "over a recording fog is 1.44 times as thick, of one colour, none on grey pictures",
+    "bag-fog": "over a recording fog is 1.44 times as thick, of one colour, none on grey images",
     "box-scale": "the bounding box of an object does not know of its scaleFactor",
     "collision": "only the first body of a contact and its velocity count, and one thing touched",
     "current-force": "publishAsForce pushes with v^2 along each axis: the sign of v is lost",
@@ -35,7 +35,7 @@ COMPATIBILITY: dict[str, str] = {
     "stop-once": "the benchmark's stopOn is never reset: after it, no further level begins",
     "thresholds": "trigger distances are compared squared: onMove 0.447 m, position 0.548 m",
     "time-log": "a time is 0 as long as it runs, in its log and in what is published",
-    "unseen": "what is outside a picture, or behind the camera, is projected all the same",
+    "unseen": "what is outside an image, or behind the camera, is projected all the same",
     "visual-frames": "cameras hang on the visual frame of their link (scenes before July 2014)",
     "y0": "the camera parameter y0 counts from the bottom edge, but is published as it is",
 }

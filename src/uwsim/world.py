@@ -70,8 +70,8 @@ class Camera(Protocol):
         """Where it is now; OpenGL axes."""
 
     @property
-    def n_pictures(self) -> int | None:
-        """Pictures due on its topics so far, read or not; None: it has no topic."""
+    def n_images(self) -> int | None:
+        """Images due on its topics so far, read or not; None: it has no topic."""
 
 
 @dataclass(frozen=True)
@@ -203,7 +203,7 @@ class Stage(World, Protocol):
 class SensorWorld(World, Protocol):
     """What a sensor sees: the world, and light."""
 
-    def photograph(
+    def render(
         self,
         world_from_camera: Pose,
         intrinsics: Intrinsics,

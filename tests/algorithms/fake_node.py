@@ -1,4 +1,4 @@
-"""A node on a desk: what an algorithm published, and the pictures we hand it."""
+"""A node on a desk: what an algorithm published, and the images we hand it."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class FakeNode:
         raise NotImplementedError
 
     def show(self, pixels: np.ndarray, topic: str = "/uwsim/camera1") -> None:
-        """Hand a picture over, of grey levels or RGB, rounded to 8 bits."""
+        """Hand an image over, of grey levels or RGB, rounded to 8 bits."""
         if pixels.dtype != np.uint8:
             pixels = np.clip(np.rint(pixels), 0, 255).astype(np.uint8)
         message: Image = image(pixels, time=self.now)

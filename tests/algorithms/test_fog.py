@@ -22,26 +22,26 @@ DISTANCE = 1.3  # [m]
 
 
 def contrast_at_loss(sigma: float, zncc_threshold: float, *, seed: int) -> float:
-    """Share of the contrast that is left when esm says lost; 10 pictures a level, 2 % a level."""
-    picture = Texture(seed).picture(width=SIZE[0], height=SIZE[1])
+    """Share of the contrast that is left when esm says lost; 10 images a level, 2 % a level."""
+    clear = Texture(seed).image(width=SIZE[0], height=SIZE[1])
     rng = np.random.Generator(np.random.Philox(seed))
-    first = grey(through_fog(picture, 1.0, rng, sigma=sigma))
+    first = grey(through_fog(clear, 1.0, rng, sigma=sigma))
     tracker = DirectTracker.remember(first, QUAD, levels=3, method=Method())
     assert isinstance(tracker, DirectTracker)
     loss = LossTest(zncc_threshold=zncc_threshold, frames=5)
-    transmission = 1.5 * law(picture, sigma, zncc_threshold)
+    transmission = 1.5 * law(clear, sigma, zncc_threshold)
     while transmission > 0.01:
         transmission *= 0.98
         for _ in range(10):
-            image = grey(through_fog(picture, transmission, rng, sigma=sigma))
+            image = grey(through_fog(clear, transmission, rng, sigma=sigma))
             if loss.check(tracker.step(image), *SIZE):
                 return transmission
     raise AssertionError("never lost")
 
 
-def law(picture: np.ndarray, sigma: float, zncc_threshold: float) -> float:
+def law(clear: np.ndarray, sigma: float, zncc_threshold: float) -> float:
     """T = sigma / (S sqrt(1/z^2 - 1))."""
-    template = take_template(picture, QUAD)
+    template = take_template(clear, QUAD)
     assert template is not None
     return sigma / (template.contrast * math.sqrt(1.0 / zncc_threshold**2 - 1.0))
 
@@ -53,7 +53,7 @@ def test_esm_is_lost_where_the_contrast_to_noise_law_says(
     sigma: float, zncc_threshold: float
 ) -> None:
     seed = int(sigma)
-    expected = law(Texture(seed).picture(width=SIZE[0], height=SIZE[1]), sigma, zncc_threshold)
+    expected = law(Texture(seed).image(width=SIZE[0], height=SIZE[1]), sigma, zncc_threshold)
     lost_at = contrast_at_loss(sigma, zncc_threshold, seed=seed)
     assert 0.9 * expected < lost_at < 1.1 * expected
 
@@ -71,9 +71,9 @@ def sweep(name: str) -> tuple[tuple[float, ...], float]:
         for k in range(8):
             phase = 0.25 * (8 * level + k)
             sway = np.array([6.0 * math.sin(phase), 4.0 * math.sin(1.4 * phase)])
-            picture = texture.picture(between(QUAD, QUAD + sway), width=SIZE[0], height=SIZE[1])
+            clear = texture.image(between(QUAD, QUAD + sway), width=SIZE[0], height=SIZE[1])
             transmission = math.exp(-((fog * DISTANCE) ** 2))
-            image = grey(through_fog(picture, transmission, rng, sigma=3.4))
+            image = grey(through_fog(clear, transmission, rng, sigma=3.4))
             if name == "frozen":
                 sum_of_errors += float(np.linalg.norm(np.tile(sway, 4)))
                 continue
@@ -111,10 +111,10 @@ def test_a_plane_that_moves_tells_trackers_from_frozen(name: str) -> None:
     assert np.mean(frozen) > 5.0
 
 
-def test_a_low_picture_alone_is_not_a_loss_but_five_are() -> None:
+def test_a_low_image_alone_is_not_a_loss_but_five_are() -> None:
     texture = Texture(1)
     tracker = DirectTracker.remember(
-        texture.picture(width=SIZE[0], height=SIZE[1]), QUAD, levels=3, method=Method()
+        texture.image(width=SIZE[0], height=SIZE[1]), QUAD, levels=3, method=Method()
     )
     assert isinstance(tracker, DirectTracker)
     blank = np.full((80, 160), 16.0, np.float32)
@@ -122,8 +122,6 @@ def test_a_low_picture_alone_is_not_a_loss_but_five_are() -> None:
     for _ in range(3):
         for _ in range(4):
             assert loss.check(tracker.step(blank), *SIZE) is None
-        assert (
-            loss.check(tracker.step(texture.picture(width=SIZE[0], height=SIZE[1])), *SIZE) is None
-        )
+        assert loss.check(tracker.step(texture.image(width=SIZE[0], height=SIZE[1])), *SIZE) is None
     reasons = [loss.check(tracker.step(blank), *SIZE) for _ in range(5)]
     assert reasons == [None] * 4 + ["ZNCC -1.00 on 5 frames"]

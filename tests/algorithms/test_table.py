@@ -82,19 +82,19 @@ def test_the_stranger_of_the_documentation_works(
     monkeypatch.syspath_prepend(tmp_path)
     node = FakeNode()
     load_algorithm("brightest_stranger:Brightest")().start(node)
-    picture = np.zeros((240, 320, 3), np.uint8)
-    node.show(picture)
+    pixels = np.zeros((240, 320, 3), np.uint8)
+    node.show(pixels)
     assert node.calls == ["startBench"]
     node.auto_init(QUAD)
-    picture = picture.copy()
-    picture[100, 150] = 255
-    node.show(picture)
+    pixels = pixels.copy()
+    pixels[100, 150] = 255
+    node.show(pixels)
     assert node.statuses == ["tracking"]
     assert node.corners[-1].mean(axis=0) == pytest.approx([150.5, 100.5])
     assert node.centroids[-1] == pytest.approx([150.5, 100.5])
 
 
-def test_on_the_real_bus_an_estimate_comes_in_the_step_of_its_picture() -> None:
+def test_on_the_real_bus_an_estimate_comes_in_the_step_of_its_image() -> None:
     bus = Bus()
     corners = bus.inbox("cornersTopic", Float32MultiArray)
     status = bus.inbox("algorithmStatus", String)
@@ -104,7 +104,7 @@ def test_on_the_real_bus_an_estimate_comes_in_the_step_of_its_picture() -> None:
     random = np.random.Generator(np.random.Philox(0))
     node = InProcessNode(bus, name="esm", timestep=0.002, random=random, parameters={})
     node.run(Esm())
-    pixels = np.rint(Texture().picture()).astype(np.uint8)
+    pixels = np.rint(Texture().image()).astype(np.uint8)
     for step in (0, 17, 34):
         bus.step = step
         show(image(pixels, time=step * 0.002))

@@ -22,12 +22,12 @@ def started(name: str, **parameters: float | str) -> FakeNode:
 
 
 @pytest.mark.parametrize("name", LOOKING)
-def test_the_benchmark_is_started_once_after_the_first_picture(name: str) -> None:
+def test_the_benchmark_is_started_once_after_the_first_image(name: str) -> None:
     node = started(name)
     assert node.calls == []
-    picture = Texture().picture()
+    image = Texture().image()
     for _ in range(3):
-        node.show(picture)
+        node.show(image)
     assert node.calls == ["startBench"]
 
 
@@ -35,7 +35,7 @@ def test_the_benchmark_is_started_once_after_the_first_picture(name: str) -> Non
 def test_a_benchmark_that_waits_for_nobody_is_fine(name: str) -> None:
     node = started(name)
     node.known_services.clear()
-    node.show(Texture().picture())
+    node.show(Texture().image())
     node.auto_init(QUAD)
     assert node.statuses == ["tracking"]
 
@@ -43,8 +43,8 @@ def test_a_benchmark_that_waits_for_nobody_is_fine(name: str) -> None:
 @pytest.mark.parametrize("name", LOOKING)
 def test_nothing_is_published_before_auto_init(name: str) -> None:
     node = started(name)
-    node.show(Texture().picture())
-    node.show(Texture().picture())
+    node.show(Texture().image())
+    node.show(Texture().image())
     assert node.published == []
 
 
@@ -52,11 +52,11 @@ def test_nothing_is_published_before_auto_init(name: str) -> None:
 def test_a_plane_that_stands_still_is_found_where_it_is_in_the_order_handed_in(name: str) -> None:
     for first in range(4):
         node = started(name)
-        picture = Texture().picture()
-        node.show(picture)
+        image = Texture().image()
+        node.show(image)
         quad = np.roll(QUAD, first, axis=0)
         node.auto_init(quad)
-        node.show(picture)
+        node.show(image)
         assert node.corners[0] == pytest.approx(quad, abs=0.1)
         assert node.centroids[0] == pytest.approx([160.0, 120.0], abs=0.1)
 
@@ -65,18 +65,18 @@ def test_a_plane_that_stands_still_is_found_where_it_is_in_the_order_handed_in(n
 def test_a_plane_that_moves_is_followed(name: str) -> None:
     node = started(name)
     texture = Texture(shortest=6.0, waves=40)
-    node.show(texture.picture())
+    node.show(texture.image())
     node.auto_init(QUAD)
     for k in range(1, 8):
         target = QUAD + np.array([2.0 * k, 1.5 * k]) + 0.3 * k * np.array([[1, 0], [0, 1]] * 2)
-        node.show(texture.picture(between(QUAD, target)))
+        node.show(texture.image(between(QUAD, target)))
         assert np.abs(node.corners[-1] - target).max() < (5.0 if name == "orb" else 0.1)
     assert node.statuses == ["tracking"]
 
 
 def test_frozen_echoes_exactly_what_auto_init_gave() -> None:
     node = started("frozen")
-    node.show(Texture().picture())
+    node.show(Texture().image())
     quad = np.float32([[10.1, 20.2], [90.3, 25.4], [88.5, 60.6], [9.7, 55.8]])
     node.auto_init(quad)
     for _ in range(3):
@@ -86,8 +86,8 @@ def test_frozen_echoes_exactly_what_auto_init_gave() -> None:
 
 
 def moved(shift: float) -> np.ndarray:
-    """The texture's picture with everything in it ``shift`` [px] to the right."""
-    return Texture(shortest=6.0, waves=40).picture(between(QUAD, QUAD + np.array([shift, 0.0])))
+    """The texture's image with everything in it ``shift`` [px] to the right."""
+    return Texture(shortest=6.0, waves=40).image(between(QUAD, QUAD + np.array([shift, 0.0])))
 
 
 @pytest.mark.parametrize("name", LOOKING)
@@ -96,7 +96,7 @@ def test_a_second_auto_init_gives_the_pose_and_no_new_template(name: str) -> Non
     node.show(moved(0.0))
     node.auto_init(QUAD)
     node.show(moved(0.0))
-    node.auto_init(QUAD + np.array([40.0, 0.0]))  # told in the picture as it was before the jump
+    node.auto_init(QUAD + np.array([40.0, 0.0]))  # told in the image as it was before the jump
     node.show(moved(40.0))
     assert node.corners[-1] == pytest.approx(
         QUAD + np.array([40.0, 0.0]), abs=5.0 if name == "orb" else 0.1
@@ -123,7 +123,7 @@ def test_a_lost_tracker_tracks_again_from_where_auto_init_says(name: str) -> Non
     assert [status.split(":")[0] for status in node.statuses] == ["tracking", "lost", "tracking"]
 
 
-def test_a_second_auto_init_outside_the_picture_is_a_loss_and_no_failure() -> None:
+def test_a_second_auto_init_outside_the_image_is_a_loss_and_no_failure() -> None:
     node = started("esm")
     node.show(moved(0.0))
     node.auto_init(QUAD)
@@ -153,22 +153,22 @@ def test_corners_that_are_no_eight_numbers_are_refused_before_anything_runs(corn
             check_parameters(ALGORITHMS[name], {"corners": corners})
 
 
-def test_auto_init_before_the_first_picture_waits_for_it() -> None:
+def test_auto_init_before_the_first_image_waits_for_it() -> None:
     node = started("esm")
     node.auto_init(QUAD + 40.0)
     node.auto_init(QUAD)
-    picture = Texture().picture()
-    node.show(picture)
-    node.show(picture)
+    image = Texture().image()
+    node.show(image)
+    node.show(image)
     assert node.statuses == ["tracking"]
     assert node.corners[0] == pytest.approx(QUAD, abs=0.05)
 
 
-def test_auto_init_inside_start_bench_takes_the_first_picture() -> None:
+def test_auto_init_inside_start_bench_takes_the_first_image() -> None:
     node = FakeNode()
     node.known_services["startBench"] = lambda _: node.auto_init(QUAD)
     ALGORITHMS["esm"]().start(node)
-    node.show(Texture().picture())
+    node.show(Texture().image())
     assert node.statuses == ["tracking"]
     assert node.corners == []
 
@@ -176,67 +176,67 @@ def test_auto_init_inside_start_bench_takes_the_first_picture() -> None:
 @pytest.mark.parametrize("name", TRACKERS)
 def test_a_patch_that_vanishes_is_lost_once_and_then_silent(name: str) -> None:
     node = started(name)
-    picture = Texture(shortest=6.0).picture()
-    node.show(picture)
+    image = Texture(shortest=6.0).image()
+    node.show(image)
     node.auto_init(QUAD)
     rng = np.random.Generator(np.random.Philox(5))
     for _ in range(4):
-        node.show(through_fog(picture, 0.0, rng, sigma=20.0))
+        node.show(through_fog(image, 0.0, rng, sigma=20.0))
     assert not any(status.startswith("lost: ZNCC") for status in node.statuses)
     for _ in range(4):
-        node.show(through_fog(picture, 0.0, rng, sigma=20.0))
+        node.show(through_fog(image, 0.0, rng, sigma=20.0))
     assert len(node.statuses) == 2
     assert node.statuses[1].startswith("lost: ")
     before = len(node.published)
-    node.show(picture)
-    node.show(picture)
+    node.show(image)
+    node.show(image)
     assert len(node.published) == before
 
 
 def test_the_reason_of_a_loss_carries_its_numbers() -> None:
     node = started("esm", lost_frames=3.0, zncc_threshold=0.7)
     texture = Texture()
-    node.show(texture.picture())
+    node.show(texture.image())
     node.auto_init(QUAD)
     rng = np.random.Generator(np.random.Philox(5))
     while len(node.statuses) < 2:
-        node.show(through_fog(texture.picture(), 0.3, rng, sigma=20.0))
+        node.show(through_fog(texture.image(), 0.3, rng, sigma=20.0))
     number = float(node.statuses[1].removeprefix("lost: ZNCC ").removesuffix(" on 3 frames"))
     assert number < 0.7
     assert len(node.corners) == 3
 
 
-def test_a_low_picture_in_between_is_forgiven() -> None:
+def test_a_low_image_in_between_is_forgiven() -> None:
     node = started("esm")
-    picture = Texture().picture()
-    node.show(picture)
+    image = Texture().image()
+    node.show(image)
     node.auto_init(QUAD)
     for _ in range(5):
         for _ in range(4):
             node.show(np.full((240, 320), 90, np.uint8))
-        node.show(picture)
+        node.show(image)
     assert node.statuses == ["tracking"]
 
 
-def test_a_patch_whose_centre_leaves_the_picture_is_lost_at_once() -> None:
+def test_a_patch_whose_centre_leaves_the_image_is_lost_at_once() -> None:
     node = started("esm")
     texture = Texture()
-    node.show(texture.picture())
+    node.show(texture.image())
     node.auto_init(QUAD)
     for k in range(1, 40):
-        node.show(texture.picture(between(QUAD, QUAD + np.array([7.0 * k, 0.0]))))
+        node.show(texture.image(between(QUAD, QUAD + np.array([7.0 * k, 0.0]))))
     assert node.statuses[1].startswith("lost: ")
     assert "centre (32" in node.statuses[1] or "ZNCC" in node.statuses[1]
 
 
-def test_a_corner_outside_the_picture_is_no_loss() -> None:
+def test_a_corner_outside_the_image_is_no_loss() -> None:
     check = LossTest(zncc_threshold=0.5, frames=5).check
     corners = np.array([[220.0, 60.0], [325.0, 60.0], [325.0, 90.0], [220.0, 90.0]])
     inside = Estimate(corners=corners, centroid=corners.mean(axis=0), zncc=0.9)
     assert check(inside, 320, 240) is None
     gone = corners + np.array([50.0, 0.0])
     why = check(Estimate(corners=gone, centroid=gone.mean(axis=0), zncc=0.9), 320, 240)
-    assert why == "the quad's centre (322.5, 75.0) is outside the 320x240 picture"
+    assert why == "the quad's centre (322.5, 75.0) is outside the 320x240 image"
 
 
 NAN = float("nan")
@@ -258,13 +258,13 @@ def test_a_quad_that_cannot_be_followed_is_a_failure_with_its_reason(
     name: str, quad: np.ndarray, why: str
 ) -> None:
     node = started(name)
-    node.show(Texture().picture())
+    node.show(Texture().image())
     node.auto_init(quad)
     assert len(node.statuses) == 1
     assert node.statuses[0].startswith("failed: autoInit: ")
     assert why in node.statuses[0]
     node.auto_init(QUAD)
-    node.show(Texture().picture())
+    node.show(Texture().image())
     assert len(node.published) == 1
 
 
@@ -278,7 +278,7 @@ def test_a_patch_without_contrast_is_a_failure(name: str) -> None:
 
 def test_seven_numbers_are_a_failure() -> None:
     node = started("esm")
-    node.show(Texture().picture())
+    node.show(Texture().image())
     node.auto_init(np.zeros(7))
     assert node.statuses == ["failed: autoInit gave 7 numbers instead of 8"]
 
@@ -298,17 +298,17 @@ def test_parameters_in_force_can_be_read() -> None:
     assert algorithm.parameters == {**algorithm.PARAMETERS, "levels": 2.0}
 
 
-def test_another_picture_topic_can_be_chosen() -> None:
+def test_another_image_topic_can_be_chosen() -> None:
     node = started("esm", image_topic="/other")
     assert list(node.readers) == ["/other"]
 
 
-def test_colour_pictures_are_followed_by_their_luma() -> None:
+def test_colour_images_are_followed_by_their_luma() -> None:
     node = started("esm")
     texture = Texture()
     target = QUAD + np.array([2.0, 1.0])
-    for picture in (texture.picture(), texture.picture(between(QUAD, target))):
-        node.show(np.repeat(picture[:, :, None], 3, axis=2))
+    for image in (texture.image(), texture.image(between(QUAD, target))):
+        node.show(np.repeat(image[:, :, None], 3, axis=2))
         node.auto_init(QUAD)
     assert np.abs(node.corners[-1] - target).max() < 0.05
     assert warp(np.eye(3), QUAD) == pytest.approx(QUAD)

@@ -1,4 +1,4 @@
-"""Smooth pictures that are known everywhere, and what a camera and fog would make of them."""
+"""Smooth images that are known everywhere, and what a camera and fog would make of them."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ class Texture:
         phase = (points.astype(np.float32) @ self._k + self._phase).astype(np.float32)
         return self._mean + self._contrast * np.cos(phase).sum(axis=1) / np.sqrt(phase.shape[1] / 2)
 
-    def picture(
+    def image(
         self, homography: np.ndarray | None = None, *, width: int = 320, height: int = 240
     ) -> np.ndarray:
-        """The picture after the plane was moved by ``homography``, (h, w) float32."""
+        """The image after the plane was moved by ``homography``, (h, w) float32."""
         u, v = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
         points = np.stack([u.ravel(), v.ravel()], axis=1)
         if homography is not None:
@@ -39,10 +39,10 @@ class Texture:
 
 
 def through_fog(
-    picture: np.ndarray, transmission: float, rng: np.random.Generator, *, sigma: float = 0.0
+    image: np.ndarray, transmission: float, rng: np.random.Generator, *, sigma: float = 0.0
 ) -> np.ndarray:
     """Mix towards grey level 16 and add the camera's noise [grey level], in 8 bits."""
-    foggy = 16.0 + transmission * (picture - 16.0) + sigma * rng.standard_normal(picture.shape)
+    foggy = 16.0 + transmission * (image - 16.0) + sigma * rng.standard_normal(image.shape)
     return np.clip(np.rint(foggy), 0, 255).astype(np.uint8)
 
 

@@ -51,7 +51,7 @@ def written(folder: Path, tree: dict[str, Any]) -> Path:
 
 
 def png(folder: Path, name: str, wide: int, high: int) -> Path:
-    """Write a grey picture row by row: a large one takes no memory here."""
+    """Write a grey image row by row: a large one takes no memory here."""
 
     def chunk(kind: bytes, data: bytes) -> bytes:
         checksum = struct.pack(">I", zlib.crc32(kind + data))
@@ -68,10 +68,10 @@ def png(folder: Path, name: str, wide: int, high: int) -> Path:
     return path
 
 
-def obj(folder: Path, material: str, picture: str = "p.png") -> Path:
+def obj(folder: Path, material: str, image: str = "p.png") -> Path:
     path = folder / "m.obj"
     path.write_text(f"mtllib {material}\n{TRIANGLE}")
-    (folder / "m.mtl").write_text(f"newmtl m\nKd 1 0 0\nmap_Kd {picture}\n")
+    (folder / "m.mtl").write_text(f"newmtl m\nKd 1 0 0\nmap_Kd {image}\n")
     return path
 
 
@@ -124,10 +124,10 @@ def test_a_device_is_not_read_for_a_buffer(inside: Path, name: str) -> None:
         load_model(str(path))
 
 
-def test_a_picture_of_a_few_bytes_may_not_fill_the_memory(inside: Path) -> None:
+def test_an_image_of_a_few_bytes_may_not_fill_the_memory(inside: Path) -> None:
     png(inside, "p.png", 9000, 9000)
     start = time.process_time()
-    with pytest.raises(AssetError, match=r"a picture of 9000 x 9000 pixels; at most 67 million"):
+    with pytest.raises(AssetError, match=r"an image of 9000 x 9000 pixels; at most 67 million"):
         load_model(str(obj(inside, "m.mtl")))
     blob = base64.b64encode((inside / "p.png").read_bytes()).decode()
     tree = gltf(
@@ -136,18 +136,18 @@ def test_a_picture_of_a_few_bytes_may_not_fill_the_memory(inside: Path) -> None:
         materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
     )
     tree["meshes"][0]["primitives"][0]["material"] = 0
-    with pytest.raises(AssetError, match=r"a picture of 9000 x 9000 pixels; at most 67 million"):
+    with pytest.raises(AssetError, match=r"an image of 9000 x 9000 pixels; at most 67 million"):
         load_model(str(written(inside, tree)))
     assert time.process_time() - start < 2.0
 
 
-def test_a_picture_too_large_to_be_opened_is_not_left_out_in_silence(inside: Path) -> None:
+def test_an_image_too_large_to_be_opened_is_not_left_out_in_silence(inside: Path) -> None:
     png(inside, "p.png", 20_000, 10_000)
-    with pytest.raises(AssetError, match=r"p\.png: a picture of too many pixels; at most 67"):
+    with pytest.raises(AssetError, match=r"p\.png: an image of too many pixels; at most 67"):
         load_model(str(obj(inside, "m.mtl")))
 
 
-def test_pictures_are_bounded_in_all_too(inside: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_images_are_bounded_in_all_too(inside: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(looks, "MAX_PIXELS_IN_ALL", 300)
     Image.new("RGB", (10, 10)).save(inside / "p.png")
     text = "".join(f"newmtl m{i}\nmap_Kd p.png\n" for i in range(4))
@@ -156,13 +156,13 @@ def test_pictures_are_bounded_in_all_too(inside: Path, monkeypatch: pytest.Monke
         + "".join(f"usemtl m{i}\nf 1/1 2/2 3/3\n" for i in range(4))
     )
     (inside / "m.mtl").write_text(text)
-    with pytest.raises(AssetError, match="a picture of 10 x 10 pixels"):
+    with pytest.raises(AssetError, match="an image of 10 x 10 pixels"):
         load_model(str(inside / "m.obj"))
 
 
-def test_a_picture_that_is_a_program_is_not_run(inside: Path) -> None:
+def test_an_image_that_is_a_program_is_not_run(inside: Path) -> None:
     (inside / "p.png").write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n%%EOF\n")
-    with pytest.raises(AssetError, match="a picture is EPS; expected BMP, DDS"):
+    with pytest.raises(AssetError, match="an image is EPS; expected BMP, DDS"):
         load_model(str(obj(inside, "m.mtl")))
 
 

@@ -33,7 +33,7 @@ def test_an_openscenegraph_file_without_osgconv_names_the_package(
         load_model("thing.ive", data_path=(tmp_path,))
 
 
-def test_osgconv_is_asked_for_pictures_then_for_obj(
+def test_osgconv_is_asked_for_images_then_for_obj(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     program = tmp_path / "osgconv"

@@ -48,7 +48,7 @@ def test_collada_is_read(tmp_path: Path) -> None:
     assert read_model(written(tmp_path, ".dae"), name="x").box.upper == (1.0, 2.0, 0.0)
 
 
-def test_a_picture_travels_with_an_obj_file(tmp_path: Path) -> None:
+def test_an_image_travels_with_an_obj_file(tmp_path: Path) -> None:
     Image.new("RGB", (4, 2), (200, 100, 50)).save(tmp_path / "paint.png")
     (tmp_path / "m.mtl").write_text("newmtl m\nKd 0.8 0.8 0.8\nmap_Kd paint.png\n")
     (tmp_path / "m.obj").write_text(
@@ -63,13 +63,13 @@ def test_a_picture_travels_with_an_obj_file(tmp_path: Path) -> None:
     assert at[(0.0, 1.0, 0.0)] == (0.0, 1.0)
 
 
-def test_a_textured_glb_keeps_its_picture_the_right_way_up(tmp_path: Path) -> None:
-    picture = Image.new("RGB", (2, 2), (255, 0, 0))
-    picture.putpixel((0, 1), (0, 255, 0))  # bottom left
+def test_a_textured_glb_keeps_its_image_the_right_way_up(tmp_path: Path) -> None:
+    image = Image.new("RGB", (2, 2), (255, 0, 0))
+    image.putpixel((0, 1), (0, 255, 0))  # bottom left
     box = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], process=False)
     box.visual = trimesh.visual.TextureVisuals(
         uv=[[0, 0], [1, 0], [0, 1]],
-        material=trimesh.visual.material.PBRMaterial(baseColorTexture=picture),
+        material=trimesh.visual.material.PBRMaterial(baseColorTexture=image),
     )
     box.export(tmp_path / "t.glb")
     (mesh,) = read_model(tmp_path / "t.glb", name="t").meshes

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from uwsim.assets import load_model
-from uwsim.assets.procedural.seabed_picture import mosaic, stones
+from uwsim.assets.procedural.seabed_image import mosaic, stones
 from uwsim.assets.procedural.tank import PROFILE
 
 

@@ -28,9 +28,9 @@ def test_tiling_noise_has_no_seam() -> None:
 
 
 def test_words_leave_ink_where_they_are_written_and_nowhere_else() -> None:
-    picture = textures.plain(100, 200, (1.0, 1.0, 1.0))
-    textures.write(picture, "DO NOT OPEN", (0.5, 0.5), width=0.5, height=0.2)
-    ink = picture.mean(axis=2) < 0.5
+    image = textures.plain(100, 200, (1.0, 1.0, 1.0))
+    textures.write(image, "DO NOT OPEN", (0.5, 0.5), width=0.5, height=0.2)
+    ink = image.mean(axis=2) < 0.5
     rows, columns = np.nonzero(ink)
     assert 0.2 < ink[40:60, 50:150].mean() < 0.8
     assert rows.min() >= 39
@@ -40,10 +40,10 @@ def test_words_leave_ink_where_they_are_written_and_nowhere_else() -> None:
 
 
 def test_words_near_a_border_are_cut_off_not_wrapped() -> None:
-    picture = textures.plain(40, 40, (1.0, 1.0, 1.0))
-    textures.write(picture, "XXXX", (0.0, 0.0), width=1.0)
-    assert (picture[20:, :] == 1.0).all()
-    assert (picture[:10, :10] < 1.0).any()
+    image = textures.plain(40, 40, (1.0, 1.0, 1.0))
+    textures.write(image, "XXXX", (0.0, 0.0), width=1.0)
+    assert (image[20:, :] == 1.0).all()
+    assert (image[:10, :10] < 1.0).any()
 
 
 def test_relief_is_brighter_on_the_side_of_the_light() -> None:

@@ -16,7 +16,7 @@ def test_a_camera_may_be_called_as_no_file_can_be(tmp_path: Path) -> None:
     text = BENCHMARK.replace("visibility-scene.xml", "tank.xml").replace("LENGTH", "0.2")
     (tmp_path / "b.xml").write_text(text.replace("bowtech1", "left/front"))
     result = run(tmp_path / "b.xml", tmp_path / "out", levels=["fog=0"])
-    assert [(p.camera, p.file) for p in result.pictures] == [
+    assert [(p.camera, p.file) for p in result.images] == [
         ("left/front", "pictures/00000-left_front.png")
     ]
     assert (tmp_path / "out" / "pictures" / "00000-left_front.png").is_file()

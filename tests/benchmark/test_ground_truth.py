@@ -20,7 +20,7 @@ from uwsim.geometry import Pose, rotation_from_rpy, rotation_from_xyz, rotation_
 from uwsim.world import Box
 
 F = 120.0 / np.tan(np.radians(25.0))
-"""Focal length of a 320x240 picture with fovy 50 degrees [px]."""
+"""Focal length of a 320x240 image with fovy 50 degrees [px]."""
 NED = Pose(np.zeros(3), rotation_from_xyz(np.pi, 0.0, -np.pi / 2))
 """W from L as the original's scenes have it: W = (L.y, L.x, -L.z)."""
 BLACK_BOX = Box((-0.065, -0.233, -0.075), (0.065, 0.200, 0.075))
@@ -60,9 +60,9 @@ def test_the_origin_of_the_box_is_where_the_reference_says_it_projects() -> None
 
 
 def test_the_face_of_the_box_fits_the_constants_of_the_originals_vision_benchmark() -> None:
-    """Its file has corners 215..300 x 149..176 and the centroid (257.5, 162.5), read off a picture.
+    """Its file has corners 215..300 x 149..176 and the centroid (257.5, 162.5), read off an image.
 
-    Our box is 1 cm longer than what was clicked on in that picture: the left edge lies 8 px out.
+    Our box is 1 cm longer than what was clicked on in that image: the left edge lies 8 px out.
     """
     face = corners(vision_scene((2.2, -0.1, 3.45)), "face").reshape(4, 2)
     assert face[:, 0].max() == pytest.approx(300.0, abs=0.5)

@@ -1,4 +1,4 @@
-"""The control that is played beside a tracker sees the pictures that the tracker is told of."""
+"""The control that is played beside a tracker sees the images that the tracker is told of."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
     ("topic", "parameters"),
     [("/front/image", {"image_topic": "/front/image"}), ("uwsim/camera1", {})],
 )
-def test_the_control_waits_for_pictures_of_the_camera_of_the_truth(
+def test_the_control_waits_for_images_of_the_camera_of_the_truth(
     topic: str, parameters: dict[str, str], tmp_path: Path
 ) -> None:
     scene = (SCENES / "visibility-scene.xml").read_text()

@@ -1,4 +1,4 @@
-"""``uwsim render``: pictures of the bundled scene."""
+"""``uwsim render``: images of the bundled scene."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ SCENE = ["render", "visibility-scene", "--camera", "bowtech1"]
 
 
 def render(folder: Path, *options: str, name: str = "view") -> np.ndarray:
-    """Render into ``folder`` and return the colour picture, (h, w, 3)."""
+    """Render into ``folder`` and return the colour image, (h, w, 3)."""
     out = folder / f"{name}.png"
     assert main([*SCENE, "-o", str(out), *options]) == 0
     return np.asarray(Image.open(out))
 
 
-def test_the_picture_has_the_cameras_size_and_the_seed_decides_its_noise(tmp_path: Path) -> None:
+def test_the_image_has_the_cameras_size_and_the_seed_decides_its_noise(tmp_path: Path) -> None:
     one = render(tmp_path, "--seed", "1")
     same = render(tmp_path, "--seed", "1", name="same")
     other = render(tmp_path, "--seed", "2", name="other")
@@ -44,7 +44,7 @@ def test_depth_is_in_metres_for_programs_and_in_millimetres_for_eyes(tmp_path: P
     assert np.abs(millimetres / 1000.0 - metres).max() <= 0.0005 + 1e-6
 
 
-def test_where_nothing_is_there_depth_is_infinite_and_its_picture_0(tmp_path: Path) -> None:
+def test_where_nothing_is_there_depth_is_infinite_and_its_image_0(tmp_path: Path) -> None:
     render(tmp_path, "--depth", "--set", "vehicle[girona500].orientation=M_PI 0 0")  # looks up
     metres = np.load(tmp_path / "view-depth.npy")
     millimetres = np.asarray(Image.open(tmp_path / "view-depth.png"))

@@ -121,7 +121,7 @@ def test_a_changed_cell_sample_and_fingerprint_are_each_named_with_their_place(
     assert said.count("log of corners, first at sample 2 (0.1 s): stored") == 1
     assert "measure-corners.csv: line 9, column total" in said
     assert (
-        "unit 1 (seed 3): motion and pictures are the same up to step 320 (0.64 s), "
+        "unit 1 (seed 3): motion and images are the same up to step 320 (0.64 s), "
         "no more at step 384 (0.768 s); first differs: girona500/base_link" in said
     )
     assert "It begins in the physics: girona500/base_link moved otherwise." in said
@@ -262,7 +262,7 @@ def test_a_changed_scene_is_refused_and_the_right_one_may_be_called_otherwise(
     status, said = verify(capsys, "--scene", "elsewhere.xml", "--sample", "1")
     assert status == 0
     assert "renderer: made with NVIDIA " in said
-    assert "promised is the motion of whatever no picture steers" in said
+    assert "promised is the motion of whatever no image steers" in said
     assert "processor: made with abacus, replayed with" in said
 
 

@@ -1,4 +1,4 @@
-"""Pictures and the law of visibility, laid out."""
+"""Images and the law of visibility, laid out."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ import pytest
 from matplotlib.text import Text
 
 from paper.figures import (
+    image_grid,
+    image_with_inset,
     largest_deviation,
-    picture_grid,
-    picture_with_inset,
     visibility,
     visibility_over_distance,
     visibility_over_fog,
 )
 from uwsim.analysis.plots import save_plot
 
-PICTURE = np.full((24, 32, 3), 90, np.uint8)
+IMAGE = np.full((24, 32, 3), 90, np.uint8)
 
 
 def test_the_papers_own_numbers_do_not_fit_its_formula() -> None:
@@ -28,15 +28,15 @@ def test_the_papers_own_numbers_do_not_fit_its_formula() -> None:
     assert visibility(0.0, 1.0) == 0.0
 
 
-def test_a_grid_has_a_letter_and_a_caption_for_every_picture() -> None:
-    figure = picture_grid([PICTURE] * 5, [f"fog {i}" for i in range(5)], columns=3)
+def test_a_grid_has_a_letter_and_a_caption_for_every_image() -> None:
+    figure = image_grid([IMAGE] * 5, [f"fog {i}" for i in range(5)], columns=3)
     words = [text.get_text() for text in figure.findobj(Text)]
     assert "(e) fog 4" in words
     assert len(figure.axes) == 6
 
 
 def test_an_inset_keeps_its_shape_and_lies_inside() -> None:
-    figure = picture_with_inset(np.zeros((60, 80, 3), np.uint8), PICTURE, share=0.4)
+    figure = image_with_inset(np.zeros((60, 80, 3), np.uint8), IMAGE, share=0.4)
     box = figure.axes[1].get_position()
     width, height = figure.get_size_inches()
     assert box.x1 < 1

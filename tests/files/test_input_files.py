@@ -12,7 +12,7 @@ READERS = ("assets/loaders", "currents", "dialect", "physics", "scene", "simulat
 """What reads the files that a scene or a benchmark names."""
 OTHERWISE = {
     "assets/loaders/by_trimesh.py: read_bytes",  # what osgconv made of a file that is recorded
-    "assets/loaders/looks.py: open",  # a picture, of bytes that were read and recorded
+    "assets/loaders/looks.py: open",  # an image, of bytes that were read and recorded
     "physics/vehicle_file.py: open",  # only lists names for an error message
 }
 

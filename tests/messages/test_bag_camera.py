@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.bags import IMAGE, INFO, KINDS, picture, write_bag
+from tests.bags import IMAGE, INFO, KINDS, sample_pixels, write_bag
 from uwsim.errors import AssetError, UnknownName
 from uwsim.messages import Time
 from uwsim.messages.bag_camera import Recording, camera_info
@@ -21,25 +21,25 @@ def open_bag(path: Path, image: str = IMAGE, info: str = INFO) -> Recording:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_pictures_come_in_their_order_with_the_time_recorded(tmp_path: Path, kind: str) -> None:
-    path = write_bag(tmp_path, kind, [(time, picture(i)) for i, time in enumerate(TIMES)])
+def test_images_come_in_their_order_with_the_time_recorded(tmp_path: Path, kind: str) -> None:
+    path = write_bag(tmp_path, kind, [(time, sample_pixels(i)) for i, time in enumerate(TIMES)])
     recording = open_bag(path)
     assert recording.gap == 100_000_000
     for _ in range(2):  # it can be gone through again
         frames = list(recording.frames())
         assert [frame.time for frame in frames] == [0, 100_000_000, 250_000_000]
         for i, frame in enumerate(frames):
-            seen = frame.picture()
-            assert np.array_equal(seen.pixels, picture(i))
+            seen = frame.decode()
+            assert np.array_equal(seen.pixels, sample_pixels(i))
             assert (seen.frame_id, seen.is_blue_first) == ("bow", False)
     recording.close()
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_picture_has_the_newest_info_by_then_and_the_first_before_it(
+def test_an_image_has_the_newest_info_by_then_and_the_first_before_it(
     tmp_path: Path, kind: str
 ) -> None:
-    recording = open_bag(write_bag(tmp_path, kind, [(time, picture(0)) for time in TIMES]))
+    recording = open_bag(write_bag(tmp_path, kind, [(time, sample_pixels(0)) for time in TIMES]))
     stamp = Time(sec=3, nanosec=5)
     infos = [camera_info(frame.info, stamp=stamp, frame_id="bow") for frame in recording.frames()]
     recording.close()
@@ -53,7 +53,7 @@ def test_a_picture_has_the_newest_info_by_then_and_the_first_before_it(
 
 @pytest.mark.parametrize("file", ["dive_0.mcap", "dive.mcap"])
 def test_a_storage_file_is_read_without_its_folder(tmp_path: Path, file: str) -> None:
-    folder = write_bag(tmp_path, "mcap", [(time, picture(0)) for time in TIMES])
+    folder = write_bag(tmp_path, "mcap", [(time, sample_pixels(0)) for time in TIMES])
     found = next(folder.glob("*.mcap"))
     moved = found.rename(tmp_path / file)
     recording = open_bag(moved)
@@ -78,12 +78,12 @@ def test_every_encoding_is_turned_to_red_first_or_grey(
     tmp_path: Path, encoding: str, order: list[int] | None, padding: int
 ) -> None:
     like = {"8UC1": "mono8", "8UC3": "bgr8"}.get(encoding, encoding)
-    stored = picture(9, like)
+    stored = sample_pixels(9, like)
     path = write_bag(
         tmp_path, "mcap", [(0.0, stored), (0.1, stored)], encoding=encoding, padding=padding
     )
     recording = open_bag(path)
-    seen = recording.first.picture()
+    seen = recording.first.decode()
     recording.close()
     assert np.array_equal(seen.pixels, stored if order is None else stored[..., order])
     assert seen.is_blue_first is (order == [2, 1, 0])
@@ -91,8 +91,8 @@ def test_every_encoding_is_turned_to_red_first_or_grey(
 
 @pytest.mark.parametrize("kind", ["ros1", "mcap"])
 @pytest.mark.parametrize("grey", [False, True])
-def test_compressed_pictures_are_unpacked(tmp_path: Path, kind: str, grey: bool) -> None:
-    stored = picture(9, "mono8" if grey else "bgr8")  # imencode takes blue first
+def test_compressed_images_are_unpacked(tmp_path: Path, kind: str, grey: bool) -> None:
+    stored = sample_pixels(9, "mono8" if grey else "bgr8")  # imencode takes blue first
     path = write_bag(
         tmp_path,
         kind,
@@ -100,14 +100,14 @@ def test_compressed_pictures_are_unpacked(tmp_path: Path, kind: str, grey: bool)
         image_type="sensor_msgs/msg/CompressedImage",
     )
     recording = open_bag(path)
-    seen = recording.first.picture().pixels
+    seen = recording.first.decode().pixels
     recording.close()
     assert np.array_equal(seen, stored if grey else stored[..., ::-1])
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_topic_that_is_not_there_names_the_nearest(tmp_path: Path, kind: str) -> None:
-    path = write_bag(tmp_path, kind, [(time, picture(0)) for time in TIMES])
+    path = write_bag(tmp_path, kind, [(time, sample_pixels(0)) for time in TIMES])
     with pytest.raises(UnknownName, match=r"Did you mean '/camera/image_raw'"):
         open_bag(path, image="/camera/image_rw")
     with pytest.raises(UnknownName, match=r"Did you mean '/camera/camera_info'"):
@@ -116,7 +116,10 @@ def test_a_topic_that_is_not_there_names_the_nearest(tmp_path: Path, kind: str) 
 
 def test_a_topic_of_another_type_is_refused(tmp_path: Path) -> None:
     path = write_bag(
-        tmp_path, "ros1", [(time, picture(0)) for time in TIMES], image_type="std_msgs/msg/String"
+        tmp_path,
+        "ros1",
+        [(time, sample_pixels(0)) for time in TIMES],
+        image_type="std_msgs/msg/String",
     )
     with pytest.raises(AssetError, match="carries std_msgs/msg/String; expected sensor_msgs"):
         open_bag(path)
@@ -126,25 +129,29 @@ def test_a_topic_of_another_type_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("times", [(), (0.0,), (0.5, 0.5)])
 def test_a_recording_without_spacing_is_refused(tmp_path: Path, times: tuple[float, ...]) -> None:
-    path = write_bag(tmp_path, "ros1", [(time, picture(0)) for time in times])
-    with pytest.raises(AssetError, match=r"no two pictures at different times|has no messages"):
+    path = write_bag(tmp_path, "ros1", [(time, sample_pixels(0)) for time in times])
+    with pytest.raises(AssetError, match=r"no two images at different times|has no messages"):
         open_bag(path)
 
 
 def test_a_camera_without_any_info_is_refused(tmp_path: Path) -> None:
-    path = write_bag(tmp_path, "mcap", [(t, picture(0)) for t in TIMES], with_info=False)
+    path = write_bag(tmp_path, "mcap", [(t, sample_pixels(0)) for t in TIMES], with_info=False)
     with pytest.raises(AssetError, match="'/camera/camera_info' of dive has no messages"):
         open_bag(path)
 
 
 def test_an_encoding_that_is_not_read_is_refused_with_those_that_are(tmp_path: Path) -> None:
-    path = write_bag(tmp_path, "mcap", [(t, picture(0)) for t in TIMES], encoding="bayer_rggb8")
-    with pytest.raises(AssetError, match=r"Picture 1 of .* as 'bayer_rggb8'; expected one of mono"):
+    path = write_bag(
+        tmp_path, "mcap", [(t, sample_pixels(0)) for t in TIMES], encoding="bayer_rggb8"
+    )
+    with pytest.raises(AssetError, match=r"Image 1 of .* as 'bayer_rggb8'; expected one of mono"):
         open_bag(path)
 
 
 def test_pixels_that_do_not_fit_the_size_are_refused(tmp_path: Path) -> None:
-    path = write_bag(tmp_path, "mcap", [(t, picture(0, "mono8")) for t in TIMES], encoding="rgb8")
+    path = write_bag(
+        tmp_path, "mcap", [(t, sample_pixels(0, "mono8")) for t in TIMES], encoding="rgb8"
+    )
     with pytest.raises(AssetError, match="says 5x4 pixels of 3 bytes in rows of 5, and holds 20"):
         open_bag(path)
 
@@ -162,7 +169,9 @@ def test_a_file_that_is_no_bag_is_one_clean_error(
 
 
 def test_a_bag_that_was_cut_off_is_one_clean_error(tmp_path: Path) -> None:
-    whole = write_bag(tmp_path, "ros1", [(0.1 * i, picture(i)) for i in range(20)]).read_bytes()
+    whole = write_bag(
+        tmp_path, "ros1", [(0.1 * i, sample_pixels(i)) for i in range(20)]
+    ).read_bytes()
     for length in range(20, len(whole), len(whole) // 12):
         path = tmp_path / f"cut{length}.bag"
         path.write_bytes(whole[:length])
@@ -171,7 +180,7 @@ def test_a_bag_that_was_cut_off_is_one_clean_error(tmp_path: Path) -> None:
 
 
 def test_a_recordings_folder_holds_its_own_files_alone(tmp_path: Path) -> None:
-    folder = write_bag(tmp_path, "mcap", [(time, picture(0)) for time in TIMES])
+    folder = write_bag(tmp_path, "mcap", [(time, sample_pixels(0)) for time in TIMES])
     storage = next(folder.glob("*.mcap"))
     elsewhere = storage.rename(tmp_path / "elsewhere.mcap")
     storage.symlink_to(elsewhere)

@@ -30,11 +30,13 @@ def lamp(
     return Lamp(world_from_lamp=Pose.from_rpy(position, rpy), **given)  # type: ignore[arg-type]
 
 
-def shot(renderer: Renderer, *lamps: Lamp, water: Water = DRY, light: Light = DARK) -> np.ndarray:
+def rendered(
+    renderer: Renderer, *lamps: Lamp, water: Water = DRY, light: Light = DARK
+) -> np.ndarray:
     """What the camera at the origin sees, (h, w, 3), 0..1."""
-    picture = renderer.draw(HERE, CAMERA, water, light, targets=COLOUR, lamps=lamps)
-    assert picture.colour is not None
-    return picture.colour / 255.0
+    image = renderer.draw(HERE, CAMERA, water, light, targets=COLOUR, lamps=lamps)
+    assert image.colour is not None
+    return image.colour / 255.0
 
 
 def points_on(depth: float) -> np.ndarray:
@@ -48,7 +50,7 @@ def test_a_plate_that_faces_the_lamp_is_as_bright_as_the_law_says(
 ) -> None:
     renderer.place(renderer.add(plate(40.0, 40.0, GREY), 1), placed(z=-distance))
     bright = lamp(colour=(1.0, 0.9, 0.5), intensity=0.7)
-    centre = shot(renderer, bright)[59:61, 79:81].mean(axis=(0, 1))
+    centre = rendered(renderer, bright)[59:61, 79:81].mean(axis=(0, 1))
     law = np.array(GREY) * [1.0, 0.9, 0.5] * 0.7 / distance**2
     assert centre == pytest.approx(np.minimum(law, 1.0), abs=1.0 / 255.0)
 
@@ -72,7 +74,7 @@ def test_every_pixel_follows_the_law_through_the_water(
     facing = np.tile([0.0, 0.0, 1.0], (len(points), 1))
     lit = np.array(GREY) * bright.light(points, facing, water.attenuation)
     law = apply_water(lit, np.linalg.norm(points, axis=1), points[:, 2], water)
-    seen = shot(renderer, bright, water=water).reshape(-1, 3)
+    seen = rendered(renderer, bright, water=water).reshape(-1, 3)
     assert np.abs(seen - np.clip(law, 0.0, 1.0)).max() <= 1.01 / 255.0
     assert np.ptp(law) > 0.1
 
@@ -81,52 +83,52 @@ def test_the_water_takes_its_share_on_the_lamps_way_too(renderer: Renderer) -> N
     renderer.place(renderer.add(plate(40.0, 40.0), 1), placed(z=-1.0))
     water = Water(fog=0.0, attenuation=(0.6, 0.3, 0.0), colour=(0.0, 0.0, 0.0))
     far = lamp((0.0, 0.0, 1.0), intensity=2.0)  # 2 m from the plate, the camera 1 m
-    centre = shot(renderer, far, water=water)[60, 80]
+    centre = rendered(renderer, far, water=water)[60, 80]
     law = 2.0 / 4.0 * np.exp(-np.array([0.6, 0.3, 0.0]) * (2.0 + 2.0 * 1.0))
     assert centre == pytest.approx(law, abs=1.0 / 255.0)
 
 
 def test_outside_its_cone_and_behind_it_there_is_no_light(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(40.0, 40.0), 1), placed(z=-2.0))
-    narrow = shot(renderer, lamp(half_angle=math.radians(10.0), softness=0.0, intensity=3.0))
+    narrow = rendered(renderer, lamp(half_angle=math.radians(10.0), softness=0.0, intensity=3.0))
     angle = np.arctan(np.linalg.norm(CAMERA.rays()[..., :2], axis=2))
     inside = angle < math.radians(10.0)
     assert narrow[inside & (angle < math.radians(9.5))].min() > 0.5
     assert narrow[~inside & (angle > math.radians(10.5))].max() == 0.0
-    assert shot(renderer, lamp(rpy=(math.pi, 0.0, 0.0), intensity=9.0)).max() == 0.0
+    assert rendered(renderer, lamp(rpy=(math.pi, 0.0, 0.0), intensity=9.0)).max() == 0.0
 
 
 def test_what_turns_its_back_to_the_lamp_stays_dark(renderer: Renderer) -> None:
     renderer.place(renderer.add(ball(0.5), 1), placed(z=-2.0))
     behind = lamp((0.0, 0.0, -5.0), (math.pi, 0.0, 0.0), intensity=9.0, casts_shadow=False)
-    assert shot(renderer, behind)[45:75, 65:95].max() == 0.0
+    assert rendered(renderer, behind)[45:75, 65:95].max() == 0.0
 
 
 def test_the_back_of_a_two_sided_plate_is_lit_as_a_front(renderer: Renderer) -> None:
-    pictures = []
+    images = []
     for roll in (0.0, np.pi):
         handle = renderer.add(plate(9.0, 9.0, GREY, two_sided=True), 1)
         renderer.place(handle, Pose.from_rpy((0.0, 0.0, -2.0), (roll, 0.0, 0.0)).matrix)
-        pictures.append(shot(renderer, lamp((0.3, 0.0, 0.0), intensity=3.0)))
+        images.append(rendered(renderer, lamp((0.3, 0.0, 0.0), intensity=3.0)))
         renderer.remove(handle)
-    assert pictures[0] == pytest.approx(pictures[1], abs=1.01 / 255.0)
-    assert pictures[0][60, 80].min() > 0.2
+    assert images[0] == pytest.approx(images[1], abs=1.01 / 255.0)
+    assert images[0][60, 80].min() > 0.2
 
 
 def test_the_light_of_four_lamps_adds_up(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(40.0, 40.0), 1), placed(z=-2.0))
     lamps = [lamp((x, 0.1, 0.0), intensity=0.5 + 0.2 * x) for x in (-0.6, -0.2, 0.2, 0.6)]
-    alone = sum(shot(renderer, each) for each in lamps)
-    assert np.abs(shot(renderer, *lamps) - alone).max() <= 2.5 / 255.0
+    alone = sum(rendered(renderer, each) for each in lamps)
+    assert np.abs(rendered(renderer, *lamps) - alone).max() <= 2.5 / 255.0
     with pytest.raises(ValueError, match="5 lamps are more than 4"):
-        shot(renderer, *lamps, lamps[0])
+        rendered(renderer, *lamps, lamps[0])
 
 
 def test_a_lamp_adds_to_the_suns_light(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(40.0, 40.0, GREY), 1), placed(z=-2.0))
     day, night = Light(), DARK
-    added = shot(renderer, lamp(), light=day) - shot(renderer, light=day)
-    assert added == pytest.approx(shot(renderer, lamp(), light=night), abs=1.6 / 255.0)
+    added = rendered(renderer, lamp(), light=day) - rendered(renderer, light=day)
+    assert added == pytest.approx(rendered(renderer, lamp(), light=night), abs=1.6 / 255.0)
 
 
 def test_without_lamps_the_bytes_are_those_before_a_lamp_shone(renderer: Renderer) -> None:

@@ -25,16 +25,16 @@ def lamp(x: float = 0.0, y: float = 0.0, **numbers: object) -> Lamp:
     return Lamp(world_from_lamp=Pose.from_rpy((x, y, 2.0), (0.0, 0.0, 0.0)), **given)  # type: ignore[arg-type]
 
 
-def shot(renderer: Renderer, *lamps: Lamp, **how: object) -> np.ndarray:
-    picture = renderer.draw(EYE, CAMERA, DRY, DARK, targets={"colour"}, lamps=lamps, **how)  # type: ignore[arg-type]
-    assert picture.colour is not None
-    return picture.colour[..., 0].astype(float)
+def rendered(renderer: Renderer, *lamps: Lamp, **how: object) -> np.ndarray:
+    image = renderer.draw(EYE, CAMERA, DRY, DARK, targets={"colour"}, lamps=lamps, **how)  # type: ignore[arg-type]
+    assert image.colour is not None
+    return image.colour[..., 0].astype(float)
 
 
-def at(picture: np.ndarray, x: float, y: float) -> float:
-    """The picture's value at a point of the floor [m]."""
+def at(image: np.ndarray, x: float, y: float) -> float:
+    """The image's value at a point of the floor [m]."""
     u, v = CAMERA.project(EYE.inverse().transform(np.array([[x, y, 0.0]])))[0]
-    return float(picture[int(v), int(u)])
+    return float(image[int(v), int(u)])
 
 
 @pytest.fixture
@@ -46,8 +46,8 @@ def stage(renderer: Renderer) -> Renderer:
 
 
 def test_in_the_shadow_of_a_box_there_is_no_light(stage: Renderer) -> None:
-    lit = shot(stage, lamp(casts_shadow=False))
-    dark = shot(stage, lamp())
+    lit = rendered(stage, lamp(casts_shadow=False))
+    dark = rendered(stage, lamp())
     # Its upper edge, at z = 1.1, throws the shadow's edge to 0.2 * 2 / 0.9 = 0.444 m.
     for x in (-0.38, -0.3, 0.3, 0.38):
         assert at(dark, x, 0.3) == 0.0, x
@@ -59,8 +59,8 @@ def test_in_the_shadow_of_a_box_there_is_no_light(stage: Renderer) -> None:
 def test_each_of_four_lamps_has_its_own_shadow(stage: Renderer) -> None:
     places = [(-0.6, 0.0), (0.6, 0.0), (0.0, -0.6), (0.0, 0.6)]
     lamps = [lamp(x, y, intensity=0.9) for x, y in places]
-    together = shot(stage, *lamps)
-    alone_of = [shot(stage, each) for each in lamps]
+    together = rendered(stage, *lamps)
+    alone_of = [rendered(stage, each) for each in lamps]
     assert np.abs(together - np.minimum(sum(alone_of), 255.0)).max() <= 2.5
     for n, (x, y) in enumerate(places):
         assert at(alone_of[n], -x, -y) == 0.0  # as far again beyond the box
@@ -77,54 +77,56 @@ def test_what_a_lamp_shines_on_has_no_acne(renderer: Renderer) -> None:
     bare = Lamp(
         world_from_lamp=EYE, half_angle=math.radians(45.0), intensity=9.0, casts_shadow=False
     )
-    change = shot(renderer, bare) - shot(renderer, aside)  # all that is seen from there is lit
+    change = rendered(renderer, bare) - rendered(
+        renderer, aside
+    )  # all that is seen from there is lit
     assert (change > 8.0).mean() < 0.004
 
 
 def test_a_round_body_under_a_lamp_has_no_acne(renderer: Renderer) -> None:
     renderer.place(renderer.add(ball(0.5), 1), placed(*EYE.transform(np.array([[0, 0, -1.5]]))[0]))
-    pictures = [
-        shot(
+    images = [
+        rendered(
             renderer,
             Lamp(world_from_lamp=EYE, half_angle=0.4, intensity=9.0, casts_shadow=casts),
         )
         for casts in (True, False)
     ]
-    assert pictures[1].max() > 100.0
-    assert (np.abs(pictures[0] - pictures[1]) > 4.0).sum() <= 1
+    assert images[1].max() > 100.0
+    assert (np.abs(images[0] - images[1]) > 4.0).sum() <= 1
 
 
 @pytest.mark.parametrize("height", [0.1, 0.3])
 def test_grazing_light_has_no_acne(renderer: Renderer, height: float) -> None:
     renderer.place(renderer.add(plate(20.0, 20.0), 1), placed())
     low = Pose.from_rpy((0.0, -1.0, height), (math.radians(80.0), 0.0, 0.0))
-    pictures = [
-        shot(
+    images = [
+        rendered(
             renderer,
             Lamp(world_from_lamp=low, half_angle=1.2, intensity=9.0, casts_shadow=casts),
         )
         for casts in (True, False)
     ]
-    assert pictures[1].max() > 100.0
-    assert np.abs(pictures[0] - pictures[1]).max() <= 1.0
+    assert images[1].max() > 100.0
+    assert np.abs(images[0] - images[1]).max() <= 1.0
 
 
 def test_terrain_and_great_things_cast_lamplight_shadows(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(20.0, 20.0), 1), placed())
     renderer.place(renderer.add(block((12.0, 12.0, 0.1)), 2), placed(y=6.5, z=1.0))
-    assert at(shot(renderer, lamp()), 0.0, 1.2) == 0.0
+    assert at(rendered(renderer, lamp()), 0.0, 1.2) == 0.0
 
 
 def test_a_lamps_own_housing_does_not_shade_it(stage: Renderer) -> None:
-    alone = shot(stage, lamp())
+    alone = rendered(stage, lamp())
     stage.place(stage.add(plate(0.3, 0.3, two_sided=True), 3), placed(z=1.95))
-    assert at(shot(stage, lamp()), 0.6, 0.6) == at(alone, 0.6, 0.6) > 50.0
+    assert at(rendered(stage, lamp()), 0.6, 0.6) == at(alone, 0.6, 0.6) > 50.0
 
 
 def test_hidden_ids_cast_no_lamplight_shadow(stage: Renderer) -> None:
-    hidden = shot(stage, lamp(), hidden=frozenset({2}))
+    hidden = rendered(stage, lamp(), hidden=frozenset({2}))
     assert at(hidden, 0.3, 0.3) > 100.0
-    assert at(shot(stage, lamp()), 0.3, 0.3) == 0.0
+    assert at(rendered(stage, lamp()), 0.3, 0.3) == 0.0
 
 
 def test_a_map_is_drawn_anew_only_when_something_moved(stage: Renderer) -> None:
@@ -133,7 +135,7 @@ def test_a_map_is_drawn_anew_only_when_something_moved(stage: Renderer) -> None:
 
     def maps_drawn(*shining: Lamp) -> int:
         before = 0 if stage._lamps is None else stage._lamps.n_drawn
-        shot(stage, *shining)
+        rendered(stage, *shining)
         assert stage._lamps is not None
         return stage._lamps.n_drawn - before
 
@@ -146,10 +148,10 @@ def test_a_map_is_drawn_anew_only_when_something_moved(stage: Renderer) -> None:
 
 
 def test_the_shadow_follows_lamp_and_box(stage: Renderer) -> None:
-    first = shot(stage, lamp())
-    assert not np.array_equal(first, shot(stage, lamp(0.3)))
+    first = rendered(stage, lamp())
+    assert not np.array_equal(first, rendered(stage, lamp(0.3)))
     body = stage.add(ball(0.2), 3)
     stage.place(body, placed(x=0.6, z=0.8))
-    assert not np.array_equal(first, shot(stage, lamp()))
+    assert not np.array_equal(first, rendered(stage, lamp()))
     stage.remove(body)
-    assert np.array_equal(first, shot(stage, lamp()))
+    assert np.array_equal(first, rendered(stage, lamp()))

@@ -83,7 +83,7 @@ def test_black_and_white_clip_instead_of_wrapping() -> None:
     assert (black == 0).mean() == pytest.approx(0.5, abs=0.06)
 
 
-def test_without_noise_the_picture_is_rounded_to_nearest() -> None:
+def test_without_noise_the_image_is_rounded_to_nearest() -> None:
     ramp = np.arange(65536, dtype=np.uint16).reshape(256, 256)
-    picture = add_noise(np.repeat(ramp[..., None], 4, axis=2), 0.0, stream(10, "n"))
-    assert np.array_equal(picture[..., 1], np.floor(ramp / 257.0 + 0.5).astype(np.uint8))
+    image = add_noise(np.repeat(ramp[..., None], 4, axis=2), 0.0, stream(10, "n"))
+    assert np.array_equal(image[..., 1], np.floor(ramp / 257.0 + 0.5).astype(np.uint8))

@@ -12,7 +12,7 @@ from uwsim.assets import painted
 from uwsim.assets.mesh import Model, Texture
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.lamp import Lamp
-from uwsim.rendering.renderer import Picture, Renderer
+from uwsim.rendering.renderer import RenderedImage, Renderer
 from uwsim.rendering.water import Light, Water
 
 EYE = Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))  # looks along -z
@@ -26,14 +26,14 @@ def at(depth: float, aside: float = 0.0) -> np.ndarray:
     return Pose.from_rpy((aside, 0.0, -depth), (0.0, 0.0, 0.0)).matrix
 
 
-def look(renderer: Renderer, **arguments: object) -> Picture:
+def look(renderer: Renderer, **arguments: object) -> RenderedImage:
     given = {"water": AIR, "light": NO_SHADOW} | arguments
     return renderer.draw(EYE, LENS, **given)  # type: ignore[arg-type]
 
 
-def middle(picture: Picture) -> np.ndarray:
-    assert picture.colour is not None
-    return picture.colour[24, 32].astype(float)
+def middle(image: RenderedImage) -> np.ndarray:
+    assert image.colour is not None
+    return image.colour[24, 32].astype(float)
 
 
 def of_one(model: Model, **arguments: object) -> np.ndarray:
@@ -80,11 +80,11 @@ def test_a_pane_is_what_a_range_finder_meets_first(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(4, 4, GREEN), 1), at(3.0))
     renderer.place(renderer.add(painted(plate(4, 4), (*RED, 0.3)), 2), at(2.0))
     for targets in ({"range", "ids"}, {"colour", "range", "ids"}):
-        picture = look(renderer, targets=targets)
-        assert picture.ids is not None
-        assert picture.range is not None
-        assert picture.ids[24, 32] == 2
-        assert picture.range[24, 32] == pytest.approx(2.0, abs=0.01)
+        image = look(renderer, targets=targets)
+        assert image.ids is not None
+        assert image.range is not None
+        assert image.ids[24, 32] == 2
+        assert image.range[24, 32] == pytest.approx(2.0, abs=0.01)
 
 
 def test_a_pane_behind_a_wall_is_not_seen(renderer: Renderer) -> None:
@@ -117,16 +117,16 @@ def test_glass_casts_no_shadow(renderer: Renderer) -> None:
     assert lit(painted(plate(1, 1), (*RED, 1.0))).sum() < 0.8 * clear.sum()
 
 
-def test_the_next_picture_knows_nothing_of_the_glass_in_the_last(renderer: Renderer) -> None:
+def test_the_next_image_knows_nothing_of_the_glass_in_the_last(renderer: Renderer) -> None:
     handle = renderer.add(painted(plate(4, 4), (*RED, 0.5)), 1)
     renderer.place(handle, at(2.0))
     look(renderer)
     renderer.remove(handle)
     renderer.place(renderer.add(plate(4, 4, GREEN), 2), at(2.0))
-    picture = look(renderer)
-    assert middle(picture) == pytest.approx(of_one(plate(4, 4, GREEN)))
-    assert picture.ids is not None
-    assert picture.ids[24, 32] == 2
+    image = look(renderer)
+    assert middle(image) == pytest.approx(of_one(plate(4, 4, GREEN)))
+    assert image.ids is not None
+    assert image.ids[24, 32] == 2
 
 
 def test_paint_takes_the_place_of_a_meshs_colour_and_tints_its_texture() -> None:

@@ -1,4 +1,4 @@
-"""What a picture shows: where, how far, whose, and nothing else."""
+"""What an image shows: where, how far, whose, and nothing else."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ def test_a_point_lands_where_the_pinhole_says(
     dot = renderer.add(plate(0.06, 0.06), 7)
     world_from_dot = Pose(view.transform(point[None])[0], view.rotation)
     renderer.place(dot, world_from_dot.matrix)
-    picture = renderer.draw(view, camera, DRY, Light(), targets=IDS)
-    assert picture.ids is not None
-    rows, columns = np.nonzero(picture.ids == 7)
+    image = renderer.draw(view, camera, DRY, Light(), targets=IDS)
+    assert image.ids is not None
+    rows, columns = np.nonzero(image.ids == 7)
     seen = columns.mean() + 0.5, rows.mean() + 0.5
     assert seen == pytest.approx(tuple(camera.project(point[None])[0]), abs=0.5)
 
@@ -48,26 +48,26 @@ def test_range_is_the_distance_along_the_ray_to_a_slanted_plane(
 ) -> None:
     plane = Pose.from_rpy((0.3, -0.2, -5.0), (0.4, -0.3, 0.0))
     renderer.place(renderer.add(plate(60.0, 60.0), 1), plane.matrix)
-    picture = renderer.draw(HERE, camera, DRY, Light(), targets={"range"})
+    image = renderer.draw(HERE, camera, DRY, Light(), targets={"range"})
     normal, rays = plane.rotation[:, 2], camera.rays()
     depth = (normal @ plane.position) / (rays @ normal)  # (h, w) [m]
-    assert picture.range == pytest.approx(depth * np.linalg.norm(rays, axis=2), rel=1e-4, abs=1e-4)
-    assert picture.depth == pytest.approx(depth, rel=1e-4)
+    assert image.range == pytest.approx(depth * np.linalg.norm(rays, axis=2), rel=1e-4, abs=1e-4)
+    assert image.depth == pytest.approx(depth, rel=1e-4)
 
 
 def test_range_is_right_far_from_the_worlds_origin(renderer: Renderer) -> None:
     far_away = Pose.from_rpy((3000.0, -4000.0, -20.0), (0.0, 0.0, 0.7))
     renderer.place(renderer.add(plate(60.0, 60.0), 1), far_away.matrix @ placed(z=-3.0))
-    picture = renderer.draw(far_away, CAMERA, DRY, Light(), targets={"range"})
-    assert picture.depth == pytest.approx(3.0, rel=1e-4)
+    image = renderer.draw(far_away, CAMERA, DRY, Light(), targets={"range"})
+    assert image.depth == pytest.approx(3.0, rel=1e-4)
 
 
 def test_only_what_is_asked_for_is_handed_over(renderer: Renderer) -> None:
-    picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"ids"})
-    assert picture.colour is None
-    assert picture.range is None
+    image = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"ids"})
+    assert image.colour is None
+    assert image.range is None
     with pytest.raises(ValueError, match="without its range"):
-        _ = picture.depth
+        _ = image.depth
 
 
 @pytest.mark.parametrize("targets", [{"colour"}, {"range"}, {"ids"}, {"colour", "ids"}])
@@ -88,18 +88,18 @@ def test_the_nearer_thing_hides_the_farther_whatever_their_order(renderer: Rende
     renderer.place(renderer.add(plate(0.5, 0.5), 1), placed(z=-2.0))
     renderer.place(renderer.add(plate(9.0, 9.0), 2), placed(z=-3.0))
     renderer.place(renderer.add(plate(0.1, 0.1), 3), placed(z=-3.5))
-    picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS)
-    assert picture.ids is not None
-    assert picture.ids[60, 80] == 1
-    assert picture.ids[0, 0] == 2
-    assert not (picture.ids == 3).any()
+    image = renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS)
+    assert image.ids is not None
+    assert image.ids[60, 80] == 1
+    assert image.ids[0, 0] == 2
+    assert not (image.ids == 3).any()
 
 
 def test_the_top_row_is_the_top_of_the_world(renderer: Renderer) -> None:
     renderer.place(renderer.add(block((0.2, 0.2, 0.2)), 1), placed(x=0.5, y=0.5, z=-2.0))
-    picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS)
-    assert picture.ids is not None
-    rows, columns = np.nonzero(picture.ids)
+    image = renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS)
+    assert image.ids is not None
+    rows, columns = np.nonzero(image.ids)
     assert rows.max() < 60
     assert columns.min() > 80
 
@@ -115,23 +115,23 @@ def test_back_faces_are_not_drawn_unless_asked_for(renderer: Renderer) -> None:
 
 
 def test_the_back_of_a_two_sided_plate_is_lit_as_a_front(renderer: Renderer) -> None:
-    pictures = []
+    images = []
     for roll in (0.0, np.pi):
         handle = renderer.add(plate(9.0, 9.0, (0.6, 0.6, 0.6), two_sided=True), 1)
         renderer.place(handle, Pose.from_rpy((0.0, 0.0, -2.0), (roll, 0.0, 0.0)).matrix)
-        picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
-        assert picture.colour is not None
-        pictures.append(picture.colour.astype(int))
+        image = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
+        assert image.colour is not None
+        images.append(image.colour.astype(int))
         renderer.remove(handle)
-    assert np.abs(pictures[0] - pictures[1]).max() <= 1
-    assert pictures[0].min() > 255.0 * AMBIENT * 0.6 + 20.0  # the sun reaches it
+    assert np.abs(images[0] - images[1]).max() <= 1
+    assert images[0].min() > 255.0 * AMBIENT * 0.6 + 20.0  # the sun reaches it
 
 
 def test_a_mirroring_matrix_does_not_turn_a_body_inside_out(renderer: Renderer) -> None:
     body = renderer.add(block((1.0, 1.0, 1.0)), 1)
     renderer.place(body, placed(z=-3.0) @ np.diag([-1.0, 1.0, 1.0, 1.0]))
-    picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"range"})
-    assert picture.depth[60, 80] == pytest.approx(2.5, rel=1e-4)
+    image = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"range"})
+    assert image.depth[60, 80] == pytest.approx(2.5, rel=1e-4)
 
 
 def test_uneven_scale_turns_normals_the_right_way(renderer: Renderer) -> None:
@@ -141,15 +141,15 @@ def test_uneven_scale_turns_normals_the_right_way(renderer: Renderer) -> None:
     steep = np.eye(4)
     steep[:3, :3] = rotation_from_rpy(0.0, np.arctan(1.0), 0.0)
     squeezed = np.diag([1.0, 1.0, 0.5, 1.0]) @ steep
-    pictures = []
+    images = []
     for matrix in (slant, squeezed):
         handle = renderer.add(plate(9.0, 9.0, (0.6, 0.6, 0.6)), 1)
         renderer.place(handle, placed(z=-3.0) @ matrix)
-        picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
-        assert picture.colour is not None
-        pictures.append(picture.colour[50:70, 70:90].astype(int))
+        image = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
+        assert image.colour is not None
+        images.append(image.colour[50:70, 70:90].astype(int))
         renderer.remove(handle)
-    assert np.abs(pictures[0] - pictures[1]).max() <= 1
+    assert np.abs(images[0] - images[1]).max() <= 1
 
 
 def test_a_texture_stands_upright(renderer: Renderer) -> None:
@@ -158,9 +158,9 @@ def test_a_texture_stands_upright(renderer: Renderer) -> None:
     pixels[32:, :, 2] = 255  # the lower half is blue
     texture = Texture(name="flag", pixels=pixels, repeats=False)
     renderer.place(renderer.add(plate(1.0, 1.0, texture=texture), 1), placed(z=-2.0))
-    picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
-    assert picture.colour is not None
-    above, below = picture.colour[50, 80], picture.colour[70, 80]
+    image = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
+    assert image.colour is not None
+    above, below = image.colour[50, 80], image.colour[70, 80]
     assert above[0] > 100 > above[2]
     assert below[2] > 100 > below[0]
 
@@ -169,18 +169,18 @@ def test_a_texture_far_away_is_averaged_not_sampled(renderer: Renderer) -> None:
     checks = np.indices((256, 256)).sum(axis=0) % 2 * 255
     texture = Texture(name="checks", pixels=np.repeat(checks[..., None], 3, 2).astype(np.uint8))
     renderer.place(renderer.add(plate(2.0, 2.0, texture=texture), 1), placed(z=-5.0))
-    picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
-    assert picture.colour is not None
-    assert picture.colour[55:65, 75:85].astype(float).std() < 2.0
+    image = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
+    assert image.colour is not None
+    assert image.colour[55:65, 75:85].astype(float).std() < 2.0
 
 
 def test_what_leaves_the_view_and_comes_back_is_drawn_again(renderer: Renderer) -> None:
     body = renderer.add(ball(0.3), 1)
     for x, is_seen in ((0.0, True), (9.0, False), (-1.4, True), (-1.9, False), (0.0, True)):
         renderer.place(body, placed(x=x, z=-2.0))
-        picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS)
-        assert picture.ids is not None
-        assert picture.ids.any() == is_seen, x
+        image = renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS)
+        assert image.ids is not None
+        assert image.ids.any() == is_seen, x
 
 
 def test_hidden_ids_are_not_seen_and_cast_no_shadow(renderer: Renderer) -> None:
@@ -204,19 +204,19 @@ def test_what_is_removed_is_gone_and_its_handle_is_no_use(renderer: Renderer) ->
 
 
 @pytest.mark.parametrize("id", [0, 65536])
-def test_an_id_must_fit_the_id_picture(renderer: Renderer, id: int) -> None:
+def test_an_id_must_fit_the_id_image(renderer: Renderer, id: int) -> None:
     with pytest.raises(ValueError, match="is not in 1"):
         renderer.add(ball(0.3), id)
 
 
 def test_the_largest_id_survives(renderer: Renderer) -> None:
     renderer.place(renderer.add(ball(0.3), 65535), placed(z=-2.0))
-    picture = renderer.draw(HERE, CAMERA, DRY, Light())
-    assert picture.ids is not None
-    assert picture.ids[60, 80] == 65535
+    image = renderer.draw(HERE, CAMERA, DRY, Light())
+    assert image.ids is not None
+    assert image.ids[60, 80] == 65535
 
 
-def test_sixteen_bits_round_to_the_eight_bit_picture(renderer: Renderer) -> None:
+def test_sixteen_bits_round_to_the_eight_bit_image(renderer: Renderer) -> None:
     renderer.place(renderer.add(ball(0.5, (0.9, 0.4, 0.2)), 3), placed(z=-2.0))
     eight = renderer.draw(HERE, CAMERA, Water(), Light()).colour
     sixteen = renderer.draw(HERE, CAMERA, Water(), Light(), colour="linear16").colour
@@ -227,7 +227,7 @@ def test_sixteen_bits_round_to_the_eight_bit_picture(renderer: Renderer) -> None
     assert np.abs(sixteen[..., :3] / 257.0 - eight).max() <= 0.5 + 1.0 / 257.0
 
 
-def test_pictures_are_the_callers_own(renderer: Renderer) -> None:
+def test_images_are_the_callers_own(renderer: Renderer) -> None:
     ball_ = renderer.add(ball(0.5), 3)
     renderer.place(ball_, placed(z=-2.0))
     first = renderer.draw(HERE, CAMERA, DRY, Light())
@@ -239,15 +239,15 @@ def test_pictures_are_the_callers_own(renderer: Renderer) -> None:
 
 
 def test_the_same_scene_gives_the_same_bytes() -> None:
-    pictures = []
+    images = []
     for _ in range(2):
         renderer = Renderer()
         renderer.place(renderer.add(ball(0.5, (0.9, 0.4, 0.2)), 3), placed(z=-2.0))
         renderer.place(renderer.add(plate(9.0, 9.0), 4), placed(z=-3.0))
-        pictures.append(renderer.draw(HERE, CAMERA, Water(), Light(), colour="linear16"))
+        images.append(renderer.draw(HERE, CAMERA, Water(), Light(), colour="linear16"))
         renderer.close()
-    assert np.array_equal(pictures[0].colour, pictures[1].colour)  # type: ignore[arg-type]
-    assert np.array_equal(pictures[0].range, pictures[1].range)  # type: ignore[arg-type]
+    assert np.array_equal(images[0].colour, images[1].colour)  # type: ignore[arg-type]
+    assert np.array_equal(images[0].range, images[1].range)  # type: ignore[arg-type]
 
 
 def test_a_mesh_without_normals_is_dark_but_drawn(renderer: Renderer) -> None:
@@ -255,11 +255,11 @@ def test_a_mesh_without_normals_is_dark_but_drawn(renderer: Renderer) -> None:
     bare = replace(whole, normals=np.zeros_like(whole.normals))
     model = Model(name="bare", meshes=(bare,), source="file")
     renderer.place(renderer.add(model, 1), placed(z=-2.0))
-    picture = renderer.draw(HERE, CAMERA, DRY, Light())
-    assert picture.colour is not None
-    assert picture.ids is not None
-    assert picture.ids[60, 80] == 1
-    assert picture.colour[60, 80] == pytest.approx(255.0 * AMBIENT, abs=1.0)
+    image = renderer.draw(HERE, CAMERA, DRY, Light())
+    assert image.colour is not None
+    assert image.ids is not None
+    assert image.ids[60, 80] == 1
+    assert image.colour[60, 80] == pytest.approx(255.0 * AMBIENT, abs=1.0)
 
 
 def test_a_model_is_uploaded_once_however_often_it_is_added() -> None:
@@ -299,9 +299,9 @@ def test_a_scene_may_hold_hundreds_of_things(renderer: Renderer) -> None:
         renderer.place(
             renderer.add(model, n + 1), placed(x=(n % 20 - 9.5) / 5, y=(n // 20 - 7) / 5, z=-4)
         )
-    picture = renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS)
-    assert picture.ids is not None
-    assert len(np.unique(picture.ids)) == 301
+    image = renderer.draw(HERE, CAMERA, DRY, Light(), targets=IDS)
+    assert image.ids is not None
+    assert len(np.unique(image.ids)) == 301
 
 
 def drawn_once(world_from_camera: Pose, water: Water, x: float) -> bytes:
@@ -309,9 +309,9 @@ def drawn_once(world_from_camera: Pose, water: Water, x: float) -> bytes:
     renderer = Renderer()
     try:
         renderer.place(renderer.add(ball(0.5), 3), placed(x=x, z=-4.0))
-        picture = renderer.draw(world_from_camera, CAMERA, water, Light(), targets={"colour"})
-        assert picture.colour is not None
-        return picture.colour.tobytes()
+        image = renderer.draw(world_from_camera, CAMERA, water, Light(), targets={"colour"})
+        assert image.colour is not None
+        return image.colour.tobytes()
     finally:
         renderer.close()
 
@@ -333,13 +333,13 @@ def test_a_view_drawn_ahead_is_the_view_and_never_another(renderer: Renderer) ->
     expected = {(look[2], id(look[0]), look[1].fog): drawn_once(*look) for look in looks}
     for view, water, x in looks:
         renderer.place(thing, placed(x=x, z=-4.0))
-        picture = renderer.draw(view, CAMERA, water, Light(), targets={"colour"})
-        assert picture.colour is not None
-        assert picture.colour.tobytes() == expected[(x, id(view), water.fog)]
+        image = renderer.draw(view, CAMERA, water, Light(), targets={"colour"})
+        assert image.colour is not None
+        assert image.colour.tobytes() == expected[(x, id(view), water.fog)]
     assert len(set(expected.values())) == len(expected)
 
 
-def test_another_picture_between_does_not_disturb_one_drawn_ahead(renderer: Renderer) -> None:
+def test_another_image_between_does_not_disturb_one_drawn_ahead(renderer: Renderer) -> None:
     renderer.place(renderer.add(ball(0.5), 3), placed(z=-4.0))
     aside = Pose.from_rpy((0.3, 0.0, 0.0), (0.0, 0.1, 0.0))
     colour = {"targets": {"colour"}}

@@ -90,10 +90,10 @@ def test_the_shadow_follows_what_moves(renderer: Renderer) -> None:
 
 @pytest.mark.parametrize("sun", ["clear", "dusk"])
 @pytest.mark.parametrize("yaw", [0.0, 0.7, 2.5])
-def test_a_caster_that_is_left_out_throws_no_shadow_into_the_picture(
+def test_a_caster_that_is_left_out_throws_no_shadow_into_the_image(
     renderer: Renderer, monkeypatch: pytest.MonkeyPatch, sun: str, yaw: float
 ) -> None:
-    """Pictures with all casters drawn, and with those that can be seen to matter."""
+    """Images with all casters drawn, and with those that can be seen to matter."""
     renderer.place(renderer.add(plate(30.0, 30.0, (0.8, 0.8, 0.8)), 1), placed())
     random = np.random.default_rng(5)
     for x, y, z in random.uniform([-4.0, -4.0, 0.3], [4.0, 4.0, 2.5], (14, 3)):

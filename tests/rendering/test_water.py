@@ -27,7 +27,7 @@ CAMERA = Intrinsics.from_fovy(64, 48, np.radians(50.0), near=0.05)
 DOWN = Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
-def test_without_attenuation_and_fog_the_picture_is_dry() -> None:
+def test_without_attenuation_and_fog_the_image_is_dry() -> None:
     lit = np.random.default_rng(0).random((5, 7, 3))
     at_the_surface = np.zeros((5, 7))
     seen = apply_water(lit, np.full((5, 7), 9.0), at_the_surface, CLEAR)
@@ -90,18 +90,18 @@ def test_a_grey_plate_matches_the_formula_in_every_channel(
     light = Light(sun="dusk", rate=0.9)
     grey = renderer.add(plate(50.0, 50.0, (0.5, 0.5, 0.5)), 1)
     renderer.place(grey, placed(z=-distance))
-    picture = renderer.draw(DOWN, CAMERA, water, light)
+    image = renderer.draw(DOWN, CAMERA, water, light)
     rays = CAMERA.rays()
     points = rays * distance
     reach = np.linalg.norm(points, axis=2)
-    assert picture.range == pytest.approx(reach, rel=1e-4)
+    assert image.range == pytest.approx(reach, rel=1e-4)
     normal = np.broadcast_to([0.0, 0.0, 1.0], points.shape)
     dry = sunlit(np.array(0.5), normal, -rays / np.linalg.norm(rays, axis=2, keepdims=True), light)
     planar = np.full(reach.shape, distance)
     fog_range = clip_distance(planar, CAMERA) if fog_distance == "clip" else None
     wet = apply_water(dry, reach, points[..., 2], water, fog_range=fog_range)
-    assert picture.colour is not None
-    assert np.abs(picture.colour - 255.0 * wet).max() <= 1.0
+    assert image.colour is not None
+    assert np.abs(image.colour - 255.0 * wet).max() <= 1.0
 
 
 @pytest.mark.parametrize("height", [5.0, 1.0, -2.0, -7.0])  # of the surface, the eye is at 0
@@ -114,7 +114,7 @@ def test_where_there_is_air_only_the_way_under_the_surface_counts(
     )  # fmt: skip
     light = Light()
     renderer.place(renderer.add(plate(50.0, 50.0, (0.5, 0.5, 0.5)), 1), placed(z=-4.0))
-    picture = renderer.draw(DOWN, CAMERA, water, light)
+    image = renderer.draw(DOWN, CAMERA, water, light)
     rays = CAMERA.rays()
     points = rays * 4.0
     normal = np.broadcast_to([0.0, 0.0, 1.0], points.shape)
@@ -124,20 +124,20 @@ def test_where_there_is_air_only_the_way_under_the_surface_counts(
     assert share == pytest.approx(np.full(share.shape, expected))
     way = np.linalg.norm(points, axis=2) * share
     wet = apply_water(dry, way, points[..., 2], water)
-    assert picture.colour is not None
-    assert np.abs(picture.colour - 255.0 * wet).max() <= 1.0
+    assert image.colour is not None
+    assert np.abs(image.colour - 255.0 * wet).max() <= 1.0
 
 
-def test_attenuation_and_fog_at_nought_give_the_dry_picture(renderer: Renderer) -> None:
+def test_attenuation_and_fog_at_nought_give_the_dry_image(renderer: Renderer) -> None:
     grey = renderer.add(plate(50.0, 50.0, (0.25, 0.5, 0.75)), 1)
     renderer.place(grey, placed(z=-4.0))
-    picture = renderer.draw(DOWN, CAMERA, CLEAR, Light(), targets={"colour"})
+    image = renderer.draw(DOWN, CAMERA, CLEAR, Light(), targets={"colour"})
     rays = CAMERA.rays() / np.linalg.norm(CAMERA.rays(), axis=2, keepdims=True)
     normal = np.broadcast_to([0.0, 0.0, 1.0], rays.shape)
     dry = sunlit(np.array([0.25, 0.5, 0.75]), normal, -rays, Light())
     # UWSim's law scatters 0.001 of the water's colour into every metre of depth even then.
-    assert picture.colour is not None
-    assert np.abs(picture.colour - 255.0 * dry).max() <= 1.0
+    assert image.colour is not None
+    assert np.abs(image.colour - 255.0 * dry).max() <= 1.0
 
 
 @pytest.mark.parametrize("fog", [0.0, 0.4])
@@ -145,22 +145,22 @@ def test_pixels_that_hit_nothing_take_the_colour_of_infinity(
     renderer: Renderer, fog: float
 ) -> None:
     water = Water(fog=fog, fog_colour=(0.2, 0.4, 0.6), colour=(0.8, 0.6, 0.4))
-    picture = renderer.draw(DOWN, CAMERA, water, Light())
+    image = renderer.draw(DOWN, CAMERA, water, Light())
     colour = (51, 102, 153) if fog else (204, 153, 102)
-    assert picture.colour is not None
-    assert picture.range is not None
-    assert picture.ids is not None
-    assert (picture.colour == colour).all()
-    assert np.isposinf(picture.range).all()
-    assert np.isposinf(picture.depth).all()
-    assert (picture.ids == 0).all()
+    assert image.colour is not None
+    assert image.range is not None
+    assert image.ids is not None
+    assert (image.colour == colour).all()
+    assert np.isposinf(image.range).all()
+    assert np.isposinf(image.depth).all()
+    assert (image.ids == 0).all()
 
 
 def test_thick_fog_meets_the_background_without_a_seam(renderer: Renderer) -> None:
     far = renderer.add(plate(20.0, 400.0), 1)
     renderer.place(far, placed(x=10.0, z=-60.0))
-    picture = renderer.draw(DOWN, CAMERA, Water(fog=0.2), Light())
-    assert picture.ids is not None
-    assert picture.colour is not None
-    assert set(np.unique(picture.ids)) == {0, 1}
-    assert len(np.unique(picture.colour.reshape(-1, 3), axis=0)) == 1
+    image = renderer.draw(DOWN, CAMERA, Water(fog=0.2), Light())
+    assert image.ids is not None
+    assert image.colour is not None
+    assert set(np.unique(image.ids)) == {0, 1}
+    assert len(np.unique(image.colour.reshape(-1, 3), axis=0)) == 1

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from uwsim.errors import ResultError, UnknownName
-from uwsim.results.result import MOST, Column, ImageStream, Missing, Result, TakenPicture
+from uwsim.results.result import MOST, Column, ImageStream, Missing, Result, SavedImage
 from uwsim.results.result_file import dumps, load, loads, save
 
 COLUMNS = (
@@ -38,7 +38,7 @@ def make(**changes: object) -> Result:
         ),
         facts={"S": [31.25, "grey level"], "f_star": [1.083, "1/m"]},
         image_streams=(ImageStream(seed=7, level=None, topic="/c", frames=120, sha256="ab"),),
-        pictures=(TakenPicture(row=0, camera="c", file="pictures/0.png", truth=(0.0,) * 8),),
+        images=(SavedImage(row=0, camera="c", file="pictures/0.png", truth=(0.0,) * 8),),
     )
     return replace(result, **changes)
 
@@ -67,7 +67,7 @@ def test_the_text_is_that_of_the_design_with_one_row_a_line() -> None:
 
 @given(st.floats(min_value=-MOST, max_value=MOST))
 def test_every_float_of_a_row_survives_the_file_to_the_last_bit(value: float) -> None:
-    result = make(rows=((0.0, value, 0.0, 0.0, "ok", 2.0),), missing=(), pictures=())
+    result = make(rows=((0.0, value, 0.0, 0.0, "ok", 2.0),), missing=(), images=())
     back = loads(dumps(result)).rows[0][1]
     assert isinstance(back, float)
     assert math.copysign(1.0, back) == math.copysign(1.0, value)

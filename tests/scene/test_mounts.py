@@ -71,7 +71,7 @@ def test_the_directions_of_a_vehicle_are_a_sailors(stand: Stand) -> None:
         ("down", "forward"), ("up", "aft"),
     ],
 )  # fmt: skip
-def test_a_camera_looks_where_the_word_says_with_the_top_of_its_picture_as_nodding_leaves_it(
+def test_a_camera_looks_where_the_word_says_with_the_top_of_its_image_as_nodding_leaves_it(
     word: str, top: str, visual: bool, stand: Stand
 ) -> None:
     ahead, up = stand.looks(camera(word), visual=visual)
@@ -214,7 +214,7 @@ def test_a_scene_of_before_july_2014_is_told_the_switch_that_turns_its_cameras(
 
 def test_the_recipes_of_the_conventions_page_look_where_they_say() -> None:
     page = (Path(__file__).parents[2] / "docs" / "conventions.md").read_text()
-    table = page.split("| looks | top of the picture |")[1].split("\n\n")[0].splitlines()[2:]
+    table = page.split("| looks | top of the image |")[1].split("\n\n")[0].splitlines()[2:]
     for row in table:
         looks, top, *columns = (cell.strip() for cell in row.strip("|").split("|"))
         for column, stand in zip(columns, ("z down, L is NED", "z up"), strict=True):

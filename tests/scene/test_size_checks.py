@@ -1,4 +1,4 @@
-"""Pictures and fans of beams have a largest size, which a scene file is held to when it is read."""
+"""Images and fans of beams have a largest size, which a scene file is held to when it is read."""
 
 from __future__ import annotations
 
@@ -39,24 +39,24 @@ def sonar(step: str, kind: str) -> str:
 
 
 @pytest.mark.parametrize("kind", ["virtualCamera", "virtualRangeImage"])
-def test_a_picture_may_have_8k_and_no_more(kind: str, tmp_path: Path) -> None:
+def test_an_image_may_have_8k_and_no_more(kind: str, tmp_path: Path) -> None:
     assert faults(camera(7680, 4320, kind), tmp_path) == []
     assert faults(camera(16384, 16384, kind), tmp_path) == [
-        "a picture of 16384 x 16384 pixels; at most 33 million are drawn"
+        "an image of 16384 x 16384 pixels; at most 33 million are drawn"
     ]
 
 
 def test_so_has_the_window(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text("<UWSimScene><simParams><resw>99999</resw></simParams></UWSimScene>")
-    with pytest.raises(SceneError, match=r"a picture of 99999 x 600 pixels"):
+    with pytest.raises(SceneError, match=r"an image of 99999 x 600 pixels"):
         read_scene(path)
 
 
-def test_all_pictures_together_have_a_largest_size(tmp_path: Path) -> None:
+def test_all_images_together_have_a_largest_size(tmp_path: Path) -> None:
     assert faults(camera(7680, 4320) * 3, tmp_path) == []
     assert faults(camera(7680, 4320) * 5, tmp_path) == [
-        "with this one, the pictures of the scene have 133 million pixels; at most 133 are drawn"
+        "with this one, the images of the scene have 133 million pixels; at most 133 are drawn"
     ]
 
 

@@ -19,7 +19,7 @@ TANK, BLACKBOX = read_scene(SCENE).objects
 BLACKBOX = replace(BLACKBOX, is_solid=None)  # in that scene a ghost, to be looked at
 FLOOR = replace(TANK, physics=PhysicsSpec(mass=0.0, collision_shape_type="trimesh"))
 EDGES = np.array([0.13, 0.433, 0.15])  # of the black box, m
-FLOOR_DEPTH = 4.81  # of the picture on the floor, m
+FLOOR_DEPTH = 4.81  # of the image on the floor, m
 
 
 def box(x: float, y: float, depth: float, mass: float = 10.0, **physics: object) -> ObjectSpec:

@@ -18,7 +18,7 @@ from uwsim.simulation import Simulation
 TANK, BLACKBOX = read_scene(SCENE).objects
 BLACKBOX = replace(BLACKBOX, is_solid=None)  # in that scene a ghost, to be looked at
 FLOOR = replace(TANK, physics=PhysicsSpec(mass=0.0, collision_shape_type="trimesh"))
-FLOOR_DEPTH = 4.81  # of the picture on the floor [m]
+FLOOR_DEPTH = 4.81  # of the image on the floor [m]
 HEIGHT = 0.15  # of the black box [m]
 OFFSET = (math.pi, 0.0, -math.pi / 2.0)
 

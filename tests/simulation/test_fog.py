@@ -25,10 +25,10 @@ def test_a_fog_updater_changes_how_thick_the_fog_is_and_not_its_colour() -> None
     try:
         simulation.world.set_fog(20.0)
         camera = simulation.world.camera("bowtech1")
-        picture = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics)
+        image = simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics)
     finally:
         simulation.close()
     assert simulation.world.fog_colour == colour
-    assert picture.colour is not None
-    middle = picture.colour[120, 160].astype(float) / 255.0
+    assert image.colour is not None
+    middle = image.colour[120, 160].astype(float) / 255.0
     assert middle == pytest.approx(np.array(colour), abs=0.003)

@@ -44,7 +44,9 @@ def night(*lamps: LampSpec, vr: bool = False) -> SceneSpec:
 
 def brightness(simulation: Simulation) -> np.ndarray:
     camera = simulation.world.camera("bowtech1")
-    colour = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics).colour
+    colour = simulation.world.scenery.render_clean(
+        camera.world_from_camera, camera.intrinsics
+    ).colour
     assert colour is not None
     return colour[..., 0].astype(float)
 

@@ -50,14 +50,14 @@ def test_an_exception_of_the_algorithm_is_kept_and_it_is_not_called_again() -> N
 
     def fail(message: String) -> None:
         calls.append(message)
-        raise ValueError("no picture")
+        raise ValueError("no image")
 
     node.subscribe("question", String, fail)
     for _ in range(2):
         bus.publisher("question", String)(String(data="?"))
         bus.deliver()
     assert node.error is not None
-    assert node.error.endswith(": ValueError: no picture")
+    assert node.error.endswith(": ValueError: no image")
     assert len(calls) == 1
 
 

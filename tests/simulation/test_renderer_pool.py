@@ -13,25 +13,25 @@ from uwsim.simulation import RendererPool, Simulation
 SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
 
 
-def pictures(scene: SceneSpec, pool: RendererPool | None) -> list[np.ndarray]:
+def images(scene: SceneSpec, pool: RendererPool | None) -> list[np.ndarray]:
     simulation = Simulation(scene, seed=3, pool=pool)
     camera = simulation.world.camera("bowtech1")
-    exact = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics)
+    exact = simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics)
     assert exact.colour is not None
     assert exact.range is not None
     assert exact.ids is not None
-    seen = [camera.shoot(), exact.colour, exact.range, exact.ids]
+    seen = [camera.capture(), exact.colour, exact.range, exact.ids]
     simulation.close()
     return [array.copy() for array in seen]
 
 
-def test_pictures_are_the_same_whoever_had_the_renderer_before() -> None:
+def test_images_are_the_same_whoever_had_the_renderer_before() -> None:
     scene = read_scene(SCENES / "visibility-scene.xml")
     other = replace(read_scene(SCENES / "currents-scene.xml").nominal, objects=())
     pool = RendererPool()
-    pictures(other, pool)
-    first, second = pictures(scene, pool), pictures(scene, pool)
-    for ours, again, alone in zip(first, second, pictures(scene, None), strict=True):
+    images(other, pool)
+    first, second = images(scene, pool), images(scene, pool)
+    for ours, again, alone in zip(first, second, images(scene, None), strict=True):
         np.testing.assert_array_equal(ours, alone)
         np.testing.assert_array_equal(again, alone)
     pool.close()
@@ -43,8 +43,8 @@ def test_two_simulations_at_once_do_not_see_each_other() -> None:
     emptier = Simulation(replace(scene, objects=scene.objects[:1]), pool=pool)
     whole = Simulation(scene, pool=pool)
     camera = emptier.world.camera("bowtech1")
-    with_all = whole.world.scenery.picture(camera.world_from_camera, camera.intrinsics).ids
-    with_one = emptier.world.scenery.picture(camera.world_from_camera, camera.intrinsics).ids
+    with_all = whole.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics).ids
+    with_one = emptier.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics).ids
     assert with_all is not None
     assert with_one is not None
     assert set(np.unique(with_one)) < set(np.unique(with_all))

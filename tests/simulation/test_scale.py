@@ -103,8 +103,8 @@ def test_a_lamp_hangs_where_the_scale_puts_it(
 
 
 def test_a_camera_sees_the_larger_robot_where_it_is(tmp_path: Path) -> None:
-    """Two bars 1 m ahead, the second of a robot half as large and scaled by two: same picture."""
-    pictures = []
+    """Two bars 1 m ahead, the second of a robot half as large and scaled by two: same image."""
+    images = []
     for size, scale in ((0.2, 1.0), (0.1, 2.0)):
         bar = shape(size=(size, size / 2, size / 4), xyz=f"{size} 0 0", colour="1 0 0 1")
         file = write_robot(tmp_path, f'<link name="base">{bar}</link>', f"{scale:g}.urdf")
@@ -114,11 +114,11 @@ def test_a_camera_sees_the_larger_robot_where_it_is(tmp_path: Path) -> None:
         simulation = begin(scene_of(vehicle))
         pose = Pose.from_rpy((0.0, 0.0, -1.0), (np.pi / 2, 0.0, -np.pi / 2))
         lens = CAMERA.intrinsics()
-        pictures.append(simulation.world.scenery.picture(pose, lens))
+        images.append(simulation.world.scenery.render_clean(pose, lens))
         simulation.close()
-    assert pictures[0].ids is not None
-    assert pictures[0].ids.any()
-    assert np.array_equal(pictures[0].ids, pictures[1].ids)
+    assert images[0].ids is not None
+    assert images[0].ids.any()
+    assert np.array_equal(images[0].ids, images[1].ids)
 
 
 WALL = ObjectSpec(name="wall", file="objects/blackbox", physics=PhysicsSpec(mass=0.0))

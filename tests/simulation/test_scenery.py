@@ -10,7 +10,7 @@ import pytest
 
 from tests.simulation.small_robots import begin, joint, scene_of, shape, write_robot
 from uwsim.geometry import Intrinsics, Pose
-from uwsim.rendering.renderer import Picture
+from uwsim.rendering.renderer import RenderedImage
 from uwsim.scene.spec import ObjectSpec, PhysicsSpec
 from uwsim.scene.urdf import VisualSpec
 from uwsim.scene.vehicle import VehicleSpec
@@ -34,29 +34,29 @@ AHEAD = Pose.from_rpy((0.0, 0.0, 0.0), (np.pi / 2, 0.0, -np.pi / 2))  # looks al
 LENS = Intrinsics.from_fovy(80, 60, 0.9)
 
 
-def seen(folder: Path, inside: str) -> tuple[Simulation, Picture]:
-    """A robot 3 m ahead, and the picture of it."""
+def seen(folder: Path, inside: str) -> tuple[Simulation, RenderedImage]:
+    """A robot 3 m ahead, and the image of it."""
     vehicle = VehicleSpec(name="r", file=str(write_robot(folder, inside)), position=(3.0, 0.0, 0.0))
     simulation = begin(scene_of(vehicle))
-    picture = simulation.world.scenery.picture(AHEAD, LENS)
+    image = simulation.world.scenery.render_clean(AHEAD, LENS)
     simulation.close()
-    return simulation, picture
+    return simulation, image
 
 
-def colour_at(picture: Picture, column: int) -> np.ndarray:
-    assert picture.colour is not None
-    return picture.colour[30, column].astype(float)
+def colour_at(image: RenderedImage, column: int) -> np.ndarray:
+    assert image.colour is not None
+    return image.colour[30, column].astype(float)
 
 
 def test_every_visual_of_a_link_is_seen_under_the_links_number(tmp_path: Path) -> None:
     left = shape(xyz="0 0.8 0", size=(0.1, 0.8, 0.8), colour="1 0 0 1")
     right = shape(xyz="0 -0.8 0", size=(0.1, 0.8, 0.8), colour="0 0 1 1")
-    simulation, picture = seen(tmp_path, f'<link name="base">{left}{right}</link>')
-    assert picture.ids is not None
-    assert (picture.ids[30, [20, 60]] == 1).all()
-    assert picture.ids[30, 40] == 0
+    simulation, image = seen(tmp_path, f'<link name="base">{left}{right}</link>')
+    assert image.ids is not None
+    assert (image.ids[30, [20, 60]] == 1).all()
+    assert image.ids[30, 40] == 0
     assert simulation.world.scenery.part_names == {1: "r/base"}
-    red, blue = colour_at(picture, 20), colour_at(picture, 60)
+    red, blue = colour_at(image, 20), colour_at(image, 60)
     assert red[0] > red[2] + 40
     assert blue[2] > blue[0] + 40
 
@@ -104,8 +104,8 @@ def test_the_material_of_a_robot_file_colours_a_mesh_without_colours(
         '</geometry><material name="orange"/></visual>'
     )
     material = f'<material name="orange"><color rgba="1 0.5 0 {opacity}"/></material>'
-    _, picture = seen(tmp_path, f'{material}<link name="base">{mesh}</link>')
-    red, green, blue = colour_at(picture, 40)
+    _, image = seen(tmp_path, f'{material}<link name="base">{mesh}</link>')
+    red, green, blue = colour_at(image, 40)
     assert red > 60 * opacity  # it is lit from the side
     assert green == pytest.approx(0.5 * red, abs=15)
     assert blue < 30
@@ -116,18 +116,18 @@ def test_a_mesh_in_millimetres_that_is_nowhere_is_a_box_that_can_be_seen(tmp_pat
         '<visual><geometry><mesh filename="package://gone/hull.dae" scale="0.001 0.001 0.001"/>'
         "</geometry></visual>"
     )
-    _, picture = seen(tmp_path, f'<link name="base">{lost}</link>')
-    assert picture.ids is not None
-    assert np.count_nonzero(picture.ids) > 20
+    _, image = seen(tmp_path, f'<link name="base">{lost}</link>')
+    assert image.ids is not None
+    assert np.count_nonzero(image.ids) > 20
 
 
 def test_shapes_without_thickness_are_drawn_thin(tmp_path: Path) -> None:
     flat = shape(size=(0.0, 1.0, 1.0))
     point = '<visual><geometry><sphere radius="0"/></geometry></visual>'
     rod = '<visual><geometry><cylinder radius="0" length="1"/></geometry></visual>'
-    _, picture = seen(tmp_path, f'<link name="base">{flat}{point}{rod}</link>')
-    assert picture.ids is not None
-    assert picture.ids[30, 40] == 1
+    _, image = seen(tmp_path, f'<link name="base">{flat}{point}{rod}</link>')
+    assert image.ids is not None
+    assert image.ids[30, 40] == 1
 
 
 def test_two_vehicles_of_one_name_carry_their_own_cameras(tmp_path: Path) -> None:
@@ -146,7 +146,7 @@ def test_two_vehicles_of_one_name_carry_their_own_cameras(tmp_path: Path) -> Non
         assert simulation.world.camera(f"eye{x}").world_from_camera.position[0] == x
 
 
-def test_a_camera_that_looks_at_an_object_has_it_in_the_middle_of_its_picture(
+def test_a_camera_that_looks_at_an_object_has_it_in_the_middle_of_its_image(
     tmp_path: Path,
 ) -> None:
     file = str(write_robot(tmp_path, '<link name="base"/>'))
@@ -160,10 +160,10 @@ def test_a_camera_that_looks_at_an_object_has_it_in_the_middle_of_its_picture(
     thing = ObjectSpec(name="thing", file="objects/blackbox", position=(4.0, 3.0, -2.0))
     simulation = begin(scene_of(vehicle, objects=(thing,)))
     camera = simulation.world.camera("eye")
-    picture = simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics)
+    image = simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics)
     simulation.close()
-    assert picture.ids is not None
-    assert simulation.world.scenery.part_names[int(picture.ids[60, 80])] == "thing"
+    assert image.ids is not None
+    assert simulation.world.scenery.part_names[int(image.ids[60, 80])] == "thing"
 
 
 @pytest.mark.parametrize(
@@ -181,8 +181,8 @@ def test_scenes_of_the_original_have_no_sun_shadows_unless_they_ask_for_them(
     asked = replace(scene.sim_params, sun_shadow=sun_shadow)
     simulation = begin(replace(scene, sim_params=asked))
     from_above = Pose.from_rpy((0.0, 0.0, 5.0), (0.0, 0.0, 0.0))
-    picture = simulation.world.scenery.picture(from_above, Intrinsics.from_fovy(160, 120, 0.6))
+    image = simulation.world.scenery.render_clean(from_above, Intrinsics.from_fovy(160, 120, 0.6))
     simulation.close()
-    assert picture.colour is not None
-    brightness = picture.colour.sum(axis=2).astype(int)
+    assert image.colour is not None
+    brightness = image.colour.sum(axis=2).astype(int)
     assert bool((brightness < 0.7 * np.median(brightness)).sum() > 20) is is_shaded

@@ -18,7 +18,7 @@ from uwsim.simulation import Simulation
 TANK, BLACKBOX = read_scene(SCENE).objects
 BLACKBOX = replace(BLACKBOX, is_solid=None)  # in that scene a ghost, to be looked at
 GHOST = replace(TANK, physics=None)
-FLOOR_DEPTH = 4.81  # of the picture on the floor of the tank [m]
+FLOOR_DEPTH = 4.81  # of the image on the floor of the tank [m]
 
 
 def dive(simulation: Simulation, seconds: float, speed: float = 0.5) -> float:

@@ -29,14 +29,14 @@ class DirectTracker(Tracker):
         self._centre = crossing(quad)
         self._method = method
         self.homography = np.eye(3)
-        """Sends points of the template's picture to the last picture, (3, 3)."""
+        """Sends points of the template's image to the last image, (3, 3)."""
 
     @staticmethod
     def remember(image: Grey, quad: Array, *, levels: int, method: Method) -> DirectTracker | str:
         """Take a template; or say why there is nothing to follow."""
         templates: list[Template] = []
-        for level, picture in enumerate(pyramid(image, levels)):
-            template = take_template(picture, quad / 2.0**level)
+        for level, smaller in enumerate(pyramid(image, levels)):
+            template = take_template(smaller, quad / 2.0**level)
             if template is None:
                 break
             templates.append(template)
@@ -49,7 +49,7 @@ class DirectTracker(Tracker):
         self.homography = between(self._quad, quad)
 
     def step(self, image: Grey) -> Estimate:
-        """Find the patch in the next picture."""
+        """Find the patch in the next image."""
         images = pyramid(image, len(self._templates))
         homography, iterations = self.homography, 0
         for level in range(min(len(images), len(self._templates)) - 1, -1, -1):

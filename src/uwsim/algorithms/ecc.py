@@ -48,9 +48,9 @@ class Ecc(TrackerNode):
 
 
 class EccTracker(Tracker):
-    """Raises the correlation from where it was; gives up on a picture when OpenCV does.
+    """Raises the correlation from where it was; gives up on an image when OpenCV does.
 
-    OpenCV compares the upright box around the quad, both pictures smoothed by a Gaussian of
+    OpenCV compares the upright box around the quad, both images smoothed by a Gaussian of
     ``smoothing`` pixels. We smooth them before the patch is cut out: OpenCV would smooth the patch
     as if it were mirrored at its rim, which moves its corners by a quarter of a pixel. There is no
     pyramid.
@@ -75,7 +75,7 @@ class EccTracker(Tracker):
         self._patch = smooth[template.top :, template.left :][:height, :width].copy()
         self._everywhere = np.ones(image.shape, np.uint8)
         # OpenCV counts from the centre of the first pixel; its patch begins at the box's corner.
-        self._picture_from_patch = np.array(
+        self._image_from_patch = np.array(
             [[1.0, 0.0, template.left + 0.5], [0.0, 1.0, template.top + 0.5], [0.0, 0.0, 1.0]]
         )
         self._centres_from_corners = np.array([[1.0, 0.0, -0.5], [0.0, 1.0, -0.5], [0.0, 0.0, 1.0]])
@@ -93,11 +93,11 @@ class EccTracker(Tracker):
 
     @plain_opencv()
     def step(self, image: Grey) -> Estimate:
-        """Find the patch in the next picture."""
+        """Find the patch in the next image."""
         import cv2
 
         guess = product(
-            product(self._centres_from_corners, self._homography), self._picture_from_patch
+            product(self._centres_from_corners, self._homography), self._image_from_patch
         )
         found = True
         try:
@@ -115,7 +115,7 @@ class EccTracker(Tracker):
         else:
             matrix = product(
                 product(inverse(self._centres_from_corners), warped.astype(np.float64)),
-                inverse(self._picture_from_patch),
+                inverse(self._image_from_patch),
             )
             found = bool(np.all(np.isfinite(matrix)) and determinant(matrix) > 1e-9)
             if found:

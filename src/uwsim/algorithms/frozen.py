@@ -17,7 +17,7 @@ Array = npt.NDArray[np.float64]
 
 
 class Frozen(TrackerNode):
-    """Echoes what autoInit gave it last, at every picture: the control, never lost."""
+    """Echoes what autoInit gave it last, at every image: the control, never lost."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {**INPUT}
 

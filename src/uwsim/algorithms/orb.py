@@ -20,11 +20,11 @@ from .tracker_node import INPUT, LOSS, TrackerNode
 
 Array = npt.NDArray[np.float64]
 MARGIN = 15
-"""How far from a picture's rim ORB looks for features, and half its smallest patch [px]."""
+"""How far from an image's rim ORB looks for features, and half its smallest patch [px]."""
 
 
 class Orb(TrackerNode):
-    """ORB features found anew in every picture, and a homography by MAGSAC++ (OpenCV)."""
+    """ORB features found anew in every image, and a homography by MAGSAC++ (OpenCV)."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         **INPUT,
@@ -57,10 +57,10 @@ class Orb(TrackerNode):
 
 
 class OrbTracker(Tracker):
-    """Matches the template's features in each picture; remembers no motion.
+    """Matches the template's features in each image; remembers no motion.
 
     Matches are mutual nearest neighbours by Hamming distance that pass the ratio test. The random
-    draws of MAGSAC begin anew from the same seed in every picture.
+    draws of MAGSAC begin anew from the same seed in every image.
     """
 
     @plain_opencv()
@@ -100,12 +100,12 @@ class OrbTracker(Tracker):
         return len(self._points)
 
     def place(self, quad: Array) -> None:
-        """Take ``quad`` for the last place; the next picture is searched as a whole, as ever."""
+        """Take ``quad`` for the last place; the next image is searched as a whole, as ever."""
         self._homography = between(self._quad, quad)
 
     @plain_opencv()
     def step(self, image: Grey) -> Estimate:
-        """Find the patch in the next picture."""
+        """Find the patch in the next image."""
         homography = self._match(image)
         if homography is not None:
             self._homography = homography

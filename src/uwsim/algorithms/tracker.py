@@ -1,4 +1,4 @@
-"""What every tracker gives for a picture, and the test that says it is lost."""
+"""What every tracker gives for an image, and the test that says it is lost."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ Array = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """Where a tracker believes the patch is in a picture."""
+    """Where a tracker believes the patch is in an image."""
 
     corners: Array
     """The corners in the order they were handed in, (4, 2) [px] from the top left corner."""
     centroid: Array
     """Where the diagonals of the corners cross: the image of the patch's centre, (2,) [px]."""
     zncc: float
-    """Correlation of template and picture there, -1..1 (`esm.alignment.zncc`)."""
+    """Correlation of template and image there, -1..1 (`esm.alignment.zncc`)."""
     found: bool = True
     """False when the method itself gave up; corners and centroid are then the last ones."""
     iterations: int = 0
@@ -31,11 +31,11 @@ class Estimate:
 
 
 class Tracker(abc.ABC):
-    """A planar patch followed from picture to picture; knows nothing of the bus."""
+    """A planar patch followed from image to image; knows nothing of the bus."""
 
     @abc.abstractmethod
     def step(self, image: Grey) -> Estimate:
-        """Find the patch in the next picture (h, w) [grey level]."""
+        """Find the patch in the next image (h, w) [grey level]."""
 
     @abc.abstractmethod
     def place(self, quad: Array) -> None:
@@ -45,9 +45,9 @@ class Tracker(abc.ABC):
 class LossTest:
     """Says when a tracker is lost, instead of letting it wander.
 
-    Lost is: a ZNCC below the threshold (or nothing found) on so many pictures in a row; or a quad
-    that is not convex; or one that has left the picture: its centre is outside, so about half of it
-    is. Pictures in between may still be low.
+    Lost is: a ZNCC below the threshold (or nothing found) on so many images in a row; or a quad
+    that is not convex; or one that has left the image: its centre is outside, so about half of it
+    is. Images in between may still be low.
     """
 
     def __init__(self, *, zncc_threshold: float, frames: int) -> None:
@@ -66,16 +66,16 @@ class LossTest:
             return None
         u, v = estimate.centroid
         if not (0.0 <= u <= width and 0.0 <= v <= height):
-            return f"the quad's centre ({u:.1f}, {v:.1f}) is outside the {width}x{height} picture"
+            return f"the quad's centre ({u:.1f}, {v:.1f}) is outside the {width}x{height} image"
         return _not_convex(estimate.corners)
 
 
 def quad_fault(quad: Array, width: int, height: int) -> str | None:
-    """What makes a quad (4, 2) [px] impossible to follow in a picture; None when nothing does."""
+    """What makes a quad (4, 2) [px] impossible to follow in an image; None when nothing does."""
     names = ("NW", "NE", "SE", "SW")
     for name, (u, v) in zip(names, quad, strict=True):
         if not (0.0 <= u <= width and 0.0 <= v <= height):
-            return f"corner {name} ({u:.1f}, {v:.1f}) is outside the {width}x{height} picture"
+            return f"corner {name} ({u:.1f}, {v:.1f}) is outside the {width}x{height} image"
     return _not_convex(quad)
 
 

@@ -1,12 +1,12 @@
-"""The wiring that all trackers share: pictures in, corners, centroid and status out.
+"""The wiring that all trackers share: images in, corners, centroid and status out.
 
-It subscribes to the pictures, offers ``autoInit`` and, after the first picture, calls
-``startBench``. The template is the last picture inside the first quad that ``autoInit`` hands in;
+It subscribes to the images, offers ``autoInit`` and, after the first image, calls
+``startBench``. The template is the last image inside the first quad that ``autoInit`` hands in;
 every later quad is where the patch is now. A tracker that is lost says so once and stays silent
 until ``autoInit`` tells it where to track again; one that could not begin has to be created anew.
-Estimates carry no stamp; they are published while the picture's callback runs.
+Estimates carry no stamp; they are published while the image's callback runs.
 
-Without ``autoInit`` the quad is a parameter, ``corners``, and the template the first picture.
+Without ``autoInit`` the quad is a parameter, ``corners``, and the template the first image.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from ..messages import (
     Image,
     String,
     floats,
-    picture,
+    pixels_of,
 )
 from .esm.pyramid import Grey, grey
 from .tracker import LossTest, Tracker, quad_fault
@@ -37,8 +37,8 @@ from .tracker import LossTest, Tracker, quad_fault
 Array = npt.NDArray[np.float64]
 
 INPUT: Mapping[str, float | str] = {"image_topic": "/uwsim/camera1", "corners": ""}
-"""Parameters of what it looks at: the topic of the pictures; x, y of the quad NW NE SE SW [px] in
-the first picture, eight numbers, for a benchmark in which nobody calls ``autoInit``."""
+"""Parameters of what it looks at: the topic of the images; x, y of the quad NW NE SE SW [px] in
+the first image, eight numbers, for a benchmark in which nobody calls ``autoInit``."""
 LOSS = {"zncc_threshold": 0.5, "lost_frames": 5.0}
 """Parameters of the loss test, the same in every tracker."""
 
@@ -109,7 +109,7 @@ class TrackerNode(abc.ABC):
             return
         if self._tracker is None or self._is_lost:
             return
-        estimate = self._tracker.step(grey(picture(message)))
+        estimate = self._tracker.step(grey(pixels_of(message)))
         if estimate.found:
             self._say_corners(floats(estimate.corners.reshape(-1)))
             self._say_centroid(floats(estimate.centroid))
@@ -140,7 +140,7 @@ class TrackerNode(abc.ABC):
     def _begin(self, message: Image, quad: Array, told_by: str) -> None:
         """Take the template."""
         why = quad_fault(quad, message.width, message.height)
-        tracker = why or self.follow(grey(picture(message)), quad)
+        tracker = why or self.follow(grey(pixels_of(message)), quad)
         if isinstance(tracker, str):
             self._fail(f"{told_by}: {tracker}")
             return

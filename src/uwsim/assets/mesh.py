@@ -13,10 +13,10 @@ from ..world import Box
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Texture:
-    """A picture that is wrapped round a mesh."""
+    """An image that is wrapped round a mesh."""
 
     name: str
-    """Names the picture; equal names mean equal pixels."""
+    """Names the image; equal names mean equal pixels."""
     pixels: npt.NDArray[np.uint8]
     """(h, w, 3), row 0 at the top, stored values (no gamma applied)."""
     repeats: bool = True
@@ -32,7 +32,7 @@ class Mesh:
     normals: npt.NDArray[np.float32]
     """Unit normals at the vertices, (n, 3)."""
     uvs: npt.NDArray[np.float32]
-    """Texture coordinates, (n, 2); v = 0 is the bottom row of the picture, as in OBJ and OpenGL."""
+    """Texture coordinates, (n, 2); v = 0 is the bottom row of the image, as in OBJ and OpenGL."""
     triangles: npt.NDArray[np.uint32]
     """Vertex numbers, (m, 3), counter-clockwise seen from outside."""
     colour: tuple[float, float, float] = (1.0, 1.0, 1.0)
@@ -57,7 +57,7 @@ class Model:
     sha256: str = ""
     """Hash of the file's bytes, or of the arrays when we made it."""
     files: tuple[InputFile, ...] = ()
-    """The file and all that were read with it: materials, buffers, pictures."""
+    """The file and all that were read with it: materials, buffers, images."""
     box: Box = field(init=False)
     """Bounding box of all vertices."""
 

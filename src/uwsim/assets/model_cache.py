@@ -85,9 +85,9 @@ def _keep(model: Model, file: Path) -> None:
         texture = mesh.texture
         if texture is not None:
             arrays[f"{i}/texture"] = np.array(texture.name)
-            picture = _picture(file, texture.name)
-            if not picture.exists():
-                _write(picture, pixels=texture.pixels, repeats=np.array(texture.repeats))
+            image = _image(file, texture.name)
+            if not image.exists():
+                _write(image, pixels=texture.pixels, repeats=np.array(texture.repeats))
     _write(file, **arrays)
 
 
@@ -97,7 +97,7 @@ def _write(file: Path, **arrays: Any) -> None:
     disk_cache.write(file, packed.getvalue())
 
 
-def _picture(file: Path, texture: str) -> Path:
+def _image(file: Path, texture: str) -> Path:
     """Where a texture is kept: beside the models, for several of them share it."""
     return file.parent / ("texture-" + texture.replace("/", "-") + ".npz")
 
@@ -115,7 +115,7 @@ def _mesh(kept: Arrays, i: int, file: Path) -> Mesh:
     texture = None
     if f"{i}/texture" in kept:
         called = str(kept[f"{i}/texture"])
-        texture = _texture(called, _picture(file, called))
+        texture = _texture(called, _image(file, called))
     arrays: Any = {array: kept[f"{i}/{array}"] for array in _ARRAYS}
     return Mesh(
         **arrays,

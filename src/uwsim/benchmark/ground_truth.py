@@ -59,8 +59,8 @@ class GroundTruth(abc.ABC):
     """Why there may be none."""
 
     @property
-    def n_pictures(self) -> int | None:
-        """Pictures that its camera took so far; None where no camera takes pictures of it."""
+    def n_images(self) -> int | None:
+        """Images that its camera took so far; None where no camera takes images of it."""
         return None
 
     @abc.abstractmethod
@@ -183,9 +183,9 @@ class _Seen(GroundTruth):
         self._seen: Array | None = None
 
     @property
-    def n_pictures(self) -> int | None:
-        """Pictures that its camera took so far; None where it takes none."""
-        return self._camera.n_pictures
+    def n_images(self) -> int | None:
+        """Images that its camera took so far; None where it takes none."""
+        return self._camera.n_images
 
     def read(self) -> Array | None:
         """Return the truth now [px]; None when a point is not in front of the camera."""
@@ -241,9 +241,9 @@ class CentroidFromCamera(GroundTruth):
         self._camera, self._body, self._unseen = camera, body, unseen
 
     @property
-    def n_pictures(self) -> int | None:
-        """Pictures that its camera took so far; None where it takes none."""
-        return self._camera.n_pictures
+    def n_images(self) -> int | None:
+        """Images that its camera took so far; None where it takes none."""
+        return self._camera.n_images
 
     def read(self) -> Array | None:
         """Return the centroid now, (2,) [px]; None when it is not in front of the camera."""

@@ -1,4 +1,4 @@
-"""``uwsim render``: what a camera of a scene sees, or a view of it, as picture files."""
+"""``uwsim render``: what a camera of a scene sees, or a view of it, as image files."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ from .taught import INPUT, OUTPUT, in_group
 from .views import Wanted
 
 if TYPE_CHECKING:
-    from ..rendering.renderer import Picture
+    from ..rendering.renderer import RenderedImage
 
 MILLIMETRES = 1000.0
 DEEPEST = 65535
-"""Largest value of a 16-bit depth picture [mm]; what is farther has this value, nothing has 0."""
+"""Largest value of a 16-bit depth image [mm]; what is farther has this value, nothing has 0."""
 
 
 def render(
     scene: SceneArgument,
     out: Annotated[
-        Path, in_group(OUTPUT, "--out", "-o", metavar="FILE.png", help="Where the picture goes.")
+        Path, in_group(OUTPUT, "--out", "-o", metavar="FILE.png", help="Where the image goes.")
     ],
     camera: Annotated[
         str | None,
@@ -80,7 +80,7 @@ def render(
             OUTPUT,
             "--size",
             metavar="WxH",
-            help="Of the picture [px], instead of the camera's own, or of resw and resh.",
+            help="Of the image [px], instead of the camera's own, or of resw and resh.",
         ),
     ] = None,
     depth: Annotated[
@@ -119,7 +119,7 @@ def render(
     folders = tuple(data_path or ())
     with wrong.kept():
         if out.suffix.lower() != ".png":
-            raise BadSetting(f"-o {out}: only .png pictures are written.")
+            raise BadSetting(f"-o {out}: only .png images are written.")
     with wrong.kept():
         spec = read_scene(scene_file(scene, folders))
     for name, value in pairs_of(settings or [], wrong):
@@ -139,26 +139,26 @@ def render(
     simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=quirks)
     try:
         say_notices(simulation.world.warnings)
-        shot = wanted.shoot(simulation, spec)
-        written = [save(out, shot.pixels)]
+        rendered = wanted.render(simulation, spec)
+        written = [save(out, rendered.pixels)]
         if depth:
-            written += save_depth(out, shot.picture())
+            written += save_depth(out, rendered.render_clean())
         if segmentation:
-            written += save_ids(out, shot.picture(), simulation.world.scenery.part_names)
+            written += save_ids(out, rendered.render_clean(), simulation.world.scenery.part_names)
     finally:
         simulation.close()
-    print(f"{shot.what}; written: " + ", ".join(str(path) for path in written))
+    print(f"{rendered.what}; written: " + ", ".join(str(path) for path in written))
 
 
 def save(path: Path, pixels: np.ndarray) -> Path:
-    """Write a picture, (h, w, 3) or (h, w); 8 or 16 bit as its array is."""
+    """Write an image, (h, w, 3) or (h, w); 8 or 16 bit as its array is."""
     Image.fromarray(pixels).save(path)
     return path
 
 
-def save_depth(out: Path, picture: Picture) -> list[Path]:
+def save_depth(out: Path, image: RenderedImage) -> list[Path]:
     """Write the planar depth: millimetres for the eye, metres for programs."""
-    metres = picture.depth  # (h, w) [m]
+    metres = image.depth  # (h, w) [m]
     seen = np.isfinite(metres)
     rounded = np.rint(np.where(seen, metres, 0.0) * MILLIMETRES)
     exact = beside(out, "-depth.npy")
@@ -169,17 +169,17 @@ def save_depth(out: Path, picture: Picture) -> list[Path]:
     ]
 
 
-def save_ids(out: Path, picture: Picture, names: dict[int, str]) -> list[Path]:
+def save_ids(out: Path, image: RenderedImage, names: dict[int, str]) -> list[Path]:
     """Write which thing each pixel shows, and what the numbers mean."""
-    assert picture.ids is not None
-    numbers, counts = np.unique(picture.ids, return_counts=True)
+    assert image.ids is not None
+    numbers, counts = np.unique(image.ids, return_counts=True)
     legend = beside(out, "-ids.csv")
     with legend.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["id", "name", "pixels"])
         for number, count in zip(numbers.tolist(), counts.tolist(), strict=True):
             table.writerow([number, names.get(number, ""), count])
-    return [save(beside(out, "-ids.png"), picture.ids), legend]
+    return [save(beside(out, "-ids.png"), image.ids), legend]
 
 
 def beside(out: Path, ending: str) -> Path:

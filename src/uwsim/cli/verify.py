@@ -44,7 +44,7 @@ PROMISES = {
     "version": "between versions of uwsim nothing is promised",
     "physics": "between versions of MuJoCo nothing is promised",
     "renderer": "another renderer draws single grey levels otherwise: promised is the motion of "
-    "whatever no picture steers, not pictures nor what is found in them",
+    "whatever no image steers, not images nor what is found in them",
     "numpy": "between versions of numpy random numbers and sums may differ",
     "cpu": "another processor may round otherwise: its kernels are compiled for it",
     "code": "what is bundled gives the same bytes all the same; an algorithm or a measure of one's "
@@ -112,7 +112,7 @@ def verify(
     the sample is drawn from the system's own chance, and the number that draws it again is said.
 
     Exit status 0: the same. 3: something differs; says which trial, level, column and sample, and
-    from the fingerprints that every trial keeps, from which step on and in which body or picture.
+    from the fingerprints that every trial keeps, from which step on and in which body or image.
     2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
     """
     from ..results.interrupted import resuming
@@ -233,14 +233,14 @@ def blame(found: Verification, others: Mapping[str, str]) -> str:
         where = f"It begins in the physics: {', '.join(bodies)} moved otherwise."
         return where + _because(others, ("version", "physics", "numpy", "cpu", "code", "system"))
     if found.parts:
-        where = f"Every body moved the same; the pictures on {', '.join(found.parts)} are others."
+        where = f"Every body moved the same; the images on {', '.join(found.parts)} are others."
         return where + _because(others, ("version", "renderer", "numpy", "cpu", "code", "system"))
     if found.is_replayed:
         return "Every replayed unit gave what it stored; other parts of the result were changed."
     if not found.is_steady:
         return "Its stored fingerprints are not those of a replay."
     return (
-        "Every body moved and every picture was the same: what is stored was changed, or the "
+        "Every body moved and every image was the same: what is stored was changed, or the "
         "algorithm or a measure is not repeatable (its own chance, a clock, threads)."
     )
 

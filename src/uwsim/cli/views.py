@@ -14,7 +14,7 @@ from ..errors import BadSetting, did_you_mean
 
 if TYPE_CHECKING:
     from ..geometry import Array, Intrinsics
-    from ..rendering.renderer import Picture
+    from ..rendering.renderer import RenderedImage
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
     from ..simulation.views import View
@@ -22,20 +22,20 @@ if TYPE_CHECKING:
 Named = Literal["orbit", "top", "viewer"]
 NAMED: tuple[Named, ...] = ("orbit", "top", "viewer")
 LARGEST = 16384
-"""Edge of a picture [px]."""
+"""Edge of an image [px]."""
 FOG = "oceanState.fog"
 """Begins the ``--set`` that ask for fog."""
 
 
 @dataclass(frozen=True, eq=False)
-class Shot:
+class RenderedView:
     """What was drawn."""
 
     what: str
     """What it shows, for the user."""
     pixels: npt.NDArray[np.uint8]
     """(h, w, 3) or (h, w)."""
-    picture: Callable[[], Picture]
+    render_clean: Callable[[], RenderedImage]
     """Draws it again without noise, with range and ids."""
 
 
@@ -67,7 +67,7 @@ class Wanted:
         given = {"--camera": camera, "--view": view, "--from": eye or at}
         asked = [option for option, value in given.items() if value is not None]
         if len(asked) > 1:
-            raise BadSetting(f"{' and '.join(asked)}: one picture can be asked for at a time.")
+            raise BadSetting(f"{' and '.join(asked)}: one image can be asked for at a time.")
         if (eye is None) != (at is None):
             raise BadSetting("--from and --at belong together: where to look from, and at what.")
         return Wanted(
@@ -78,7 +78,7 @@ class Wanted:
             has_fog=any(setting.strip().startswith(FOG) for setting in settings),
         )
 
-    def shoot(self, simulation: Simulation, scene: SceneSpec) -> Shot:
+    def render(self, simulation: Simulation, scene: SceneSpec) -> RenderedView:
         """Draw it; raises UnknownName for a camera, BadSetting for a view that cannot be."""
         from ..simulation import views
 
@@ -105,29 +105,31 @@ class Wanted:
             view, what = views.orbit_view(simulation, size), "orbit view"
         return self._viewed(simulation, view, what)
 
-    def _viewed(self, simulation: Simulation, view: View, what: str) -> Shot:
+    def _viewed(self, simulation: Simulation, view: View, what: str) -> RenderedView:
         fog = 0.0 if view.is_clear and not self.has_fog else None
 
-        def draw() -> Picture:
+        def draw() -> RenderedImage:
             return simulation.world.scenery.look(view.world_from_camera, view.intrinsics, fog=fog)
 
         pixels = draw().colour
         assert pixels is not None
-        return Shot(what, pixels.view(np.uint8), draw)
+        return RenderedView(what, pixels.view(np.uint8), draw)
 
-    def _seen(self, simulation: Simulation, name: str) -> Shot:
+    def _seen(self, simulation: Simulation, name: str) -> RenderedView:
         camera = simulation.world.camera(name)
         if self.size is not None:
             camera.resize(resized(camera.intrinsics, self.size))
-        return Shot(
+        return RenderedView(
             f"camera {name!r}",
-            camera.shoot(),
-            lambda: simulation.world.scenery.picture(camera.world_from_camera, camera.intrinsics),
+            camera.capture(),
+            lambda: simulation.world.scenery.render_clean(
+                camera.world_from_camera, camera.intrinsics
+            ),
         )
 
 
 def resized(lens: Intrinsics, size: tuple[int, int]) -> Intrinsics:
-    """The same pinhole on a picture of another size: as high a field of view, wider or narrower."""
+    """The same pinhole on an image of another size: as high a field of view, wider or narrower."""
     width, height = size
     factor = height / lens.height
     return replace(

@@ -1,7 +1,7 @@
 """Playing single levels with single seeds, each once: what is on disk is not played again.
 
 Each is a trial of the independent mode (DESIGN 5): the algorithm settles at the updaters'
-initial values, then the level is ramped in. The pictures and the noise of a level depend on the
+initial values, then the level is ramped in. The images and the noise of a level depend on the
 seed and on the level's values, never on what was played before.
 """
 

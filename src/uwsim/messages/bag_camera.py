@@ -1,7 +1,7 @@
-"""A camera in a recording: the pictures and the camera's info of a ROS 1 or ROS 2 bag.
+"""A camera in a recording: the images and the camera's info of a ROS 1 or ROS 2 bag.
 
 Read from ``.bag`` files, rosbag2 folders, and single ``.mcap`` and ``.db3`` files, by rosbags. The
-bag is read as it is played: what stands in memory is one picture.
+bag is read as it is played: what stands in memory is one image.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ RED_FIRST = ("rgb8", "rgba8")
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
-    """A decoded picture."""
+class DecodedImage:
+    """A decoded image."""
 
     pixels: npt.NDArray[np.uint8]
     """(h, w, 3), red first; or (h, w) grey; row 0 is the top."""
@@ -43,10 +43,10 @@ class Picture:
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A picture in a recording, not decoded yet."""
+    """An image in a recording, not decoded yet."""
 
     time: int
-    """When it was recorded, from the first picture on [ns]."""
+    """When it was recorded, from the first image on [ns]."""
     info: Any
     """The newest CameraInfo recorded by then; the first, while there is none."""
     place: str
@@ -54,7 +54,7 @@ class Frame:
     read: Callable[[], Any]
     """Return the Image or CompressedImage, as rosbags gives it."""
 
-    def picture(self) -> Picture:
+    def decode(self) -> DecodedImage:
         """Decode it.
 
         Raises:
@@ -63,7 +63,7 @@ class Frame:
         message = self.read()
         is_packed = message.__msgtype__ == COMPRESSED
         pixels, is_blue_first = self._unpacked(message) if is_packed else self._plain(message)
-        return Picture(pixels, is_blue_first, str(message.header.frame_id))
+        return DecodedImage(pixels, is_blue_first, str(message.header.frame_id))
 
     def _plain(self, message: Any) -> tuple[npt.NDArray[np.uint8], bool]:
         encoding = str(message.encoding)
@@ -92,7 +92,7 @@ class Frame:
         found = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if len(data) else None
         if found is None or found.dtype != np.uint8:
             raise AssetError(
-                f"{self.place} is compressed as {str(message.format)[:40]!r}, which is no picture "
+                f"{self.place} is compressed as {str(message.format)[:40]!r}, which is no image "
                 "of 8 bits that OpenCV reads."
             )
         pixels = np.asarray(found, dtype=np.uint8)
@@ -134,21 +134,21 @@ class Recording:
             gap = next((frame.time for frame in frames if frame.time > 0), None)
             if first is None or gap is None:
                 raise AssetError(
-                    f"Topic {image_topic!r} of {self._name} has no two pictures at different "
+                    f"Topic {image_topic!r} of {self._name} has no two images at different "
                     "times: there is no spacing to replay.",
                     name=image_topic,
                 )
-            first.picture()
+            first.decode()
         except BaseException:
             self.close()
             raise
         self.first = first
-        """The first picture."""
+        """The first image."""
         self.gap = gap
-        """Time from the first picture to the next [ns]."""
+        """Time from the first image to the next [ns]."""
 
     def frames(self) -> Iterator[Frame]:
-        """Go through the pictures once, in the order recorded."""
+        """Go through the images once, in the order recorded."""
         start: int | None = None
         info, count = self._first_info, 0
         for connection, time, data in self._messages([*self._images, *self._infos]):
@@ -157,7 +157,7 @@ class Recording:
                 continue
             count += 1
             start = time if start is None else start
-            place = f"Picture {count} of {self._image_topic!r} in {self._name}"
+            place = f"Image {count} of {self._image_topic!r} in {self._name}"
             yield Frame(time - start, info, place, partial(self._decoded, data, connection.msgtype))
 
     def close(self) -> None:

@@ -43,7 +43,7 @@ def image(pixels: npt.NDArray[np.uint8], *, time: float, frame_id: str = "") -> 
     )
 
 
-def picture(message: Image) -> npt.NDArray[np.uint8]:
+def pixels_of(message: Image) -> npt.NDArray[np.uint8]:
     """Return the pixels of an ``rgb8`` (h, w, 3) or ``mono8`` (h, w) image, without a copy."""
     if message.encoding == "mono8":
         return message.data.reshape(message.height, message.width)

@@ -1,4 +1,4 @@
-"""The rendering room: models in, pictures through water out.
+"""The rendering room: models in, images through water out.
 
 The modules are imported where they are used: `renderer` needs OpenGL, `noise` and `grey` numba,
 `water` only numpy.

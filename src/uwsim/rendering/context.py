@@ -14,9 +14,9 @@ ENVIRONMENT = {
     "LP_NUM_THREADS": str(min(4, 2 * (os.cpu_count() or 1))),
     "EGL_LOG_LEVEL": "fatal",
 }
-"""Switches of Mesa, set where the user has not: pictures of cameras are too small for more
+"""Switches of Mesa, set where the user has not: images of cameras are too small for more
 than a few threads of the software rasteriser, and what is wrong is said once, by `NoGraphics`.
-They do not change a byte of a picture."""
+They do not change a byte of an image."""
 
 N_DEVICES = 4
 """How many of EGL's devices are tried, in its order: graphics cards come before llvmpipe."""

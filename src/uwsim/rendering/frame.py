@@ -1,4 +1,4 @@
-"""What is the same for everything in one picture, as the shaders read it."""
+"""What is the same for everything in one image, as the shaders read it."""
 
 from __future__ import annotations
 

@@ -162,7 +162,7 @@ class GpuModels:
             self._close[texture.repeats].use(unit)
             return
         self.release(unit)
-        if made.glo not in self._with_copies:  # to make them takes longer than a picture
+        if made.glo not in self._with_copies:  # to make them takes longer than an image
             made.build_mipmaps()
             made.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
             self._with_copies.add(made.glo)

@@ -1,4 +1,4 @@
-"""Grey pictures as the original makes them."""
+"""Grey images as the original makes them."""
 
 from __future__ import annotations
 

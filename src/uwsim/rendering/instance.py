@@ -41,7 +41,7 @@ class Instances:
         self._is_known = False  # whether it is known which batches there are
         self._rows: dict[int, int] = {}
         self.ids: list[int] = []
-        """Their numbers in the id picture, 1..65535."""
+        """Their numbers in the id image, 1..65535."""
         self.batches: list[tuple[Batch, ...]] = []
         """What is drawn for each."""
         self.world_from_model: Array = np.zeros((0, 4, 4))

@@ -28,7 +28,7 @@ from ..linear import product
 from .water import Colour
 
 LARGEST_HALF_ANGLE = math.radians(80.0)
-"""A wider cone does not fit the one picture that its shadows are made of [rad]."""
+"""A wider cone does not fit the one image that its shadows are made of [rad]."""
 
 NEAREST = 0.01
 """What is nearer to the lamp is lit as if it were here [m]."""

@@ -1,4 +1,4 @@
-"""The lamps of a picture as the shaders read them, and their shadow maps.
+"""The lamps of an image as the shaders read them, and their shadow maps.
 
 All maps are tiles of one depth texture, so that the shaders need a single sampler. A tile is drawn
 anew only when its lamp or anything in the scene moved, and serves all cameras.
@@ -20,7 +20,7 @@ from .program import Block, build
 from .projection import clip_from_camera, frustum
 
 MAX_LAMPS = 4
-"""So many shine in one picture."""
+"""So many shine in one image."""
 
 TILE = 512
 """Edge of one lamp's shadow map [texels]."""
@@ -126,7 +126,7 @@ class Lamps:
             row, batch = instances.batch(number)
             if batch.opacity < 1.0:  # glass casts no shadow
                 continue
-            # As in the renderer's pictures: upside down for OpenGL, so outside is clockwise.
+            # As in the renderer's images: upside down for OpenGL, so outside is clockwise.
             context.front_face = "ccw" if instances.is_mirrored[row] else "cw"
             slots.bind(row)
             batch.draw(self._program)

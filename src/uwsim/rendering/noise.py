@@ -50,7 +50,7 @@ def add_noise(
         rng: The camera's generator; exactly one number is drawn.
 
     Returns:
-        The picture, (h, w, 3).
+        The image, (h, w, 3).
     """
     return _store(colour16, np.float32(255.0 * std), np.uint64(frame_key(rng)), _QUANTILES)
 
@@ -63,7 +63,7 @@ def _store(
     quantiles: npt.NDArray[np.float32],
 ) -> npt.NDArray[np.uint8]:
     height, width, _ = colour16.shape
-    picture = np.empty((height, width, 3), np.uint8)
+    image = np.empty((height, width, 3), np.uint8)
     scale, half = np.float32(1.0 / 257.0), np.float32(0.5)
     mask = np.uint64(0xFFFF)
     # Row by row and loop by loop: the first and the last do several pixels at once.
@@ -81,14 +81,14 @@ def _store(
             deviations[3 * column] = quantiles[z & mask]
             deviations[3 * column + 1] = quantiles[(z >> np.uint64(16)) & mask]
             deviations[3 * column + 2] = quantiles[(z >> np.uint64(32)) & mask]
-        drawn, stored = colour16[row].reshape(-1), picture[row].reshape(-1)
+        drawn, stored = colour16[row].reshape(-1), image[row].reshape(-1)
         for column in range(width):
             for channel in range(3):
                 place = 3 * column + channel
                 value = np.float32(drawn[4 * column + channel]) * scale
                 value = value + levels * deviations[place] + half
                 stored[place] = np.uint8(max(min(value, np.float32(255.0)), np.float32(0.0)))
-    return picture
+    return image
 
 
 def warm_up() -> None:

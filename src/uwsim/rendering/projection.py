@@ -8,7 +8,7 @@ from ..geometry import Array, Intrinsics
 
 
 def clip_from_camera(intrinsics: Intrinsics) -> Array:
-    r"""Projection matrix (4, 4) whose *first* row of pixels is the top of the picture.
+    r"""Projection matrix (4, 4) whose *first* row of pixels is the top of the image.
 
     With :math:`w_c = -Z`: :math:`x = 2u/w - 1`, :math:`y = 2v/h - 1` of
     `Intrinsics.project`. Upside down for OpenGL, so that reading back needs no flip; the

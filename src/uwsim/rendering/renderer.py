@@ -1,4 +1,4 @@
-"""The renderer: a scene in, pictures out. It knows nothing of topics, sensors or benchmarks.
+"""The renderer: a scene in, images out. It knows nothing of topics, sensors or benchmarks.
 
 One forward pass draws colour, range and ids, whichever are asked for, through UWSim's water
 (`rendering.water`). What is seen through is blended over the rest, the farthest first. Not
@@ -21,14 +21,14 @@ from .gpu_model import GpuModels
 from .instance import INSTANCE, Instances, Slots, in_view
 from .lamp import Lamp
 from .lamps import LAMPS, MAX_LAMPS, Lamps
-from .picture import Picture
 from .program import build
 from .projection import clip_from_camera, frustum
+from .rendered_image import RenderedImage
 from .sun_shadow import LARGEST_CASTER, SunShadow, reached
 from .targets import STORES, TARGETS, Targets
 from .water import Light, Water, sun_direction
 
-__all__ = ["Picture", "Renderer"]
+__all__ = ["RenderedImage", "Renderer"]
 
 SAMPLERS = {"base_map": 0, "shadow_map": 1, "lamp_maps": 2}
 """Texture unit of every sampler in the shaders."""
@@ -39,7 +39,7 @@ Switches = tuple[tuple[str, int], ...]
 
 @dataclass(frozen=True, kw_only=True)
 class View:
-    """Everything a picture depends on: equal views give equal pictures."""
+    """Everything an image depends on: equal views give equal images."""
 
     place: bytes
     """World from camera, as it lies in memory."""
@@ -62,7 +62,7 @@ class View:
 
 
 class Renderer:
-    """Models placed in W, and pictures of them from anywhere.
+    """Models placed in W, and images of them from anywhere.
 
     Use it from one thread; several may live in one process. `close` gives everything back.
 
@@ -92,7 +92,7 @@ class Renderer:
 
         Args:
             model: Uploaded once, however often it is added.
-            id: Its number in the id picture, 1..65535; several may share one.
+            id: Its number in the id image, 1..65535; several may share one.
         """
         if not 1 <= id <= 65535:
             raise ValueError(f"the id {id} is not in 1..65535")
@@ -123,8 +123,8 @@ class Renderer:
         hidden: frozenset[int] = frozenset(),
         colour: str = "uint8",
         lamps: Sequence[Lamp] = (),
-    ) -> Picture:
-        """Draw one picture.
+    ) -> RenderedImage:
+        """Draw one image.
 
         Args:
             world_from_camera: Where the camera is; OpenGL axes.
@@ -155,7 +155,7 @@ class Renderer:
         with self._context:
             if view != self._begun:
                 self._begin(view, world_from_camera)
-            picture = self._target(view).picture(intrinsics)
+            image = self._target(view).image(intrinsics)
             self._begun = None
             if view == self._last and not lamps:
                 # Asked for twice in a row, it will be asked for again: the rasteriser's threads
@@ -164,7 +164,7 @@ class Renderer:
                 self._shadow.take_over()
                 self._begun = view
         self._last = view
-        return picture
+        return image
 
     def close(self) -> None:
         """Give the context and all that is in it back; the renderer is of no use afterwards."""
@@ -258,7 +258,7 @@ class Renderer:
         """Draw one batch with the state as it is; ``one`` as in `_draw_into`."""
         number, in_shadow, is_close = one
         row, batch = self._instances.batch(number)
-        # The picture is upside down for OpenGL, so outside is clockwise unless mirrored.
+        # The image is upside down for OpenGL, so outside is clockwise unless mirrored.
         self._context.front_face = "ccw" if self._instances.is_mirrored[row] else "cw"
         own: Switches = (("SHADOWS", 1),) if in_shadow else ()
         if batch.texture is not None:

@@ -1,4 +1,4 @@
-"""The sun's shadow map: one depth picture of the casters, redrawn only when they moved."""
+"""The sun's shadow map: one depth image of the casters, redrawn only when they moved."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def reached(
     """Tell which of what is seen each caster may throw a shadow on, (seen, casters).
 
     By boxes as the sun sees them: one must overlap the other, and not lie behind all of it. Of
-    what is seen only the part between its least and greatest depth in the picture counts.
+    what is seen only the part between its least and greatest depth in the image counts.
 
     Args:
         instances: All there are.
@@ -152,7 +152,7 @@ def _bounds(points: Array, frame: Array) -> tuple[Array, Array]:
 
 
 def _corner_rays(clip_from_camera: Array) -> Array:
-    """Towards the corners of the picture, 1 m deep, camera frame, (4, 3)."""
+    """Towards the corners of the image, 1 m deep, camera frame, (4, 3)."""
     corners = np.array([[x, y, 1.0] for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
     # With z = -1: x_clip = P00 x + P01 y - P02, y_clip = P11 y - P12, w = 1.
     matrix = clip_from_camera[:2, :3]

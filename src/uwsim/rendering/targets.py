@@ -1,4 +1,4 @@
-"""What a picture is drawn into: only the targets asked for."""
+"""What an image is drawn into: only the targets asked for."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ..geometry import Intrinsics
 from ..jit import njit
-from .picture import Picture
+from .rendered_image import RenderedImage
 
 TARGETS = ("colour", "range", "ids")
 """All targets, in the order of their attachments."""
@@ -45,8 +45,8 @@ class Targets:
         """Where to draw."""
         self._shape = size[1], size[0]
 
-    def picture(self, intrinsics: Intrinsics) -> Picture:
-        """Read everything back, into arrays of the picture's own."""
+    def image(self, intrinsics: Intrinsics) -> RenderedImage:
+        """Read everything back, into arrays of the image's own."""
         colour: npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | None = None
         if "colour" in self.places and self._formats["colour"] == "f1":
             # RGBA is read several times faster than RGB; the alpha goes afterwards.
@@ -58,7 +58,7 @@ class Targets:
             range = self._read("range", np.empty(self._shape, np.float32))
         if "ids" in self.places:
             ids = self._read("ids", np.empty(self._shape, np.uint16))
-        return Picture(intrinsics=intrinsics, colour=colour, range=range, ids=ids)
+        return RenderedImage(intrinsics=intrinsics, colour=colour, range=range, ids=ids)
 
     def _read(self, name: str, pixels: npt.NDArray[T]) -> npt.NDArray[T]:
         self.framebuffer.read_into(

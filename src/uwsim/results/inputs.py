@@ -1,7 +1,7 @@
 """The ``inputs`` of a result: every file that it is made of, by role and name, with its hash.
 
 ``benchmark``, ``scene`` and ``plugins`` are name and hash; ``assets`` are what the scene and the
-benchmark name: robots, vehicles' parts, models with their materials, buffers and pictures, data of
+benchmark name: robots, vehicles' parts, models with their materials, buffers and images, data of
 currents, the user's own functions, recordings; ``algorithm`` is the source of one's own
 ``module:Class`` and of what it imports.
 """

@@ -95,8 +95,8 @@ class ImageStream:
 
 
 @dataclass(frozen=True, kw_only=True)
-class TakenPicture:
-    """A camera's picture at the end of a level, kept for the report."""
+class SavedImage:
+    """A camera's image at the end of a level, kept for the report."""
 
     row: int
     """Row it belongs to, from 0."""
@@ -135,13 +135,13 @@ class Result:
     """What was drawn for each seed."""
     image_streams: tuple[ImageStream, ...] = ()
     """Fingerprints of what the algorithm saw."""
-    pictures: tuple[TakenPicture, ...] = ()
-    """Pictures kept for the report."""
+    images: tuple[SavedImage, ...] = ()
+    """Images kept for the report."""
 
     def __post_init__(self) -> None:
         for name in ("inputs", "run", "facts"):
             object.__setattr__(self, name, _plain(getattr(self, name), name))
-        for name in ("columns", "missing", "variations", "image_streams", "pictures"):
+        for name in ("columns", "missing", "variations", "image_streams", "images"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         object.__setattr__(self, "rows", _plain(self.rows, "rows"))
         _check_columns(self)
@@ -241,11 +241,11 @@ def _check_notes(result: Result) -> None:
         _expect(all(isinstance(text, str) and text for text in texts), f"{at} lacks words")
         whole = isinstance(variation.values, tuple) and all(map(_is_draw, variation.values))
         _expect(whole, f"{at} ({variation.path}) has something else than pairs of seed and value")
-    for i, picture in enumerate(result.pictures):
+    for i, image in enumerate(result.images):
         at = f"pictures[{i}]"
-        _expect(_is_row(picture.row, n), f"{at} is of row {picture.row!r}, which is not there")
-        _expect(_is_inside(picture.file), f"{at} lies outside the result: {picture.file!r}")
-        for quad in (picture.truth, picture.estimate):
+        _expect(_is_row(image.row, n), f"{at} is of row {image.row!r}, which is not there")
+        _expect(_is_inside(image.file), f"{at} lies outside the result: {image.file!r}")
+        for quad in (image.truth, image.estimate):
             whole = quad is None or (len(quad) == 8 and all(_is_number(v) for v in quad))
             _expect(whole, f"{at} has a quadrangle of other than 8 numbers: {quad!r}")
 

@@ -19,10 +19,12 @@ from typing import TypeVar, cast
 from ..errors import ResultError, did_you_mean
 from .atomic_file import write_text
 from .interrupted import instead_of_a_result
-from .result import Column, ImageStream, Missing, Result, TakenPicture, Variation
+from .result import Column, ImageStream, Missing, Result, SavedImage, Variation
 from .stored_shapes import RESULT
 
 FORMAT = "uwsim-result/1"
+STORED = {"images": "pictures"}
+"""Attribute of `Result` -> key of the file, where they differ."""
 T = TypeVar("T")
 
 
@@ -73,7 +75,7 @@ def dumps(result: Result) -> str:
         "rows": _block("[]", [_json(row) for row in result.rows]),
         "missing": _block("[]", [_json(asdict(missing)) for missing in result.missing]),
         "image_streams": _block("[]", [_json(asdict(stream)) for stream in result.image_streams]),
-        "pictures": _block("[]", [_json(asdict(picture)) for picture in result.pictures]),
+        "pictures": _block("[]", [_json(asdict(image)) for image in result.images]),
     }
     return "{\n" + ",\n".join(f"  {_json(k)}: {text}" for k, text in parts.items()) + "\n}\n"
 
@@ -105,10 +107,10 @@ def loads(text: str) -> Result:
         facts=_take(document, "facts", dict, {}),
         variations=tuple(_take_each(document, "variations", Variation, [])),
         image_streams=tuple(_take_each(document, "image_streams", ImageStream, [])),
-        pictures=tuple(_take_each(document, "pictures", TakenPicture, [])),
+        images=tuple(_take_each(document, "pictures", SavedImage, [])),
     )
     for name in document:
-        known = [f.name for f in fields(Result)]
+        known = [STORED.get(f.name, f.name) for f in fields(Result)]
         raise ResultError(f"unknown key {name!r}.{did_you_mean(name, known)}")
     return result
 

@@ -112,7 +112,7 @@ class Plan:
 
     @property
     def told_topic(self) -> str | None:
-        """Topic of the pictures of the camera by which a tracker is told where its target is."""
+        """Topic of the images of the camera by which a tracker is told where its target is."""
         told = [
             spec.ground_truth.camera
             for spec in self.benchmark.measures

@@ -31,7 +31,7 @@ from ..results.result import (
     Json,
     Missing,
     Result,
-    TakenPicture,
+    SavedImage,
     Variation,
 )
 from ..results.result_file import save
@@ -56,7 +56,7 @@ class Run:
     inputs: Json
     """Names and hashes of the files read (`hash_inputs`)."""
     renderer: str
-    """What draws the pictures (`hash_inputs`)."""
+    """What draws the images (`hash_inputs`)."""
     files: tuple[InputFile, ...] = ()
     """Files that must not change while it is played (`watchable`)."""
     n_resumed: int = 0
@@ -150,7 +150,7 @@ def collect(run: Run) -> tuple[Result, list[Log], float]:
     columns = _columns(plan, [record for _, record in records])
     rows: list[tuple[Cell, ...]] = []
     missing: list[Missing] = []
-    pictures: list[TakenPicture] = []
+    images: list[SavedImage] = []
     samples: dict[str, list[tuple[float | int | None, ...]]] = {
         spec.name: [] for spec in plan.benchmark.measures if spec.log is not None
     }
@@ -175,7 +175,7 @@ def collect(run: Run) -> tuple[Result, list[Log], float]:
         ]
         for name, taken in record["logs"].items():
             samples[name] += [(*led, *values, before + sample[0], *sample[1:]) for sample in taken]
-        pictures += [_picture(index, picture) for picture in record["pictures"]]
+        images += [_image(index, image) for image in record["pictures"]]
     ends = [(unit, found.end) for unit, found in stored if found.end is not None]
     first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.parameters)}
     about = {
@@ -203,7 +203,7 @@ def collect(run: Run) -> tuple[Result, list[Log], float]:
             for unit, end in ends
             for topic, frames, sha256 in end["streams"]
         ),
-        pictures=tuple(pictures),
+        images=tuple(images),
     )
     simulated_s = sum(elapsed.values())
     if not records:
@@ -274,9 +274,9 @@ def _units(records: list[journal.Record], kind: str) -> dict[str, str]:
     return {name: unit for name, (_, unit) in first.items()}
 
 
-def _picture(row: int, stored: journal.Record) -> TakenPicture:
-    """A picture of a row as the result has it."""
-    return TakenPicture(
+def _image(row: int, stored: journal.Record) -> SavedImage:
+    """An image of a row as the result has it."""
+    return SavedImage(
         row=row,
         camera=stored["camera"],
         file=stored["file"],
@@ -323,7 +323,7 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[dict[str,
         pool: lends the renderer; without one it is made, and closed again.
 
     Returns:
-        The ``inputs`` of the result, and what draws the pictures.
+        The ``inputs`` of the result, and what draws the images.
 
     Raises:
         UwsimError: a file, a body, a camera or a service that is not there.

@@ -59,7 +59,7 @@ def looking(vehicle: VehicleSpec) -> Iterator[Looking]:
 def _looks(spec: Mounted, stand: Stand) -> str:
     ahead, top = stand.looks(spec)
     words = stand.directions
-    return f"looks {in_words(ahead, words)}; the top of its picture is {in_words(top, words)}"
+    return f"looks {in_words(ahead, words)}; the top of its image is {in_words(top, words)}"
 
 
 def _called(spec: Mounted) -> str:

@@ -90,7 +90,7 @@ class Stand:
         return Pose(np.array(spec.position), product(world_from_frame.rotation.T, looks))
 
     def looks(self, spec: Mounted, *, visual: bool = False) -> tuple[Array, Array]:
-        """Unit vectors in W: where it looks, and the top of its picture, (3,) each."""
+        """Unit vectors in W: where it looks, and the top of its image, (3,) each."""
         frame = self.world_from_link(spec.relative_to, visual=visual).rotation
         axes = product(frame, self.frame_from_mounted(spec, visual=visual).rotation)
         return (axes[:, 0], axes[:, 2]) if isinstance(spec, ALONG_X) else (-axes[:, 2], axes[:, 1])
@@ -121,7 +121,7 @@ def link_from_frame(robot: RobotSpec, link: str, visual: bool) -> Pose:
 
 
 def camera_axes(ahead: Array, top: Array) -> Array:
-    """Axes of a camera, as columns, (3, 3): it looks along -z, up in its picture is ``top``."""
+    """Axes of a camera, as columns, (3, 3): it looks along -z, up in its image is ``top``."""
     right = np.cross(ahead, top)
     if length(right) < STRAIGHT:  # the top is where it looks: any other will do
         right = np.cross(ahead, np.eye(3)[int(np.argmin(np.abs(ahead)))])
@@ -136,7 +136,7 @@ def axes_along_x(ahead: Array, top: Array) -> Array:
 
 
 def _top(word: str, words: dict[str, Array]) -> Array:
-    """The top of the picture of a camera that is nodded from forward to where it looks."""
+    """The top of the image of a camera that is nodded from forward to where it looks."""
     return words[{"down": "forward", "up": "aft"}.get(word, "up")]
 
 

@@ -1,4 +1,4 @@
-"""Pictures and fans of beams that are larger than anybody means: each costs memory and time."""
+"""Images and fans of beams that are larger than anybody means: each costs memory and time."""
 
 from __future__ import annotations
 
@@ -12,32 +12,32 @@ from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from .spec import SceneSpec, SimParamsSpec
 
 MAX_PIXELS = 7680 * 4320
-"""Largest picture of a camera [px]: 8K. Drawing it takes about 1 GB."""
+"""Largest image of a camera [px]: 8K. Drawing it takes about 1 GB."""
 MAX_PIXELS_IN_ALL = 4 * MAX_PIXELS
 """Of all cameras of a scene [px]."""
 MAX_BEAMS = 100_000
 """Most beams of one sensor."""
 
-Picture = VirtualCameraSpec | VirtualRangeImageSpec | SimParamsSpec
+ImageSpec = VirtualCameraSpec | VirtualRangeImageSpec | SimParamsSpec
 
 
 def check_sizes(scene: SceneSpec, faults: Faults) -> None:
     """Say which cameras, windows and fans of beams are too large."""
     n_all = 0
-    for picture in (scene.sim_params, *_cameras(scene)):
-        n = picture.resw * picture.resh
+    for image in (scene.sim_params, *_cameras(scene)):
+        n = image.resw * image.resh
         if n > MAX_PIXELS:
             faults.add(
-                faults.node_of(picture),
-                f"a picture of {picture.resw} x {picture.resh} pixels; at most "
+                faults.node_of(image),
+                f"an image of {image.resw} x {image.resh} pixels; at most "
                 f"{MAX_PIXELS / 1e6:.0f} million are drawn",
             )
             continue
         n_all += n
         if n_all > MAX_PIXELS_IN_ALL:
             faults.add(
-                faults.node_of(picture),
-                f"with this one, the pictures of the scene have {n_all / 1e6:.0f} million pixels; "
+                faults.node_of(image),
+                f"with this one, the images of the scene have {n_all / 1e6:.0f} million pixels; "
                 f"at most {MAX_PIXELS_IN_ALL / 1e6:.0f} are drawn",
             )
             break

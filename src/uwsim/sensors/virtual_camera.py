@@ -46,7 +46,7 @@ class CameraParametersSpec:
     """Skew [px]."""
 
     def intrinsics(self, width: int, height: int, compatibility: frozenset[str]) -> Intrinsics:
-        """The pinhole for a picture of ``width`` by ``height`` pixels.
+        """The pinhole for an image of ``width`` by ``height`` pixels.
 
         With the compatibility ``y0``, y0 counts from the bottom edge as in the original.
         """
@@ -73,9 +73,9 @@ class VirtualCameraSpec(SensorSpec):
     message_type: ClassVar[type] = Image
 
     resw: int = element(default=160, minimum=1, maximum=16384)
-    """Columns of the picture [px]."""
+    """Columns of the image [px]."""
     resh: int = element(default=120, minimum=1, maximum=16384)
-    """Rows of the picture [px]."""
+    """Rows of the image [px]."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
     )
@@ -121,7 +121,7 @@ class VirtualCamera:
     Not modelled: exposure, motion blur, rolling shutter, lens distortion, refraction.
     """
 
-    STATE: ClassVar[tuple[str, ...]] = ("std", "n_pictures", "_random")
+    STATE: ClassVar[tuple[str, ...]] = ("std", "n_images", "_random")
     """What of it changes as time goes by."""
 
     def __init__(
@@ -141,8 +141,8 @@ class VirtualCamera:
         """Whether it gives mono8 instead of rgb8."""
         self.std = spec.std
         """Noise of each channel, 0..1; scene updaters may turn it."""
-        self.n_pictures: int | None = None
-        """Pictures due on its topics so far, read or not; None: it has no topic."""
+        self.n_images: int | None = None
+        """Images due on its topics so far, read or not; None: it has no topic."""
 
     @property
     def intrinsics(self) -> Intrinsics:
@@ -155,12 +155,12 @@ class VirtualCamera:
         return self._mount.world_from_body
 
     def resize(self, intrinsics: Intrinsics) -> None:
-        """Give it another pinhole; who publishes its pictures does not know of that."""
+        """Give it another pinhole; who publishes its images does not know of that."""
         self._intrinsics = intrinsics
 
-    def shoot(self) -> npt.NDArray[np.uint8]:
-        """Take a picture, (h, w, 3), or (h, w) when it is grey; row 0 is the top."""
-        return self._world.photograph(
+    def capture(self) -> npt.NDArray[np.uint8]:
+        """Take an image, (h, w, 3), or (h, w) when it is grey; row 0 is the top."""
+        return self._world.render(
             self.world_from_camera,
             self._intrinsics,
             std=self.std,
@@ -169,11 +169,11 @@ class VirtualCamera:
         )
 
     def sample(self, time: float) -> Image:
-        """Take a picture as a message, stamped ``time`` [s]."""
-        return image(self.shoot(), time=time, frame_id=self.frame_id)
+        """Take an image as a message, stamped ``time`` [s]."""
+        return image(self.capture(), time=time, frame_id=self.frame_id)
 
     def skip(self) -> None:
-        """Let a picture that nobody reads take its turn in the random stream."""
+        """Let an image that nobody reads take its turn in the random stream."""
         if self.std > 0.0:
             self._random.integers(2**63)
 

@@ -24,9 +24,9 @@ class VirtualRangeImageSpec(SensorSpec):
     """A ``<virtualRangeImage>``; geometry as that of a `VirtualCameraSpec`."""
 
     resw: int = element(default=160, minimum=1, maximum=16384)
-    """Columns of the picture [px]."""
+    """Columns of the image [px]."""
     resh: int = element(default=120, minimum=1, maximum=16384)
-    """Rows of the picture [px]."""
+    """Rows of the image [px]."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
     )

@@ -27,7 +27,7 @@ class Part:
     """One model of the scene and whose it is."""
 
     id: int
-    """Number in segmentation pictures, from 1."""
+    """Number in segmentation images, from 1."""
     name: str
     """``vehicle/link`` or the object's name."""
     model: Model

@@ -19,7 +19,7 @@ from ..rendering.grey import grey_truncated
 from ..rendering.lamp import Lamp
 from ..rendering.lamps import MAX_LAMPS
 from ..rendering.noise import add_noise
-from ..rendering.renderer import Picture, Renderer
+from ..rendering.renderer import RenderedImage, Renderer
 from ..rendering.water import Light, Water
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
@@ -30,7 +30,7 @@ ALL_TARGETS = frozenset({"colour", "range", "ids"})
 
 
 class Scenery:
-    """The models of a scene in its water; borrows a renderer when the first picture is asked for.
+    """The models of a scene in its water; borrows a renderer when the first image is asked for.
 
     Args:
         scene: what the file says.
@@ -90,7 +90,7 @@ class Scenery:
         world_from_mesh = self.world_from_mesh(part)
         return product(part.model.box.corners(), world_from_mesh[:3, :3].T) + world_from_mesh[:3, 3]
 
-    def photograph(
+    def render(
         self,
         world_from_camera: Pose,
         intrinsics: Intrinsics,
@@ -100,24 +100,24 @@ class Scenery:
         grey: bool,
     ) -> npt.NDArray[np.uint8]:
         """Draw what a camera would see now, with noise, (h, w, 3) or (h, w) when ``grey``."""
-        picture = self._draw(
+        rendered = self._draw(
             world_from_camera,
             intrinsics,
             self.water,
             targets=frozenset({"colour"}),
             colour="linear16" if std > 0.0 else "uint8",
         )
-        assert picture.colour is not None
-        if picture.colour.dtype == np.uint16:
-            pixels = add_noise(picture.colour.view(np.uint16), std, random)
+        assert rendered.colour is not None
+        if rendered.colour.dtype == np.uint16:
+            pixels = add_noise(rendered.colour.view(np.uint16), std, random)
         else:
-            pixels = picture.colour.view(np.uint8)
+            pixels = rendered.colour.view(np.uint8)
         return grey_truncated(pixels) if grey else pixels
 
-    def picture(
+    def render_clean(
         self, world_from_camera: Pose, intrinsics: Intrinsics, *, fog: float | None = None
-    ) -> Picture:
-        """Draw a noise-free picture with range and ids, as things stand, or at another fog."""
+    ) -> RenderedImage:
+        """Draw a noise-free image with range and ids, as things stand, or at another fog."""
         water = self.water if fog is None else replace(self.water, fog=fog)
         return self._draw(world_from_camera, intrinsics, water)
 
@@ -129,7 +129,7 @@ class Scenery:
         targets: Collection[str] = ALL_TARGETS,
         hidden: frozenset[int] = frozenset(),
         fog: float | None = None,
-    ) -> Picture:
+    ) -> RenderedImage:
         """Draw what a viewer sees who is no camera of the scene: ghosts, too, and air above water.
 
         Args:
@@ -157,7 +157,7 @@ class Scenery:
         targets: frozenset[str] = ALL_TARGETS,
         colour: str = "uint8",
         hidden: frozenset[int] | None = None,
-    ) -> Picture:
+    ) -> RenderedImage:
         """Draw what a camera sees, without the parts ``hidden``; None: without ghosts."""
         renderer = self._open()
         if not self._handles:
@@ -180,12 +180,12 @@ class Scenery:
 
     @property
     def renderer_name(self) -> str:
-        """What draws the pictures; makes the graphics context if there is none yet."""
+        """What draws the images; makes the graphics context if there is none yet."""
         return self._open().description
 
     @property
     def part_names(self) -> dict[int, str]:
-        """Number in segmentation pictures -> ``vehicle/link`` or object."""
+        """Number in segmentation images -> ``vehicle/link`` or object."""
         return {part.id: part.name for part in self.parts}
 
     @property
@@ -196,7 +196,7 @@ class Scenery:
         return {name: models[name] for name in sorted(models)}
 
     def redraw(self) -> None:
-        """Look up anew where everything is before the next picture."""
+        """Look up anew where everything is before the next image."""
         self._drawn_version = -1
 
     def _open(self) -> Renderer:

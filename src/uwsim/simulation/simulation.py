@@ -22,7 +22,7 @@ from ..bus import Algorithm, Bus, Inbox
 from ..errors import BadSetting, UnknownName, UwsimError
 from ..geometry import Array, Pose
 from ..physics.motion import Motion
-from ..rendering.renderer import Picture
+from ..rendering.renderer import RenderedImage
 from ..scene.spec import SceneSpec
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from .calls import Calls
@@ -197,7 +197,7 @@ class Simulation:
             raise UwsimError(f"{name!r} is kinematic (no <u:dynamics>): it has no velocity.")
         return self.world.state.vehicle_velocity(index)
 
-    def image(self, camera: str) -> Picture:
+    def image(self, camera: str) -> RenderedImage:
         """Render what a camera sees now, without noise: colour, range and ids.
 
         Raises:
@@ -205,7 +205,7 @@ class Simulation:
             NoGraphics: there is no OpenGL.
         """
         view = self.world.camera(camera)
-        return self.world.scenery.picture(view.world_from_camera, view.intrinsics)
+        return self.world.scenery.render_clean(view.world_from_camera, view.intrinsics)
 
     @property
     def motion(self) -> Motion:

@@ -19,7 +19,7 @@ Size = tuple[int, int]
 FIELD = math.radians(50.0)
 """Vertical field of view of the views that are made up here [rad]."""
 FILLED = 0.8
-"""What matters fills so much of a picture, in width or height [1]."""
+"""What matters fills so much of an image, in width or height [1]."""
 NEARBY = 6.0
 """Objects within so many metres of the vehicles' middle matter, too, or 3 times their size [m]."""
 LARGEST = 10.0
@@ -31,7 +31,7 @@ BEARINGS = (35.0, -35.0, 145.0, -145.0, 80.0, -80.0, 0.0, 180.0)
 ELEVATIONS = (25.0, 50.0, 10.0)
 """How high above the horizon [deg]."""
 SKETCH: Size = (96, 72)
-"""Of the pictures that say how much of it is seen [px]."""
+"""Of the images that say how much of it is seen [px]."""
 NEAREST = 0.05
 """Near plane [m]."""
 UP = np.array([0.0, 0.0, 1.0])
@@ -90,7 +90,7 @@ def view_from(simulation: Simulation, eye: Array, at: Array, size: Size) -> View
 
 
 def top_view(simulation: Simulation, size: Size) -> View:
-    """From above; L's x axis is up in the picture, if it lies level."""
+    """From above; L's x axis is up in the image, if it lies level."""
     focus, lens = focus_of(simulation), _lens(size, FIELD)
     top = simulation.world.world_from_localized.rotation[:, 0] * [1.0, 1.0, 0.0]
     if length(top) < 0.5:
@@ -101,7 +101,7 @@ def top_view(simulation: Simulation, size: Size) -> View:
 def orbit_view(simulation: Simulation, size: Size) -> View:
     """From where the most of what matters is seen: from ahead, to starboard and above, if it can.
 
-    Places round it are tried one after the other, each with a small picture of all there is and one
+    Places round it are tried one after the other, each with a small image of all there is and one
     of what matters alone.
     """
     focus, lens = focus_of(simulation), _lens(size, FIELD)
@@ -168,7 +168,7 @@ def _share_seen(simulation: Simulation, focus: Focus, world_from_camera: Pose) -
 
 
 def _framing(focus: Focus, axes: Array, lens: Intrinsics) -> Pose:
-    """Stand so far off, with these axes in W, that all corners are in the picture."""
+    """Stand so far off, with these axes in W, that all corners are in the image."""
     beside = product(focus.corners - focus.middle, axes)  # (n, 3): right, up, towards the eye [m]
     halves = np.array([lens.width / lens.fx, lens.height / lens.fy]) * 0.5 * FILLED  # (2,) [1]
     distance = float((np.abs(beside[:, :2]) / halves + beside[:, 2:]).max())

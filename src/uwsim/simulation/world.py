@@ -214,7 +214,7 @@ class SceneWorld:
         """Find a file that the file ``beside`` names; AssetNotFound says where it was sought."""
         return find_file(name, beside, self._data_path)
 
-    def photograph(
+    def render(
         self,
         world_from_camera: Pose,
         intrinsics: Intrinsics,
@@ -224,6 +224,4 @@ class SceneWorld:
         grey: bool,
     ) -> npt.NDArray[np.uint8]:
         """Draw what a camera would see now, with noise, (h, w, 3) or (h, w) when ``grey``."""
-        return self.scenery.photograph(
-            world_from_camera, intrinsics, std=std, random=random, grey=grey
-        )
+        return self.scenery.render(world_from_camera, intrinsics, std=std, random=random, grey=grey)

@@ -18,7 +18,7 @@ class RangeImageSensorToROSImageSpec(InterfaceSpec):
     camera_name: str
     """Name of the depth camera."""
     image_topic: str
-    """Topic of the pictures."""
+    """Topic of the images."""
     info_topic: str
     """Topic of the camera's description."""
     rate: int = element(default=10, minimum=1)

@@ -10,12 +10,12 @@ from .interface import InterfaceSpec
 
 @dataclass(frozen=True, kw_only=True)
 class ROSImageToHUDSpec(InterfaceSpec):
-    """Shows pictures of a topic in the viewer."""
+    """Shows images of a topic in the viewer."""
 
     width: int = element(minimum=1)
-    """Columns of the pictures [px]."""
+    """Columns of the images [px]."""
     height: int = element(minimum=1)
-    """Rows of the pictures [px]."""
+    """Rows of the images [px]."""
     posx: int = 0
     """From the left edge of the window [px]."""
     posy: int = 0
@@ -23,9 +23,9 @@ class ROSImageToHUDSpec(InterfaceSpec):
     scale: float = 1.0
     """Size on the screen [1]."""
     black_white: bool = False
-    """Whether the pictures have one channel."""
+    """Whether the images have one channel."""
     image_topic: str
-    """Topic of the pictures."""
+    """Topic of the images."""
     info_topic: str = ""
     """Topic of the camera's description."""
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import UnknownName
-from ..messages import CameraInfo, Image, image, picture
+from ..messages import CameraInfo, Image, image, pixels_of
 from ..sampling import SampleTimer
 from ..schema import element
 from ..sensors.virtual_camera import VirtualCamera
@@ -28,7 +28,7 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
     camera_name: str
     """Name of the camera."""
     image_topic: str
-    """Topic of the pictures."""
+    """Topic of the images."""
     info_topic: str
     """Topic of the camera's description."""
     rate: int = element(default=10, minimum=1)
@@ -47,7 +47,7 @@ class ImagePublisher(Interface):
     """Publishes the images of a camera.
 
     A sample that nobody reads is not drawn, but takes its turn in the camera's random stream: the
-    pictures do not depend on who is listening. In a blind world the images are black, for
+    images do not depend on who is listening. In a blind world the images are black, for
     algorithms that do not look at them.
     """
 
@@ -59,7 +59,7 @@ class ImagePublisher(Interface):
     ) -> None:
         self.camera = camera
         """The camera whose images these are."""
-        camera.n_pictures = camera.n_pictures or 0
+        camera.n_images = camera.n_images or 0
         self.n_frames = 0
         """Images published."""
         self.last: npt.NDArray[np.uint8] | None = None
@@ -84,7 +84,7 @@ class ImagePublisher(Interface):
 
     def publish(self) -> None:
         """Take the sample that is due and publish it."""
-        self.camera.n_pictures = (self.camera.n_pictures or 0) + 1
+        self.camera.n_images = (self.camera.n_images or 0) + 1
         time, bus = self._world.time, self._world.bus
         if bus.has_readers(self._info_topic):
             self._publish_info(self.camera.info(time))
@@ -98,4 +98,4 @@ class ImagePublisher(Interface):
             message = image(self._blank, time=time, frame_id=self.camera.frame_id)
         self.n_frames += 1
         self._publish_image(message)
-        self.last = picture(message)
+        self.last = pixels_of(message)

@@ -83,7 +83,7 @@ def _time(record: Record, name: str | int, sample: int) -> str:
 
 
 def of_end(stored: Record, again: Record) -> list[str]:
-    """Say what differs in the end of a unit: pictures, constants, parameters; not its trace."""
+    """Say what differs in the end of a unit: images, constants, parameters; not its trace."""
     said: dict[str, str] = {}
     for path, before, after in apart(_without_checkpoints(stored), _without_checkpoints(again)):
         name = " ".join(map(str, path[:2]))
@@ -91,7 +91,7 @@ def of_end(stored: Record, again: Record) -> list[str]:
             topics = [s[0] for s in again.get("streams", []) if isinstance(s, list) and s]
             number = int(path[1]) if len(path) > 1 else 0
             topic = topics[number] if number < len(topics) else number
-            name = f"pictures on {topic}"
+            name = f"images on {topic}"
             if path[-1] == 1:
                 before, after = f"{before} frames", f"{after} frames"
         said.setdefault(name, f"{name}: stored {before}, replayed {after}")
@@ -132,7 +132,7 @@ def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> Motion:
         f"no more at step {found.until} ({found.until * timestep:g} s)"
     )
     what = f"; first differs: {', '.join(found.parts)}" if found.parts else ""
-    return Motion(said=f"motion and pictures are {span}{what}", parts=found.parts)
+    return Motion(said=f"motion and images are {span}{what}", parts=found.parts)
 
 
 def of_text(stored: str, again: str) -> str | None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..runs.plan import Plan
 
 NOT_DRAWN = "none"
-"""The renderer of a control, which looks at no picture."""
+"""The renderer of a control, which looks at no image."""
 
 
 @dataclass(frozen=True, kw_only=True)

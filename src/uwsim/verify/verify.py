@@ -2,9 +2,9 @@
 
 First, without playing anything, every total is worked out from its row, and every file of the
 result is made anew from what its trials stored and compared. Then whole trials are replayed from
-the recorded inputs and compared with what is stored: every cell, every sample, every picture, byte
+the recorded inputs and compared with what is stored: every cell, every sample, every image, byte
 for byte; where they differ, the fingerprints on the way (`trace`) say from which step on and in
-which body or picture.
+which body or image.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ..results.result import Result
 from ..results.result_file import dumps
 from ..rng import stream
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
-from ..runs.executors.worker import PICTURES
+from ..runs.executors.worker import IMAGES
 from ..runs.plan import Plan, Trial
 from ..runs.run import Run
 from . import differences
@@ -115,7 +115,7 @@ def verify(
                 _check_unit(found, directory, again, trial)
         else:
             _check_rows(found, result, again)
-        _check_pictures(found, directory, again.out)
+        _check_images(found, directory, again.out)
     return found
 
 
@@ -264,19 +264,19 @@ def _check_rows(found: Verification, result: Result, again: Run) -> None:
                 found.add("result.json", f"{where}: stored {there!r}, replayed {cell!r}")
     for stream_again in made.image_streams:
         if stream_again not in result.image_streams:
-            found.add("result.json", f"pictures on {stream_again.topic}: others than in the replay")
+            found.add("result.json", f"images on {stream_again.topic}: others than in the replay")
 
 
-def _check_pictures(found: Verification, directory: Path, again: Path) -> None:
-    for path in sorted((again / PICTURES).glob("*.png")):
-        there = directory / PICTURES / path.name
-        if not (directory / PICTURES).is_dir():
-            found.not_compared.append(f"{PICTURES}/: is not there")
+def _check_images(found: Verification, directory: Path, again: Path) -> None:
+    for path in sorted((again / IMAGES).glob("*.png")):
+        there = directory / IMAGES / path.name
+        if not (directory / IMAGES).is_dir():
+            found.not_compared.append(f"{IMAGES}/: is not there")
             return
         if not there.is_file():
-            found.not_compared.append(f"{PICTURES}/{path.name}: is not there")
+            found.not_compared.append(f"{IMAGES}/{path.name}: is not there")
         elif there.read_bytes() != path.read_bytes():
-            found.add(f"{PICTURES}/{path.name}", "another picture than in the replay")
+            found.add(f"{IMAGES}/{path.name}", "another image than in the replay")
 
 
 def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:

@@ -23,21 +23,21 @@ def test_a_synthetic_warp_is_recovered_to_a_twentieth_of_a_pixel(
     blend: str, photometric: bool, seed: int
 ) -> None:
     texture = Texture(seed, shortest=12.0)
-    template = take_template(texture.picture(), QUAD)
+    template = take_template(texture.image(), QUAD)
     rng = np.random.Generator(np.random.Philox(seed))
     target = QUAD + 2.5 * rng.standard_normal((4, 2))
-    picture = texture.picture(between(QUAD, target))
+    image = texture.image(between(QUAD, target))
     method = Method(blend=blend, photometric=photometric, max_iterations=40)
-    assert rms(align(picture, template, np.eye(3), method).homography, target) < 0.05
+    assert rms(align(image, template, np.eye(3), method).homography, target) < 0.05
 
 
 def test_a_rotated_patch_is_recovered_too() -> None:
     texture = Texture(3, shortest=12.0)
     quad = np.array([[120.0, 90.0], [190.0, 130.0], [170.0, 165.0], [100.0, 125.0]])
-    tracker = DirectTracker.remember(texture.picture(), quad, levels=3, method=Method())
+    tracker = DirectTracker.remember(texture.image(), quad, levels=3, method=Method())
     assert isinstance(tracker, DirectTracker)
     target = quad + np.array([[3.0, 1.0], [2.0, -1.0], [4.0, 0.5], [2.5, 2.0]])
-    estimate = tracker.step(texture.picture(between(quad, target)))
+    estimate = tracker.step(texture.image(between(quad, target)))
     assert np.sqrt(((estimate.corners - target) ** 2).sum(axis=1).mean()) < 0.05
     assert estimate.zncc > 0.98
 
@@ -45,23 +45,23 @@ def test_a_rotated_patch_is_recovered_too() -> None:
 def test_large_motion_needs_the_pyramid() -> None:
     texture = Texture(5, shortest=8.0, longest=40.0, waves=40)
     target = QUAD + np.array([12.0, -9.0])
-    picture = texture.picture(between(QUAD, target))
+    image = texture.image(between(QUAD, target))
     error = {}
     for levels in (1, 3):
-        tracker = DirectTracker.remember(texture.picture(), QUAD, levels=levels, method=Method())
+        tracker = DirectTracker.remember(texture.image(), QUAD, levels=levels, method=Method())
         assert isinstance(tracker, DirectTracker)
-        error[levels] = np.abs(tracker.step(picture).corners - target).max()
+        error[levels] = np.abs(tracker.step(image).corners - target).max()
     assert error[3] < 0.1 < 1.0 < error[1]
 
 
 def one_step_error(blend: str, scale: float) -> float:
     """Corner error left by one step from a guess that is off by ``scale`` pixels."""
     texture = Texture(9, shortest=60.0, longest=120.0, waves=40)
-    picture = texture.picture()
-    template = take_template(picture, QUAD)
+    image = texture.image()
+    template = take_template(image, QUAD)
     offsets = scale * np.array([[1.0, 0.5], [-0.6, 1.0], [0.3, -1.0], [-0.8, -0.2]])
     method = Method(blend=blend, photometric=False, max_iterations=1)
-    return rms(align(picture, template, between(QUAD, QUAD + offsets), method).homography, QUAD)
+    return rms(align(image, template, between(QUAD, QUAD + offsets), method).homography, QUAD)
 
 
 def test_one_step_of_esm_is_of_second_order_and_one_of_its_relatives_of_first() -> None:
@@ -78,13 +78,13 @@ def convergence(
     blend: str, sigma: float, *, trials: int, photometric: bool = True
 ) -> tuple[float, float]:
     """Share of trials [%] that end within 1 px RMS, and mean iterations, from 25 at most."""
-    picture = Texture(1, shortest=20.0, longest=100.0, waves=40).picture()
-    template = take_template(picture, QUAD)
+    image = Texture(1, shortest=20.0, longest=100.0, waves=40).image()
+    template = take_template(image, QUAD)
     rng = np.random.Generator(np.random.Philox(7))
     method = Method(blend=blend, photometric=photometric, max_iterations=25, precision=1e-3)
     good, iterations = 0, 0
     for offsets in sigma * rng.standard_normal((trials, 4, 2)):
-        result = align(picture, template, between(QUAD, QUAD + offsets), method)
+        result = align(image, template, between(QUAD, QUAD + offsets), method)
         good += rms(result.homography, QUAD) < 1.0
         iterations += result.iterations
     return 100.0 * good / trials, iterations / trials
@@ -114,9 +114,9 @@ def test_esm_needs_fewer_steps_and_fails_no_more_often_in_500_trials(
 @pytest.mark.parametrize(("gain", "bias"), [(0.2, 100.0), (0.6, -30.0), (1.3, 5.0)])
 def test_light_does_not_look_like_motion(gain: float, bias: float) -> None:
     texture = Texture(2, shortest=12.0)
-    template = take_template(texture.picture(), QUAD)
+    template = take_template(texture.image(), QUAD)
     target = QUAD + np.array([2.0, -1.5])
-    moved = texture.picture(between(QUAD, target))
+    moved = texture.image(between(QUAD, target))
     plain = align(moved, template, np.eye(3), Method())
     lit = align(gain * moved + np.float32(bias), template, np.eye(3), Method())
     assert lit.homography == pytest.approx(plain.homography, abs=1e-3)
@@ -128,57 +128,57 @@ def test_light_does_not_look_like_motion(gain: float, bias: float) -> None:
 
 def test_without_normalisation_light_does_look_like_motion() -> None:
     texture = Texture(2, shortest=12.0)
-    template = take_template(texture.picture(), QUAD)
-    lit = 0.4 * texture.picture() + np.float32(20.0)
+    template = take_template(texture.image(), QUAD)
+    lit = 0.4 * texture.image() + np.float32(20.0)
     method = Method(photometric=False, max_iterations=40)
     assert rms(align(lit, template, np.eye(3), method).homography, QUAD) > 1.0
 
 
 @pytest.mark.parametrize("transmission", [0.05, 0.1, 0.2, 0.5])
 @pytest.mark.parametrize("offset", [0.0, 0.3])
-def test_the_correlation_of_a_noisy_picture_is_the_law_even_between_pixels(
+def test_the_correlation_of_a_noisy_image_is_the_law_even_between_pixels(
     transmission: float, offset: float
 ) -> None:
     texture = Texture(4, shortest=20.0)
-    picture, sigma = texture.picture(), 4.0
-    template = take_template(picture, QUAD)
+    image, sigma = texture.image(), 4.0
+    template = take_template(image, QUAD)
     rng = np.random.Generator(np.random.Philox(3))
     shift = between(QUAD, QUAD + offset)
-    noise = sigma * rng.standard_normal(picture.shape)
-    noisy = (transmission * texture.picture(shift) + noise).astype(np.float32)
+    noise = sigma * rng.standard_normal(image.shape)
+    noisy = (transmission * texture.image(shift) + noise).astype(np.float32)
     signal = transmission * template.contrast
     expected = signal / np.hypot(signal, sigma)
     assert zncc(noisy, template, shift) == pytest.approx(expected, abs=0.03)
 
 
-def test_a_picture_turned_inside_out_correlates_at_minus_one() -> None:
-    picture = Texture().picture()
-    template = take_template(picture, QUAD)
-    assert zncc(255.0 - picture, template, np.eye(3)) == pytest.approx(-1.0, abs=1e-5)
+def test_an_image_turned_inside_out_correlates_at_minus_one() -> None:
+    image = Texture().image()
+    template = take_template(image, QUAD)
+    assert zncc(255.0 - image, template, np.eye(3)) == pytest.approx(-1.0, abs=1e-5)
 
 
 @pytest.mark.parametrize("offset", [1000.0, 140.0])
-def test_a_patch_that_is_not_in_the_picture_has_no_correlation(offset: float) -> None:
-    picture = Texture().picture()
-    template = take_template(picture, QUAD)
+def test_a_patch_that_is_not_in_the_image_has_no_correlation(offset: float) -> None:
+    image = Texture().image()
+    template = take_template(image, QUAD)
     guess = between(QUAD, QUAD + np.array([offset + 60.0, 0.0]))
-    assert zncc(picture, template, guess) == -1.0
-    result = align(picture, template, guess, Method())
+    assert zncc(image, template, guess) == -1.0
+    result = align(image, template, guess, Method())
     assert result.iterations == 0
     assert result.homography == pytest.approx(guess)
 
 
 def test_a_patch_half_outside_is_aligned_by_the_other_half() -> None:
     texture = Texture(6, shortest=16.0)
-    template = take_template(texture.picture(), QUAD)
+    template = take_template(texture.image(), QUAD)
     target = QUAD + np.array([140.0, 0.0])
-    picture = texture.picture(between(QUAD, target))
+    image = texture.image(between(QUAD, target))
     guess = between(QUAD, target + np.array([1.0, -1.0]))
-    assert rms(align(picture, template, guess, Method()).homography, target) < 0.2
+    assert rms(align(image, template, guess, Method()).homography, target) < 0.2
 
 
-def test_a_blank_picture_leaves_the_guess_alone() -> None:
-    template = take_template(Texture().picture(), QUAD)
+def test_a_blank_image_leaves_the_guess_alone() -> None:
+    template = take_template(Texture().image(), QUAD)
     guess = between(QUAD, QUAD + 2.0)
     result = align(np.full((240, 320), 16.0, np.float32), template, guess, Method())
     assert result.homography == pytest.approx(guess)
@@ -193,9 +193,9 @@ def test_stripes_leave_the_guess_alone_rather_than_slide_along() -> None:
     assert np.abs(warp(result.homography, QUAD) - QUAD).max() < 3.0
 
 
-def test_the_same_pictures_give_the_same_bits() -> None:
+def test_the_same_images_give_the_same_bits() -> None:
     texture = Texture(8)
-    template = take_template(texture.picture(), QUAD)
-    picture = texture.picture(between(QUAD, QUAD + 1.7))
-    results = [align(picture, template, np.eye(3), Method()).homography for _ in range(3)]
+    template = take_template(texture.image(), QUAD)
+    image = texture.image(between(QUAD, QUAD + 1.7))
+    results = [align(image, template, np.eye(3), Method()).homography for _ in range(3)]
     assert results[0].tobytes() == results[1].tobytes() == results[2].tobytes()

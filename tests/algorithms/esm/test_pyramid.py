@@ -11,7 +11,7 @@ def test_grey_is_luma() -> None:
     assert grey(rgb)[0] == pytest.approx([76.245, 149.685, 29.07, 18.15], abs=1e-4)
 
 
-def test_grey_of_a_grey_picture_is_itself() -> None:
+def test_grey_of_a_grey_image_is_itself() -> None:
     mono = np.arange(12, dtype=np.uint8).reshape(3, 4)
     assert grey(mono).dtype == np.float32
     assert (grey(mono) == mono).all()

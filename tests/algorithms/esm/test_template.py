@@ -6,7 +6,7 @@ import pytest
 from tests.algorithms.textures import Texture, rectangle
 from uwsim.algorithms.esm.template import runs_inside, take_template
 
-PICTURE = Texture().picture()
+IMAGE = Texture().image()
 
 
 def turned(angle: float) -> np.ndarray:
@@ -30,7 +30,7 @@ def test_the_runs_hold_the_pixels_whose_centres_are_inside(angle: float) -> None
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 4])
 def test_values_have_zero_mean_and_unit_variance_inside(angle: float) -> None:
-    template = take_template(PICTURE, turned(angle))
+    template = take_template(IMAGE, turned(angle))
     assert template is not None
     cells = [template.values[row, a:b] for row, (a, b) in enumerate(template.runs)]
     values = np.concatenate(cells).astype(float)
@@ -39,7 +39,7 @@ def test_values_have_zero_mean_and_unit_variance_inside(angle: float) -> None:
     assert values.std() == pytest.approx(1.0, abs=1e-5)
 
 
-def test_slopes_are_those_of_the_picture_in_normalised_coordinates() -> None:
+def test_slopes_are_those_of_the_image_in_normalised_coordinates() -> None:
     v, u = np.mgrid[0:240, 0:320] + 0.5
     template = take_template((3.0 * u - 2.0 * v).astype(np.float32), rectangle(160, 120, 80, 40))
     assert template is not None
@@ -47,13 +47,13 @@ def test_slopes_are_those_of_the_picture_in_normalised_coordinates() -> None:
     assert template.slope_v * template.contrast == pytest.approx(-2.0 * 20, rel=1e-4)
 
 
-def test_the_rim_of_the_picture_is_left_out() -> None:
-    template = take_template(PICTURE, rectangle(160, 120, 320, 240))
+def test_the_rim_of_the_image_is_left_out() -> None:
+    template = take_template(IMAGE, rectangle(160, 120, 320, 240))
     assert template is not None
     assert (template.left, template.top, template.n) == (1, 1, 318 * 238)
 
 
 def test_there_is_no_template_of_a_speck_or_of_nothing() -> None:
-    assert take_template(PICTURE, rectangle(160, 120, 6.5, 40)) is None
-    assert take_template(PICTURE, rectangle(160, 120, 40, 6.5)) is None
+    assert take_template(IMAGE, rectangle(160, 120, 6.5, 40)) is None
+    assert take_template(IMAGE, rectangle(160, 120, 40, 6.5)) is None
     assert take_template(np.full((240, 320), 9, np.float32), rectangle(160, 120, 40, 40)) is None

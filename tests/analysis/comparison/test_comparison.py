@@ -429,10 +429,10 @@ def test_against_a_baseline_only_that_is_compared_and_it_stands_first() -> None:
     assert [entry.name for entry in comparison.entries] == ["b", "a", "c"]
 
 
-def test_it_is_said_whether_both_saw_the_same_pictures() -> None:
+def test_it_is_said_whether_both_saw_the_same_images() -> None:
     a, b = visibility("a", seeds=(1, 2)), visibility("b", seeds=(1, 2))
     streams = (replace(b.image_streams[0], sha256="d5" * 32), b.image_streams[1])
-    assert "the same pictures, byte for byte (2 streams)" in said(compared(a, b))
+    assert "the same images, byte for byte (2 streams)" in said(compared(a, b))
     assert "1 of 2 image streams" in said(compared(a, replace(b, image_streams=streams)))
 
 

@@ -15,7 +15,7 @@ def box_of(drawn: np.ndarray, colour: tuple[int, int, int]) -> tuple[float, floa
     return columns.min(), rows.min(), columns.max() + 1, rows.max() + 1
 
 
-def test_a_quad_lies_on_its_corners_counted_from_the_pictures_corner() -> None:
+def test_a_quad_lies_on_its_corners_counted_from_the_images_corner() -> None:
     drawn = overlay(np.zeros((40, 60, 3), np.uint8), truth=QUAD, scale=4)
     assert drawn.shape == (160, 240, 3)
     middle = np.array(box_of(drawn, TRUTH)) / 4
@@ -27,12 +27,12 @@ def test_truth_and_estimate_have_their_own_colours() -> None:
     assert box_of(drawn, ESTIMATE)[0] > box_of(drawn, TRUTH)[0]
 
 
-def test_the_picture_itself_is_left_alone_and_shown_pixel_by_pixel() -> None:
-    picture = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)
-    before = picture.copy()
-    drawn = overlay(picture, scale=3)
+def test_the_image_itself_is_left_alone_and_shown_pixel_by_pixel() -> None:
+    image = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)
+    before = image.copy()
+    drawn = overlay(image, scale=3)
     assert (drawn[1::3, 1::3] == before).all()
-    assert (picture == before).all()
+    assert (image == before).all()
 
 
 @pytest.mark.parametrize("far", [1e4, -1e6, 1e9])

@@ -27,7 +27,7 @@ from uwsim.cli import main
 from uwsim.errors import ResultError
 from uwsim.results.log import Log, save_log
 from uwsim.results.provenance import save_provenance
-from uwsim.results.result import MOST, Column, Missing, Result, TakenPicture
+from uwsim.results.result import MOST, Column, Missing, Result, SavedImage
 from uwsim.results.result_file import save
 
 QUAD = (10.0, 10.0, 30.0, 10.0, 30.0, 20.0, 10.0, 20.0)
@@ -63,14 +63,14 @@ def whole_page_of(result: Result, directory: Path) -> Page:
     return Page(write_report(directory).read_text())
 
 
-def with_picture(result: Result, directory: Path, *rows: int) -> Result:
+def with_image(result: Result, directory: Path, *rows: int) -> Result:
     (directory / "pictures").mkdir()
     Image.fromarray(np.full((24, 32, 3), 80, np.uint8)).save(directory / "pictures" / "a.png")
-    pictures = [
-        TakenPicture(row=row, camera="bowtech1", file="pictures/a.png", truth=QUAD, estimate=QUAD)
+    images = [
+        SavedImage(row=row, camera="bowtech1", file="pictures/a.png", truth=QUAD, estimate=QUAD)
         for row in rows
     ]
-    return replace(result, pictures=tuple(pictures))
+    return replace(result, images=tuple(images))
 
 
 def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
@@ -96,7 +96,7 @@ def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
         "gives 0.893, not 0.86, which needs fog 1.031",
     ):
         assert said in text, said
-    assert "frozen, which never looks at a picture" not in text
+    assert "frozen, which never looks at an image" not in text
 
 
 def test_every_level_stands_in_the_table(tmp_path: Path) -> None:
@@ -108,7 +108,7 @@ def test_every_level_stands_in_the_table(tmp_path: Path) -> None:
 
 
 def test_the_report_loads_nothing_and_runs_nothing(tmp_path: Path) -> None:
-    page = whole_page_of(with_picture(visibility(), tmp_path, 0, 5), tmp_path)
+    page = whole_page_of(with_image(visibility(), tmp_path, 0, 5), tmp_path)
     sources = [v for _, attrs in page.tags for k, v in attrs.items() if k in ("src", "href")]
     assert len(sources) == 3 + 2
     assert all(source is not None and source.startswith("data:image/") for source in sources)
@@ -132,10 +132,8 @@ def test_names_from_files_are_text_wherever_they_stand(tmp_path: Path) -> None:
         image_streams=tuple(replace(s, topic=EVIL, sha256=EVIL) for s in base.image_streams),
     )
     save_provenance({EVIL: EVIL}, tmp_path)
-    evil = with_picture(evil, tmp_path, 0)
-    page = whole_page_of(
-        replace(evil, pictures=(replace(evil.pictures[0], camera=EVIL),)), tmp_path
-    )
+    evil = with_image(evil, tmp_path, 0)
+    page = whole_page_of(replace(evil, images=(replace(evil.images[0], camera=EVIL),)), tmp_path)
     tags = [tag for tag, _ in page.tags]
     assert "script" not in tags
     assert all(not key.startswith("on") for _, attrs in page.tags for key in attrs)
@@ -148,13 +146,11 @@ def test_names_from_files_are_text_wherever_they_stand(tmp_path: Path) -> None:
 def test_the_paragraph_about_the_static_scene_stands_only_where_nothing_moves(
     tmp_path: Path,
 ) -> None:
-    still = with_picture(visibility(), tmp_path, 0, 5)
-    moved = replace(still.pictures[1], truth=tuple(v + 3 for v in QUAD))
+    still = with_image(visibility(), tmp_path, 0, 5)
+    moved = replace(still.images[1], truth=tuple(v + 3 for v in QUAD))
     sentence = "This scene cannot tell trackers apart"
     assert sentence in page_of(still, tmp_path).text
-    assert (
-        sentence not in page_of(replace(still, pictures=(still.pictures[0], moved)), tmp_path).text
-    )
+    assert sentence not in page_of(replace(still, images=(still.images[0], moved)), tmp_path).text
 
 
 @pytest.mark.parametrize(
@@ -172,7 +168,7 @@ def test_the_paragraph_about_the_static_scene_stands_only_where_nothing_moves(
 def test_a_vehicle_that_sways_is_no_static_scene_though_levels_end_at_one_phase(
     mode: str, facts: dict[str, object], name: str, is_static: bool, tmp_path: Path
 ) -> None:
-    result = with_picture(visibility(), tmp_path, 0, 5)
+    result = with_image(visibility(), tmp_path, 0, 5)
     result = replace(
         result,
         run={**result.run, "mode": mode},
@@ -186,7 +182,7 @@ def test_a_vehicle_that_sways_is_no_static_scene_though_levels_end_at_one_phase(
 def test_the_control_beside_the_result_is_drawn_into_the_plots(tmp_path: Path) -> None:
     save(frozen(), tmp_path / "control")
     page = whole_page_of(visibility(), tmp_path)
-    assert "frozen, which never looks at a picture" in page.text
+    assert "frozen, which never looks at an image" in page.text
 
 
 def test_losses_over_repeats_are_given_from_first_to_last(tmp_path: Path) -> None:
@@ -195,15 +191,15 @@ def test_losses_over_repeats_are_given_from_first_to_last(tmp_path: Path) -> Non
     assert "exact 95 % interval" in page.text
 
 
-def test_a_picture_that_is_gone_or_broken_is_said_and_does_not_stop_the_report(
+def test_an_image_that_is_gone_or_broken_is_said_and_does_not_stop_the_report(
     tmp_path: Path,
 ) -> None:
-    result = with_picture(visibility(), tmp_path, 0, 1)
+    result = with_image(visibility(), tmp_path, 0, 1)
     (tmp_path / "pictures" / "b.png").write_bytes(b"\x89PNG broken")
-    gone = replace(result.pictures[0], file="pictures/gone.png")
-    broken = replace(result.pictures[1], file="pictures/b.png")
-    page = page_of(replace(result, pictures=(gone, broken)), tmp_path)
-    assert page.text.count("picture cannot be read") == 2
+    gone = replace(result.images[0], file="pictures/gone.png")
+    broken = replace(result.images[1], file="pictures/b.png")
+    page = page_of(replace(result, images=(gone, broken)), tmp_path)
+    assert page.text.count("image cannot be read") == 2
 
 
 def test_a_link_out_of_the_directory_is_not_followed(tmp_path: Path) -> None:
@@ -212,9 +208,9 @@ def test_a_link_out_of_the_directory_is_not_followed(tmp_path: Path) -> None:
     directory = tmp_path / "result"
     directory.mkdir()
     (directory / "a.png").symlink_to(secret)
-    picture = TakenPicture(row=0, camera="c", file="a.png")
-    page = page_of(replace(visibility(), pictures=(picture,)), directory)
-    assert "picture cannot be read" in page.text
+    image = SavedImage(row=0, camera="c", file="a.png")
+    page = page_of(replace(visibility(), images=(image,)), directory)
+    assert "image cannot be read" in page.text
 
 
 @pytest.mark.parametrize("make", [nothing_measured, one_level, nested, frozen])
@@ -404,20 +400,20 @@ def test_an_unfinished_result_says_so_first(tmp_path: Path) -> None:
     assert "Not finished" not in page_of(base, tmp_path).text
 
 
-def test_of_many_pictures_forty_are_shown_and_of_other_repeats_the_failures(
+def test_of_many_images_forty_are_shown_and_of_other_repeats_the_failures(
     tmp_path: Path,
 ) -> None:
     several = visibility(seeds=(1, 2, 3))
-    page = page_of(with_picture(several, tmp_path, *range(len(several.rows))), tmp_path)
+    page = page_of(with_image(several, tmp_path, *range(len(several.rows))), tmp_path)
     captions = re.findall(r"<figcaption[^>]*>(seed \d) · (fog [\d.]+)", page.source)
     assert [seed for seed, _ in captions].count("seed 1") == 27
     assert len(captions) == 27 + 2
-    assert "29 of 81 pictures: every level of the first repeat" in page.text
+    assert "29 of 81 images: every level of the first repeat" in page.text
     large = nested()
     (tmp_path / "b").mkdir()
-    page = page_of(with_picture(large, tmp_path / "b", *range(len(large.rows))), tmp_path / "b")
+    page = page_of(with_image(large, tmp_path / "b", *range(len(large.rows))), tmp_path / "b")
     assert page.source.count("<figcaption") == 40
-    assert "40 of 81 pictures: evenly chosen" in page.text
+    assert "40 of 81 images: evenly chosen" in page.text
 
 
 def test_one_row_is_no_curve(tmp_path: Path) -> None:
@@ -450,7 +446,7 @@ def test_without_pixels_nothing_is_said_of_their_floor(tmp_path: Path) -> None:
     assert "floor of the ground truth" not in page_of(replace(base, columns=columns), tmp_path).text
 
 
-def test_where_a_body_is_in_the_picture_has_no_floor(tmp_path: Path) -> None:
+def test_where_a_body_is_in_the_image_has_no_floor(tmp_path: Path) -> None:
     base = visibility()
     others = {"centroid": {"unit": "m"}, "corners.max": {"name": "corners.visible", "unit": None}}
     columns = tuple(replace(c, **others.get(c.name, {})) for c in base.columns)

@@ -1,4 +1,4 @@
-"""How far from the middle of the picture a body appears."""
+"""How far from the middle of the image a body appears."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def test_the_components_point_as_the_originals_do() -> None:
 
 
 @pytest.mark.parametrize("place", [(5.0, 0.0, -1.0), (0.0, -5.0, -1.0), (0.0, 0.0, 1.0)])
-def test_out_of_the_picture_is_no_value_and_says_so(place: tuple[float, float, float]) -> None:
+def test_out_of_the_image_is_no_value_and_says_so(place: tuple[float, float, float]) -> None:
     body = FakeBody((0.0, 0.0, -1.0))
     centred = looking(body, "mean")
     assert centred.why == "it was never on"
@@ -33,7 +33,7 @@ def test_out_of_the_picture_is_no_value_and_says_so(place: tuple[float, float, f
     assert (centred.value, centred.why) == (0.0, None)
     body.move(*place)
     centred.update()
-    assert (centred.value, centred.why) == (None, "the target is not in the picture")
+    assert (centred.value, centred.why) == (None, "the target is not in the image")
     assert centred.details["visible"] == 0.5
     assert centred.log_values == (None, None, None)
     body.move(0.1, 0.0, -1.0)
@@ -49,7 +49,7 @@ def test_out_of_the_picture_is_no_value_and_says_so(place: tuple[float, float, f
         ((0.3, 0.4, 1.0), (0.3 * F, 0.4 * F)),  # behind the camera: seen upside down
     ],
 )
-def test_the_original_does_not_ask_whether_the_target_is_in_the_picture(
+def test_the_original_does_not_ask_whether_the_target_is_in_the_image(
     place: tuple[float, float, float], off: tuple[float, float]
 ) -> None:
     centred = looking(FakeBody(place), "last", "unseen")
@@ -63,4 +63,4 @@ def test_the_original_does_not_ask_whether_the_target_is_in_the_picture(
 def test_in_the_cameras_own_plane_there_is_nothing_to_see_for_the_original_either() -> None:
     centred = looking(FakeBody((1.0, 0.0, 0.0)), "last", "unseen")
     centred.start()
-    assert (centred.value, centred.why) == (None, "the target is not in the picture")
+    assert (centred.value, centred.why) == (None, "the target is not in the image")

@@ -14,7 +14,7 @@ from uwsim.benchmark.measures import EuclideanNorm, EuclideanNormSpec
 from uwsim.messages import Float32MultiArray, floats
 
 FRAME = 10
-"""Steps between two pictures."""
+"""Steps between two images."""
 SECOND = 500
 """Steps in a second."""
 Say = Callable[[int], Sequence[Sequence[float]]]
@@ -27,7 +27,7 @@ class Scene:
     def __init__(self, *, quirks: frozenset[str] = frozenset()) -> None:
         self.body = FakeBody((0.0, 0.0, -1.0))
         self.camera = FakeCamera()
-        self.camera.n_pictures = 0
+        self.camera.n_images = 0
         self.world = FakeWorld({"box": self.body}, {"cam": self.camera}, compatibility=quirks)
         self.seen: list[np.ndarray] = []
 
@@ -49,7 +49,7 @@ class Scene:
         for step in range(1, steps + 1):
             self.body.move((self.truth(step)[0] - 160.0) / 257.34083, 0.0, -1.0)
             if step % FRAME == 0:
-                self.camera.n_pictures += 1
+                self.camera.n_images += 1
             for estimate in say(step):
                 publish(floats(estimate))
             self.world.advance()
@@ -64,19 +64,19 @@ def mean(say: Say, **options: object) -> float:
 
 
 def honest(step: int) -> list[np.ndarray]:
-    """One pixel off, in answer to each picture."""
+    """One pixel off, in answer to each image."""
     return [Scene().truth(step) + np.array([1.0, 0.0])] if step % FRAME == 0 else []
 
 
 def frozen(step: int) -> list[np.ndarray]:
-    """Where it was at first, in answer to each picture."""
+    """Where it was at first, in answer to each image."""
     return [Scene().truth(0)] if step % FRAME == 0 else []
 
 
 FROZEN = float(np.mean([abs(Scene().truth(s)[0] - 160.0) for s in range(FRAME, 1001, FRAME)]))
 
 
-def test_a_tracker_that_answers_each_picture_has_the_mean_of_its_errors() -> None:
+def test_a_tracker_that_answers_each_image_has_the_mean_of_its_errors() -> None:
     assert mean(honest) == pytest.approx(1.0, abs=1e-4)
     assert mean(frozen) == pytest.approx(FROZEN, rel=1e-4)
 
@@ -91,7 +91,7 @@ def test_a_burst_of_guesses_while_they_are_good_counts_no_more_than_one() -> Non
     assert norm.details["frames"] == 100
 
 
-def test_a_guess_at_every_step_is_no_better_than_one_at_every_picture() -> None:
+def test_a_guess_at_every_step_is_no_better_than_one_at_every_image() -> None:
     assert mean(lambda step: [Scene().truth(0)]) == pytest.approx(FROZEN, rel=1e-4)
 
 
@@ -111,7 +111,7 @@ def test_who_never_answers_for_more_than_a_second_has_no_value() -> None:
     assert norm.value is None
 
 
-def test_an_estimate_before_the_picture_is_no_better_than_one_in_answer_to_it() -> None:
+def test_an_estimate_before_the_image_is_no_better_than_one_in_answer_to_it() -> None:
     def early(step: int) -> list[np.ndarray]:
         return [Scene().truth(step)] if step % FRAME == FRAME - 1 else []
 
@@ -154,7 +154,7 @@ def test_what_is_no_estimate_is_counted_and_leaves_the_one_before_in_force() -> 
     norm = Scene().level(doubtful)
     assert (norm.details["n"], norm.details["refused"]) == (50, 100)
     assert norm.details["frames"] == 100
-    # the first picture is scored with the first estimate, the odd ones with that before them
+    # the first image is scored with the first estimate, the odd ones with that before them
     held = [abs(Scene().truth(s)[0] - Scene().truth(s - 10)[0]) for s in range(30, 1001, 20)]
     first = abs(Scene().truth(10)[0] - Scene().truth(20)[0])
     assert norm.value == pytest.approx((sum(held) + first) / 100, rel=1e-3)
@@ -166,7 +166,7 @@ def test_the_newest_good_one_of_a_step_counts() -> None:
     assert norm.value == pytest.approx(0.0, abs=1e-4)
 
 
-def test_statistics_are_over_the_pictures_and_components_too() -> None:
+def test_statistics_are_over_the_images_and_components_too() -> None:
     def once(step: int) -> list[np.ndarray]:
         return [np.array([160.0, 117.0])] if step == 5 else []
 
@@ -189,9 +189,9 @@ def test_statistics_are_over_the_pictures_and_components_too() -> None:
         (CentroidFromCameraSpec(camera="cam", target="box"), None),
     ],
 )
-def test_without_pictures_every_step_is_a_sample(truth: object, unseen: None) -> None:
+def test_without_images_every_step_is_a_sample(truth: object, unseen: None) -> None:
     scene = Scene()
-    scene.camera.n_pictures = unseen
+    scene.camera.n_images = unseen
     norm = EuclideanNormSpec(
         name="e",
         ground_truth=truth,
@@ -208,8 +208,8 @@ def test_without_pictures_every_step_is_a_sample(truth: object, unseen: None) ->
     assert (norm.details["n"], norm.details["frames"]) == (1.0, 20.0)
 
 
-def test_a_level_without_a_picture_has_a_last_norm_and_no_mean() -> None:
+def test_a_level_without_an_image_has_a_last_norm_and_no_mean() -> None:
     for value in ("last", "mean"):
         norm = Scene().level(lambda step: [Scene().truth(step)], steps=5, value=value)
         assert (norm.value is None) is (value == "mean")
-    assert norm.why == "its camera took no picture while the measure was on"
+    assert norm.why == "its camera took no image while the measure was on"

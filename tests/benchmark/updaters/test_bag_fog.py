@@ -1,4 +1,4 @@
-"""Fog over a recording: when which picture comes, and what the fog does to it."""
+"""Fog over a recording: when which image comes, and what the fog does to it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.bags import IMAGE, INFO, KINDS, picture, write_bag
+from tests.bags import IMAGE, INFO, KINDS, sample_pixels, write_bag
 from tests.fakes import FakeWorld
 from tests.played import make_plan, rows_of, tank
 from uwsim.benchmark.updaters import BagFogUpdaterSpec
@@ -17,8 +17,7 @@ from uwsim.bus import Node
 from uwsim.cli import main
 from uwsim.compatibility import COMPATIBILITY
 from uwsim.errors import AssetError, AssetNotFound, BadSetting, RunFailed, UnknownName
-from uwsim.messages import CameraInfo, Image, seconds
-from uwsim.messages import picture as pixels_of
+from uwsim.messages import CameraInfo, Image, pixels_of, seconds
 from uwsim.messages.bag_camera import Frame
 from uwsim.rendering.water import Water, apply_water
 from uwsim.runs.plan import Plan
@@ -38,8 +37,8 @@ def spec(folder: Path, **other: object) -> BagFogUpdaterSpec:
     return BagFogUpdaterSpec(**(values | other))  # type: ignore[arg-type]
 
 
-def pictures(encoding: str = "rgb8") -> list[tuple[float, np.ndarray]]:
-    return [(time, picture(40 * i, encoding)) for i, time in enumerate(TIMES)]
+def images(encoding: str = "rgb8") -> list[tuple[float, np.ndarray]]:
+    return [(time, sample_pixels(40 * i, encoding)) for i, time in enumerate(TIMES)]
 
 
 class Screen:
@@ -73,7 +72,7 @@ def world(**other: object) -> FakeWorld:
 
 @pytest.fixture
 def begun(tmp_path: Path) -> tuple[FakeWorld, Screen, BagFogUpdater]:
-    write_bag(tmp_path, "ros1", pictures())
+    write_bag(tmp_path, "ros1", images())
     stage = world(timestep=0.01)
     updater = spec(tmp_path).bind(stage)
     screen = Screen(stage)
@@ -83,7 +82,7 @@ def begun(tmp_path: Path) -> tuple[FakeWorld, Screen, BagFogUpdater]:
     updater.close()
 
 
-def test_pictures_come_with_the_recorded_spacing_round_after_round(
+def test_images_come_with_the_recorded_spacing_round_after_round(
     begun: tuple[FakeWorld, Screen, BagFogUpdater],
 ) -> None:
     stage, screen, _ = begun
@@ -91,10 +90,10 @@ def test_pictures_come_with_the_recorded_spacing_round_after_round(
     # a round of 0.25 s and the mean spacing, 0.125 s; what was due at 0 comes at the first step
     assert screen.times == [0.01, 0.1, 0.25, 0.38, 0.48, 0.63, 0.75, 0.85, 1.0]
     for i in range(9):
-        assert np.array_equal(screen.pixels(i), picture(40 * (i % 3)))
+        assert np.array_equal(screen.pixels(i), sample_pixels(40 * (i % 3)))
 
 
-def test_pictures_are_stamped_with_the_time_of_publishing_and_info_goes_with_them(
+def test_images_are_stamped_with_the_time_of_publishing_and_info_goes_with_them(
     begun: tuple[FakeWorld, Screen, BagFogUpdater],
 ) -> None:
     stage, screen, _ = begun
@@ -113,7 +112,7 @@ def test_pictures_are_stamped_with_the_time_of_publishing_and_info_goes_with_the
 def test_every_pixel_follows_the_law_of_fog(
     tmp_path: Path, kind: str, encoding: str, fog: float
 ) -> None:
-    path = write_bag(tmp_path, kind, pictures(encoding), encoding=encoding)
+    path = write_bag(tmp_path, kind, images(encoding), encoding=encoding)
     stage = world(timestep=0.05)
     updater = spec(tmp_path, bag=path.name, initial_value=fog, final_value=fog).bind(stage)
     screen = Screen(stage)
@@ -122,7 +121,7 @@ def test_every_pixel_follows_the_law_of_fog(
     stage.advance(6)
     updater.close()
     order = slice(None, None, -1) if encoding == "bgr8" else slice(None)
-    for i, (_, stored) in enumerate(pictures(encoding)):
+    for i, (_, stored) in enumerate(images(encoding)):
         red_first = stored if stored.ndim == 2 else stored[..., order]
         assert np.array_equal(screen.pixels(i), expected(red_first, fog))
         assert screen.seen[i][1].encoding == ("mono8" if stored.ndim == 2 else "rgb8")
@@ -131,7 +130,7 @@ def test_every_pixel_follows_the_law_of_fog(
 def test_the_law_is_that_of_the_renderer() -> None:
     dark = (0.0, 0.0, 0.0)
     water = Water(fog=0.4, fog_colour=COLOUR, colour=dark, attenuation=dark)
-    pixels = picture(3)
+    pixels = sample_pixels(3)
     shape = pixels.shape[:2]
     drawn = apply_water(pixels / 255.0, np.full(shape, DEPTH), np.zeros(shape), water)
     seen = float(np.exp(-((0.4 * DEPTH) ** 2)))
@@ -141,14 +140,14 @@ def test_the_law_is_that_of_the_renderer() -> None:
 @pytest.mark.parametrize("encoding", ["rgb8", "bgr8", "mono8"])
 def test_the_originals_fog_comes_back_by_name(tmp_path: Path, encoding: str) -> None:
     assert "bag-fog" in COMPATIBILITY
-    write_bag(tmp_path, "ros1", pictures(encoding), encoding=encoding)
+    write_bag(tmp_path, "ros1", images(encoding), encoding=encoding)
     stage = world(timestep=0.05, compatibility=frozenset({"bag-fog"}))
     updater = spec(tmp_path, initial_value=0.3, final_value=0.3).bind(stage)
     screen = Screen(stage)
     updater.apply(0.3)
     stage.advance()
     updater.close()
-    stored = picture(0, encoding)
+    stored = sample_pixels(0, encoding)
     if encoding == "mono8":
         assert np.array_equal(screen.pixels(0), stored)
         return
@@ -158,8 +157,8 @@ def test_the_originals_fog_comes_back_by_name(tmp_path: Path, encoding: str) -> 
     assert np.array_equal(screen.pixels(0), law[..., ::-1] if encoding == "bgr8" else law)
 
 
-def test_the_first_picture_stands_until_the_benchmark_has_begun(tmp_path: Path) -> None:
-    write_bag(tmp_path, "ros1", pictures())
+def test_the_first_image_stands_until_the_benchmark_has_begun(tmp_path: Path) -> None:
+    write_bag(tmp_path, "ros1", images())
     stage = world(timestep=0.01)
     updater = spec(tmp_path).bind(stage)
     screen = Screen(stage)
@@ -171,14 +170,14 @@ def test_the_first_picture_stands_until_the_benchmark_has_begun(tmp_path: Path) 
     stage.advance(12)
     updater.close()
     assert screen.times == [0.01, 0.11, 0.21, 0.31, 0.41, 0.45, 0.54]
-    first = picture(0)
+    first = sample_pixels(0)
     for index, fog in ((3, 0.0), (4, 0.25), (5, 0.5)):
         assert np.array_equal(screen.pixels(index), expected(first, fog))
-    assert np.array_equal(screen.pixels(6), expected(picture(40), 0.5))
+    assert np.array_equal(screen.pixels(6), expected(sample_pixels(40), 0.5))
 
 
 def test_a_length_may_stand_for_the_density(tmp_path: Path) -> None:
-    write_bag(tmp_path, "ros1", pictures())
+    write_bag(tmp_path, "ros1", images())
     stage = world(timestep=0.05)
     updater = spec(
         tmp_path, quantity="attenuationLength", initial_value=4.0, final_value=2.0, step=-2.0
@@ -189,31 +188,31 @@ def test_a_length_may_stand_for_the_density(tmp_path: Path) -> None:
     updater.apply(2.0)
     stage.advance()
     updater.close()
-    assert np.array_equal(screen.pixels(0), expected(picture(0), 1 / 4.0))
-    assert np.array_equal(screen.pixels(1), expected(picture(0), 1 / 2.0))
+    assert np.array_equal(screen.pixels(0), expected(sample_pixels(0), 1 / 4.0))
+    assert np.array_equal(screen.pixels(1), expected(sample_pixels(0), 1 / 2.0))
 
 
 def test_what_nobody_reads_is_not_decoded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write_bag(tmp_path, "ros1", pictures())
+    write_bag(tmp_path, "ros1", images())
     stage = world(timestep=0.01)
     updater = spec(tmp_path).bind(stage)
     updater.ramp(0.0)
     updater.apply(0.0)
-    monkeypatch.setattr(Frame, "picture", None)
+    monkeypatch.setattr(Frame, "decode", None)
     stage.advance(20)
     assert updater.streams[0][1] == 0
     updater.close()
 
 
 def test_a_recording_that_breaks_in_the_middle_is_a_failed_run(tmp_path: Path) -> None:
-    frames = [(0.0, picture(0)), (0.1, picture(1)), (0.2, picture(2, "mono8"))]
+    frames = [(0.0, sample_pixels(0)), (0.1, sample_pixels(1)), (0.2, sample_pixels(2, "mono8"))]
     write_bag(tmp_path, "ros1", frames)
     stage = world(timestep=0.01)
     updater = spec(tmp_path).bind(stage)
     Screen(stage)
     updater.ramp(0.0)
     updater.apply(0.0)
-    with pytest.raises(RunFailed, match=r"The recording broke off: Picture 3 of .* holds 20 bytes"):
+    with pytest.raises(RunFailed, match=r"The recording broke off: Image 3 of .* holds 20 bytes"):
         stage.advance(30)
     updater.close()
 
@@ -222,7 +221,7 @@ def test_what_is_missing_is_found_when_it_is_bound(tmp_path: Path) -> None:
     stage = world()
     with pytest.raises(AssetNotFound, match=r"'dive\.bag' is not beside"):
         spec(tmp_path).bind(stage)
-    write_bag(tmp_path, "ros1", pictures())
+    write_bag(tmp_path, "ros1", images())
     with pytest.raises(UnknownName, match="Did you mean '/camera/image_raw'"):
         spec(tmp_path, image_topic="/camera/image").bind(stage)
     with pytest.raises(AssetError, match="carries sensor_msgs/msg/CameraInfo"):
@@ -260,7 +259,7 @@ BENCHMARK = f"""<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" 
 def test_check_and_bench_say_what_is_wrong_before_anything_is_simulated(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], was: str, now: str, line: int, said: str
 ) -> None:
-    write_bag(tmp_path, "ros1", pictures())
+    write_bag(tmp_path, "ros1", images())
     file = tmp_path / "b.xml"
     file.write_text(BENCHMARK.replace(was, now))
     assert main(["check", str(file)]) == 2
@@ -275,14 +274,14 @@ def test_check_and_bench_say_what_is_wrong_before_anything_is_simulated(
 def test_the_same_name_in_a_sound_file_is_no_fault(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    write_bag(tmp_path, "mcap", pictures())
+    write_bag(tmp_path, "mcap", images())
     file = tmp_path / "b.xml"
     file.write_text(BENCHMARK.replace("dive.bag", "dive"))
     assert main(["check", str(file)]) == 0, capsys.readouterr().out
 
 
 class Watches:
-    """Keeps every picture it gets, with its time."""
+    """Keeps every image it gets, with its time."""
 
     def start(self, node: Node) -> None:
         type(self).seen: list[tuple[float, np.ndarray]] = []  # type: ignore[misc]
@@ -295,7 +294,7 @@ UPDATER = BENCHMARK.partition("<sceneUpdater>")[2].partition("</sceneUpdater>")[
 
 
 def a_plan(folder: Path, **other: object) -> Plan:
-    write_bag(folder, "ros1", pictures())
+    write_bag(folder, "ros1", images())
     ocean = tank().ocean_state
     scene = replace(tank(), ocean_state=replace(ocean, fog=replace(ocean.fog, color=COLOUR)))
     return make_plan(folder, Watches, UPDATER, scene=scene, **other)  # type: ignore[arg-type]
@@ -306,27 +305,27 @@ def test_in_a_sequence_the_replay_lives_on_and_the_scenes_fog_colour_counts(
 ) -> None:
     rows_of(a_plan(tmp_path))
     watched = [(round(time, 3), pixels) for time, pixels in Watches.seen]
-    # at 0 the first picture stands; then 0, 0.1, 0.25, 0.375, 0.475, 0.625, 0.75 s of the replay
+    # at 0 the first image stands; then 0, 0.1, 0.25, 0.375, 0.475, 0.625, 0.75 s of the replay
     assert [time for time, _ in watched] == [0.0, 0.002, 0.1, 0.25, 0.376, 0.476, 0.626, 0.75]
     for index, (time, pixels) in enumerate(watched[1:]):
         fog = 0.0 if time < 0.4 else 0.5
-        assert np.array_equal(pixels, expected(picture(40 * (index % 3)), fog))
+        assert np.array_equal(pixels, expected(sample_pixels(40 * (index % 3)), fog))
 
 
-def test_an_independent_level_begins_with_the_first_picture(tmp_path: Path) -> None:
+def test_an_independent_level_begins_with_the_first_image(tmp_path: Path) -> None:
     plan = a_plan(tmp_path, mode="independent")
     for unit, fog in zip(plan.units(), (0.0, 0.5), strict=True):
         list(execute(plan, unit))
         level = [(time, pixels) for time, pixels in Watches.seen if time > 2.0001]
         assert [round(time, 3) for time, _ in level] == [2.002, 2.1, 2.25, 2.376]
         for (_, pixels), index in zip(level, (0, 1, 2, 0), strict=True):
-            assert np.array_equal(pixels, expected(picture(40 * index), fog))
+            assert np.array_equal(pixels, expected(sample_pixels(40 * index), fog))
         prelude = [pixels for time, pixels in Watches.seen if time <= 1.0]
         assert len(prelude) == 11
-        assert all(np.array_equal(pixels, picture(0)) for pixels in prelude)
+        assert all(np.array_equal(pixels, sample_pixels(0)) for pixels in prelude)
 
 
-def test_the_result_tells_how_many_pictures_it_showed_and_their_hash(tmp_path: Path) -> None:
+def test_the_result_tells_how_many_images_it_showed_and_their_hash(tmp_path: Path) -> None:
     plan = a_plan(tmp_path)
     (unit,) = plan.units()
     ends = [next(x for x in execute(plan, unit) if isinstance(x, TrialEnd)) for _ in range(2)]

@@ -37,8 +37,7 @@ from uwsim.benchmark.updaters import (
     references,
 )
 from uwsim.bus import Node
-from uwsim.messages import Image
-from uwsim.messages import picture as pixels_of
+from uwsim.messages import Image, pixels_of
 from uwsim.simulation import Simulation
 
 VEHICLE = "girona500"

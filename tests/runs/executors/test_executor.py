@@ -27,18 +27,18 @@ HERE = "tests.runs.executors.test_executor"
 
 
 class Mortal:
-    """Takes its process with it at the ninth picture, in level 2, unless a file is there."""
+    """Takes its process with it at the ninth image, in level 2, unless a file is there."""
 
     def start(self, node: Node) -> None:
-        self.n_pictures = 0
+        self.n_images = 0
         self.immortal = Path(str(node.parameters["immortal"]))
         self.dies_once = node.parameters["dies"] == "once"
         node.subscribe("/uwsim/camera1", Image, self.look)
         node.call("startBench", Empty())
 
     def look(self, image: Image) -> None:
-        self.n_pictures += 1
-        if self.n_pictures == 9 and not self.immortal.exists():
+        self.n_images += 1
+        if self.n_images == 9 and not self.immortal.exists():
             if self.dies_once:
                 self.immortal.touch()
             os.kill(os.getpid(), signal.SIGKILL)

@@ -74,7 +74,7 @@ def test_a_worker_sends_home_all_that_is_kept(tmp_path: Path) -> None:
     level, end = Worker().execute(bench, trial, bench.head(trial))
     assert isinstance(level, LevelEnded)
     assert isinstance(end, TrialEnded)
-    [(name, png)] = level.pictures
+    [(name, png)] = level.images
     assert name == "pictures/00001-bowtech1.png"
     assert png.startswith(b"\x89PNG")
     assert not (tmp_path / "a").exists()

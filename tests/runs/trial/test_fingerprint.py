@@ -34,7 +34,7 @@ class FakeMotion:
         into[:] = self.row
 
 
-class FakePictures:
+class FakeImages:
     def __init__(self) -> None:
         self.digest = hashlib.sha256()
 
@@ -47,7 +47,7 @@ class FakeSimulation:
     """Moves as ``bump`` says."""
 
     def __init__(self) -> None:
-        self.motion, self.images = FakeMotion(), {"/camera": FakePictures()}
+        self.motion, self.images = FakeMotion(), {"/camera": FakeImages()}
         self.look: Callable[[], None] = lambda: None
 
     def watch(self, look: Callable[[], None]) -> None:
@@ -104,14 +104,14 @@ def test_the_interval_and_the_body_of_a_difference_are_named(at: int) -> None:
     assert found.parts == ("box",)
 
 
-def test_a_picture_that_differs_is_named_by_its_topic() -> None:
-    def shoot(step: int, simulation: FakeSimulation) -> None:
+def test_an_image_that_differs_is_named_by_its_topic() -> None:
+    def capture(step: int, simulation: FakeSimulation) -> None:
         simulation.images["/camera"].digest.update(b"b" if step == 300 else b"a")
 
     def same(step: int, simulation: FakeSimulation) -> None:
         simulation.images["/camera"].digest.update(b"a")
 
-    found = divergence(traced(1000, same), traced(1000, shoot))
+    found = divergence(traced(1000, same), traced(1000, capture))
     assert found is not None
     assert (found.after, found.until, found.parts) == (256, 320, ("/camera",))
 

@@ -172,7 +172,7 @@ def test_vision_recursive_sweeps_fog_within_a_current_that_carries_the_vehicle(
 
 
 def drifted(speed: float, began: float) -> float:
-    """Distance of the box from the picture's centre at 2.2 s of a current that begins then [px]."""
+    """Distance of the box from the image's centre at 2.2 s of a current that begins then [px]."""
     x = y = z = 0.0
     for i in range(round((2.2 - began) / 0.002)):
         t = began + 0.002 * (i + 1)

@@ -16,7 +16,7 @@ from uwsim.messages import (
     GTpublishResponse,
     Image,
     floats,
-    picture,
+    pixels_of,
 )
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
@@ -28,7 +28,7 @@ TRACKERS = ("ecc", "esm", "ic", "orb", "ssd-esm")
 
 
 class Guesses:
-    """Looks at no picture: repeats what it was told, above all when it happens to be near."""
+    """Looks at no image: repeats what it was told, above all when it happens to be near."""
 
     def start(self, node: Node) -> None:
         self.node, self.told = node, np.zeros(8)
@@ -77,7 +77,7 @@ class Blob:
         node.call("startBench", Empty())
 
     def look(self, message: Image) -> None:
-        red, green, blue = np.moveaxis(picture(message).astype(int), 2, 0)
+        red, green, blue = np.moveaxis(pixels_of(message).astype(int), 2, 0)
         orange = ((red > 100) & (red - blue > 60) & (red > green)).astype(np.uint8)
         orange = cv2.morphologyEx(orange, cv2.MORPH_CLOSE, np.ones((9, 9), np.uint8))
         outlines, _ = cv2.findContours(orange, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)

@@ -1,4 +1,4 @@
-"""Whole runs of a short benchmark: a black box, fog in three levels of 0.2 s, small pictures."""
+"""Whole runs of a short benchmark: a black box, fog in three levels of 0.2 s, small images."""
 
 import inspect
 import json
@@ -32,7 +32,7 @@ def esm(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 class Counts:
-    """Publishes the number of its picture as corners, to see what a level takes for its own."""
+    """Publishes the number of its image as corners, to see what a level takes for its own."""
 
     def start(self, node: Node) -> None:
         self.n = 0.0
@@ -124,7 +124,7 @@ def test_repeats_have_a_summary_and_pair_with_those_of_another_algorithm(
     assert differences(found) == ()
     (versus,) = compare(found, shared_column(found, None)).versus
     assert [at.seeds for at in versus.levels] == [(1, 2)]
-    assert versus.same_pictures == (2, 2)
+    assert versus.same_images == (2, 2)
 
 
 def test_a_level_alone_is_the_level_within_the_sweep(benchmark: Path, tmp_path: Path) -> None:
@@ -220,7 +220,7 @@ def test_latency_shows_in_what_is_scored(benchmark: Path, tmp_path: Path) -> Non
         settings=["algorithm.latency_s=0.1"],
         levels=["fog=0"],
     )
-    assert result.values("corners.n") == (3.0,)  # of the pictures at 1/30 ... 0.2 s, three by 0.2 s
+    assert result.values("corners.n") == (3.0,)  # of the images at 1/30 ... 0.2 s, three by 0.2 s
 
 
 def test_only_a_tracker_that_compares_by_zncc_has_a_predicted_loss(

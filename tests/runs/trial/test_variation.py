@@ -184,14 +184,14 @@ def test_the_report_says_what_the_seed_changes(played: Path) -> None:
 
 
 def test_render_shows_the_scene_of_the_seed(tmp_path: Path) -> None:
-    shots = []
+    images = []
     for seed, *others in ((1,), (2,), (1, "--set", "object[blackbox].position.x=2.4")):
         out = tmp_path / "view.png"
         words = ["--camera", "bowtech1", "-o", str(out), "--segmentation", "--seed", str(seed)]
         small = ["--set", "vehicle.virtualCamera.std=0"]
         assert main(["render", "visibility-moving-scene", *words, *small, *map(str, others)]) == 0
-        shots.append((tmp_path / "view-ids.png").read_bytes())
-    assert len(set(shots)) == 3
+        images.append((tmp_path / "view-ids.png").read_bytes())
+    assert len(set(images)) == 3
 
 
 def test_a_misspelt_setting_of_an_updater_names_the_right_one() -> None:

@@ -1,4 +1,4 @@
-"""How far a target moves in its picture while a benchmark is played."""
+"""How far a target moves in its image while a benchmark is played."""
 
 from pathlib import Path
 

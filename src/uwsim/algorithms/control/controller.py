@@ -96,7 +96,7 @@ class StationKeeper:
 class ControllerNode:
     """A station keeper on the bus, with an ESM tracker of its own.
 
-    The camera looks down and the top of its picture points to the bow: what is right of the centre
+    The camera looks down and the top of its image points to the bow: what is right of the centre
     calls for sway to starboard, what is above it for surge. The twist is held by the vehicle until
     the next one; when the tracker is lost, it is zero. Each time the tracker is told where its
     target is (``autoInit``) the law begins anew: what it summed up was about another place.

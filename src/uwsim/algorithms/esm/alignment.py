@@ -1,4 +1,4 @@
-r"""Bringing a picture onto a template: ESM, and its first-order relatives.
+r"""Bringing an image onto a template: ESM, and its first-order relatives.
 
 With :math:`p` a template pixel, :math:`w` the warp and :math:`\hat H` the guess, the residual
 :math:`s_p(x) = I(w(\hat H e^{x}, p)) - I^*(p)` is linearised with
@@ -6,7 +6,7 @@ With :math:`p` a template pixel, :math:`w` the warp and :math:`\hat H` the guess
 .. math:: J = (a\,J_I + b\,J_{I^*})\,J_w J_G, \qquad x = -J^+ s(0), \qquad
           \hat H \leftarrow \hat H \exp(x)
 
-where :math:`J_I` is the gradient of the warped picture and :math:`J_{I^*}` that of the template.
+where :math:`J_I` is the gradient of the warped image and :math:`J_{I^*}` that of the template.
 a = b = 1/2 is ESM (Benhimane and Malis 2004, 2007): second order without second derivatives.
 a = 0, b = 1 is inverse compositional (Baker and Matthews 2004), a = 1, b = 0 forward compositional.
 
@@ -31,7 +31,7 @@ from .template import Runs, Template
 Array = npt.NDArray[np.float64]
 
 BLENDS = {"esm": (0.5, 0.5), "ic": (0.0, 1.0), "fc": (1.0, 0.0)}
-"""Share (a, b) of the picture's and of the template's gradient in J."""
+"""Share (a, b) of the image's and of the template's gradient in J."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,9 +53,9 @@ class Alignment:
     """Where an alignment ended."""
 
     homography: Array
-    """Sends template points to the picture, (3, 3); the best seen on the way."""
+    """Sends template points to the image, (3, 3); the best seen on the way."""
     correlation: float
-    """Correlation with the interpolated picture, -1..1; -1 when too little is in the picture."""
+    """Correlation with the interpolated image, -1..1; -1 when too little is in the image."""
     iterations: int
     """Steps taken."""
 
@@ -69,7 +69,7 @@ def align(image: Grey, template: Template, guess: Array, method: Method) -> Alig
         template.values,
         template.slope_u,
         template.slope_v,
-        product(guess, template.picture_from_normalised),
+        product(guess, template.image_from_normalised),
         a,
         b,
         method.photometric,
@@ -78,23 +78,23 @@ def align(image: Grey, template: Template, guess: Array, method: Method) -> Alig
         method.max_iterations,
         method.precision,
     )
-    back = inverse(template.picture_from_normalised)
+    back = inverse(template.image_from_normalised)
     return Alignment(product(homography, back), correlation, iterations)
 
 
 def zncc(image: Grey, template: Template, homography: Array) -> float:
-    """Zero-mean normalised cross-correlation of the template with the picture's nearest pixels.
+    """Zero-mean normalised cross-correlation of the template with the image's nearest pixels.
 
     Pixels are taken as they are, not interpolated: bilinear interpolation averages the noise of
     four pixels, so that a correlation of it stays high where nothing can be seen any more. With
-    noise sigma in the picture and contrast S T left of the template, the result is
-    ``S T / sqrt((S T)^2 + sigma^2)``. -1 when less than a quarter of the patch is in the picture.
+    noise sigma in the image and contrast S T left of the template, the result is
+    ``S T / sqrt((S T)^2 + sigma^2)``. -1 when less than a quarter of the patch is in the image.
     """
     return _nearest_zncc(
         image,
         template.runs,
         template.values,
-        product(homography, template.picture_from_normalised),
+        product(homography, template.image_from_normalised),
     )
 
 
@@ -114,7 +114,7 @@ def _align(
     max_iterations: int,
     precision: float,
 ) -> tuple[Array, float, int]:
-    """The whole loop; ``guess`` sends normalised template points to picture points."""
+    """The whole loop; ``guess`` sends normalised template points to image points."""
     height, width = values.shape
     warped = np.zeros((height + 2, width + 2), np.float32)
     valid = np.zeros((height + 2, width + 2), np.float32)
@@ -201,7 +201,7 @@ def _nearest_zncc(image: Grey, runs: Runs, values: Grey, homography: Array) -> f
 
 @njit
 def fetch(image: Grey, homography: Array, runs: Runs, warped: Grey, valid: Grey) -> None:
-    """Sample the picture (bilinear) at the warped template pixels and one pixel around them."""
+    """Sample the image (bilinear) at the warped template pixels and one pixel around them."""
     height, width = runs.shape[0], warped.shape[1] - 2
     limit_x, limit_y = image.shape[1] - 1.0, image.shape[0] - 1.0
     step_x = homography[0, 0] * 2.0 / width
@@ -238,9 +238,9 @@ def fetch(image: Grey, homography: Array, runs: Runs, warped: Grey, valid: Grey)
 def statistics(
     runs: Runs, values: Grey, warped: Grey, valid: Grey
 ) -> tuple[float, float, float, float, float, float]:
-    """Count, mean and deviation of the picture, mean, squares and cross sum of the template.
+    """Count, mean and deviation of the image, mean, squares and cross sum of the template.
 
-    Only pixels whose four neighbours are in the picture count. Squares and cross sum are about
+    Only pixels whose four neighbours are in the image count. Squares and cross sum are about
     the means.
     """
     n = sum_i = sum_ii = sum_t = sum_tt = sum_it = 0.0
@@ -275,7 +275,7 @@ def normal_equations(
     a: float,
     b: float,
 ) -> Array:
-    """Products of the eight columns of J with each other, the picture, the template and 1.
+    """Products of the eight columns of J with each other, the image, the template and 1.
 
     Returns (8, 11): J^T [J, (I - offset) gain, I*, 1]. Sums run down the columns of the patch in
     float32, side by side, so that the processor does several at once, then across in float64.
@@ -341,7 +341,7 @@ def fill_columns(
     from_v: np.float32,
     share: np.float32,
 ) -> None:
-    """Write the eight columns of J, the picture, the template and 1 for one run of pixels."""
+    """Write the eight columns of J, the image, the template and 1 for one run of pixels."""
     above, here, below = warped[0], warped[1], warped[2]
     valid_above, valid_here, valid_below = valid[0], valid[1], valid[2]
     for c in range(abscissa.size):

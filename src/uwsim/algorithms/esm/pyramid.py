@@ -1,4 +1,4 @@
-"""Grey pictures and their pyramid, in float32 grey levels 0..255.
+"""Grey images and their pyramid, in float32 grey levels 0..255.
 
 Coordinates are from the top left corner, so a point (u, v) of one level is (u/2, v/2) of the next.
 """
@@ -22,7 +22,7 @@ def grey(pixels: npt.NDArray[np.uint8]) -> Grey:
 
 @njit
 def luma(rgb: npt.NDArray[np.uint8]) -> Grey:
-    """Luma (h, w) of an RGB picture (h, w, 3)."""
+    """Luma (h, w) of an RGB image (h, w, 3)."""
     height, width = rgb.shape[0], rgb.shape[1]
     result = np.empty(height * width, np.float32)
     flat = rgb.reshape(-1)

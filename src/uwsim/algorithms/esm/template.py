@@ -1,6 +1,6 @@
-"""The patch a tracker remembers: the pixels of one picture inside a quad, at one pyramid level.
+"""The patch a tracker remembers: the pixels of one image inside a quad, at one pyramid level.
 
-The template is the picture's own pixels, never resampled, so that its noise stays what the camera
+The template is the image's own pixels, never resampled, so that its noise stays what the camera
 made it. A quad cuts every row of pixels in one run, which is all that has to be remembered of it.
 """
 
@@ -22,9 +22,9 @@ class Template:
     """Pixels inside a quad, with what the alignment needs of them."""
 
     left: int
-    """Column of the picture that is column 0 here."""
+    """Column of the image that is column 0 here."""
     top: int
-    """Row of the picture that is row 0 here."""
+    """Row of the image that is row 0 here."""
     runs: Runs
     """First and one-past-last column inside the quad, for each row, (h, 2)."""
     values: Grey
@@ -37,7 +37,7 @@ class Template:
     """Mean of the pixels [grey level]."""
     contrast: float
     """Standard deviation of the pixels [grey level]."""
-    picture_from_normalised: Array
+    image_from_normalised: Array
     """Sends the square [-1, 1]^2 onto the bounding box of the quad, (3, 3)."""
 
     @property
@@ -49,7 +49,7 @@ class Template:
 def runs_inside(quad: Array, width: int, height: int) -> tuple[int, Runs]:
     """First row, and for each row the run of pixels whose centres lie in a convex quad (4, 2).
 
-    Pixels on the rim of the picture are left out: they have no central difference.
+    Pixels on the rim of the image are left out: they have no central difference.
     """
     top = max(int(np.ceil(quad[:, 1].min() - 0.5)), 1)
     bottom = min(int(np.floor(quad[:, 1].max() - 0.5)), height - 2)
@@ -108,5 +108,5 @@ def take_template(image: Grey, quad: Array) -> Template | None:
         slope_v=(slope_v * inside).astype(np.float32),
         mean=mean,
         contrast=contrast,
-        picture_from_normalised=matrix,
+        image_from_normalised=matrix,
     )

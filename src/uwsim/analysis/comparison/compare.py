@@ -26,7 +26,7 @@ from ...statistics import (
     signed_rank,
     vargha_delaney,
 )
-from .inputs import Entry, differences, read_entries, remarks, same_pictures, shared_column
+from .inputs import Entry, differences, read_entries, remarks, same_images, shared_column
 from .model import (
     CONFIDENCE,
     POWER,
@@ -129,7 +129,7 @@ def _versus(first: Entry, second: Entry, column: Column, higher_is_better: bool)
         overall=_overall(paired.levels, levels, higher_is_better),
         n_only_first=paired.n_only_first,
         n_only_second=paired.n_only_second,
-        same_pictures=same_pictures(first.result, second.result),
+        same_images=same_images(first.result, second.result),
     )
 
 

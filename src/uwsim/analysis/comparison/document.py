@@ -103,16 +103,14 @@ def _entry(entry: Entry, column: str) -> Fields:
 
 
 def _versus(comparison: Comparison, versus: Versus) -> Fields:
-    pictures = versus.same_pictures
+    images = versus.same_images
     return {
         "first": versus.first.name,
         "second": versus.second.name,
         "words": list(sentences(comparison, versus)),
         "rows_only_first": versus.n_only_first,
         "rows_only_second": versus.n_only_second,
-        "image_streams": None
-        if pictures is None
-        else {"shared": pictures[0], "same_bytes": pictures[1]},
+        "image_streams": None if images is None else {"shared": images[0], "same_bytes": images[1]},
         "sweep": {
             "levels": [list(level) for level in versus.overall.levels],
             "n_levels": versus.overall.n_levels,

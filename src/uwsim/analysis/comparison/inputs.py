@@ -123,7 +123,7 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def same_pictures(first: Result, second: Result) -> tuple[int, int] | None:
+def same_images(first: Result, second: Result) -> tuple[int, int] | None:
     """Return how many image streams both were handed, and how many of them byte for byte.
 
     None where there is none in common: no camera was read, or no seed is shared.

@@ -138,7 +138,7 @@ class Versus:
     """Rows that only the first played."""
     n_only_second: int
     """Rows that only the second played."""
-    same_pictures: tuple[int, int] | None
+    same_images: tuple[int, int] | None
     """Image streams that both were handed, and how many of them were the same bytes."""
 
 

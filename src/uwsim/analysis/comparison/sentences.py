@@ -23,7 +23,7 @@ def sentences(comparison: Comparison, versus: Versus) -> tuple[str, ...]:
         _success(versus),
         _missing(versus),
         _unpaired(versus),
-        _pictures(versus),
+        _images(versus),
     ]
     return tuple(part for part in parts if part)
 
@@ -294,12 +294,12 @@ def _unpaired(versus: Versus) -> str:
     )
 
 
-def _pictures(versus: Versus) -> str:
-    if versus.same_pictures is None:
+def _images(versus: Versus) -> str:
+    if versus.same_images is None:
         return ""
-    n, same = versus.same_pictures
+    n, same = versus.same_images
     if same == n:
-        return f"Both were handed the same pictures, byte for byte ({n} stream{'s' * (n > 1)})."
+        return f"Both were handed the same images, byte for byte ({n} stream{'s' * (n > 1)})."
     return (
         f"{same} of {n} image streams were the same bytes for both: what an algorithm does, or "
         "when it stops, changes what it sees."

@@ -3,7 +3,7 @@
 Every plot is drawn from results alone. Axes carry units; a loss is a vertical line with its level,
 or where several curves share the axes a cross at the last value before it. Bands are 95 % intervals
 of the mean over repeats (a hollow marker: not every repeat has a value), the control (`frozen`,
-which never looks at a picture) is a dashed line, named but left outside when it is far above. A
+which never looks at an image) is a dashed line, named but left outside when it is far above. A
 column without values says why instead of showing nothing. No plot has a title: what was found is
 for the reader to say.
 """

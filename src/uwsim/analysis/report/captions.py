@@ -60,7 +60,7 @@ def marks(result: Result, *, has_control: bool) -> str:
         said.append("Dotted: f*, where a tracker that compares by ZNCC should lose the patch.")
     if has_control:
         said.append(
-            "Dashed: the control frozen, which never looks at a picture; "
+            "Dashed: the control frozen, which never looks at an image; "
             "where it lies far above, the legend names its values."
         )
     return " ".join(said)

@@ -14,7 +14,7 @@ from .outcomes import Ending
 PAPER_FOG, PAPER_DISTANCE, PAPER_VISIBILITY = 1.1, 1.36, 0.86
 """What the UWSim benchmarking paper (Perez et al.) states: [1/m], [m], 1."""
 STILL = 0.05
-"""Below this the target stands still in the picture [px]."""
+"""Below this the target stands still in the image [px]."""
 
 
 def floor(result: Result) -> str | None:
@@ -36,18 +36,18 @@ def floor(result: Result) -> str | None:
 
 
 def is_static(result: Result) -> bool:
-    """Whether the target stood still in the picture, within levels and from one to the next.
+    """Whether the target stood still in the image, within levels and from one to the next.
 
-    Where the result does not say how far it moved (fact ``shift``), pictures at the ends of levels
+    Where the result does not say how far it moved (fact ``shift``), images at the ends of levels
     that were played alone say nothing: a vehicle that sways is at one phase in all of them.
     """
     shift = result.fact("shift")
     if shift is not None and shift[0] >= STILL:
         return False
     quads: dict[str, list[tuple[float, ...]]] = {}
-    for picture in result.pictures:
-        if picture.truth is not None:
-            quads.setdefault(picture.camera, []).append(picture.truth)
+    for image in result.images:
+        if image.truth is not None:
+            quads.setdefault(image.camera, []).append(image.truth)
     if any(float(np.ptp(np.array(found), axis=0).max()) >= STILL for found in quads.values()):
         return False
     if shift is not None:

@@ -13,12 +13,12 @@ from ..plots import algorithm_of, repeats_of, written_unit
 FACTS = {
     "S": "contrast S of the patch: standard deviation, no noise, fog 0",
     "sigma": "noise σ of a colour channel",
-    "sigma_grey": "noise σ of the grey picture",
+    "sigma_grey": "noise σ of the grey image",
     "d": "mean distance d from camera to patch",
     "z": "threshold z of the ZNCC",
     "f_star": "predicted loss f*, with the noise of a channel",
-    "f_star_grey": "predicted loss f*, with the noise of the grey picture",
-    "shift": "how far the target moved in the picture",
+    "f_star_grey": "predicted loss f*, with the noise of the grey image",
+    "shift": "how far the target moved in the image",
 }
 """Constant of a scene -> what it is (`uwsim.runs.trial.visibility`)."""
 SAID_ELSEWHERE = ("notes", "levels", "settings", "compatibility", "units")

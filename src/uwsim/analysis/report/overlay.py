@@ -1,4 +1,4 @@
-"""Overlay: truth and estimate drawn on a camera's picture.
+"""Overlay: truth and estimate drawn on a camera's image.
 
 Coordinates are those of `uwsim.geometry.Intrinsics`: pixels from the top left corner, the centre of
 the first pixel at (0.5, 0.5). Truth is green and solid, the estimate orange and dashed, so that
@@ -20,17 +20,17 @@ TRUTH, ESTIMATE, RIM = (0, 200, 140), (255, 140, 0), (10, 20, 30)
 
 
 def overlay(
-    picture: npt.NDArray[np.uint8],
+    image: npt.NDArray[np.uint8],
     *,
     truth: Quad | None = None,
     estimate: Quad | None = None,
     label: str = "",
     scale: int = 2,
 ) -> npt.NDArray[np.uint8]:
-    """Draw quadrangles and a label on a picture, enlarged so that half pixels show.
+    """Draw quadrangles and a label on an image, enlarged so that half pixels show.
 
     Args:
-        picture: (h, w, 3) or, grey, (h, w).
+        image: (h, w, 3) or, grey, (h, w).
         truth: corners x, y, x, y, ... [px]; None draws none.
         estimate: corners alike.
         label: text for the top left corner, such as ``fog 0.5 1/m``.
@@ -39,7 +39,7 @@ def overlay(
     Returns:
         The drawing, (h * scale, w * scale, 3).
     """
-    grey_or_colour = Image.fromarray(picture).convert("RGB")
+    grey_or_colour = Image.fromarray(image).convert("RGB")
     size = (grey_or_colour.width * scale, grey_or_colour.height * scale)
     drawing = grey_or_colour.resize(size, Image.Resampling.NEAREST)
     pen = ImageDraw.Draw(drawing)

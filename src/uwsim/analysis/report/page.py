@@ -1,7 +1,7 @@
 """The page: everything a report says, put into its template.
 
-Drawn from the result directory alone (``result.json``, logs, pictures, ``provenance.json``), so an
-old run can be drawn again. The file holds its pictures and its style in itself, loads nothing, runs
+Drawn from the result directory alone (``result.json``, logs, images, ``provenance.json``), so an
+old run can be drawn again. The file holds its images and its style in itself, loads nothing, runs
 no script (a content security policy forbids both), and every name that came from a file is text.
 
 A directory ``control`` inside it, the same benchmark played by `frozen`, gives every plot its
@@ -48,8 +48,8 @@ from .configuration import (
     title,
     variations,
 )
+from .images import data_url, images_text, shown_images
 from .outcomes import Ending, breaks, endings, named_level
-from .pictures import data_url, pictures_text, shown_pictures
 from .rows import all_cells, heads, level_rows
 
 MAX_CARDS = 12
@@ -105,7 +105,7 @@ def render(
     n_repeats = len(set(repeats_of(result))) or 1
     n_levels = len(rows_by_level(result))
     drawn = [plot for plot in plots if plot.stem != OVERVIEW and n_levels * n_repeats != 1]
-    pictures = shown_pictures(result, directory)
+    images = shown_images(result, directory)
     return template("report.html.j2").render(
         title=title(result),
         algorithm=algorithm_of(result) or "no algorithm",
@@ -126,8 +126,8 @@ def render(
         ],
         are_wide=_n_curves(result) > MAX_INSIDE,
         marks=marks(result, has_control=control is not None),
-        pictures=pictures,
-        which_pictures=pictures_text(result, len(pictures)),
+        images=images,
+        which_images=images_text(result, len(images)),
         endings=found,
         breaks=breaks(result),
         settings=settings(result),

@@ -45,7 +45,7 @@ def read_model(
     Args:
         path: The file.
         name: What it was asked for by.
-        within: Folders that its materials and pictures may lie in; its own unless it is said.
+        within: Folders that its materials and images may lie in; its own unless it is said.
         max_triangles: Simplified to about this many when it has more.
 
     Raises:

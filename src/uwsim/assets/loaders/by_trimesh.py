@@ -1,4 +1,4 @@
-"""GLB, OBJ, STL, PLY and DAE files, read by trimesh, with their pictures."""
+"""GLB, OBJ, STL, PLY and DAE files, read by trimesh, with their images."""
 
 from __future__ import annotations
 
@@ -53,9 +53,9 @@ def read_meshes(
     Args:
         path: The file.
         name: What it was asked for by.
-        within: Folders that its materials and pictures may lie in; its own unless it is said.
+        within: Folders that its materials and images may lie in; its own unless it is said.
         max_triangles: Simplified to about this many in all when there are more.
-        original: What the file was converted from; pictures are looked for beside it, too.
+        original: What the file was converted from; images are looked for beside it, too.
 
     Raises:
         AssetError: Broken, empty or too large.
@@ -167,7 +167,7 @@ def _check_number(path: Path, n_triangles: int) -> None:
 
 
 def _moved(part: Any, transform: npt.NDArray[np.float64]) -> Any:
-    """A copy without its looks: those are not moved, and pictures not copied."""
+    """A copy without its looks: those are not moved, and images not copied."""
     import trimesh
 
     moved = trimesh.Trimesh(vertices=part.vertices, faces=part.faces, process=False)

@@ -10,7 +10,7 @@ import json
 from typing import Any
 
 MAX_ENTRIES = 20_000
-"""Most nodes, primitives, accessors, pictures, ... of one kind."""
+"""Most nodes, primitives, accessors, images, ... of one kind."""
 DEEPEST = 100
 """Longest chain of nodes."""
 MAX_ELEMENTS = 12_000_000

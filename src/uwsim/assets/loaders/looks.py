@@ -1,4 +1,4 @@
-"""What parts of a mesh file look like: their colours and pictures."""
+"""What parts of a mesh file look like: their colours and images."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from PIL import Image
 from ...errors import AssetError
 from ..mesh import Texture
 
-LARGEST_PICTURE = 2048
+LARGEST_IMAGE = 2048
 """Textures are reduced to this many pixels a side."""
 MAX_PIXELS = 8192 * 8192
-"""Largest picture [px]: it is decoded whole."""
+"""Largest image [px]: it is decoded whole."""
 MAX_PIXELS_IN_ALL = 4 * MAX_PIXELS
-"""Of all pictures of a model [px]."""
+"""Of all images of a model [px]."""
 FORMATS = ("BMP", "DDS", "GIF", "JPEG", "MPO", "PNG", "PPM", "SGI", "TGA", "TIFF", "WEBP")
-"""Pictures that are decoded; Pillow knows others, some of them programs."""
+"""Images that are decoded; Pillow knows others, some of them programs."""
 
 
 def check_size(data: bytes, name: object) -> None:
-    """Refuse a picture that Pillow does not open because of its size: trimesh would go without.
+    """Refuse an image that Pillow does not open because of its size: trimesh would go without.
 
     Raises:
         AssetError: it is one.
@@ -34,10 +34,9 @@ def check_size(data: bytes, name: object) -> None:
             pass
     except Image.DecompressionBombError as error:
         raise AssetError(
-            f"{name}: a picture of too many pixels; at most {MAX_PIXELS / 1e6:.0f} million are "
-            "read."
+            f"{name}: an image of too many pixels; at most {MAX_PIXELS / 1e6:.0f} million are read."
         ) from error
-    except Exception:  # no picture, or a broken one: whoever wants one says so
+    except Exception:  # no image, or a broken one: whoever wants one says so
         pass
 
 
@@ -45,7 +44,7 @@ Look = tuple[tuple[float, float, float], Texture | None]
 
 
 class Looks:
-    """The looks of the parts of one file; parts of one material share its picture."""
+    """The looks of the parts of one file; parts of one material share its image."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -53,10 +52,10 @@ class Looks:
         self._of_material: dict[int, tuple[Any, Look]] = {}
 
     def of(self, visual: Any) -> Look:
-        """Colour and picture of what trimesh calls a visual.
+        """Colour and image of what trimesh calls a visual.
 
         Raises:
-            AssetError: its picture cannot be read, or is too large.
+            AssetError: its image cannot be read, or is too large.
         """
         material = getattr(visual, "material", None)
         if material is None:
@@ -72,7 +71,7 @@ class Looks:
     def _look(self, material: Any) -> Look:
         image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
         if image is not None:
-            # A file's diffuse factor beside a picture is usually an exporter's default: not used.
+            # A file's diffuse factor beside an image is usually an exporter's default: not used.
             return (1.0, 1.0, 1.0), self._texture(image)
         factor = getattr(material, "baseColorFactor", None)
         if factor is None and hasattr(material, "diffuse"):
@@ -83,26 +82,26 @@ class Looks:
         return (red, green, blue), None
 
     def _texture(self, image: Any) -> Texture:
-        """Decode a picture, which trimesh has only opened."""
+        """Decode an image, which trimesh has only opened."""
         n = image.width * image.height
         self._n_pixels += n
         if n > MAX_PIXELS or self._n_pixels > MAX_PIXELS_IN_ALL:
             raise AssetError(
-                f"{self._path}: a picture of {image.width} x {image.height} pixels; at most "
+                f"{self._path}: an image of {image.width} x {image.height} pixels; at most "
                 f"{MAX_PIXELS / 1e6:.0f} million are read, and {MAX_PIXELS_IN_ALL / 1e6:.0f} "
                 "in a model."
             )
         if image.format not in (None, *FORMATS):
             raise AssetError(
-                f"{self._path}: a picture is {image.format}; expected {', '.join(FORMATS)}."
+                f"{self._path}: an image is {image.format}; expected {', '.join(FORMATS)}."
             )
         try:
-            picture = image.convert("RGB")
-            picture.thumbnail((LARGEST_PICTURE, LARGEST_PICTURE))
-            pixels = np.array(picture, dtype=np.uint8)
+            rgb = image.convert("RGB")
+            rgb.thumbnail((LARGEST_IMAGE, LARGEST_IMAGE))
+            pixels = np.array(rgb, dtype=np.uint8)
         except Exception as error:  # Pillow raises whatever its decoders raise
             raise AssetError(
-                f"{self._path}: its picture cannot be read ({type(error).__name__})."
+                f"{self._path}: its image cannot be read ({type(error).__name__})."
             ) from error
         digest = hashlib.sha256(pixels.tobytes()).hexdigest()[:16]
         return Texture(name=f"{self._path}#{digest}", pixels=pixels)

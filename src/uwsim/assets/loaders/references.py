@@ -1,4 +1,4 @@
-"""Files that a mesh file names: materials, pictures, buffers; they stay where the mesh is.
+"""Files that a mesh file names: materials, images, buffers; they stay where the mesh is.
 
 A name is looked for beside the mesh, as it stands and by its last part alone: exporters write paths
 of their author's machine. What leads out of the folders that were named is an error.

@@ -30,9 +30,9 @@ def _clay() -> Texture:
     size = 256
     clouds = noise("amphora/clay", size, size, cells=3, octaves=6)
     rings = np.sin(np.arange(size, dtype=np.float32) * 0.9)[:, None] * np.float32(0.03)
-    picture = plain(size, size, (0.68, 0.42, 0.28)) * (1.0 + rings + 0.07 * clouds)[..., None]
-    picture = mixed(picture, (0.55, 0.56, 0.48), 0.8 * step(0.7, 1.9, clouds))
-    return finished("amphora/clay", picture)
+    image = plain(size, size, (0.68, 0.42, 0.28)) * (1.0 + rings + 0.07 * clouds)[..., None]
+    image = mixed(image, (0.55, 0.56, 0.48), 0.8 * step(0.7, 1.9, clouds))
+    return finished("amphora/clay", image)
 
 
 def _handle(side: float) -> Shape:

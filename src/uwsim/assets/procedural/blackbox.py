@@ -12,7 +12,7 @@ import numpy as np
 
 from ..mesh import Mesh, Texture
 from .shapes import Shape, box, cylinder, join, mesh, quad, tube
-from .textures import Picture, finished, mixed, noise, plain, step, worn, write
+from .textures import Pixels, finished, mixed, noise, plain, step, worn, write
 
 ORANGE = (0.97, 0.42, 0.07)
 """International orange, as stored value."""
@@ -30,52 +30,52 @@ ones. DESIGN 6a asks for a deviation of 25 to 35 grey levels of the top face at 
 """
 
 
-def _paint(name: str, height: int, width: int) -> Picture:
+def _paint(name: str, height: int, width: int) -> Pixels:
     """Orange paint: clouded, faded, rubbed to the primer in places."""
     clouds = noise(f"{name}/clouds", height, width, cells=3, octaves=6, tiles=False)
     scuffs = noise(f"{name}/scuffs", height, width, cells=7, octaves=5, gain=0.7, tiles=False)
-    picture = plain(height, width, ORANGE) * (1.0 + np.float32(0.14 * WEAR) * clouds)[..., None]
-    picture = mixed(picture, (0.42, 0.20, 0.10), np.float32(0.8 * WEAR) * step(0.9, 2.0, clouds))
-    return mixed(picture, (0.75, 0.66, 0.55), np.float32(WEAR) * step(1.2, 2.2, scuffs))
+    image = plain(height, width, ORANGE) * (1.0 + np.float32(0.14 * WEAR) * clouds)[..., None]
+    image = mixed(image, (0.42, 0.20, 0.10), np.float32(0.8 * WEAR) * step(0.9, 2.0, clouds))
+    return mixed(image, (0.75, 0.66, 0.55), np.float32(WEAR) * step(1.2, 2.2, scuffs))
 
 
-def _bars(picture: Picture, left: float, right: float, period: float) -> None:
+def _bars(image: Pixels, left: float, right: float, period: float) -> None:
     """Slanted hazard bars between two fractions of the width."""
-    height, width = picture.shape[:2]
+    height, width = image.shape[:2]
     x, y = np.arange(width)[None, :], np.arange(height)[:, None]
     inked = ((x + y) % (period * height) < 0.5 * period * height) & (x >= left * width)
-    picture[inked & (x < right * width)] = INK
+    image[inked & (x < right * width)] = INK
 
 
 @cache
 def face() -> Texture:
     """The large faces, seen with the box's +y end to the right."""
     height, width = 192, 640
-    picture = _paint("blackbox/face", height, width)
+    image = _paint("blackbox/face", height, width)
     for left, right in ((0.060, 0.115), (0.835, 0.890)):
-        picture[:, round(left * width) : round(right * width)] = BAND
-    _bars(picture, 0.925, 1.0, 0.28)
-    _bars(picture, 0.0, 0.035, 0.28)
-    write(picture, "FLIGHT RECORDER", (0.47, 0.25), width=0.63, height=0.24, colour=INK)
-    write(picture, "DO NOT OPEN", (0.365, 0.63), width=0.42, height=0.22, colour=INK)
-    write(picture, "ENREGISTREUR DE VOL", (0.365, 0.88), width=0.42, height=0.09, colour=INK)
-    picture[round(0.48 * height) : round(0.92 * height), 405:502] = BAND
-    write(picture, "37.5 kHz", (0.708, 0.60), width=0.12, height=0.12, colour=INK)
-    write(picture, "S/N 0427", (0.708, 0.80), width=0.12, height=0.12, colour=INK)
+        image[:, round(left * width) : round(right * width)] = BAND
+    _bars(image, 0.925, 1.0, 0.28)
+    _bars(image, 0.0, 0.035, 0.28)
+    write(image, "FLIGHT RECORDER", (0.47, 0.25), width=0.63, height=0.24, colour=INK)
+    write(image, "DO NOT OPEN", (0.365, 0.63), width=0.42, height=0.22, colour=INK)
+    write(image, "ENREGISTREUR DE VOL", (0.365, 0.88), width=0.42, height=0.09, colour=INK)
+    image[round(0.48 * height) : round(0.92 * height), 405:502] = BAND
+    write(image, "37.5 kHz", (0.708, 0.60), width=0.12, height=0.12, colour=INK)
+    write(image, "S/N 0427", (0.708, 0.80), width=0.12, height=0.12, colour=INK)
     dirt = noise("blackbox/dirt", height, width, cells=5, octaves=5, gain=0.7, tiles=False)
-    return finished("blackbox/face", picture * (1.0 + 0.05 * dirt)[..., None], repeats=False)
+    return finished("blackbox/face", image * (1.0 + 0.05 * dirt)[..., None], repeats=False)
 
 
 @cache
 def side() -> Texture:
     """The narrow faces."""
     height, width = 128, 480
-    picture = _paint("blackbox/side", height, width)
+    image = _paint("blackbox/side", height, width)
     for left, right in ((0.060, 0.115), (0.835, 0.890)):
-        picture[:, round(left * width) : round(right * width)] = BAND
-    write(picture, "FLIGHT RECORDER", (0.475, 0.35), width=0.50, height=0.24, colour=INK)
-    write(picture, "DO NOT OPEN", (0.475, 0.68), width=0.36, height=0.20, colour=INK)
-    return finished("blackbox/side", picture, repeats=False)
+        image[:, round(left * width) : round(right * width)] = BAND
+    write(image, "FLIGHT RECORDER", (0.475, 0.35), width=0.50, height=0.24, colour=INK)
+    write(image, "DO NOT OPEN", (0.475, 0.68), width=0.36, height=0.20, colour=INK)
+    return finished("blackbox/side", image, repeats=False)
 
 
 def _large(x: float, y0: float, y1: float, z: float) -> Shape:
@@ -89,7 +89,7 @@ def _large(x: float, y0: float, y1: float, z: float) -> Shape:
 def _narrow(
     x: float, y: tuple[float, float], z: tuple[float, float], whole: tuple[float, float, float]
 ) -> Shape:
-    """Both side faces between two y and two z; ``whole`` is where the picture ends: y, y and z."""
+    """Both side faces between two y and two z; ``whole`` is where the image ends: y, y and z."""
     (y0, y1), (z0, z1), (start, end, half) = y, z, whole
     u0, u1 = (y0 - start) / (end - start), (y1 - start) / (end - start)
     v0, v1 = (z0 + half) / (2 * half), (z1 + half) / (2 * half)

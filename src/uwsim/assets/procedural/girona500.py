@@ -46,26 +46,26 @@ def _hull_texture() -> Texture:
     """Round the hull (u, from starboard downwards) and from tail (bottom) to nose (top)."""
     name, height, width = "girona500/hull", 640, 384
     clouds = noise(name, height, width, cells=3, octaves=6)
-    picture = plain(height, width, YELLOW)
-    picture[round(0.24 * height) : round(0.75 * height)] = (0.22, 0.23, 0.25)
+    image = plain(height, width, YELLOW)
+    image[round(0.24 * height) : round(0.75 * height)] = (0.22, 0.23, 0.25)
     for edge in (0.228, 0.75):
-        picture[round(edge * height) : round((edge + 0.012) * height)] = (0.92, 0.92, 0.90)
+        image[round(edge * height) : round((edge + 0.012) * height)] = (0.92, 0.92, 0.90)
     white = (0.94, 0.94, 0.92)
-    starboard, port = picture.copy(), picture
+    starboard, port = image.copy(), image
     write(starboard, "GIRONA 500", (0.5, 0.50), height=0.36, width=0.14, colour=white,
           quarter_turns=1)  # fmt: skip
     write(port, "GIRONA 500", (0.5, 0.50), height=0.36, width=0.14, colour=white, quarter_turns=3)
     half, quarter = width // 2, width // 4
-    picture = np.concatenate([starboard[:, half:], starboard[:, :half]], axis=1)
-    picture[:, quarter : 3 * quarter] = port[:, quarter : 3 * quarter]
+    image = np.concatenate([starboard[:, half:], starboard[:, :half]], axis=1)
+    image[:, quarter : 3 * quarter] = port[:, quarter : 3 * quarter]
     for seam in (0.12, 0.24, 0.75, 0.88):  # joints of the shells, with bolts
         row = round(seam * height)
-        picture[row : row + 2] *= 0.45
+        image[row : row + 2] *= 0.45
         for k in range(16):
             column = round((k + 0.5) * width / 16)
-            picture[row + 6 : row + 9, column - 1 : column + 2] *= 0.5
-    picture = mixed(picture, (0.55, 0.52, 0.44), 0.30 * step(1.2, 2.6, clouds))
-    return finished(name, picture * (1.0 + 0.035 * clouds)[..., None])
+            image[row + 6 : row + 9, column - 1 : column + 2] *= 0.5
+    image = mixed(image, (0.55, 0.52, 0.44), 0.30 * step(1.2, 2.6, clouds))
+    return finished(name, image * (1.0 + 0.035 * clouds)[..., None])
 
 
 def _hull() -> Shape:

@@ -14,9 +14,9 @@ def labelled_box(label: str, size: tuple[float, float, float]) -> tuple[Mesh, ..
         label: Short enough to be read.
         size: Edges x, y, z [m].
     """
-    picture = plain(128, 256, (0.62, 0.64, 0.66))
-    picture[:5] = picture[-5:] = picture[:, :5] = picture[:, -5:] = (0.25, 0.26, 0.28)
-    write(picture, label, (0.5, 0.5), width=0.8, height=0.3, colour=(0.08, 0.08, 0.09))
+    image = plain(128, 256, (0.62, 0.64, 0.66))
+    image[:5] = image[-5:] = image[:, :5] = image[:, -5:] = (0.25, 0.26, 0.28)
+    write(image, label, (0.5, 0.5), width=0.8, height=0.3, colour=(0.08, 0.08, 0.09))
     x, y, z = size
     shape = box((-x / 2, -y / 2, 0.0), (x / 2, y / 2, z))
-    return (mesh(shape, texture=finished(f"label/{label}", picture, repeats=False)),)
+    return (mesh(shape, texture=finished(f"label/{label}", image, repeats=False)),)

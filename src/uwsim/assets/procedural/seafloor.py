@@ -22,15 +22,15 @@ DEPTH, REACH = 15.0, 40.0
 
 @cache
 def sand() -> Texture:
-    """Rippled sand with grit; 4 m a picture."""
+    """Rippled sand with grit; 4 m an image."""
     size = 512
     grain = noise("seafloor/grain", size, size, cells=64, octaves=4, gain=0.9)
     broad = noise("seafloor/broad", size, size, cells=3, octaves=5)
     rows = np.arange(size, dtype=np.float32)[:, None] * np.float32(2 * np.pi * 20 / size)
     ripples = np.sin(rows + 1.5 * broad)
-    picture = plain(size, size, (0.66, 0.60, 0.46)) * (1.0 + 0.07 * grain + 0.05 * broad)[..., None]
-    picture = mixed(picture, (0.34, 0.32, 0.26), 0.6 * step(1.4, 2.4, grain))
-    return finished("seafloor/sand", picture * lit(ripples, 0.5, tiles=True)[..., None])
+    image = plain(size, size, (0.66, 0.60, 0.46)) * (1.0 + 0.07 * grain + 0.05 * broad)[..., None]
+    image = mixed(image, (0.34, 0.32, 0.26), 0.6 * step(1.4, 2.4, grain))
+    return finished("seafloor/sand", image * lit(ripples, 0.5, tiles=True)[..., None])
 
 
 def _terrain(name: str, n: int, height: float) -> Shape:

@@ -58,7 +58,7 @@ class Shape:
         return Shape(self.corners, self.uvs * np.array([scale_u, scale_v]))
 
     def projected(self, metres: float) -> Shape:
-        """Texture laid on by each triangle's main direction, one picture every ``metres``."""
+        """Texture laid on by each triangle's main direction, one image every ``metres``."""
         normal = np.abs(_face_normals(self.corners))
         axis = np.argmax(normal, axis=1)  # (m,)
         keep = np.array([[1, 2], [0, 2], [0, 1]])[axis]  # (m, 2) coordinates that remain

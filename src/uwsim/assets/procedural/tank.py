@@ -1,7 +1,7 @@
 """The test tank of the underwater robotics centre (CIRS) in Girona: ``terrain/CIRS``.
 
 Frame: z up, water level 0, x along the basin. Geometry as in UWSim's model: a basin with a
-shelf at each end, ramps down to a flat bottom, a picture of a sea floor laid on it, a window in
+shelf at each end, ramps down to a flat bottom, an image of a sea floor laid on it, a window in
 one wall, and the facade of the laboratory behind.
 """
 
@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..mesh import Mesh, Texture
-from .seabed_picture import mosaic
+from .seabed_image import mosaic
 from .shapes import Shape, box, join, mesh, quad
 from .textures import concrete, finished, mixed, noise, plain, step, worn, write
 
@@ -30,8 +30,8 @@ PROFILE = (
     (EAST, -0.65),
 )
 """The bottom along x: shelf, ramp, flat, ramp, shelf; (x, z) [m]."""
-PICTURE_SIZE, PICTURE_TOP = (3.48, 7.0), -4.81
-"""The picture on the bottom: x, y and height [m]."""
+IMAGE_SIZE, IMAGE_TOP = (3.48, 7.0), -4.81
+"""The image on the bottom: x, y and height [m]."""
 GRASS = 15.0
 """The ground reaches this far from the middle [m]."""
 
@@ -95,16 +95,16 @@ def _grass() -> Texture:
     size = 512
     clumps = noise("tank/grass", size, size, cells=8, octaves=7, gain=0.8)
     bare = step(0.9, 2.0, noise("tank/grass/bare", size, size, cells=4, octaves=4))
-    picture = plain(size, size, (0.25, 0.38, 0.14)) * (1.0 + 0.22 * clumps)[:, :, None]
+    image = plain(size, size, (0.25, 0.38, 0.14)) * (1.0 + 0.22 * clumps)[:, :, None]
     earth = plain(size, size, (0.42, 0.35, 0.22)) * (1.0 + 0.12 * clumps)[:, :, None]
-    return finished("tank/grass", mixed(picture, earth, np.float32(0.7) * bare))
+    return finished("tank/grass", mixed(image, earth, np.float32(0.7) * bare))
 
 
 def _facade() -> Texture:
     """Rendered wall with two rows of windows and a door, for the whole front."""
     height, width = 384, 768
     stain = noise("tank/facade", height, width, cells=4, octaves=7)
-    picture = plain(height, width, (0.80, 0.76, 0.68)) * (1.0 + 0.04 * stain)[:, :, None]
+    image = plain(height, width, (0.80, 0.76, 0.68)) * (1.0 + 0.04 * stain)[:, :, None]
     for row in (0.16, 0.55):
         for column in range(7):
             left, top = 0.05 + column * 0.133, row
@@ -112,42 +112,42 @@ def _facade() -> Texture:
                 continue
             a, b = round(left * width), round((left + 0.085) * width)
             c, d = round(top * height), round((top + 0.26) * height)
-            picture[c - 5 : d + 5, a - 5 : b + 5] = (0.92, 0.92, 0.90)
+            image[c - 5 : d + 5, a - 5 : b + 5] = (0.92, 0.92, 0.90)
             sky = noise("tank/facade/glass", d - c, b - a, cells=2, octaves=3)
-            picture[c:d, a:b] = plain(d - c, b - a, (0.22, 0.30, 0.38)) * (
+            image[c:d, a:b] = plain(d - c, b - a, (0.22, 0.30, 0.38)) * (
                 1.0 + 0.15 * sky[:, :, None]
             )
-            picture[c:d, (a + b) // 2 - 2 : (a + b) // 2 + 2] = (0.92, 0.92, 0.90)
-    picture[round(0.52 * height) :, 345:420] = (0.30, 0.34, 0.40)
-    picture[round(0.52 * height) :, 381:384] = (0.70, 0.70, 0.70)
-    picture[round(0.94 * height) :] *= 0.6
-    return finished("tank/facade", picture, repeats=False)
+            image[c:d, (a + b) // 2 - 2 : (a + b) // 2 + 2] = (0.92, 0.92, 0.90)
+    image[round(0.52 * height) :, 345:420] = (0.30, 0.34, 0.40)
+    image[round(0.52 * height) :, 381:384] = (0.70, 0.70, 0.70)
+    image[round(0.94 * height) :] *= 0.6
+    return finished("tank/facade", image, repeats=False)
 
 
 def _title() -> Texture:
     """The board on the roof: our own words on wood."""
     height, width = 128, 1024
     grain = noise("tank/board", height, width, cells=8, octaves=4, gain=0.8)
-    picture = plain(height, width, (0.55, 0.38, 0.20)) * (1.0 + 0.06 * grain)[:, :, None]
-    picture[:6] = picture[-6:] = picture[:, :6] = picture[:, -6:] = (0.25, 0.16, 0.08)
+    image = plain(height, width, (0.55, 0.38, 0.20)) * (1.0 + 0.06 * grain)[:, :, None]
+    image[:6] = image[-6:] = image[:, :6] = image[:, -6:] = (0.25, 0.16, 0.08)
     cream = (0.96, 0.93, 0.84)
     write(
-        picture, "UNDERWATER ROBOTICS TEST TANK", (0.5, 0.40), width=0.90, height=0.38, colour=cream
+        image, "UNDERWATER ROBOTICS TEST TANK", (0.5, 0.40), width=0.90, height=0.38, colour=cream
     )
-    write(picture, "uwsim  -  16 x 8 x 5 m", (0.5, 0.77), height=0.17, colour=cream)
-    return finished("tank/title", picture, repeats=False)
+    write(image, "uwsim  -  16 x 8 x 5 m", (0.5, 0.77), height=0.17, colour=cream)
+    return finished("tank/title", image, repeats=False)
 
 
 def _window() -> Texture:
     """The observation window: panes, frames, and a dim room behind."""
     height, width = 128, 576
     dim = noise("tank/window", height, width, cells=2, octaves=5)
-    picture = plain(height, width, (0.10, 0.17, 0.21)) * (1.0 + 0.25 * dim)[:, :, None]
+    image = plain(height, width, (0.10, 0.17, 0.21)) * (1.0 + 0.25 * dim)[:, :, None]
     for k in range(4):
         edge = round(k * (width - 10) / 3)
-        picture[:, edge : edge + 10] = (0.62, 0.66, 0.68)
-    picture[:8] = picture[-8:] = (0.62, 0.66, 0.68)
-    return finished("tank/window", picture, repeats=False)
+        image[:, edge : edge + 10] = (0.62, 0.66, 0.68)
+    image[:8] = image[-8:] = (0.62, 0.66, 0.68)
+    return finished("tank/window", image, repeats=False)
 
 
 def _wall_under_water() -> Texture:
@@ -158,7 +158,7 @@ def _wall_under_water() -> Texture:
 def tank() -> tuple[Mesh, ...]:
     """The basin, what lies in it, and what stands round it."""
     wet, dry = _wall_under_water(), concrete("tank/cement", (0.66, 0.65, 0.62), size=256)
-    (px, py), pz = PICTURE_SIZE, PICTURE_TOP
+    (px, py), pz = IMAGE_SIZE, IMAGE_TOP
     floor_z = -4.85
     slab = quad((-px / 2, -py / 2, pz), (px / 2, -py / 2, pz), (px / 2, py / 2, pz),
                 (-px / 2, py / 2, pz), cuts=(6, 12))  # fmt: skip

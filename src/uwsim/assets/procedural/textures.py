@@ -1,4 +1,4 @@
-"""Pictures to wrap round shapes, painted from named chance: the same bytes in every run."""
+"""Images to wrap round shapes, painted from named chance: the same bytes in every run."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..mesh import Texture
 
 Grey = npt.NDArray[np.float32]
 """(h, w), about 0..1."""
-Picture = npt.NDArray[np.float32]
+Pixels = npt.NDArray[np.float32]
 """(h, w, 3), 0..1, red green blue, row 0 at the top."""
 Colour = tuple[float, float, float]
 
@@ -72,15 +72,15 @@ def _stretched(grid: Grey, height: int, width: int, tiles: bool) -> Grey:
     return np.ascontiguousarray(big[top : top + height, left : left + width])
 
 
-def plain(height: int, width: int, colour: Colour) -> Picture:
-    """A picture of one colour."""
+def plain(height: int, width: int, colour: Colour) -> Pixels:
+    """An image of one colour."""
     return np.broadcast_to(np.array(colour, dtype=np.float32), (height, width, 3)).copy()
 
 
-def mixed(first: Picture | Colour, second: Picture | Colour, amount: Grey) -> Picture:
+def mixed(first: Pixels | Colour, second: Pixels | Colour, amount: Grey) -> Pixels:
     """``first`` where ``amount`` is 0, ``second`` where it is 1."""
     a, b = np.asarray(first, dtype=np.float32), np.asarray(second, dtype=np.float32)
-    blend: Picture = a + (b - a) * amount[:, :, None]
+    blend: Pixels = a + (b - a) * amount[:, :, None]
     return blend
 
 
@@ -102,15 +102,15 @@ def lit(height_map: Grey, strength: float, *, tiles: bool = False) -> Grey:
     return shade
 
 
-def finished(name: str, picture: Picture, *, repeats: bool = True) -> Texture:
-    """The picture as a texture, clipped to 0..1 and rounded to 8 bit."""
-    pixels = cv2.convertScaleAbs(np.clip(picture, 0.0, 1.0), alpha=255.0)
+def finished(name: str, image: Pixels, *, repeats: bool = True) -> Texture:
+    """The image as a texture, clipped to 0..1 and rounded to 8 bit."""
+    pixels = cv2.convertScaleAbs(np.clip(image, 0.0, 1.0), alpha=255.0)
     return Texture(name=name, pixels=np.ascontiguousarray(pixels, dtype=np.uint8), repeats=repeats)
 
 
 @lru_cache(maxsize=64)
 def lettering(text: str, size: int) -> Grey:
-    """Words as a picture, 1 where there is ink, cropped to the ink; no system font is needed."""
+    """Words as an image, 1 where there is ink, cropped to the ink; no system font is needed."""
     from PIL import Image, ImageDraw, ImageFont
 
     font = ImageFont.load_default(size=size)
@@ -125,7 +125,7 @@ def lettering(text: str, size: int) -> Grey:
 
 
 def write(
-    picture: Picture,
+    image: Pixels,
     text: str,
     centre: tuple[float, float],
     *,
@@ -134,12 +134,12 @@ def write(
     colour: Colour = (0.0, 0.0, 0.0),
     quarter_turns: int = 0,
 ) -> None:
-    """Paint words onto a picture; places and sizes are fractions of its width and height.
+    """Paint words onto an image; places and sizes are fractions of its width and height.
 
     One of ``width`` and ``height`` of the (turned) words must be given; both stretch them.
     """
     ink = np.rot90(lettering(text, 96), quarter_turns)
-    h, w = picture.shape[:2]
+    h, w = image.shape[:2]
     if width is not None and height is not None:
         size = (round(width * w), round(height * h))
     elif width is not None:
@@ -152,20 +152,20 @@ def write(
     rows = slice(max(top, 0), min(top + size[1], h))
     columns = slice(max(left, 0), min(left + size[0], w))
     part = small[rows.start - top : rows.stop - top, columns.start - left : columns.stop - left]
-    patch = picture[rows, columns]
-    picture[rows, columns] = mixed(patch, colour, part.astype(np.float32))
+    patch = image[rows, columns]
+    image[rows, columns] = mixed(patch, colour, part.astype(np.float32))
 
 
 @cache
 def worn(name: str, colour: Colour, *, size: int = 256, grain: float = 0.06) -> Texture:
     """Paint or metal that has been used: cloudy, with fine scratches."""
     clouds = noise(f"{name}/clouds", size, size, cells=3, octaves=6)
-    picture = plain(size, size, colour) * (1.0 + np.float32(grain) * clouds)[:, :, None]
+    image = plain(size, size, colour) * (1.0 + np.float32(grain) * clouds)[:, :, None]
     streak = cv2.GaussianBlur(
         noise(f"{name}/streaks", size, size, cells=size // 2, octaves=1), (25, 1), 0
     )
-    picture *= (1.0 + np.float32(grain * 1.2) * streak / streak.std())[:, :, None]
-    return finished(name, picture)
+    image *= (1.0 + np.float32(grain * 1.2) * streak / streak.std())[:, :, None]
+    return finished(name, image)
 
 
 @cache
@@ -173,14 +173,14 @@ def concrete(name: str, colour: Colour, *, size: int = 512, joints: int = 0) -> 
     """Cement, with stains and pores; ``joints`` tiles along each side when not 0."""
     clouds = noise(f"{name}/clouds", size, size, cells=2, octaves=7, gain=0.62)
     pores = noise(f"{name}/pores", size, size, cells=size // 4, octaves=2)
-    picture = plain(size, size, colour) * (1.0 + 0.07 * clouds)[:, :, None]
-    picture *= (1.0 - 0.30 * step(1.9, 2.6, pores) + 0.02 * pores)[:, :, None]
+    image = plain(size, size, colour) * (1.0 + 0.07 * clouds)[:, :, None]
+    image *= (1.0 - 0.30 * step(1.9, 2.6, pores) + 0.02 * pores)[:, :, None]
     if joints:
         draw = rng.stream(0, f"assets/{name}/tiles")
         shade = draw.normal(1.0, 0.035, (joints, joints)).astype(np.float32)
-        picture *= cv2.resize(shade, (size, size), interpolation=cv2.INTER_NEAREST)[:, :, None]
+        image *= cv2.resize(shade, (size, size), interpolation=cv2.INTER_NEAREST)[:, :, None]
         edge = (np.arange(size) * joints / size) % 1.0
         near = np.minimum(edge, 1.0 - edge) * size / joints  # pixels to the nearest joint
         gap = np.minimum(near[:, None], near[None, :]).astype(np.float32)
-        picture *= (1.0 - 0.45 * (1.0 - step(0.8, 2.4, gap)))[:, :, None]
-    return finished(name, picture)
+        image *= (1.0 - 0.45 * (1.0 - step(0.8, 2.4, gap)))[:, :, None]
+    return finished(name, image)

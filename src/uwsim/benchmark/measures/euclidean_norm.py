@@ -61,7 +61,7 @@ class EuclideanNormSpec(MeasureSpec):
     ``once``, until it was called for the first time (``u:autoInit``)."""
 
     def faults(self) -> Sequence[str]:
-        """A face is the true one of a camera's picture only; ``once`` needs a service to call."""
+        """A face is the true one of a camera's image only; ``once`` needs a service to call."""
         found = []
         if self.truth == "face" and self.ground_truth.camera is None:
             found.append(
@@ -102,9 +102,9 @@ class EuclideanNorm(Measure):
 
     .. math:: \text{mean} = \frac1K \sum_{k=1}^K \lVert g(t_k) - e(t_k) \rVert
 
-    with :math:`t_k` the steps at which the truth's camera took a picture while the measure was on
-    (every step, where no camera takes pictures), after what was published at that step arrived, and
-    :math:`e(t_k)` the newest estimate by then; before the first one, the first. So every picture
+    with :math:`t_k` the steps at which the truth's camera took an image while the measure was on
+    (every step, where no camera takes images), after what was published at that step arrived, and
+    :math:`e(t_k)` the newest estimate by then; before the first one, the first. So every image
     counts once, answered or not, and nothing is gained by publishing more often, or less.
 
     There is no value when no estimate came, or none for more than 1 s while the measure was on: an
@@ -132,13 +132,13 @@ class EuclideanNorm(Measure):
         self._last_norm_stands = "last-norm" in world.compatibility
         self._inbox = world.bus.inbox(spec.target, Float32MultiArray)
         self._frames = Signal(truth.components)
-        self._n_pictures: int | None = None  # of the truth's camera, at the last look
+        self._n_images: int | None = None  # of the truth's camera, at the last look
         self._last: Sample | None = None  # of the newest estimate, as it arrived
         self._n = self._n_refused = self._n_answered = 0
         self._estimate: Array | None = None  # in force (k,)
         self._unanswered: list[Array] = []  # truths before the first estimate, (k,) each
         self._is_new = False  # whether an estimate arrived at this step
-        self._is_answered = False  # ... or since the last picture
+        self._is_answered = False  # ... or since the last image
         self._refused = ""  # why the newest message was not scored
         self._notes: list[str] = []
         self._has_initialised = False
@@ -151,12 +151,12 @@ class EuclideanNorm(Measure):
         self._estimate, self._is_answered = None, False
         self._unanswered.clear()
         self._waits_since = self._world.step
-        self._n_pictures = self._truth.n_pictures
+        self._n_images = self._truth.n_images
         if self._publish_on is not None:
             self._publish(self._publish_on)
 
     def update(self) -> None:
-        """Take what arrived; and a sample, if there was a picture."""
+        """Take what arrived; and a sample, if there was an image."""
         self._is_new = self._read()
         self._is_answered |= self._is_new
         if self._waits_since is not None:
@@ -184,7 +184,7 @@ class EuclideanNorm(Measure):
             return "it was never on"
         if self._last is not None and self.longest_silence <= PATIENCE:
             is_empty = self._which != "last" and not self._frames.n
-            return "its camera took no picture while the measure was on" if is_empty else None
+            return "its camera took no image while the measure was on" if is_empty else None
         if self._refused:
             return self._refused
         if self._last is None:
@@ -210,7 +210,7 @@ class EuclideanNorm(Measure):
         """Why no share is known."""
         if self._frames.n:
             return {}
-        return {"answered": self.why or "its camera took no picture while the measure was on"}
+        return {"answered": self.why or "its camera took no image while the measure was on"}
 
     @property
     def log_header(self) -> tuple[str, ...]:
@@ -292,9 +292,9 @@ class EuclideanNorm(Measure):
         return None
 
     def _is_due(self) -> bool:
-        """Whether the camera took a picture since the last look; without one, always."""
-        before, self._n_pictures = self._n_pictures, self._truth.n_pictures
-        return self._n_pictures is None or self._n_pictures != before
+        """Whether the camera took an image since the last look; without one, always."""
+        before, self._n_images = self._n_images, self._truth.n_images
+        return self._n_images is None or self._n_images != before
 
     def _take_sample(self) -> None:
         """Compare the estimate in force with the truth; keep the truth until there is one."""

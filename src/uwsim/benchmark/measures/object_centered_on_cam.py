@@ -1,4 +1,4 @@
-r"""Object centred on a camera: how far from the middle of the picture a body appears.
+r"""Object centred on a camera: how far from the middle of the image a body appears.
 
 .. code-block:: xml
 
@@ -77,7 +77,7 @@ class ObjectCenteredOnCam(Measure):
         self.update()
 
     def update(self) -> None:
-        """Take a sample, if the body is in the picture."""
+        """Take a sample, if the body is in the image."""
         width, height = self._size
         pixel = self._seen.pixel()
         self._looks += 1
@@ -99,11 +99,11 @@ class ObjectCenteredOnCam(Measure):
         """Why there is no value."""
         if not self._looks:
             return "it was never on"
-        return None if self._is_visible else "the target is not in the picture"
+        return None if self._is_visible else "the target is not in the image"
 
     @property
     def details(self) -> dict[str, float | None]:
-        """Statistics of distance and components, and how often the body was in the picture."""
+        """Statistics of distance and components, and how often the body was in the image."""
         visible = self._signal.n / self._looks if self._looks else None
         return {**self._signal.details, "visible": visible}
 
@@ -114,5 +114,5 @@ class ObjectCenteredOnCam(Measure):
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """The newest sample; nothing while the body is not in the picture."""
+        """The newest sample; nothing while the body is not in the image."""
         return self._signal.last if self._is_visible else (None, None, None)

@@ -1,4 +1,4 @@
-"""The smallest rectangle round points of a picture, and the names of its corners."""
+"""The smallest rectangle round points of an image, and the names of its corners."""
 
 from __future__ import annotations
 

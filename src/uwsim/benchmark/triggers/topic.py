@@ -31,7 +31,7 @@ class Topic(Trigger):
     """What the newest message on its topic said; off until there is one.
 
     A std_msgs/Bool says what it holds. A message of any other type is an event, such as the first
-    picture of a camera or a goal that was sent: it says on. (The original reads a Bool only.)
+    image of a camera or a goal that was sent: it says on. (The original reads a Bool only.)
     """
 
     def __init__(self, inbox: Inbox[object]) -> None:

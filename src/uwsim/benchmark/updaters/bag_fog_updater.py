@@ -1,4 +1,4 @@
-r"""bagFogUpdater: fog over recorded pictures, to test an algorithm on real footage.
+r"""bagFogUpdater: fog over recorded images, to test an algorithm on real footage.
 
 .. code-block:: xml
 
@@ -11,12 +11,12 @@ r"""bagFogUpdater: fog over recorded pictures, to test an algorithm on real foot
     </bagFogUpdater>
 
 The bag is replayed in an endless loop, in simulation time and with the spacing recorded; from the
-last picture to the first of the next round it is the mean spacing. Everything in a picture counts
-as ``imageDepth`` away, so a picture c in fog of density f and colour g becomes
+last image to the first of the next round it is the mean spacing. Everything in an image counts
+as ``imageDepth`` away, so an image c in fog of density f and colour g becomes
 
 .. math:: c' = c\, t + g\, (1 - t), \quad t = e^{-(f \cdot imageDepth)^2}
 
-which is what the renderer does with fog (docs/rendering.md); g is the scene's fog colour. Pictures
+which is what the renderer does with fog (docs/rendering.md); g is the scene's fog colour. Images
 are published as ``rgb8`` or ``mono8``, each with the camera's info, both stamped with the time of
 publishing. Not modelled: attenuation, and fog that was in the water already.
 """
@@ -35,7 +35,7 @@ import numpy.typing as npt
 from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
 from ...linear import dot
 from ...messages import CameraInfo, Image, image, time_from_seconds
-from ...messages.bag_camera import Frame, Picture, Recording, camera_info
+from ...messages.bag_camera import DecodedImage, Frame, Recording, camera_info
 from ...schema import element
 from ...world import Stage
 from .fog_sweep import FogSweepSpec
@@ -56,13 +56,13 @@ class BagFogUpdaterSpec(FogSweepSpec):
     bag: str
     """The recording: a .bag, .mcap or .db3 file, or a folder of ROS 2 (rosbag2)."""
     image_topic: str
-    """Topic of the pictures in the recording (sensor_msgs/Image or CompressedImage)."""
+    """Topic of the images in the recording (sensor_msgs/Image or CompressedImage)."""
     info_topic: str
     """Topic of the camera's info in the recording (sensor_msgs/CameraInfo)."""
     image_depth: float = element(above=0.0)
-    """Assumed distance of everything in the pictures [m]."""
+    """Assumed distance of everything in the images [m]."""
     image_pub: str | None = element(default=None)
-    """Topic the pictures are published on; None: as in the recording."""
+    """Topic the images are published on; None: as in the recording."""
     info_pub: str | None = element(default=None)
     """Topic the camera's info is published on; None: as in the recording."""
     path: str = field(default="", compare=False, metadata={"path": True})
@@ -70,7 +70,7 @@ class BagFogUpdaterSpec(FogSweepSpec):
 
     @property
     def topics(self) -> tuple[str, str]:
-        """Where pictures and info are published."""
+        """Where images and info are published."""
         return self.image_pub or self.image_topic, self.info_pub or self.info_topic
 
     def find(self, stage: Stage) -> Path:
@@ -109,13 +109,13 @@ class BagFogUpdaterSpec(FogSweepSpec):
 class BagFogUpdater(SceneUpdater):
     """Replays a recording in fog.
 
-    Until the benchmark has begun, and in the prelude of an independent level, the first picture
+    Until the benchmark has begun, and in the prelude of an independent level, the first image
     stands, published at the spacing of the first two: a tracker takes its template from the very
-    picture that its level begins with. With level 1 of a sequence, or with any independent level,
+    image that its level begins with. With level 1 of a sequence, or with any independent level,
     the replay begins; in a sequence it lives on from level to level.
 
     Compatibility ``bag-fog``: the exponent is 1.44 times as great, the colour is (0, 0.05, 0.3) on
-    the channels as they were recorded, and grey pictures stay as they are.
+    the channels as they were recorded, and grey images stay as they are.
     """
 
     def __init__(self, stage: Stage, spec: BagFogUpdaterSpec, path: Path) -> None:
@@ -125,7 +125,7 @@ class BagFogUpdater(SceneUpdater):
         self._density = spec.density(spec.initial)  # [1/m]
         self._recording: Recording | None = None
         self._has_begun = False
-        self._since = 0  # step at which the first picture was due
+        self._since = 0  # step at which the first image was due
         self._schedule: Iterator[tuple[int, Frame]] = iter(())
         self._next: tuple[int, Frame] | None = None  # step at which it is due, and what
         self._n_frames = 0
@@ -160,14 +160,14 @@ class BagFogUpdater(SceneUpdater):
         return self._recording
 
     def _still(self) -> Iterator[tuple[int, Frame]]:
-        """Yield the first picture over and over, each time with when it is due [ns]."""
+        """Yield the first image over and over, each time with when it is due [ns]."""
         recording, n = self._open(), 0
         while True:
             yield n * recording.gap, recording.first
             n += 1
 
     def _replay(self) -> Iterator[tuple[int, Frame]]:
-        """Yield every picture with when it is due [ns], round after round."""
+        """Yield every image with when it is due [ns], round after round."""
         recording, began = self._open(), 0
         while True:
             last, count = 0, 0
@@ -199,28 +199,28 @@ class BagFogUpdater(SceneUpdater):
         is_seen = self._stage.bus.has_readers(self._image_topic)
         if not is_seen and not self._stage.bus.has_readers(self._info_topic):
             return
-        picture, time = frame.picture(), self._stage.time
+        decoded, time = frame.decode(), self._stage.time
         stamp = time_from_seconds(time)
-        info = camera_info(frame.info, stamp=stamp, frame_id=picture.frame_id)
+        info = camera_info(frame.info, stamp=stamp, frame_id=decoded.frame_id)
         self._stage.bus.publisher(self._info_topic, CameraInfo)(info)
         if is_seen:
-            pixels = self._fogged(picture)
+            pixels = self._fogged(decoded)
             self._n_frames += 1
             self._digest.update(pixels.tobytes())
             self._stage.bus.publisher(self._image_topic, Image)(
-                image(pixels, time=time, frame_id=picture.frame_id)
+                image(pixels, time=time, frame_id=decoded.frame_id)
             )
 
-    def _fogged(self, picture: Picture) -> npt.NDArray[np.uint8]:
-        """Add the fog of now to a picture."""
+    def _fogged(self, decoded: DecodedImage) -> npt.NDArray[np.uint8]:
+        """Add the fog of now to an image."""
         thickness = (self._density * self._spec.image_depth) ** 2
         if not self._is_original:
-            return fogged(picture.pixels, math.exp(-thickness), self._stage.fog_colour)
-        if picture.pixels.ndim == 2:
-            return np.ascontiguousarray(picture.pixels)
+            return fogged(decoded.pixels, math.exp(-thickness), self._stage.fog_colour)
+        if decoded.pixels.ndim == 2:
+            return np.ascontiguousarray(decoded.pixels)
         r, g, b = ORIGINAL_COLOUR
-        colour = (b, g, r) if picture.is_blue_first else (r, g, b)
-        return fogged(picture.pixels, math.exp(-ORIGINAL_FACTOR * thickness), colour)
+        colour = (b, g, r) if decoded.is_blue_first else (r, g, b)
+        return fogged(decoded.pixels, math.exp(-ORIGINAL_FACTOR * thickness), colour)
 
 
 def fogged(

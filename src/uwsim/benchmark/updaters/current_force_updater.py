@@ -160,7 +160,7 @@ class CurrentForceUpdater(SceneUpdater):
         self._flow(value, delay=0.0)
 
     def ramp(self, value: float) -> None:
-        """Hold the vehicle in its place: else the level would begin with a jump in the picture."""
+        """Hold the vehicle in its place: else the level would begin with a jump in the image."""
         self._stage.put_back(self._spec.target)
 
     def _flow(self, value: float, *, delay: float) -> None:

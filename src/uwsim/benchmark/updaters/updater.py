@@ -103,7 +103,7 @@ class SceneUpdater(abc.ABC):
 
     @property
     def streams(self) -> tuple[tuple[str, int, str], ...]:
-        """Topic, number and SHA-256 of the pictures that it published itself."""
+        """Topic, number and SHA-256 of the images that it published itself."""
         return ()
 
     def close(self) -> None:  # noqa: B027 - most updaters hold nothing

@@ -1,4 +1,4 @@
-// Provides: the vertices of a model, in the camera frame and on the picture.
+// Provides: the vertices of a model, in the camera frame and on the image.
 // Needs: frame.glsl, instance.glsl, between.glsl, lamps.glsl.
 // Whatever is linear in space is computed here and interpolated, exactly.
 #define BETWEEN out

@@ -1,6 +1,6 @@
 """A background process of a run: it plays the control and draws the report.
 
-Both need no picture and no OpenGL, and a run in one process leaves a core half idle. Started early,
+Both need no image and no OpenGL, and a run in one process leaves a core half idle. Started early,
 this one has loaded what it needs by the time it is asked. Should it die, the run does its jobs.
 """
 

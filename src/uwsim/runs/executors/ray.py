@@ -1,6 +1,6 @@
 """An executor on a Ray cluster: the one that ``RAY_ADDRESS`` names, else one made here for the run.
 
-No file system is shared. Rows and pictures come back level by level and are kept here, as though
+No file system is shared. Rows and images come back level by level and are kept here, as though
 they had been played here; a worker whose machine has other files, versions or another renderer
 says so before it plays. What is played must be there already: uwsim, and a user's own files under
 the same paths (``ray job submit --working-dir`` brings them).
@@ -35,7 +35,7 @@ from .worker import Event, JournalWriter, TrialEnded, TrialFailed, picklable, ru
 
 ADDRESS = "RAY_ADDRESS"
 STORE = 256 * 2**20
-"""Memory for what travels within a cluster of our own: rows and pictures [bytes]."""
+"""Memory for what travels within a cluster of our own: rows and images [bytes]."""
 QUIET = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0"}
 """No telemetry, no advice."""
 

@@ -1,7 +1,7 @@
 """One trial in two halves: performed where there is a processor, kept where the result is.
 
 The two may be on different machines: what goes from one to the other is numbers, text and the bytes
-of pictures, never a path.
+of images, never a path.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ from ..plan import Plan, Trial
 from ..run import Run
 from ..trial.trial import Row, TrialEnd, execute
 
-PICTURES = "pictures"
+IMAGES = "pictures"
 
 
 @dataclass(frozen=True, kw_only=True)
 class LevelEnded:
-    """A level is over: its row as it is stored, and its pictures."""
+    """A level is over: its row as it is stored, and its images."""
 
     record: journal.Record
     """The row."""
-    pictures: tuple[tuple[str, bytes], ...]
+    images: tuple[tuple[str, bytes], ...]
     """Name in the result directory, and PNG."""
 
 
@@ -75,13 +75,14 @@ def run_trial(
             yield TrialEnded(record=_end(played))
         else:
             row = trial.index * len(trial.levels) + n
-            files = file_names(shot.camera for shot in played.shots)
-            pictures = {
-                camera: f"{PICTURES}/{row:05d}-{file}.png" for camera, file in files.items()
-            }
+            files = file_names(snapshot.camera for snapshot in played.snapshots)
+            images = {camera: f"{IMAGES}/{row:05d}-{file}.png" for camera, file in files.items()}
             yield LevelEnded(
-                record=_record(played, pictures),
-                pictures=tuple((pictures[shot.camera], _png(shot.pixels)) for shot in played.shots),
+                record=_record(played, images),
+                images=tuple(
+                    (images[snapshot.camera], _png(snapshot.pixels))
+                    for snapshot in played.snapshots
+                ),
             )
 
 
@@ -104,8 +105,8 @@ class JournalWriter:
         if isinstance(event, TrialEnded):
             self._file.finish(event.record)
             return False
-        for name, png in event.pictures:
-            (self._out / PICTURES).mkdir(exist_ok=True)
+        for name, png in event.images:
+            (self._out / IMAGES).mkdir(exist_ok=True)
             draft = self._out / f"{name}.part"
             draft.write_bytes(png)
             draft.replace(self._out / name)
@@ -136,7 +137,7 @@ def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
     return bytes(png.tobytes())
 
 
-def _record(played: Row, pictures: dict[str, str]) -> journal.Record:
+def _record(played: Row, images: dict[str, str]) -> journal.Record:
     return {
         "values": [value for _, value in played.values],
         "measures": played.measures,
@@ -150,12 +151,12 @@ def _record(played: Row, pictures: dict[str, str]) -> journal.Record:
         "log_headers": played.log_headers,
         "pictures": [
             {
-                "camera": shot.camera,
-                "file": pictures[shot.camera],
-                "truth": shot.truth,
-                "estimate": shot.estimate,
+                "camera": snapshot.camera,
+                "file": images[snapshot.camera],
+                "truth": snapshot.truth,
+                "estimate": snapshot.estimate,
             }
-            for shot in played.shots
+            for snapshot in played.snapshots
         ],
         "fingerprint": played.fingerprint,
     }

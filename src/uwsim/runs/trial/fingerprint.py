@@ -1,7 +1,7 @@
 """Fingerprints of a run: small enough to keep, fine enough to say where two runs part.
 
 The motion of every body is sampled every 16th step and hashed as the run goes on, body by body and
-without ever beginning anew; so are the pictures on each topic. Now and then a *mark* is set: what
+without ever beginning anew; so are the images on each topic. Now and then a *mark* is set: what
 the hashes are by then, four bytes each. A difference shows in all marks behind it, so the first
 mark that differs says between which steps, and in what, two runs parted.
 
@@ -38,7 +38,7 @@ class Checkpoints:
     n_steps: int
     """Steps of the whole unit; the last mark was set at its end."""
     parts: tuple[str, ...]
-    """What is hashed: bodies, then topics of pictures."""
+    """What is hashed: bodies, then topics of images."""
     marks: tuple[str, ...]
     """Hexadecimal, 8 digits a part."""
 
@@ -159,8 +159,8 @@ class Fingerprinter:
 
     def _digests(self) -> str:
         images = self._simulation.images
-        pictures = [images[topic].sha256[: 2 * BYTES] for topic in sorted(images)]
-        return "".join([*(digest.hexdigest() for _, digest in self._hashes), *pictures])
+        hashes = [images[topic].sha256[: 2 * BYTES] for topic in sorted(images)]
+        return "".join([*(digest.hexdigest() for _, digest in self._hashes), *hashes])
 
     def _names(self) -> tuple[str, ...]:
         return (*(name for name, _ in self._motion.parts), *sorted(self._simulation.images))

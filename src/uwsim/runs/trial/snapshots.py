@@ -14,7 +14,7 @@ from ...simulation import Simulation
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Shot:
+class Snapshot:
     """A camera's last image, with the corners that were true and those that were estimated."""
 
     camera: str
@@ -27,28 +27,28 @@ class Shot:
     """The same of the algorithm's last estimate; None if it has none."""
 
 
-def shoot(
+def capture(
     simulation: Simulation,
     measures: Sequence[tuple[MeasureSpec, Measure]],
     *,
     is_tracking: bool,
-) -> tuple[Shot, ...]:
+) -> tuple[Snapshot, ...]:
     """Collect the last image of every camera that published one.
 
     An estimate is kept only if the algorithm ``is_tracking`` still: an old one is no estimate.
     """
-    shots: dict[str, Shot] = {}
+    taken: dict[str, Snapshot] = {}
     for images in simulation.images.values():
         name = images.camera.name
-        if images.last is not None and name not in shots:
+        if images.last is not None and name not in taken:
             truth, estimate = _corners(name, measures)
-            shots[name] = Shot(
+            taken[name] = Snapshot(
                 camera=name,
                 pixels=images.last,
                 truth=truth,
                 estimate=estimate if is_tracking else None,
             )
-    return tuple(shots.values())
+    return tuple(taken.values())
 
 
 def _corners(

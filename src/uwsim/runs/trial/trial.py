@@ -39,7 +39,7 @@ from .known_corners import known_corners
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
-from .snapshots import Shot, shoot
+from .snapshots import Snapshot, capture
 from .status import StatusMonitor, legible
 from .triggered_measure import Sample, TriggeredMeasure, finite
 from .visibility import Fact, TargetMotion, visibility_facts
@@ -76,9 +76,9 @@ class Row:
     log_headers: dict[str, tuple[str, ...]]
     """Measure -> what stands in its samples after the time, with units."""
     fingerprint: str
-    """Of every body's motion and of every picture, since the unit began (`trace`)."""
-    shots: tuple[Shot, ...]
-    """The cameras' last pictures."""
+    """Of every body's motion and of every image, since the unit began (`trace`)."""
+    snapshots: tuple[Snapshot, ...]
+    """The cameras' last images."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,7 +86,7 @@ class TrialEnd:
     """What a unit knows when it is done, beside its rows."""
 
     facts: dict[str, Fact]
-    """Constants of the scene, and how far the target moved in the picture."""
+    """Constants of the scene, and how far the target moved in the image."""
     parameters: dict[str, float | str]
     """Parameters of the algorithm, defaults included."""
     streams: tuple[tuple[str, int, str], ...]
@@ -240,7 +240,7 @@ class _Execution:
             updater.close()
 
     def _streams(self) -> tuple[tuple[str, int, str], ...]:
-        """Topic, number and SHA-256 of the pictures published, by topic."""
+        """Topic, number and SHA-256 of the images published, by topic."""
         cameras = [
             (topic, images.n_frames, images.sha256)
             for topic, images in self._simulation.images.items()
@@ -405,9 +405,9 @@ class _Execution:
             logs={gated.spec.name: gated.log for gated in logged},
             log_headers={gated.spec.name: log_columns(gated.measure) for gated in logged},
             fingerprint=self._fingerprinter.fingerprint,
-            shots=()
+            snapshots=()
             if self._plan.is_blind
-            else shoot(
+            else capture(
                 simulation,
                 [(gated.spec, gated.measure) for gated in measures],
                 is_tracking=status == "ok",

@@ -12,10 +12,10 @@ which falls below z at
 
 The noise of a camera is that of each of its channels, ``255 std`` grey levels. Grey is a weighted
 sum of three of them, so its noise is smaller by the norm of the weights, 0.669; ``f_star_grey`` is
-the limit with that, nearer to what a tracker of grey pictures meets. Not modelled: noise in the
+the limit with that, nearer to what a tracker of grey images meets. Not modelled: noise in the
 template, 8-bit quantisation, the tracker's own error.
 
-Whether the target moves in the picture is measured too: a tracker of what stands still has nothing
+Whether the target moves in the image is measured too: a tracker of what stands still has nothing
 to track.
 """
 
@@ -46,7 +46,7 @@ def visibility_facts(
 
     Returns:
         ``S``, ``sigma`` and ``sigma_grey`` [grey level], ``d`` [m], ``z``, ``f_star`` and
-        ``f_star_grey`` [1/m]: with the camera's noise and with that of the grey picture.
+        ``f_star_grey`` [1/m]: with the camera's noise and with that of the grey image.
         The last three only of an algorithm that has the rule, by its parameter
         ``zncc_threshold``. Empty when no measure asks for corners.
     """
@@ -60,18 +60,18 @@ def visibility_facts(
         if corners is None:
             continue
         camera = simulation.world.camera(truth.camera)
-        picture = simulation.world.scenery.picture(
+        image = simulation.world.scenery.render_clean(
             camera.world_from_camera, camera.intrinsics, fog=0.0
         )
-        assert picture.range is not None
-        assert picture.colour is not None
-        inside = quad_mask(corners.reshape(4, 2), picture.range.shape)
-        inside &= np.isfinite(picture.range)
+        assert image.range is not None
+        assert image.colour is not None
+        inside = quad_mask(corners.reshape(4, 2), image.range.shape)
+        inside &= np.isfinite(image.range)
         if not inside.any():
             continue
-        grey = product(picture.colour[..., :3].astype(np.float64), GREY)
+        grey = product(image.colour[..., :3].astype(np.float64), GREY)
         contrast = float(grey[inside].std())
-        distance = float(picture.range[inside].mean())
+        distance = float(image.range[inside].mean())
         sigma = 255.0 * camera.std
         sigma_grey = sigma * length(GREY)
         given = parameters.get("zncc_threshold")
@@ -94,7 +94,7 @@ def visibility_facts(
 
 
 class TargetMotion:
-    """How far the first target whose corners are tracked moves in its picture, while it is watched.
+    """How far the first target whose corners are tracked moves in its image, while it is watched.
 
     Sampled every 16th step.
     """
@@ -109,7 +109,7 @@ class TargetMotion:
             simulation.watch(self.tick)
 
     def tick(self) -> None:
-        """Look at the picture after one more step."""
+        """Look at the image after one more step."""
         self._steps += 1
         if self._steps % self.EVERY or self._truth is None:
             return

@@ -1,4 +1,4 @@
-"""The pictures of a report: which are shown, and how."""
+"""The images of a report: which are shown, and how."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ import numpy as np
 from PIL import Image
 
 from ...results.per_level import rows_by_level, seeds_of
-from ...results.result import Result, TakenPicture
+from ...results.result import Result, SavedImage
 from ..plots import repeats_of
 from .outcomes import named_level
 from .overlay import overlay
 
-MAX_PICTURES = 40
+MAX_IMAGES = 40
 """Of the first repeat; more are thinned out evenly, and the report says so."""
 MAX_OTHERS = 8
 """Of other repeats: where they first failed."""
 MAX_BYTES = 3_000_000
-"""Of all pictures together; if they are more, they are thinned out further."""
+"""Of all images together; if they are more, they are thinned out further."""
 
 T = TypeVar("T")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Shown:
-    """A picture in the report."""
+    """An image in the report."""
 
     caption: str
     """Level and status; of several repeats also the seed."""
@@ -40,20 +40,20 @@ class Shown:
     """Whether its level ended ``ok``."""
 
 
-def shown_pictures(result: Result, directory: Path) -> list[Shown]:
-    """Return the pictures of the first repeat, and of the others where they first failed."""
-    if not result.pictures:
+def shown_images(result: Result, directory: Path) -> list[Shown]:
+    """Return the images of the first repeat, and of the others where they first failed."""
+    if not result.images:
         return []
     levels = {row: level for level, rows in rows_by_level(result).items() for row in rows}
     several = len(set(repeats_of(result))) > 1
     seeds, endings = seeds_of(result), _endings(result)
     shown: list[Shown] = []
-    for picture in _chosen(result, endings):
-        ended = endings[picture.row]
-        caption = f"{named_level(result, levels[picture.row])} · {ended or picture.camera}"
+    for saved in _chosen(result, endings):
+        ended = endings[saved.row]
+        caption = f"{named_level(result, levels[saved.row])} · {ended or saved.camera}"
         if several:
-            caption = f"seed {seeds[picture.row]} · {caption}"
-        data = _drawn(picture, directory)
+            caption = f"seed {seeds[saved.row]} · {caption}"
+        data = _drawn(saved, directory)
         shown.append(Shown(caption=caption, data=data, ok=ended in ("ok", "")))
     n_bytes = sum(len(one.data or "") for one in shown)
     return evenly(shown, max(1, len(shown) * MAX_BYTES // max(n_bytes, MAX_BYTES)))
@@ -66,16 +66,16 @@ def evenly(items: Sequence[T], most: int) -> list[T]:
     return [items[i] for i in np.linspace(0, len(items) - 1, most).round().astype(int).tolist()]
 
 
-def pictures_text(result: Result, n_shown: int) -> str:
-    """Say which pictures are shown; empty when all are."""
-    if n_shown >= len(result.pictures):
+def images_text(result: Result, n_shown: int) -> str:
+    """Say which images are shown; empty when all are."""
+    if n_shown >= len(result.images):
         return ""
     repeats = repeats_of(result)
-    n_first = sum(repeats[picture.row] == repeats[0] for picture in result.pictures)
-    which = "evenly chosen" if n_first > MAX_PICTURES or n_shown < n_first else "every level"
+    n_first = sum(repeats[saved.row] == repeats[0] for saved in result.images)
+    which = "evenly chosen" if n_first > MAX_IMAGES or n_shown < n_first else "every level"
     if len(set(repeats)) > 1:
         which += " of the first repeat, and of the others where they first did not end ok"
-    return f"{n_shown} of {len(result.pictures)} pictures: {which}. All lie in the folder pictures."
+    return f"{n_shown} of {len(result.images)} images: {which}. All lie in the folder pictures."
 
 
 def data_url(data: bytes, kind: str) -> str:
@@ -83,16 +83,16 @@ def data_url(data: bytes, kind: str) -> str:
     return f"data:image/{kind};base64,{base64.b64encode(data).decode('ascii')}"
 
 
-def _chosen(result: Result, endings: Sequence[str]) -> list[TakenPicture]:
+def _chosen(result: Result, endings: Sequence[str]) -> list[SavedImage]:
     repeats = repeats_of(result)
-    own = [picture for picture in result.pictures if repeats[picture.row] == repeats[0]]
-    own = evenly(own, MAX_PICTURES)
+    own = [saved for saved in result.images if repeats[saved.row] == repeats[0]]
+    own = evenly(own, MAX_IMAGES)
     failed: dict[tuple[object, ...], int] = {}
     for row, (repeat, ended) in enumerate(zip(repeats, endings, strict=True)):
         if ended not in ("ok", "") and repeat != repeats[0]:
             failed.setdefault(repeat, row)
     rows = set(failed.values())
-    return own + [picture for picture in result.pictures if picture.row in rows][:MAX_OTHERS]
+    return own + [saved for saved in result.images if saved.row in rows][:MAX_OTHERS]
 
 
 def _endings(result: Result) -> list[str]:
@@ -103,9 +103,9 @@ def _endings(result: Result) -> list[str]:
     return [str(cell) for cell in result.values(status[0].name)]
 
 
-def _drawn(picture: TakenPicture, directory: Path) -> str | None:
-    """Read a picture from inside the directory, draw its quads; None when that fails."""
-    file = (directory / picture.file).resolve()
+def _drawn(saved: SavedImage, directory: Path) -> str | None:
+    """Read an image from inside the directory, draw its quads; None when that fails."""
+    file = (directory / saved.file).resolve()
     if not file.is_relative_to(directory.resolve()):
         return None
     try:
@@ -114,7 +114,7 @@ def _drawn(picture: TakenPicture, directory: Path) -> str | None:
     except (OSError, ValueError, Image.DecompressionBombError, SyntaxError):
         return None
     scale = 2 if max(pixels.shape) <= 400 else 1
-    drawn = overlay(pixels, truth=picture.truth, estimate=picture.estimate, scale=scale)
+    drawn = overlay(pixels, truth=saved.truth, estimate=saved.estimate, scale=scale)
     stream = io.BytesIO()
     Image.fromarray(drawn).save(stream, format="JPEG", quality=80)
     return data_url(stream.getvalue(), "jpeg")

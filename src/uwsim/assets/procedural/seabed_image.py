@@ -1,4 +1,4 @@
-"""The picture on the tank's bottom: a photo mosaic of a sea floor, 3.48 x 7 m.
+"""The image on the tank's bottom: a photo mosaic of a sea floor, 3.48 x 7 m.
 
 Sand with ripples, cobbles, larger rocks, shells and weed, as one would get from a survey at
 a few metres' height. Nothing in it repeats, so that a tracker or a mosaic finds one place only.
@@ -84,7 +84,7 @@ def stones(
 
 
 def mosaic() -> Texture:
-    """The whole picture."""
+    """The whole image."""
     h, w = SIZE
     name = "tank/mosaic"
 
@@ -127,7 +127,7 @@ def _painted(
     beds: Grey,
     exposure: Grey,
 ) -> Pixels:
-    """Some rows of the picture, of which the first has number ``first``, from their fields."""
+    """Some rows of the image, of which the first has number ``first``, from their fields."""
     h, w = grain.shape
     down = np.arange(first, first + h, dtype=np.float32)[:, None] * np.float32(0.123)
     right = np.arange(w, dtype=np.float32)[None, :] * np.float32(0.039)
@@ -167,9 +167,9 @@ def _painted(
     return merged
 
 
-def _scatter_shells(picture: Pixels) -> None:
+def _scatter_shells(image: Pixels) -> None:
     """Shells and pebbles: small bright or dark ellipses with a shadow."""
-    h, w = picture.shape[:2]
+    h, w = image.shape[:2]
     draw = rng.stream(0, "assets/tank/mosaic/shells")
     for _ in range(380):
         centre = (int(draw.integers(0, w)), int(draw.integers(0, h)))
@@ -177,15 +177,15 @@ def _scatter_shells(picture: Pixels) -> None:
         angle = float(draw.uniform(0, 180))
         light = 255.0 * float(draw.choice([0.86, 0.76, 0.22, 0.48]))
         tone = (light * 0.97, light * 0.96, light * 0.86)
-        cv2.ellipse(picture, (centre[0] + 2, centre[1] + 2), axes, angle, 0, 360, (30, 32, 32), -1)
-        cv2.ellipse(picture, centre, axes, angle, 0, 360, tone, -1, cv2.LINE_AA)
+        cv2.ellipse(image, (centre[0] + 2, centre[1] + 2), axes, angle, 0, 360, (30, 32, 32), -1)
+        cv2.ellipse(image, centre, axes, angle, 0, 360, tone, -1, cv2.LINE_AA)
         ridge = (max(1, axes[0] // 2), max(1, axes[1] // 2))
         dim = (0.72 * tone[0], 0.72 * tone[1], 0.72 * tone[2])
-        cv2.ellipse(picture, centre, ridge, angle, 180, 360, dim, 1, cv2.LINE_AA)
+        cv2.ellipse(image, centre, ridge, angle, 180, 360, dim, 1, cv2.LINE_AA)
 
 
 def _exposures(h: int, w: int) -> Grey:
-    """Each photograph of the mosaic was a little brighter or darker, and dimmer at its rim."""
+    """Each image of the mosaic was a little brighter or darker, and dimmer at its rim."""
     draw = rng.stream(0, "assets/tank/mosaic/seams")
     rows, columns = 6, 3
     gain = np.ones((h // 2, w // 2), dtype=np.float32)

@@ -11,7 +11,7 @@ from ..geometry import Intrinsics
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Picture:
+class RenderedImage:
     """Arrays of its own, row 0 at the top; None where a target was not asked for."""
 
     intrinsics: Intrinsics
@@ -31,7 +31,7 @@ class Picture:
             ValueError: the range was not asked for.
         """
         if self.range is None:
-            raise ValueError("the picture was drawn without its range")
+            raise ValueError("the image was drawn without its range")
         stretch = np.linalg.norm(self.intrinsics.rays(), axis=2)  # (h, w)
         planar: npt.NDArray[np.float32] = (self.range / stretch).astype(np.float32)
         return planar
