@@ -9,8 +9,8 @@ gamma) and before the water between surface and camera (`water`), it adds
 with the lamp's colour :math:`k` and intensity :math:`I`, the direction :math:`L` to the lamp,
 the water's attenuation :math:`a` along the way from the lamp to the surface, the cone
 :math:`s(\theta)` and :math:`v`, 0 in the shadow of what stands between. Nearer than 1 cm counts as
-1 cm. The light rate of the scene and the sun have no part in it. Not modelled: the veil that the
-lamp's own light scatters back into the camera, light that is scattered or reflected on its way,
+1 cm. The light rate of the scene and the sun have no part in it. Not modelled: backscatter of the
+lamp's own light into the camera, light that is scattered or reflected on its way,
 a loss of the lamp's light to the fog (which is a law of the camera's path alone), glints, and the
 lamp itself as something bright to be seen.
 """

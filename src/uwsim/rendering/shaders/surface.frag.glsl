@@ -1,9 +1,9 @@
 // Provides: colour, range and id of a surface seen through water, whichever are asked for.
-// Needs: between.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, lamplight.glsl, targets.glsl.
+// Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, lamplight.glsl, targets.glsl.
 // The switch OPACITY is 1..254 of 255, or not there: opaque; the renderer blends.
 // lit -> attenuation -> fog, on stored values; noise and 8 bit come later (noise.py).
-#define BETWEEN in
-#include "between.glsl"
+#define VARYING in
+#include "varyings.glsl"
 #include "targets.glsl"
 #ifdef IDS
 #include "instance.glsl"
@@ -25,33 +25,33 @@ uniform sampler2D base_map;
 
 void main() {
 #if defined(COLOUR) || defined(RANGE)
-    float range = length(position);
+    float range = length(v_position);
 #endif
 #ifdef COLOUR
-    vec3 colour = base;
+    vec3 colour = v_base_colour;
 #ifdef TEXTURED
-    colour *= texture(base_map, place).rgb;
+    colour *= texture(base_map, v_uv).rgb;
 #endif
-    float unit = inversesqrt(max(dot(normal, normal), 1e-12));
+    float unit = inversesqrt(max(dot(v_normal, v_normal), 1e-12));
     unit = gl_FrontFacing ? unit : -unit;
-    float facing = along.x * unit;
-    float mirrored = (along.y - 2.0 * facing * unit * dot(normal, position)) / range;
+    float facing = v_terms.x * unit;
+    float mirrored = (v_terms.y - 2.0 * facing * unit * dot(v_normal, v_position)) / range;
     float lit = 1.0;
 #ifdef SHADOWS
-    lit = sun_share(shadow_place);
+    lit = sun_share(v_shadow_uv);
 #endif
 #ifdef FOG_CLIP
-    float fog_range = along.w;
+    float fog_range = v_terms.w;
 #else
     float fog_range = range;
 #endif
     vec3 dry = sunlit(colour, facing, mirrored, lit);
 #ifdef LAMPS
-    dry += lamplight(colour, normal * unit);
+    dry += lamplight(colour, v_normal * unit);
 #endif
 #ifdef AIR
-    float deeper = max(along.z, sunk);
-    float wet = clamp(deeper / max(deeper - min(along.z, sunk), 1e-6), 0.0, 1.0);
+    float deeper = max(v_terms.z, v_camera_depth);
+    float wet = clamp(deeper / max(deeper - min(v_terms.z, v_camera_depth), 1e-6), 0.0, 1.0);
     fog_range *= wet;
     float water_range = range * wet;
 #else
@@ -62,7 +62,7 @@ void main() {
 #else
     float opacity = 1.0;
 #endif
-    colour_out = vec4(through_water(dry, water_range, fog_range, along.z), opacity);
+    colour_out = vec4(through_water(dry, water_range, fog_range, v_terms.z), opacity);
 #endif
 #ifdef RANGE
     range_out = range;

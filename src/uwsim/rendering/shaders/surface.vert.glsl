@@ -1,10 +1,10 @@
 // Provides: the vertices of a model, in the camera frame and on the image.
-// Needs: frame.glsl, instance.glsl, between.glsl, lamps.glsl.
+// Needs: frame.glsl, instance.glsl, varyings.glsl, lamps.glsl.
 // Whatever is linear in space is computed here and interpolated, exactly.
-#define BETWEEN out
+#define VARYING out
 #include "frame.glsl"
 #include "instance.glsl"
-#include "between.glsl"
+#include "varyings.glsl"
 #if defined(COLOUR) && defined(LAMPS)
 #include "lamps.glsl"
 #endif
@@ -20,35 +20,35 @@ in vec2 uv;
 
 void main() {
     vec4 point = camera_from_model * vec4(vertex, 1.0);
-    position = point.xyz;
+    v_position = point.xyz;
     gl_Position = clip_from_camera * point;
 #ifdef COLOUR
-    normal = mat3(camera_normals) * vertex_normal;
-    along.x = dot(normal, sun.xyz);
-    along.y = dot(position, sun.xyz);
-    along.z = -(dot(position, up.xyz) + up.w);
-    along.w = clip_fog.y - clip_fog.x * position.z;
-    base = tint;
-    lights = vec4(sunlight.rgb, sky.x);
-    veil = vec4(water_colour.rgb, sky.y);
-    losses = attenuation.rgb;
-    mist = fog;
+    v_normal = mat3(camera_normals) * vertex_normal;
+    v_terms.x = dot(v_normal, sun.xyz);
+    v_terms.y = dot(v_position, sun.xyz);
+    v_terms.z = -(dot(v_position, up.xyz) + up.w);
+    v_terms.w = clip_fog.y - clip_fog.x * v_position.z;
+    v_base_colour = tint;
+    v_lights = vec4(sunlight.rgb, sky.x);
+    v_water_colour = vec4(water_colour.rgb, sky.y);
+    v_attenuation = attenuation.rgb;
+    v_fog = fog;
 #ifdef TEXTURED
-    place = uv;
+    v_uv = uv;
 #endif
 #ifdef AIR
-    sunk = -up.w;
+    v_camera_depth = -up.w;
 #endif
 #ifdef SHADOWS
-    vec3 lifted = position + normal * (sun.w * inversesqrt(max(dot(normal, normal), 1e-12)));
-    shadow_place = (shadow_from_camera * vec4(lifted, 1.0)).xyz;
+    vec3 lifted = v_position + v_normal * (sun.w * inversesqrt(max(dot(v_normal, v_normal), 1e-12)));
+    v_shadow_uv = (shadow_from_camera * vec4(lifted, 1.0)).xyz;
 #endif
 #ifdef LAMPS
-    vec3 unit_normal = normal * inversesqrt(max(dot(normal, normal), 1e-12));
+    vec3 unit_normal = v_normal * inversesqrt(max(dot(v_normal, v_normal), 1e-12));
     for (int i = 0; i < LAMPS; ++i) {
-        vec3 towards = lamp_place[i].xyz - position;
+        vec3 towards = lamp_place[i].xyz - v_position;
         float lift = lamp_light[i].w * dot(towards, lamp_axis[i].xyz) * sign(dot(unit_normal, towards));
-        on_lamp_map[i] = lamp_from_camera[i] * vec4(position + unit_normal * lift, 1.0);
+        v_lamp_uv[i] = lamp_from_camera[i] * vec4(v_position + unit_normal * lift, 1.0);
     }
 #endif
 #endif
