@@ -54,7 +54,7 @@ def test_every_number_is_zero_but_the_w_of_no_rotation(kind: type) -> None:
                 yield f"{path}{field.name}", value
 
     for path, value in numbers(kind()):
-        expected = path == "w" or path.endswith("orientation.w")
+        expected = path == "w" or path.endswith(("orientation.w", "rotation.w"))
         assert np.all(value == expected) or value in ("", []), path
 
 

@@ -94,6 +94,14 @@ class Float64MultiArray(ros.std_msgs__msg__Float64MultiArray):
 
 
 @dataclass
+class UInt8MultiArray(ros.std_msgs__msg__UInt8MultiArray):
+    """Bytes."""
+
+    layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
+    data: np.ndarray[tuple[int, ...], np.dtype[np.uint8]] = field(default_factory=_BYTES_0)
+
+
+@dataclass
 class Point(ros.geometry_msgs__msg__Point):
     """A place [m]."""
 
@@ -183,6 +191,30 @@ class WrenchStamped(ros.geometry_msgs__msg__WrenchStamped):
 
     header: Header = field(default_factory=Header)
     wrench: Wrench = field(default_factory=Wrench)
+
+
+@dataclass
+class Transform(ros.geometry_msgs__msg__Transform):
+    """Where a frame is in another: its origin [m] and its rotation."""
+
+    translation: Vector3 = field(default_factory=Vector3)
+    rotation: Quaternion = field(default_factory=Quaternion)
+
+
+@dataclass
+class TransformStamped(ros.geometry_msgs__msg__TransformStamped):
+    """A transform with its time, the frame it is in and the frame it is of."""
+
+    header: Header = field(default_factory=Header)
+    child_frame_id: str = ""
+    transform: Transform = field(default_factory=Transform)
+
+
+@dataclass
+class TFMessage(ros.tf2_msgs__msg__TFMessage):
+    """Transforms between frames."""
+
+    transforms: list[ros.geometry_msgs__msg__TransformStamped] = field(default_factory=list)
 
 
 @dataclass

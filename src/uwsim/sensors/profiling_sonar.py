@@ -12,14 +12,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..schema import FARTHEST, element
-from .sensor import LookAt, SensorSpec
+from .sensor import SCAN_AXES, LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
 class ProfilingSonarSpec(SensorSpec):
     """A ``<ProfilingSonar>``."""
+
+    frame_rpy: ClassVar[tuple[float, float, float]] = SCAN_AXES
 
     visible: bool = False
     """Whether the viewer draws the beams."""

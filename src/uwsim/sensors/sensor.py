@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
@@ -13,9 +14,18 @@ LookAt = tuple[float, float, float] | Direction | None
 """What ``<u:lookAt>`` may say: a point in L [m], a direction of the vehicle, or nothing."""
 
 
+OPTICAL_AXES = (math.pi, 0.0, 0.0)
+"""Of the frame in ROS of a sensor that looks along -z: z ahead, x to the right, y down [rad]."""
+SCAN_AXES = (0.0, 0.5 * math.pi, 0.0)
+"""Of the frame in ROS of a fan about x with its zero along -z: x ahead, turned about z [rad]."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class SensorSpec:
     """A sensor of a vehicle."""
+
+    frame_rpy: ClassVar[tuple[float, float, float]] = (0.0, 0.0, 0.0)
+    """Axes of its frame in ROS, in the sensor: fixed-axis roll, pitch, yaw [rad]."""
 
     name: str
     """Its name, by which interfaces and benchmarks find it."""
@@ -37,6 +47,18 @@ class Mounted(Protocol):
     @property
     def orientation(self) -> tuple[float, float, float]:
         """Fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+
+
+@runtime_checkable
+class MountedSensor(Mounted, Protocol):
+    """The spec of a sensor that is mounted."""
+
+    frame_rpy: ClassVar[tuple[float, float, float]]
+    """Axes of its frame in ROS, in the sensor: fixed-axis roll, pitch, yaw [rad]."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
 
 
 class Looking(Mounted, Protocol):

@@ -11,14 +11,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..schema import FARTHEST, element
-from .sensor import LookAt, SensorSpec
+from .sensor import OPTICAL_AXES, LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
 class StructuredLightProjectorSpec(SensorSpec):
     """A ``<structuredLightProjector>``: it shines an image along -z."""
+
+    frame_rpy: ClassVar[tuple[float, float, float]] = OPTICAL_AXES
 
     fov: float = element(above=0, below=180)
     """Vertical field of view [deg]; the aspect is the image's."""

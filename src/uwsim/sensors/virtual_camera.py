@@ -23,7 +23,7 @@ from ..geometry import Intrinsics, Pose
 from ..messages import CameraInfo, Image, RegionOfInterest, header, image
 from ..schema import FARTHEST, element
 from ..world import Body, SensorWorld
-from .sensor import Carrier, LookAt, SensorSpec
+from .sensor import OPTICAL_AXES, Carrier, LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,6 +71,7 @@ class VirtualCameraSpec(SensorSpec):
     """
 
     message_type: ClassVar[type] = Image
+    frame_rpy: ClassVar[tuple[float, float, float]] = OPTICAL_AXES
 
     resw: int = element(default=160, minimum=1, maximum=16384)
     """Columns of the image [px]."""

@@ -12,16 +12,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..geometry import Intrinsics
 from ..schema import FARTHEST, element
-from .sensor import LookAt, SensorSpec
+from .sensor import OPTICAL_AXES, LookAt, SensorSpec
 from .virtual_camera import CameraParametersSpec
 
 
 @dataclass(frozen=True, kw_only=True)
 class VirtualRangeImageSpec(SensorSpec):
     """A ``<virtualRangeImage>``; geometry as that of a `VirtualCameraSpec`."""
+
+    frame_rpy: ClassVar[tuple[float, float, float]] = OPTICAL_AXES
 
     resw: int = element(default=160, minimum=1, maximum=16384)
     """Columns of the image [px]."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any, TypeVar
@@ -15,8 +15,10 @@ from ..geometry import Array
 from ..sampling import SampleTimer
 from ..scene.spec import SceneSpec
 from ..sensors.sensor import Sensor
+from ..topics.frames import Frame
 from ..topics.interface import Binds, Interface
 from ..world import Flow
+from .frames import object_frames, vehicle_frames
 from .water_motion import WaterMotion
 from .world import SceneWorld
 
@@ -119,6 +121,11 @@ class SceneStage(SceneWorld):
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest."""
         self.vehicle(vehicle).put_back()
+
+    def frames(self, *, with_objects: bool) -> Sequence[Frame]:
+        """List the frames of vehicles, their links and sensors, and those of objects."""
+        frames = [*vehicle_frames(self.scene, self.robots, self._vehicles, self.state)]
+        return [*frames, *object_frames(self.scene, self.body)] if with_objects else frames
 
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""

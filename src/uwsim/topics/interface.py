@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Protocol, TypeVar, runtime_checkable
 
@@ -11,6 +11,7 @@ from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..vehicle import Vehicle
 from ..world import World
+from .frames import Frame
 
 M = TypeVar("M")
 
@@ -33,6 +34,9 @@ class TopicWorld(World, Protocol):
 
     def is_touchable(self, name: str) -> bool:
         """Whether there is a vehicle or object of that name, with a shape that others touch."""
+
+    def frames(self, *, with_objects: bool) -> Sequence[Frame]:
+        """List the frames of vehicles, their links and sensors, and those of objects."""
 
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""

@@ -1,16 +1,37 @@
-"""The frames of a scene on /tf."""
+"""The frames of a scene on ``/tf``.
+
+======================  =======================  ===================================================
+parent                  child                    transform
+======================  =======================  ===================================================
+``rootName``            vehicle                  the base in L
+vehicle                 vehicle/root link        identity; the original says base_link, always
+vehicle/link            vehicle/link             every joint of the robot, fixed ones too
+vehicle/link            sensor                   where the sensor is on its link, in ROS's axes
+``rootName``            object                   the mesh frame in L, with ``enableObjects`` 1
+======================  =======================  ===================================================
+
+ROS's axes: cameras look along +z of their frame, with x to the right of the image and y down; the
+zero of a scan is along +x and its angles turn about z.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
+from ..messages import TFMessage
 from ..schema import element
-from .interface import InterfaceSpec
+from .frames import TF, Frame, transform
+from .interface import Interface, InterfaceSpec, TopicWorld
 
 
 @dataclass(frozen=True, kw_only=True)
 class WorldToROSTFSpec(InterfaceSpec):
-    """Publishes the frames of vehicles, sensors and objects."""
+    """Publishes the frames of vehicles, sensors and objects as tf2_msgs/TFMessage on /tf."""
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": TFMessage}
+    topic: ClassVar[str] = TF
 
     root_name: str
     """Name of the frame of the file."""
@@ -18,3 +39,32 @@ class WorldToROSTFSpec(InterfaceSpec):
     """Whether objects are published too."""
     rate: int = element(default=10, minimum=1)
     """How often [Hz]."""
+
+    def bind(self, world: TopicWorld) -> FramePublisher:
+        """Publish from now on."""
+        frames = world.frames(with_objects=self.enable_objects)
+        publisher = FramePublisher(self.root_name, frames, world)
+        world.every(self.rate, publisher.publish)
+        return publisher
+
+
+class FramePublisher(Interface):
+    """Publishes where frames are."""
+
+    def __init__(self, root: str, frames: Sequence[Frame], world: TopicWorld) -> None:
+        self._root, self._frames, self._world = root, frames, world
+        self._publish = world.bus.publisher(TF, TFMessage)
+
+    def publish(self) -> None:
+        """Publish all frames as they are now, if anybody reads them."""
+        if not self._world.bus.has_readers(TF):
+            return
+        time = self._world.time
+        self._publish(
+            TFMessage(
+                transforms=[
+                    transform(each.parent or self._root, each.child, each.parent_from_child(), time)
+                    for each in self._frames
+                ]
+            )
+        )

@@ -1,0 +1,75 @@
+"""The tree of frames of a scene: vehicles, links, sensors, objects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+
+from ..geometry import Pose
+from ..physics.engine import Engine
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec
+from ..scene.vehicle import VehicleSpec
+from ..sensors.sensor import MountedSensor
+from ..topics.frames import Frame
+from ..world import Body
+from .vehicles import SceneVehicle
+
+
+def vehicle_frames(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    vehicles: Sequence[SceneVehicle],
+    state: Engine,
+) -> Iterator[Frame]:
+    """Every vehicle with its links and sensors; a sensor on a link that is not there is left out.
+
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle, by its number in the scene.
+        vehicles: the vehicles of the scene, in the file's order.
+        state: where their links are.
+    """
+    localized_from_world = scene.world_from_localized.inverse()
+    for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
+        robot = robots[index]
+        yield Frame("", spec.name, _in(localized_from_world, partial(state.vehicle_pose, index)))
+        yield Frame(spec.name, f"{spec.name}/{robot.root}", Pose.identity)
+        links = {link.name: partial(state.link_pose, index, link.name) for link in robot.links}
+        for joint in robot.joints:
+            parent, child = f"{spec.name}/{joint.parent}", f"{spec.name}/{joint.child}"
+            yield Frame(parent, child, _between(links[joint.parent], links[joint.child]))
+        for sensor in _sensors(spec):
+            if (link := links.get(sensor.relative_to)) is not None:
+                sensor_from_frame = Pose.from_rpy((0.0, 0.0, 0.0), sensor.frame_rpy)
+                frame = _on(vehicle.mount(sensor), sensor_from_frame)
+                parent = f"{spec.name}/{sensor.relative_to}"
+                yield Frame(parent, sensor.name, _between(link, frame))
+
+
+def _sensors(vehicle: VehicleSpec) -> Iterator[MountedSensor]:
+    for _, part in vehicle.parts():
+        if isinstance(part, MountedSensor):
+            yield part
+
+
+def object_frames(scene: SceneSpec, find: Callable[[str], Body]) -> Iterator[Frame]:
+    """The mesh frames of all objects in L; of several of one name the first."""
+    localized_from_world = scene.world_from_localized.inverse()
+    for name in dict.fromkeys(thing.name for thing in scene.objects):
+        body = find(name)
+        yield Frame("", name, _in(localized_from_world, _on(body, Pose.identity())))
+
+
+def _on(body: Body, body_from_frame: Pose) -> Callable[[], Pose]:
+    return lambda: body.world_from_body @ body_from_frame
+
+
+def _in(a_from_world: Pose, world_from_b: Callable[[], Pose]) -> Callable[[], Pose]:
+    return lambda: a_from_world @ world_from_b()
+
+
+def _between(
+    world_from_a: Callable[[], Pose], world_from_b: Callable[[], Pose]
+) -> Callable[[], Pose]:
+    return lambda: world_from_a().inverse() @ world_from_b()
