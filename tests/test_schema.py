@@ -253,7 +253,7 @@ def test_reading_what_was_written_gives_the_same_spec(spec: ThingSpec) -> None:
 def test_a_field_documents_itself() -> None:
     docs = schema.field_docs(ThingSpec)
     assert docs["fog_density"] == "How thick [1/m]."
-    assert {slot.field for slot in schema.slots(ThingSpec)} == set(docs)
+    assert {field.name for field in schema.fields_of(ThingSpec)} == set(docs)
 
 
 BOMB = b"""<!DOCTYPE a [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;">]><a>&b;</a>"""

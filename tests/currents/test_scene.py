@@ -23,7 +23,7 @@ from uwsim.currents import (
 from uwsim.errors import SceneError
 from uwsim.rng import stream
 from uwsim.scene.reader import check_scene, read_scene
-from uwsim.schema import slots
+from uwsim.schema import fields_of
 from uwsim.world import Flow
 
 POINTS = np.array([[0.0, 0.0, 1.0], [5.0, 2.0, 3.0]])
@@ -91,7 +91,9 @@ def test_every_current_is_a_flow_and_hands_out_its_own_array() -> None:
 
 @pytest.mark.parametrize("spec", CURRENTS.values(), ids=lambda spec: spec.__name__)
 def test_every_field_of_a_current_is_an_extension_and_says_what_it_is(spec: type) -> None:
-    assert [slot.field for slot in slots(spec) if not slot.xml.namespaced or not slot.doc] == []
+    assert [
+        field.name for field in fields_of(spec) if not field.xml.namespaced or not field.doc
+    ] == []
 
 
 PAGE = Path(__file__).parents[2] / "docs" / "currents.md"

@@ -13,7 +13,7 @@ from uwsim.cli.check import faults_of
 from uwsim.errors import SceneError
 from uwsim.physics.vehicle_elements import BodyElement, HydrodynamicsElement, ThrusterElement
 from uwsim.scene.reader import read_scene
-from uwsim.schema import slots
+from uwsim.schema import fields_of
 from uwsim.simulation import Simulation
 
 PAGE = Path(__file__).parents[2] / "docs" / "your-own-vehicle.md"
@@ -74,12 +74,12 @@ def test_what_the_program_of_the_page_raises_is_seen(
 def test_the_page_names_every_element() -> None:
     text = PAGE.read_text()
     for element in (BodyElement, ThrusterElement, HydrodynamicsElement):
-        for slot in slots(element):
+        for field in fields_of(element):
             assert (
-                f"`{slot.shown}`" in text
-                or f"<{slot.shown}" in text
-                or (f'{slot.shown}="..."' in text)
-            ), slot.shown
+                f"`{field.shown}`" in text
+                or f"<{field.shown}" in text
+                or (f'{field.shown}="..."' in text)
+            ), field.shown
 
 
 def test_a_vehicle_without_any_mass_is_a_fault_of_its_scene(folder: Path) -> None:

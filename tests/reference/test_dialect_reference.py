@@ -13,7 +13,7 @@ from uwsim.benchmark.triggers import TRIGGERS
 from uwsim.benchmark.updaters import UPDATERS
 from uwsim.reference import dialect_reference
 from uwsim.scene.vehicle import VehicleSpec
-from uwsim.schema import slots
+from uwsim.schema import fields_of
 
 ROOT = Path(__file__).parents[2]
 
@@ -33,7 +33,7 @@ def test_the_generated_pages_say_what_the_specs_say(name: str) -> None:
 
 def test_the_page_names_every_element_of_a_vehicle() -> None:
     page = dialect_reference.page()
-    assert [slot.shown for slot in slots(VehicleSpec) if f"`{slot.shown}`" not in page] == []
+    assert [field.shown for field in fields_of(VehicleSpec) if f"`{field.shown}`" not in page] == []
 
 
 @pytest.mark.parametrize("family", [MEASURES, TRIGGERS, UPDATERS, GROUND_TRUTHS])
@@ -46,5 +46,5 @@ def test_the_benchmarks_page_names_every_part_and_all_that_stands_in_it(
             part for part in sections if re.search(rf"[<> \"]{name}[<> \"]", part.split("\n")[0])
         ]
         assert mine, name
-        for slot in slots(spec):
-            assert any(f"`{slot.shown}`" in part for part in mine), (name, slot.shown)
+        for field in fields_of(spec):
+            assert any(f"`{field.shown}`" in part for part in mine), (name, field.shown)

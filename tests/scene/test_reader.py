@@ -25,7 +25,7 @@ from uwsim.scene.reader import check_scene
 from uwsim.scene.spec import ObjectSpec, ShowTrajectorySpec
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
-from uwsim.schema import Faults, Slot, slots
+from uwsim.schema import Faults, Field, fields_of
 from uwsim.topics import INTERFACES
 from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
 from uwsim.topics.sensor_topic import CustomCommsDeviceROSSpec, EchoROSSpec, ProfilingSonarROSSpec
@@ -68,33 +68,33 @@ def faults(inside: str, folder: Path) -> list[str]:
 VEHICLE = "<vehicle><name>g</name><file>data/scenes/g500ARM5.urdf</file>{}</vehicle>"
 
 
-def all_slots(cls: type) -> Iterator[Slot]:
+def all_fields(cls: type) -> Iterator[Field]:
     """Every field of a spec and of the specs in it."""
-    for slot in slots(cls):
-        yield slot
-        if slot.kind == "spec":
-            yield from all_slots(slot.type)
-        elif slot.kind == "choice":
-            for spec in slot.type.values():
-                yield from all_slots(spec)
+    for field in fields_of(cls):
+        yield field
+        if field.kind == "spec":
+            yield from all_fields(field.type)
+        elif field.kind == "choice":
+            for spec in field.type.values():
+                yield from all_fields(spec)
 
 
 def test_the_scene_with_every_element_holds_every_element() -> None:
     root = etree.parse(EVERY).getroot()
     names = {str(node.tag) for node in root.iter("*")}
     names |= {str(name) for node in root.iter("*") for name in node.attrib}
-    assert {slot.tag for slot in all_slots(SceneSpec)} - names == set()
+    assert {field.tag for field in all_fields(SceneSpec)} - names == set()
     assert set(INTERFACES) - names == set()
 
 
 def test_no_value_of_the_scene_with_every_element_is_a_default() -> None:
     def check(spec: object, route: str) -> None:
-        for slot in slots(type(spec)):
-            value = getattr(spec, slot.field)
-            assert value != slot.default, f"{route}.{slot.field}"
-            for part in value if slot.repeated else (value,):
+        for field in fields_of(type(spec)):
+            value = getattr(spec, field.name)
+            assert value != field.default, f"{route}.{field.name}"
+            for part in value if field.repeated else (value,):
                 if dataclasses.is_dataclass(part):
-                    check(part, f"{route}.{slot.field}")
+                    check(part, f"{route}.{field.name}")
 
     check(read_scene(EVERY), "scene")
 

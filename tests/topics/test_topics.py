@@ -13,7 +13,7 @@ from uwsim.devices import DEVICES
 from uwsim.messages import Float64
 from uwsim.scene.reader import read_scene
 from uwsim.scene.unsupported import limit_of
-from uwsim.schema import slots
+from uwsim.schema import fields_of
 from uwsim.schema.names import local
 from uwsim.sensors import SENSORS
 from uwsim.sensors.pressure_sensor import PressureSensorSpec
@@ -36,7 +36,7 @@ def test_what_has_no_bind_is_said_to_be_read_only(name: str) -> None:
 @pytest.mark.parametrize("spec", INTERFACES.values())
 def test_topics_are_fields_and_sources_are_elements(spec: type[InterfaceSpec]) -> None:
     fixed = {name for name, value in vars(spec).items() if isinstance(value, str)}
-    assert set(spec.carries()) <= {slot.field for slot in slots(spec)} | fixed
+    assert set(spec.carries()) <= {field.name for field in fields_of(spec)} | fixed
     assert set(spec.sources) <= {*map(local, {**SENSORS, **DEVICES}), "vehicle", "object"}
 
 

@@ -44,7 +44,7 @@ from ..errors import (
 )
 from ..files.input_files import read_bytes
 from ..interrupts import is_of_user
-from ..schema import slots
+from ..schema import fields_of
 from ..world import Stage
 from .measures import Measure, MeasureSpec
 from .plugin_checks import ContractViolation
@@ -269,7 +269,7 @@ def _wrong_class(table: str, value: object, module: ModuleType) -> str | None:
     if "__dataclass_params__" not in vars(value):
         return f"{name} lacks @dataclass(frozen=True, kw_only=True)"
     try:
-        slots(value)
+        fields_of(value)
     except Exception as error:
         return f"the fields of {name} cannot be read: {raised(error)}"
     if table == "UPDATERS":

@@ -31,7 +31,17 @@ from lxml import etree
 from ..compatibility import COMPATIBILITY
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
 from ..scene.variation import check_variations
-from ..schema import NAMESPACE, Faults, advice, check_head, parse, read, shown_tag, slots, text_of
+from ..schema import (
+    NAMESPACE,
+    Faults,
+    advice,
+    check_head,
+    fields_of,
+    parse,
+    read,
+    shown_tag,
+    text_of,
+)
 from ..world import TIMESTEP
 from . import score
 from .element_order import check_order
@@ -202,19 +212,19 @@ class _Reader:
     def by_hand(self, cls: type, node: etree._Element) -> dict[str, Any]:
         """Read the fields of a spec whose class depends on what the file says."""
         given: dict[str, Any] = {}
-        for slot in slots(cls):
-            child = node.find(slot.tag)
-            if slot.kind != "hand" or child is None:
+        for field in fields_of(cls):
+            child = node.find(field.tag)
+            if field.kind != "manual" or child is None:
                 continue
-            if slot.type is TriggerSpec:
-                given[slot.field] = self.trigger(child)
-            elif slot.type is GroundTruthSpec:
-                given[slot.field] = self.ground_truth(child)
-            elif slot.type is SceneUpdaterSpec:
-                given[slot.field] = self.updater(child)
-        for field in dataclasses.fields(cls):
-            if "path" in field.metadata:
-                given[field.name] = self.faults.file
+            if field.type is TriggerSpec:
+                given[field.name] = self.trigger(child)
+            elif field.type is GroundTruthSpec:
+                given[field.name] = self.ground_truth(child)
+            elif field.type is SceneUpdaterSpec:
+                given[field.name] = self.updater(child)
+        for own in dataclasses.fields(cls):
+            if "path" in own.metadata:
+                given[own.name] = self.faults.file
         return given
 
     def trigger(self, node: etree._Element) -> TriggerSpec:
@@ -237,7 +247,7 @@ class _Reader:
             _take_out(child)
         if cls is None:
             return NeverSpec()
-        known = {slot.tag for slot in slots(cls)}
+        known = {field.tag for field in fields_of(cls)}
         for child in list(node.iterchildren("target", "position")):
             if child.tag not in known:
                 self.faults.notice(child, f"<{child.tag}> means nothing to {kind!r}: ignored")

@@ -40,7 +40,7 @@ def locate_in_benchmark(benchmark: Any, path: str) -> Place:
         steps.append(Step(outer, field, None, first if is_it else ""))
         if is_it:
             inner = locate(updater, rest)
-            return Place((*steps, *inner.steps), inner.leaf, inner.slot, inner.rest)
+            return Place((*steps, *inner.steps), inner.leaf, inner.field, inner.rest)
         outer, field, updater = updater, "child", updater.child
     known = [element_of(each) for each in chain(benchmark.scene_updater)]
     raise BadSetting(

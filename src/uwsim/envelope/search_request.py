@@ -129,13 +129,13 @@ def range_of(
 
 def beyond(spec: SceneUpdaterSpec, value: float) -> str | None:
     """Say what the updater's file would have to hold, where a value is beyond that."""
-    from ..schema import slots
+    from ..schema import fields_of
 
-    slot = {slot.field: slot for slot in slots(type(spec))}.get("initial_value")
-    if slot is None:
+    field = {field.name: field for field in fields_of(type(spec))}.get("initial_value")
+    if field is None:
         low, high = min(spec.values()), max(spec.values())
         return None if low <= value <= high else f"from {low:g} to {high:g}"
-    return None if slot.allows(value) else slot.expected
+    return None if field.allows(value) else field.expected
 
 
 def round_down(width: float) -> float:

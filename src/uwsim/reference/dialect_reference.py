@@ -1,6 +1,6 @@
 """``docs/*dialect.md`` and ``docs/grammar/*.rng``: the dialects, as the specs have them.
 
-All are made from the same table that reads the files (`uwsim.schema.slots`), so that none can
+All are made from the same table that reads the files (`uwsim.schema.fields_of`), so that none can
 say what the reader does not do.
 """
 
@@ -15,7 +15,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from ..cli.list import clark
-from ..schema import Slot, slots
+from ..schema import Field, fields_of
 from ..schema.names import local
 from .relax_ng import benchmark_grammar, scene_grammar
 
@@ -122,9 +122,9 @@ def benchmark_page() -> str:
         for name, cls in table.items():
             parts.append(_section(name, cls, title=form.format(name)))
             parts += [
-                _section(slot.shown, slot.type, title=f"<{slot.shown}>")
-                for slot in slots(cls)
-                if slot.kind == "spec"
+                _section(field.shown, field.type, title=f"<{field.shown}>")
+                for field in fields_of(cls)
+                if field.kind == "spec"
             ]
     return "\n".join(parts)
 
@@ -143,12 +143,12 @@ def _scene_homes() -> dict[type, str]:
 def _specs(parent: str, name: str, cls: type) -> Iterator[tuple[str, str, type]]:
     """Every spec below a spec with its parent and name, itself first, in the order of the files."""
     yield parent, name, cls
-    for slot in slots(cls):
-        if slot.kind == "spec":
-            yield from _specs(name, slot.shown, slot.type)
-        elif slot.kind == "choice":
-            for child, spec in slot.type.items():
-                yield from _specs(slot.shown, local(child), spec)
+    for field in fields_of(cls):
+        if field.kind == "spec":
+            yield from _specs(name, field.shown, field.type)
+        elif field.kind == "choice":
+            for child, spec in field.type.items():
+                yield from _specs(field.shown, local(child), spec)
 
 
 def _section(
@@ -179,45 +179,45 @@ def _section(
     begins = rf"<{re.escape(name)}[ >/]|<(start|stop)On>.*<type>{name}<"
     if block and re.search(begins, " ".join(block[1].split("\n")[: 1 if title is None else 2])):
         lines += ["```xml", inspect.cleandoc(block[1]).rstrip(), "```", ""]
-    if not slots(cls):
+    if not fields_of(cls):
         return "\n".join(lines)
     lines += ["| element | what stands there | default | meaning |", "|---|---|---|---|"]
-    for slot in slots(cls):
-        mark = " (attribute)" if slot.xml.attribute else ""
-        part = "" if title is not None else limit_of(name, clark(slot.shown))
-        meaning = _markdown(slot.doc) + (f" *({part})*" if part else "")
-        cells = (f"`{slot.shown}`{mark}", _kind(slot, homes), _default(slot), meaning)
+    for field in fields_of(cls):
+        mark = " (attribute)" if field.xml.attribute else ""
+        part = "" if title is not None else limit_of(name, clark(field.shown))
+        meaning = _markdown(field.doc) + (f" *({part})*" if part else "")
+        cells = (f"`{field.shown}`{mark}", _kind(field, homes), _default(field), meaning)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"
 
 
-def _kind(slot: Slot, homes: Mapping[type, str]) -> str:
-    what = slot.expected
-    if slot.kind == "spec":
-        what = f"[`<{slot.shown}>`]({homes.get(slot.type, f'#{_anchor(slot.shown)}')})"
-    elif slot.kind == "choice":
-        names = {local(child): cls for child, cls in slot.type.items()}
+def _kind(field: Field, homes: Mapping[type, str]) -> str:
+    what = field.expected
+    if field.kind == "spec":
+        what = f"[`<{field.shown}>`]({homes.get(field.type, f'#{_anchor(field.shown)}')})"
+    elif field.kind == "choice":
+        names = {local(child): cls for child, cls in field.type.items()}
         what = "any of " + ", ".join(
             f"[`{name}`]({homes.get(cls, f'#{_anchor(name)}')})" for name, cls in names.items()
         )
-    elif slot.kind == "triple":
-        unit = f" [{slot.unit}]" if slot.unit else ""
-        what = " ".join(f"`<{part}>`" for part in slot.xml.parts) + unit
-        if slot.words:
-            what += ", or one of " + ", ".join(f"`{word}`" for word in slot.words)
-    elif slot.kind == "hand":
-        what = _family(slot)
-    elif slot.xml.item:
-        each = "a number" if slot.kind == "list" else what
-        what = f"`<{slot.xml.item}>`, any number: {each}"
-    return f"{what}, any number" if slot.repeated and slot.kind in ("spec", "list") else what
+    elif field.kind == "triple":
+        unit = f" [{field.unit}]" if field.unit else ""
+        what = " ".join(f"`<{part}>`" for part in field.xml.parts) + unit
+        if field.words:
+            what += ", or one of " + ", ".join(f"`{word}`" for word in field.words)
+    elif field.kind == "manual":
+        what = _family(field)
+    elif field.xml.item:
+        each = "a number" if field.kind == "list" else what
+        what = f"`<{field.xml.item}>`, any number: {each}"
+    return f"{what}, any number" if field.repeated and field.kind in ("spec", "list") else what
 
 
-def _family(slot: Slot) -> str:
+def _family(field: Field) -> str:
     """Where the members of a benchmark's family stand."""
-    kind = slot.type.__name__.removesuffix("Spec")
+    kind = field.type.__name__.removesuffix("Spec")
     title = {"SceneUpdater": "Scene updaters", "GroundTruth": "Ground truths"}.get(kind, f"{kind}s")
-    which = "any of" if slot.repeated else "one of"
+    which = "any of" if field.repeated else "one of"
     return f"{which} the [{title.lower()}](#{title.lower().replace(' ', '-')})"
 
 
@@ -226,14 +226,14 @@ def _anchor(name: str) -> str:
     return name.lower().replace(":", "")
 
 
-def _default(slot: Slot) -> str:
-    default = slot.default
+def _default(field: Field) -> str:
+    default = field.default
     if default is dataclasses.MISSING:
         return "must be there"
-    if default is None or default in ((), "") or slot.kind == "spec":
+    if default is None or default in ((), "") or field.kind == "spec":
         return "-"
     if isinstance(default, bool):
-        return str(default).lower() if slot.xml.attribute else str(int(default))
+        return str(default).lower() if field.xml.attribute else str(int(default))
     if isinstance(default, tuple):
         return " ".join(f"{value:g}" for value in default)
     return f"{default:g}" if isinstance(default, float) else str(default)

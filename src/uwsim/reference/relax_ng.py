@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from lxml import etree
 
-from ..schema import NAMESPACE, TOKENS, Slot, slots
+from ..schema import NAMESPACE, TOKENS, Field, fields_of
 
 RNG = "http://relaxng.org/ns/structure/1.0"
 TYPES = "http://www.w3.org/2001/XMLSchema-datatypes"
@@ -61,8 +61,8 @@ def _grammar(root: str, spec: type, families: Mapping[type, tuple[Family, Member
     for cls in _each_once([spec, *members]):
         content = _sub(_sub(tree, "define", name=cls.__name__), "interleave")
         _sub(content, "empty")
-        for slot in slots(cls):
-            _field(content, slot)
+        for field in fields_of(cls):
+            _field(content, field)
     for base, (family, add_members) in families.items():
         add_members(_sub(_sub(tree, "define", name=base.__name__), "choice"), family)
     etree.indent(tree)
@@ -79,11 +79,11 @@ def _each_once(specs: Iterable[type]) -> Iterator[type]:
         done.add(cls)
         yield cls
         inside: list[type] = []
-        for slot in slots(cls):
-            if slot.kind == "spec":
-                inside.append(slot.type)
-            elif slot.kind == "choice":
-                inside += slot.type.values()
+        for field in fields_of(cls):
+            if field.kind == "spec":
+                inside.append(field.type)
+            elif field.kind == "choice":
+                inside += field.type.values()
         waiting = inside + waiting
 
 
@@ -96,12 +96,12 @@ def _by_element(choice: etree._Element, family: Family) -> None:
 
 def _by_type(choice: etree._Element, family: Family) -> None:
     """Members told apart by ``<type>``; a place that means nothing to a type is ignored."""
-    places = {slot.tag: slot for spec in family.values() for slot in slots(spec)}
+    places = {field.tag: field for spec in family.values() for field in fields_of(spec)}
     for name, spec in family.items():
         member = _sub(choice, "interleave")
         _pattern(_sub(member, "element", name="type"), f"{SPACE}{name}{SPACE}")
         _ref(member, spec)
-        for tag in sorted(places.keys() - {slot.tag for slot in slots(spec)}):
+        for tag in sorted(places.keys() - {field.tag for field in fields_of(spec)}):
             _field(member, dataclasses.replace(places[tag], default=None))
 
 
@@ -113,56 +113,60 @@ def _by_type_attribute(choice: etree._Element, family: Family) -> None:
         _ref(member, spec)
 
 
-def _field(content: etree._Element, slot: Slot) -> None:
+def _field(content: etree._Element, field: Field) -> None:
     """The pattern of one field."""
-    if slot.xml.text:
-        _data(content, slot)
+    if field.xml.text:
+        _data(content, field)
         return
-    is_needed = slot.default is dataclasses.MISSING
-    if _stands_often(slot):
+    is_needed = field.default is dataclasses.MISSING
+    if _stands_often(field):
         content = _sub(content, "oneOrMore" if is_needed else "zeroOrMore")
     elif not is_needed:
         content = _sub(content, "optional")
-    what = "attribute" if slot.xml.attribute else "element"
-    node = _sub(content, what, **_named(slot.tag))
-    if slot.kind == "spec":
-        _ref(node, slot.type)
-    elif slot.kind == "hand":
-        _ref(_sub(node, "zeroOrMore") if slot.repeated else node, slot.type)
-    elif slot.kind == "choice":
+    what = "attribute" if field.xml.attribute else "element"
+    node = _sub(content, what, **_named(field.tag))
+    if field.kind == "spec":
+        _ref(node, field.type)
+    elif field.kind == "manual":
+        _ref(_sub(node, "zeroOrMore") if field.repeated else node, field.type)
+    elif field.kind == "choice":
         several = _sub(_sub(node, "zeroOrMore"), "choice")
-        for child, spec in slot.type.items():
-            _ref(_sub(several, "element", **_named(child, within=slot)), spec)
-    elif slot.kind == "triple":
-        if slot.words:
+        for child, spec in field.type.items():
+            _ref(_sub(several, "element", **_named(child, within=field)), spec)
+    elif field.kind == "triple":
+        if field.words:
             node = _sub(node, "choice")
-            words = dataclasses.replace(slot, kind="word", type=slot.words)
+            words = dataclasses.replace(field, kind="word", type=field.words)
             _data(node, words, may_be_empty=False)
         parts = _sub(node, "interleave")
-        for part in slot.xml.parts:
-            _data(_sub(parts, "element", **_named(part, within=slot)), slot, may_be_empty=True)
-    elif slot.xml.item:
-        _data(_sub(_sub(node, "zeroOrMore"), "element", **_named(slot.xml.item, within=slot)), slot)
+        for part in field.xml.parts:
+            _data(_sub(parts, "element", **_named(part, within=field)), field, may_be_empty=True)
+    elif field.xml.item:
+        _data(
+            _sub(_sub(node, "zeroOrMore"), "element", **_named(field.xml.item, within=field)), field
+        )
     else:
-        _data(node, slot, may_be_empty=not is_needed)
+        _data(node, field, may_be_empty=not is_needed)
 
 
-def _stands_often(slot: Slot) -> bool:
+def _stands_often(field: Field) -> bool:
     """Whether the element itself may be repeated, rather than what stands in it."""
-    is_one_box = slot.kind in ("choice", "hand") or (slot.kind != "list" and bool(slot.xml.item))
-    return slot.repeated and not is_one_box and not slot.xml.attribute
+    is_one_box = field.kind in ("choice", "manual") or (
+        field.kind != "list" and bool(field.xml.item)
+    )
+    return field.repeated and not is_one_box and not field.xml.attribute
 
 
-def _named(tag: str, *, within: Slot | None = None) -> dict[str, str]:
+def _named(tag: str, *, within: Field | None = None) -> dict[str, str]:
     """How the grammar names an element or attribute; it would inherit the namespace around it."""
     if tag.startswith("{"):
         return {"name": tag.split("}")[1], "ns": NAMESPACE}
     return {"name": tag, "ns": ""} if within and within.xml.namespaced else {"name": tag}
 
 
-def _data(node: etree._Element, slot: Slot, *, may_be_empty: bool = False) -> None:
+def _data(node: etree._Element, field: Field, *, may_be_empty: bool = False) -> None:
     """The pattern of a scalar."""
-    if slot.kind == "str":
+    if field.kind == "str":
         if may_be_empty:
             _sub(node, "text")
         else:
@@ -170,10 +174,10 @@ def _data(node: etree._Element, slot: Slot, *, may_be_empty: bool = False) -> No
         return
     patterns = {
         "int": r"[+\-]?[0-9]+",
-        "bool": "true|false|0|1" if slot.xml.attribute else "0|1",
-        "word": "|".join(map(re.escape, slot.type)) if slot.kind == "word" else "",
+        "bool": "true|false|0|1" if field.xml.attribute else "0|1",
+        "word": "|".join(map(re.escape, field.type)) if field.kind == "word" else "",
     }
-    inner = f"({patterns.get(slot.kind, NUMBER)})" + ("?" if may_be_empty else "")
+    inner = f"({patterns.get(field.kind, NUMBER)})" + ("?" if may_be_empty else "")
     _pattern(node, f"{SPACE}{inner}{SPACE}")
 
 

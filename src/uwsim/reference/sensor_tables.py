@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ..cli.list import devices, limit_in, sensors
 from ..runs.tables import bundled_tables
-from ..schema import slots
+from ..schema import fields_of
 from ..schema.names import local
 from ..sensors import SENSORS
 from ..topics import INTERFACES
@@ -33,7 +33,7 @@ def _sensors(*, simulated: bool) -> str:
     rows = []
     for name, summary in sensors(bundled_tables()).items():
         if simulated is (limit_in("sensors", name) == ""):
-            own = [slot.shown for slot in slots(SENSORS[name]) if slot.shown not in COMMON]
+            own = [field.shown for field in fields_of(SENSORS[name]) if field.shown not in COMMON]
             rows.append((_linked(name), summary, ", ".join(f"`{each}`" for each in own)))
     return _table(("element", "what it measures", "its elements"), rows)
 
@@ -56,7 +56,7 @@ def _topics(*, simulated: bool) -> str:
         if not summary.startswith("Publishes"):
             continue
         if simulated is (limit_in("interfaces", name) == ""):
-            elements = {slot.shown: slot for slot in slots(spec)}
+            elements = {field.shown: field for field in fields_of(spec)}
             topics = ", ".join(f"`{each}`" for each in elements if each.lower().endswith("topic"))
             rate = f"{elements['rate'].default} Hz" if "rate" in elements else "-"
             rows.append((_linked(name), summary, topics or "-", rate))

@@ -11,7 +11,7 @@ from collections.abc import Hashable, Iterator, Sequence
 
 from lxml import etree
 
-from ..schema import Faults, slots
+from ..schema import Faults, fields_of
 from ..schema.names import local
 
 MORE_THAN_A_TURN = 6.3
@@ -70,9 +70,9 @@ def _angles(cls: Hashable) -> tuple[tuple[str, str], ...]:
     """The angles of a spec, by field and element; a phase may have any number of turns."""
     assert isinstance(cls, type)
     return tuple(
-        (slot.field, slot.shown)
-        for slot in slots(cls)
-        if slot.unit == "rad" and not slot.repeated and "phase" not in slot.field
+        (field.name, field.shown)
+        for field in fields_of(cls)
+        if field.unit == "rad" and not field.repeated and "phase" not in field.name
     )
 
 
@@ -86,7 +86,7 @@ def _parts(spec: object) -> Iterator[object]:
 @functools.cache
 def _nested(cls: Hashable) -> tuple[str, ...]:
     assert isinstance(cls, type)
-    return tuple(slot.field for slot in slots(cls) if slot.kind in ("spec", "choice"))
+    return tuple(field.name for field in fields_of(cls) if field.kind in ("spec", "choice"))
 
 
 def _child(node: etree._Element, shown: str) -> etree._Element:

@@ -32,7 +32,7 @@ class Place:
     """From the whole down to the spec that has the value."""
     leaf: Any
     """That spec."""
-    slot: schema.Slot
+    field: schema.Field
     """The value's field in it."""
     rest: tuple[str, ...]
     """What the path says behind it: a letter of a triple."""
@@ -41,35 +41,37 @@ class Place:
     def path(self) -> str:
         """The path in full: with every name, without ``u:``."""
         names = [step.name for step in self.steps if step.name]
-        return ".".join([*names, self.slot.shown.removeprefix("u:"), *self.rest])
+        return ".".join([*names, self.field.shown.removeprefix("u:"), *self.rest])
 
     @property
     def is_number(self) -> bool:
         """Whether it is one number."""
-        is_scalar = self.slot.kind in ("float", "int") and not self.slot.repeated
-        return (is_scalar and not self.rest) or (self.slot.kind == "triple" and len(self.rest) == 1)
+        is_scalar = self.field.kind in ("float", "int") and not self.field.repeated
+        return (is_scalar and not self.rest) or (
+            self.field.kind == "triple" and len(self.rest) == 1
+        )
 
     @property
     def is_whole(self) -> bool:
         """Whether it is a whole number."""
-        return self.slot.kind == "int"
+        return self.field.kind == "int"
 
     @property
     def kind(self) -> str:
         """What it is, in words."""
-        if self.slot.kind == "triple":
-            return f"three numbers; choose one, .{self.slot.xml.parts[0]}"
+        if self.field.kind == "triple":
+            return f"three numbers; choose one, .{self.field.xml.parts[0]}"
         words = {"str": "text", "bool": "a flag", "word": "a word"}
-        return "a list" if self.slot.repeated else words.get(self.slot.kind, "a number")
+        return "a list" if self.field.repeated else words.get(self.field.kind, "a number")
 
     @property
     def unit(self) -> str:
         """Its unit, as far as its documentation names one."""
-        return self.slot.unit
+        return self.field.unit
 
     def with_value(self, text: str) -> Any:
         """Return a copy of the whole with another value here; BadSetting if it cannot stand."""
-        changed = _with_value(self.leaf, self.slot, list(self.rest), text)
+        changed = _with_value(self.leaf, self.field, list(self.rest), text)
         for step in reversed(self.steps):
             changed = step.put(changed)
         return changed
@@ -121,34 +123,34 @@ def locate(spec: Any, path: str) -> Place:
     steps: list[Step] = []
     while True:
         (name, chosen), parts = parts[0], parts[1:]
-        slot = _slot(type(spec), name)
-        current = getattr(spec, slot.field)
+        field = _field(type(spec), name)
+        current = getattr(spec, field.name)
         index: int | None = None
-        if slot.kind == "choice" and parts:
+        if field.kind == "choice" and parts:
             (name, chosen), parts = parts[0], parts[1:]
-            kinds = {tag.rpartition("}")[2]: kind for tag, kind in slot.type.items()}
+            kinds = {tag.rpartition("}")[2]: kind for tag, kind in field.type.items()}
             name = name.removeprefix("u:")
             if name not in kinds:
-                raise BadSetting(str(UnknownName(f"element of <{slot.shown}>", name, kinds)))
+                raise BadSetting(str(UnknownName(f"element of <{field.shown}>", name, kinds)))
             kind = kinds[name]
             index = _index(current, [isinstance(entry, kind) for entry in current], name, chosen)
-            name = f"{slot.shown.removeprefix('u:')}.{name}"
-        elif slot.kind == "spec" and slot.repeated:
-            name = slot.shown.removeprefix("u:")
+            name = f"{field.shown.removeprefix('u:')}.{name}"
+        elif field.kind == "spec" and field.repeated:
+            name = field.shown.removeprefix("u:")
             index = _index(current, [True] * len(current), name, chosen)
         elif chosen is not None:
             raise BadSetting(f"<{name}> stands once; leave [{chosen}] out.")
-        elif slot.kind == "spec":
-            name = slot.shown.removeprefix("u:")
+        elif field.kind == "spec":
+            name = field.shown.removeprefix("u:")
             if current is None:
                 raise BadSetting(f"the file has no <{name}> here.")
         else:
-            return Place(tuple(steps), spec, slot, tuple(name for name, _ in parts))
+            return Place(tuple(steps), spec, field, tuple(name for name, _ in parts))
         inner = current if index is None else current[index]
         if not parts:
             raise BadSetting(_inside(name, type(inner)))
         key = "" if index is None else f"[{_key(current, index)}]"
-        steps.append(Step(spec, slot.field, index, name + key))
+        steps.append(Step(spec, field.name, index, name + key))
         spec = inner
 
 
@@ -171,18 +173,18 @@ def _parts(path: str) -> list[tuple[str, str | None]]:
     return parts
 
 
-def _slot(cls: type, name: str) -> schema.Slot:
-    slots = {slot.shown.removeprefix("u:"): slot for slot in schema.slots(cls)}
-    slot = slots.get(name.removeprefix("u:"))
-    if slot is None:
+def _field(cls: type, name: str) -> schema.Field:
+    fields = {field.shown.removeprefix("u:"): field for field in schema.fields_of(cls)}
+    field = fields.get(name.removeprefix("u:"))
+    if field is None:
         raise BadSetting(
-            f"there is no <{name}>.{did_you_mean(name, slots)} There are: {', '.join(slots)}."
+            f"there is no <{name}>.{did_you_mean(name, fields)} There are: {', '.join(fields)}."
         )
-    return slot
+    return field
 
 
 def _inside(name: str, cls: type) -> str:
-    names = ", ".join(slot.shown for slot in schema.slots(cls))
+    names = ", ".join(field.shown for field in schema.fields_of(cls))
     return f"<{name}> is not a value; what stands in it: {names}."
 
 
@@ -217,34 +219,36 @@ def _key(entries: Sequence[Any], index: int) -> str:
     return name if name and is_first else str(1 + [id(o) for o in same].index(id(entry)))
 
 
-def _with_value(spec: Any, slot: schema.Slot, rest: list[str], text: str) -> Any:
+def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> Any:
     """Let the dialect read the value as if it stood in a file."""
     node = etree.Element(schema.camel(type(spec).__name__.removesuffix("Spec")))
-    if slot.kind == "triple" and not rest and text in slot.words:
-        etree.SubElement(node, slot.tag).text = text
-    elif slot.kind == "triple":
-        _write_triple(etree.SubElement(node, slot.tag), getattr(spec, slot.field), slot, rest, text)
+    if field.kind == "triple" and not rest and text in field.words:
+        etree.SubElement(node, field.tag).text = text
+    elif field.kind == "triple":
+        _write_triple(
+            etree.SubElement(node, field.tag), getattr(spec, field.name), field, rest, text
+        )
     elif rest:
-        raise BadSetting(f"<{slot.shown}> is a value; nothing stands in it.")
-    elif slot.kind not in ("str", "float", "int", "bool", "word"):
-        raise BadSetting(f"<{slot.shown}> cannot be set from here; change the file.")
-    elif not text and slot.kind != "str":
-        raise BadSetting(f"nothing behind the '='; expected {slot.expected} for <{slot.shown}>.")
-    elif slot.xml.attribute:
-        node.set(slot.tag, text)
-    elif slot.xml.text:
+        raise BadSetting(f"<{field.shown}> is a value; nothing stands in it.")
+    elif field.kind not in ("str", "float", "int", "bool", "word"):
+        raise BadSetting(f"<{field.shown}> cannot be set from here; change the file.")
+    elif not text and field.kind != "str":
+        raise BadSetting(f"nothing behind the '='; expected {field.expected} for <{field.shown}>.")
+    elif field.xml.attribute:
+        node.set(field.tag, text)
+    elif field.xml.text:
         node.text = text
-    elif slot.xml.item is not None:
-        listed = etree.SubElement(node, slot.tag)
+    elif field.xml.item is not None:
+        listed = etree.SubElement(node, field.tag)
         for word in text.replace(",", " ").split():
-            etree.SubElement(listed, slot.xml.item).text = word
+            etree.SubElement(listed, field.xml.item).text = word
     else:
-        etree.SubElement(node, slot.tag).text = text
+        etree.SubElement(node, field.tag).text = text
     faults = schema.Faults("")
     given = {
-        field.name: getattr(spec, field.name)
-        for field in dataclasses.fields(spec)
-        if field.init and field.name != slot.field
+        each.name: getattr(spec, each.name)
+        for each in dataclasses.fields(spec)
+        if each.init and each.name != field.name
     }
     changed = schema.read(type(spec), node, faults, given=given)
     if changed is None or faults.all():
@@ -255,21 +259,21 @@ def _with_value(spec: Any, slot: schema.Slot, rest: list[str], text: str) -> Any
 def _write_triple(
     node: etree._Element,
     current: tuple[float, float, float] | str | None,
-    slot: schema.Slot,
+    field: schema.Field,
     rest: list[str],
     text: str,
 ) -> None:
     """Write three numbers, given together or one of them by its letter."""
-    letters = list(slot.xml.parts)
+    letters = list(field.xml.parts)
     if not rest:
         words = text.replace(",", " ").split()
         if len(words) != len(letters):
-            words_too = f", or one of {', '.join(slot.words)}" if slot.words else ""
+            words_too = f", or one of {', '.join(field.words)}" if field.words else ""
             raise BadSetting(
-                f"<{slot.shown}> wants {len(letters)} numbers, as in '1 2 3'{words_too}."
+                f"<{field.shown}> wants {len(letters)} numbers, as in '1 2 3'{words_too}."
             )
     elif len(rest) > 1 or rest[0] not in letters or current is None or isinstance(current, str):
-        raise BadSetting(f"<{slot.shown}> has {', '.join(f'<{letter}>' for letter in letters)}.")
+        raise BadSetting(f"<{field.shown}> has {', '.join(f'<{letter}>' for letter in letters)}.")
     else:
         words = [
             text if letter == rest[0] else repr(float(number))

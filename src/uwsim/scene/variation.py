@@ -225,8 +225,8 @@ def check_variations(
 
 def _at_its_bounds(place: Place, variation: VariationSpec) -> list[Any]:
     """Return the whole with the value at either bound; BadSetting if it cannot vary so."""
-    if place.rest and place.slot.kind != "triple":
-        raise BadSetting(f"<{place.slot.shown}> is a value; nothing stands in it.")
+    if place.rest and place.field.kind != "triple":
+        raise BadSetting(f"<{place.field.shown}> is a value; nothing stands in it.")
     if not place.is_number:
         raise BadSetting(f"it is {place.kind}; only a number can vary.")
     if wrong := variation.fault():

@@ -28,7 +28,7 @@ from ..devices.object_picker import ObjectPickerSpec
 from ..devices.sway import SwaySpec
 from ..devices.thruster_fault import ThrusterFaultSpec
 from ..geometry import Pose
-from ..schema import FARTHEST, element, slots
+from ..schema import FARTHEST, element, fields_of
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.gps_sensor import GpsSensorSpec
 from ..sensors.imu import ImuSpec
@@ -146,10 +146,10 @@ class VehicleSpec:
 
     def parts(self) -> Iterator[tuple[str, object]]:
         """Element name and spec of everything it carries, in the order of the grammar."""
-        for slot in slots(VehicleSpec):
-            held = getattr(self, slot.field)
-            if slot.kind == "spec" and held is not None:
-                yield from ((slot.shown, part) for part in (held if slot.repeated else (held,)))
+        for field in fields_of(VehicleSpec):
+            held = getattr(self, field.name)
+            if field.kind == "spec" and held is not None:
+                yield from ((field.shown, part) for part in (held if field.repeated else (held,)))
         if self.simulated_devices is not None:
             yield from (("echo", part) for part in self.simulated_devices.echo)
 

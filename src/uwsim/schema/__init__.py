@@ -31,7 +31,7 @@ never asked. `Faults` in strict mode also holds a file against the order of the 
 from .declaration import REQUIRED, Limits, Original, element
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
 from .faults import MAX_FAULTS, Faults
-from .grammar import FARTHEST, LARGEST, Slot, camel, field_docs, slots
+from .grammar import FARTHEST, LARGEST, Field, camel, field_docs, fields_of
 from .names import NAMESPACE, advice, cut, shown_tag
 from .reading import read, read_choice, text_of
 from .values import TOKENS, number
@@ -49,21 +49,21 @@ __all__ = [
     "TOKENS",
     "Document",
     "Faults",
+    "Field",
     "Limits",
     "Original",
-    "Slot",
     "advice",
     "camel",
     "check_head",
     "cut",
     "element",
     "field_docs",
+    "fields_of",
     "number",
     "parse",
     "read",
     "read_choice",
     "shown_tag",
-    "slots",
     "text_of",
     "uses_extensions",
     "write",

@@ -35,15 +35,15 @@ _SIGNS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
 
 
 @dataclass(frozen=True)
-class Slot:
+class Field:
     """One field of a spec, ready to be read, written and documented."""
 
-    field: str
+    name: str
     """Name of the dataclass field."""
     tag: str
     """Qualified name in the file."""
     kind: str
-    """str, float, int, bool, word, triple, spec, choice, or hand (only its caller can read it)."""
+    """str, float, int, bool, word, triple, spec, choice, or manual (read by the caller)."""
     type: Any
     """The scalar's type, the spec, or the words of a Literal."""
     repeated: bool
@@ -67,7 +67,7 @@ class Slot:
     @property
     def doc(self) -> str:
         """Its documentation string."""
-        return field_docs(self.owner).get(self.field, "")
+        return field_docs(self.owner).get(self.name, "")
 
     @property
     def unit(self) -> str:
@@ -106,23 +106,23 @@ def camel(name: str) -> str:
     return first + "".join(word.capitalize() for word in others)
 
 
-def slots(cls: type) -> tuple[Slot, ...]:
+def fields_of(cls: type) -> tuple[Field, ...]:
     """The fields of a spec in their order, which is the order of the original grammar."""
-    return _slots(cls)
+    return _fields_of(cls)
 
 
 @functools.cache
-def _slots(cls: Hashable) -> tuple[Slot, ...]:
+def _fields_of(cls: Hashable) -> tuple[Field, ...]:
     assert isinstance(cls, type)
     hints = typing.get_type_hints(cls)
     return tuple(
-        _slot(cls, field, hints[field.name])
+        _field(cls, field, hints[field.name])
         for field in dataclasses.fields(cls)
         if field.init and "path" not in field.metadata
     )
 
 
-def _slot(cls: type, field: dataclasses.Field[Any], hint: Any) -> Slot:
+def _field(cls: type, field: dataclasses.Field[Any], hint: Any) -> Field:
     xml: Xml = field.metadata.get("xml") or Xml()
     tag = xml.name or camel(field.name)
     if xml.namespaced:
@@ -139,7 +139,7 @@ def _slot(cls: type, field: dataclasses.Field[Any], hint: Any) -> Slot:
     if _is_variadic(hint):
         repeated, hint = True, typing.get_args(hint)[0]
     kind, type_ = _kind(hint, xml)
-    return Slot(field.name, tag, kind, type_, repeated, optional, xml, default, cls, words)
+    return Field(field.name, tag, kind, type_, repeated, optional, xml, default, cls, words)
 
 
 def _is_variadic(hint: Any) -> bool:
@@ -159,7 +159,7 @@ def _kind(hint: Any, xml: Xml) -> tuple[str, Any]:
         return hint.__name__, hint
     if dataclasses.is_dataclass(hint) and not inspect.isabstract(hint):
         return "spec", hint
-    return "hand", hint
+    return "manual", hint
 
 
 @functools.cache

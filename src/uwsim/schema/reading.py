@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 from lxml import etree
 
 from .faults import Faults
-from .grammar import Slot, slots
+from .grammar import Field, fields_of
 from .names import advice, cut, local, shown, shown_attribute
 from .values import BAD, BLANKS, Bad, scalar
 
@@ -36,21 +36,21 @@ def read(
     Returns:
         The spec, with defaults where optional values were faulty; None when it cannot be made.
     """
-    table = slots(cls)
+    table = fields_of(cls)
     values: dict[str, Any] = dict(given or {})
     found = _children(cls, node, faults)
     _read_attributes(table, node, values, faults)
-    for slot in table:
-        if slot.field in values or slot.xml.attribute:
+    for field in table:
+        if field.name in values or field.xml.attribute:
             continue
-        value = _read_slot(slot, node, found.get(slot.field, []), faults)
+        value = _read_field(field, node, found.get(field.name, []), faults)
         if value is not BAD:
-            values[slot.field] = value
-    for slot in table:
-        if slot.field not in values:
-            if slot.default is MISSING:
+            values[field.name] = value
+    for field in table:
+        if field.name not in values:
+            if field.default is MISSING:
                 return None
-            values[slot.field] = slot.default
+            values[field.name] = field.default
     spec = cls(**values)
     faults.remember(spec, node)
     return spec
@@ -97,18 +97,20 @@ def text_of(node: etree._Element, faults: Faults) -> str:
 @functools.cache
 def _by_tag(
     cls: Hashable,
-) -> tuple[dict[str, tuple[int, Slot]], dict[str, tuple[int, Slot]]]:
-    """Position and slot of every element of a spec by its name, and by its old names."""
+) -> tuple[dict[str, tuple[int, Field]], dict[str, tuple[int, Field]]]:
+    """Position and field of every element of a spec by its name, and by its old names."""
     assert isinstance(cls, type)
-    table = slots(cls)
-    new = {slot.tag: (index, slot) for index, slot in enumerate(table) if not slot.xml.attribute}
+    table = fields_of(cls)
+    new = {
+        field.tag: (index, field) for index, field in enumerate(table) if not field.xml.attribute
+    }
     old = {alias: entry for entry in new.values() for alias in entry[1].xml.original.aliases}
     return new, old
 
 
 def _children(cls: type, node: etree._Element, faults: Faults) -> dict[str, list[etree._Element]]:
     """The child elements by field; unknown, repeated and misplaced ones are faults."""
-    if any(slot.xml.text for slot in slots(cls)):
+    if any(field.xml.text for field in fields_of(cls)):
         return {}
     by_tag, old = _by_tag(cls)
     found: dict[str, list[etree._Element]] = {}
@@ -120,15 +122,15 @@ def _children(cls: type, node: etree._Element, faults: Faults) -> dict[str, list
         if entry is None:
             _unknown_element(child, node, by_tag, faults)
             continue
-        index, slot = entry
+        index, field = entry
         if tag not in by_tag:
-            faults.notice(child, f"{shown(child)} is an old name of <{slot.shown}>")
-        if faults.strict and index < last[0] and not slot.xml.namespaced:
+            faults.notice(child, f"{shown(child)} is an old name of <{field.shown}>")
+        if faults.strict and index < last[0] and not field.xml.namespaced:
             _misplaced(child, last[1], faults)
-        if not slot.xml.namespaced:
-            last = max(last, (index, slot.shown))
-        here = found.setdefault(slot.field, [])
-        if here and not (slot.repeated and slot.kind != "choice" and _repeats(slot)):
+        if not field.xml.namespaced:
+            last = max(last, (index, field.shown))
+        here = found.setdefault(field.name, [])
+        if here and not (field.repeated and field.kind != "choice" and _repeats(field)):
             faults.add(
                 child,
                 f"{shown(child)} stands twice in {shown(node)} (first in line "
@@ -139,110 +141,116 @@ def _children(cls: type, node: etree._Element, faults: Faults) -> dict[str, list
     return found
 
 
-def _repeats(slot: Slot) -> bool:
+def _repeats(field: Field) -> bool:
     """Whether the element itself is repeated, rather than the items in it."""
-    return slot.kind == "list" or slot.xml.item is None
+    return field.kind == "list" or field.xml.item is None
 
 
 def _read_attributes(
-    table: tuple[Slot, ...], node: etree._Element, values: dict[str, Any], faults: Faults
+    table: tuple[Field, ...], node: etree._Element, values: dict[str, Any], faults: Faults
 ) -> None:
-    known = {slot.tag: slot for slot in table if slot.xml.attribute}
+    known = {field.tag: field for field in table if field.xml.attribute}
     for name in node.attrib:
         if name not in known:
             _unknown_attribute(node, str(name), known, faults)
-    for slot in known.values():
-        text = node.get(slot.tag)
-        if slot.field in values:
+    for field in known.values():
+        text = node.get(field.tag)
+        if field.name in values:
             continue
         if text is None:
-            if slot.default is MISSING:
-                faults.add(node, f"{shown(node)} lacks the attribute {slot.shown}")
+            if field.default is MISSING:
+                faults.add(node, f"{shown(node)} lacks the attribute {field.shown}")
             continue
-        value = scalar(slot, text.strip(BLANKS), node, faults, f"{slot.shown}= of {shown(node)}")
+        value = scalar(field, text.strip(BLANKS), node, faults, f"{field.shown}= of {shown(node)}")
         if value is not BAD:
-            values[slot.field] = value
+            values[field.name] = value
 
 
-def _read_slot(
-    slot: Slot, parent: etree._Element, nodes: list[etree._Element], faults: Faults
+def _read_field(
+    field: Field, parent: etree._Element, nodes: list[etree._Element], faults: Faults
 ) -> Any:
     """The value of a field that is not an attribute; BAD when it is absent or faulty."""
-    if slot.xml.text:
-        return _leaf(slot, parent, faults)
+    if field.xml.text:
+        return _leaf(field, parent, faults)
     if not nodes:
-        if slot.default is MISSING and slot.repeated and slot.kind != "hand" and _repeats(slot):
-            faults.add(parent, f"{shown(parent)} lacks <{slot.shown}>: at least one must stand")
-        elif slot.default is MISSING or (faults.strict and slot.xml.original.required):
-            faults.add(parent, f"{shown(parent)} lacks <{slot.shown}>: {_purpose(slot)}")
+        if (
+            field.default is MISSING
+            and field.repeated
+            and field.kind != "manual"
+            and _repeats(field)
+        ):
+            faults.add(parent, f"{shown(parent)} lacks <{field.shown}>: at least one must stand")
+        elif field.default is MISSING or (faults.strict and field.xml.original.required):
+            faults.add(parent, f"{shown(parent)} lacks <{field.shown}>: {_purpose(field)}")
         return BAD
-    if slot.kind == "choice":
-        return read_choice(slot.type, nodes[0], faults)
-    if slot.repeated and slot.kind == "list":
-        return tuple(_read_list(slot, node, faults) for node in nodes)
-    if slot.repeated and slot.xml.item:
-        return _read_list(slot, nodes[0], faults)
-    if slot.repeated:
-        many = [_read_one(slot, node, faults) for node in nodes]
+    if field.kind == "choice":
+        return read_choice(field.type, nodes[0], faults)
+    if field.repeated and field.kind == "list":
+        return tuple(_read_list(field, node, faults) for node in nodes)
+    if field.repeated and field.xml.item:
+        return _read_list(field, nodes[0], faults)
+    if field.repeated:
+        many = [_read_one(field, node, faults) for node in nodes]
         return tuple(value for value in many if value is not BAD)
-    return _read_one(slot, nodes[0], faults)
+    return _read_one(field, nodes[0], faults)
 
 
-def _read_one(slot: Slot, node: etree._Element, faults: Faults) -> Any:
-    if slot.kind == "spec":
-        spec = read(slot.type, node, faults)
+def _read_one(field: Field, node: etree._Element, faults: Faults) -> Any:
+    if field.kind == "spec":
+        spec = read(field.type, node, faults)
         return BAD if spec is None else spec
     for name in node.attrib:
         _unknown_attribute(node, str(name), (), faults)
-    if slot.kind == "triple":
-        return _read_triple(slot, node, faults)
-    return _leaf(slot, node, faults)
+    if field.kind == "triple":
+        return _read_triple(field, node, faults)
+    return _leaf(field, node, faults)
 
 
-def _leaf(slot: Slot, node: etree._Element, faults: Faults) -> Any:
+def _leaf(field: Field, node: etree._Element, faults: Faults) -> Any:
     text = text_of(node, faults)
     if not text:
-        if slot.default is MISSING or slot.xml.namespaced:  # of extensions the original knows none
-            faults.add(node, f"{shown(node)} is empty; expected {slot.expected}")
+        # An empty element keeps its default in the original, which has no extensions.
+        if field.default is MISSING or field.xml.namespaced:
+            faults.add(node, f"{shown(node)} is empty; expected {field.expected}")
         return BAD
-    return scalar(slot, text, node, faults, shown(node))
+    return scalar(field, text, node, faults, shown(node))
 
 
-def _read_triple(slot: Slot, node: etree._Element, faults: Faults) -> Any:
+def _read_triple(field: Field, node: etree._Element, faults: Faults) -> Any:
     values: dict[str, float] = {}
     seen: set[str] = set()
-    if slot.words and not any(True for _ in _elements(node, faults)):
-        return _leaf(dataclasses.replace(slot, kind="word", type=slot.words), node, faults)
+    if field.words and not any(True for _ in _elements(node, faults)):
+        return _leaf(dataclasses.replace(field, kind="word", type=field.words), node, faults)
     _refuse_text(node, faults)
     for child in _elements(node, faults):
         tag = str(child.tag)
-        if tag not in tuple(slot.xml.parts):
-            _unknown_element(child, node, tuple(slot.xml.parts), faults)
+        if tag not in tuple(field.xml.parts):
+            _unknown_element(child, node, tuple(field.xml.parts), faults)
         elif tag in seen:
             faults.add(child, f"<{tag}> stands twice in {shown(node)}; only one may")
         else:
             seen.add(tag)
             text = text_of(child, faults)
             named = f"<{tag}> of {shown(node)}"
-            value = scalar(slot, text, child, faults, named) if text else 0.0
+            value = scalar(field, text, child, faults, named) if text else 0.0
             if not isinstance(value, Bad):
                 values[tag] = value
-    if lacking := [f"<{part}>" for part in slot.xml.parts if part not in seen]:
+    if lacking := [f"<{part}>" for part in field.xml.parts if part not in seen]:
         faults.add(node, f"{shown(node)} lacks {', '.join(lacking)}")
-    if len(values) < len(slot.xml.parts):
+    if len(values) < len(field.xml.parts):
         return BAD
-    return tuple(values[part] for part in slot.xml.parts)
+    return tuple(values[part] for part in field.xml.parts)
 
 
-def _read_list(slot: Slot, node: etree._Element, faults: Faults) -> tuple[Any, ...]:
+def _read_list(field: Field, node: etree._Element, faults: Faults) -> tuple[Any, ...]:
     values = []
-    assert slot.xml.item is not None
+    assert field.xml.item is not None
     _refuse_text(node, faults)
-    kind, type_ = ("float", float) if slot.kind == "list" else (slot.kind, slot.type)
-    entry = dataclasses.replace(slot, kind=kind, type=type_, default=MISSING)
+    kind, type_ = ("float", float) if field.kind == "list" else (field.kind, field.type)
+    entry = dataclasses.replace(field, kind=kind, type=type_, default=MISSING)
     for child in _elements(node, faults):
-        if child.tag != slot.xml.item:
-            _unknown_element(child, node, (slot.xml.item,), faults)
+        if child.tag != field.xml.item:
+            _unknown_element(child, node, (field.xml.item,), faults)
         elif (value := _read_one(entry, child, faults)) is not BAD:
             values.append(value)
     return tuple(values)
@@ -288,7 +296,7 @@ def _misplaced(child: etree._Element, after: str, faults: Faults) -> None:
     faults.add(child, f"{shown(child)} stands behind <{after}>; the original wants it before")
 
 
-def _purpose(slot: Slot) -> str:
+def _purpose(field: Field) -> str:
     """What a missing element would say: the first sentence of its documentation."""
-    said = slot.doc.split(". ")[0].replace("\n", " ").replace("``", "`").rstrip(".")
-    return said[:1].lower() + said[1:] or slot.expected
+    said = field.doc.split(". ")[0].replace("\n", " ").replace("``", "`").rstrip(".")
+    return said[:1].lower() + said[1:] or field.expected

@@ -10,7 +10,7 @@ from lxml import etree
 
 from ..errors import did_you_mean
 from .faults import Faults
-from .grammar import LARGEST, Slot
+from .grammar import LARGEST, Field
 from .names import cut
 
 TOKENS = {
@@ -36,21 +36,21 @@ class Bad:
 BAD = Bad()
 
 
-def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: str) -> Any:
+def scalar(field: Field, text: str, node: etree._Element, faults: Faults, shown: str) -> Any:
     """A scalar from its text."""
     value: Any = BAD
-    if slot.kind == "str":
+    if field.kind == "str":
         value = text
-    elif slot.kind in ("float", "triple"):
+    elif field.kind in ("float", "triple"):
         value = number(text)
-        is_lenient = (slot.xml.original.lenient or faults.lenient) and not _COMMA.fullmatch(text)
+        is_lenient = (field.xml.original.lenient or faults.lenient) and not _COMMA.fullmatch(text)
         if value is None and is_lenient and (leading := _NUMBER.match(text)):
             value = number(leading[0])
             if value is not None:
                 said = f"{shown} is {cut(text)}; read as {value:g}, as the original does"
                 faults.notice(node, said)
         value = BAD if value is None else value
-    elif slot.kind == "int":
+    elif field.kind == "int":
         leading = _LEADING_INT.match(text)
         if leading and len(leading[0]) < 12 and abs(int(leading[0])) < 2**31:
             value = int(leading[0])
@@ -58,28 +58,28 @@ def scalar(slot: Slot, text: str, node: etree._Element, faults: Faults, shown: s
                 faults.notice(
                     node, f"{shown} is {cut(text)}; read as {value}, as the original does"
                 )
-    elif slot.kind == "bool":
+    elif field.kind == "bool":
         value = {"0": False, "1": True}.get(text, BAD)
-        if slot.xml.attribute and value is BAD:
+        if field.xml.attribute and value is BAD:
             value = {"false": False, "true": True}.get(text, BAD)
-        if value is BAD and not slot.xml.attribute and not slot.xml.namespaced:
-            value = slot.default if (invalid := slot.xml.original.invalid) is None else invalid
+        if value is BAD and not field.xml.attribute and not field.xml.namespaced:
+            value = field.default if (invalid := field.xml.original.invalid) is None else invalid
             faults.notice(
                 node,
                 f"{shown} is {cut(text)}; expected 0 or 1; read as {value:d}, as the original does",
             )
-    elif slot.kind == "word" and text in slot.type:
+    elif field.kind == "word" and text in field.type:
         value = text
-    if value is not BAD and slot.kind in ("float", "int", "triple") and not slot.allows(value):
+    if value is not BAD and field.kind in ("float", "int", "triple") and not field.allows(value):
         value = BAD
-    if slot.kind in ("float", "triple") and value is not BAD and abs(value) > LARGEST:
+    if field.kind in ("float", "triple") and value is not BAD and abs(value) > LARGEST:
         faults.add(node, f"{shown} is {cut(text)}; no quantity is beyond {LARGEST:g}")
         return BAD
     if value is BAD:
-        near = did_you_mean(text, slot.type) if slot.kind == "word" and len(text) < 80 else ""
-        if slot.kind in ("float", "triple") and len(text) < 80 and _COMMA.fullmatch(text):
+        near = did_you_mean(text, field.type) if field.kind == "word" and len(text) < 80 else ""
+        if field.kind in ("float", "triple") and len(text) < 80 and _COMMA.fullmatch(text):
             near = f" Did you mean {text.replace(',', '.')}?"
-        faults.add(node, f"{shown} is {cut(text)}; expected {slot.expected}.{near}".rstrip("."))
+        faults.add(node, f"{shown} is {cut(text)}; expected {field.expected}.{near}".rstrip("."))
     return value
 
 

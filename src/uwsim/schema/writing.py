@@ -8,7 +8,7 @@ from typing import Any
 
 from lxml import etree
 
-from .grammar import Slot, slots
+from .grammar import Field, fields_of
 from .names import NAMESPACE
 
 
@@ -26,47 +26,47 @@ def uses_extensions(spec: object) -> bool:
     if not dataclasses.is_dataclass(spec) or isinstance(spec, type):
         return False
     return any(
-        (slot.xml.namespaced and getattr(spec, slot.field) != slot.default)
-        or uses_extensions(getattr(spec, slot.field))
-        for slot in slots(type(spec))
+        (field.xml.namespaced and getattr(spec, field.name) != field.default)
+        or uses_extensions(getattr(spec, field.name))
+        for field in fields_of(type(spec))
     )  # fmt: skip
 
 
 def _fill(node: etree._Element, spec: object) -> None:
-    for slot in slots(type(spec)):
-        value = getattr(spec, slot.field)
-        if value is None or (value == slot.default and not slot.xml.original.required):
+    for field in fields_of(type(spec)):
+        value = getattr(spec, field.name)
+        if value is None or (value == field.default and not field.xml.original.required):
             continue
-        if slot.xml.attribute:
-            node.set(slot.tag, _text(value, attribute=True))
-        elif slot.xml.text:
+        if field.xml.attribute:
+            node.set(field.tag, _text(value, attribute=True))
+        elif field.xml.text:
             node.text = _text(value)
-        elif slot.kind == "choice":
-            box = etree.SubElement(node, slot.tag)
-            names = {cls: name for name, cls in slot.type.items()}
+        elif field.kind == "choice":
+            box = etree.SubElement(node, field.tag)
+            names = {cls: name for name, cls in field.type.items()}
             for item in value:
                 _fill(etree.SubElement(box, names[type(item)]), item)
-        elif slot.kind == "list":
+        elif field.kind == "list":
             for items in value:
-                _write_items(etree.SubElement(node, slot.tag), slot, items)
-        elif slot.repeated and slot.xml.item:
-            _write_items(etree.SubElement(node, slot.tag), slot, value)
+                _write_items(etree.SubElement(node, field.tag), field, items)
+        elif field.repeated and field.xml.item:
+            _write_items(etree.SubElement(node, field.tag), field, value)
         else:
-            for item in value if slot.repeated else (value,):
-                _write_one(etree.SubElement(node, slot.tag), slot, item)
+            for item in value if field.repeated else (value,):
+                _write_one(etree.SubElement(node, field.tag), field, item)
 
 
-def _write_items(node: etree._Element, slot: Slot, items: Iterable[Any]) -> None:
-    assert slot.xml.item is not None
+def _write_items(node: etree._Element, field: Field, items: Iterable[Any]) -> None:
+    assert field.xml.item is not None
     for item in items:
-        etree.SubElement(node, slot.xml.item).text = _text(item)
+        etree.SubElement(node, field.xml.item).text = _text(item)
 
 
-def _write_one(node: etree._Element, slot: Slot, value: Any) -> None:
-    if slot.kind == "spec":
+def _write_one(node: etree._Element, field: Field, value: Any) -> None:
+    if field.kind == "spec":
         _fill(node, value)
-    elif slot.kind == "triple" and not isinstance(value, str):
-        for part, number_ in zip(slot.xml.parts, value, strict=True):
+    elif field.kind == "triple" and not isinstance(value, str):
+        for part, number_ in zip(field.xml.parts, value, strict=True):
             etree.SubElement(node, part).text = _text(number_)
     else:
         node.text = _text(value)

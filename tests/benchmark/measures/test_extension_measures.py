@@ -14,7 +14,7 @@ from uwsim.benchmark.measures import ControlSpec, EnergySpec, MeasureSpec
 from uwsim.benchmark.measures.energy import BatterySpec
 from uwsim.benchmark.reader import check_benchmark, read_benchmark
 from uwsim.cli.check import faults_of
-from uwsim.schema import NAMESPACE, slots
+from uwsim.schema import NAMESPACE, fields_of
 
 CURRENTS = Path(uwsim.__file__).parent / "data" / "benchmarks" / "currents.xml"
 PAGE = Path(__file__).parents[3] / "docs" / "measures.md"
@@ -135,8 +135,8 @@ def test_every_element_and_every_detail_stands_in_the_page_of_measures(
     name: str, spec: type[EnergySpec] | type[ControlSpec]
 ) -> None:
     section = PAGE.read_text().split(f"\n## {name}\n")[1].split("\n## ")[0]
-    of_all = {slot.field for slot in slots(MeasureSpec)}
-    elements = [slot.shown for slot in slots(spec) if slot.field not in of_all]
+    of_all = {field.name for field in fields_of(MeasureSpec)}
+    elements = [field.shown for field in fields_of(spec) if field.name not in of_all]
     world = FakeWorld({"v": FakeBody()})
     world.driven["v"] = FakeActuators()
     place = {"topic": "u", "position": (1.0, 0.0, 0.0)} if spec is ControlSpec else {}
