@@ -2,7 +2,6 @@ import pickle
 
 import pytest
 
-from uwsim.benchmark.score import ScoreFault
 from uwsim.errors import (
     AllErrors,
     BadSetting,
@@ -13,6 +12,7 @@ from uwsim.errors import (
     UnknownName,
     UwsimError,
 )
+from uwsim.expression import ScoreFault
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ GROUND = {
     "jit",
     "linear",
     "elementwise",
+    "expression",
     "opencv",
     "optics",
     "acoustics",

@@ -14,7 +14,7 @@ from pathlib import Path
 from tests.short_benchmark import fingerprint, run, write_benchmark
 from uwsim.assets.model_cache import _make
 from uwsim.assets.stand_ins import STAND_INS
-from uwsim.benchmark.score import parse
+from uwsim.expression import parse
 
 TRACKERS = ("ecc", "esm", "orb")
 MODELS = (

@@ -28,6 +28,7 @@ from typing import Any, TypeVar
 
 from lxml import etree
 
+from .. import expression
 from ..compatibility import COMPATIBILITY
 from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
 from ..scene.variation import check_variations
@@ -43,7 +44,6 @@ from ..schema import (
     text_of,
 )
 from ..world import TIMESTEP
-from . import score
 from .element_order import check_order
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
@@ -381,8 +381,8 @@ class _Reader:
                 self.faults.add(
                     node, f"{name!r} is another column of the result; call it otherwise"
                 )
-            elif spec.name in score.CONSTANTS or spec.name in score.FUNCTIONS:
-                kind = "constant" if spec.name in score.CONSTANTS else "function"
+            elif spec.name in expression.CONSTANTS or spec.name in expression.FUNCTIONS:
+                kind = "constant" if spec.name in expression.CONSTANTS else "function"
                 self.faults.add(
                     node, f"{name!r} is a {kind} of the language of scores; call it otherwise"
                 )
@@ -398,8 +398,8 @@ class _Reader:
             if name.getparent() not in were_read:
                 names.append((name.text or "").strip())
         try:
-            score.parse(function.text, names)
-        except score.ScoreFault as fault:
+            expression.parse(function.text, names)
+        except expression.ScoreFault as fault:
             message = textwrap.shorten(fault.message, 300, placeholder=" ...")
             self.faults.add(
                 root.find("function"),

@@ -20,7 +20,7 @@ class FunctionSpec:
     """The ``<function>`` element: how the measures make a score."""
 
     text: str = element(text=True)
-    """An expression over the measures' names (`uwsim.benchmark.score`)."""
+    """An expression over the measures' names (`uwsim.expression`)."""
     publish_result: bool = element(default=False, attribute=True)
     """Whether results are published while it runs."""
     publish_rate: float = element(default=0.1, attribute=True, minimum=0.0)

@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
-from ..benchmark import score
+from .. import expression as expressions
 from ..results.journal import Record
 
 STATUSES = {"ok": 0.0, "lost": 1.0, "timeout": 2.0, "collision": 3.0, "algorithm error": 4.0}
@@ -40,7 +40,7 @@ class Judgement:
 class Criterion:
     """A parsed criterion."""
 
-    expression: score.Expression
+    expression: expressions.Expression
     """In the language of scores."""
     measures: tuple[str, ...]
     """The measures in it, in the order of appearance."""
@@ -73,12 +73,12 @@ def parse_criterion(text: str, measures: Collection[str]) -> Criterion:
     Raises:
         ScoreFault: it cannot be parsed, or asks for nothing that a run has.
     """
-    expression = score.parse(text, [*measures, TOTAL, STATUS, *NAMES])
+    expression = expressions.parse(text, [*measures, TOTAL, STATUS, *NAMES])
     own = tuple(name for name in expression.names if name in measures)
     asks_status = STATUS in expression.names and STATUS not in measures
     if not own and not asks_status and TOTAL not in expression.names:
         known = ", ".join([*measures, TOTAL, STATUS])
-        raise score.ScoreFault(
+        raise expressions.ScoreFault(
             text.strip(), 0, f"the criterion asks for nothing that is measured: {known}"
         )
     return Criterion(expression, own, asks_status)

@@ -41,7 +41,7 @@ from ..benchmark.measures import (
     TimeSpec,
 )
 from ..benchmark.plugin_checks import sample_of
-from ..benchmark.score import parse
+from ..expression import parse
 from ..files.file_names import file_name
 from ..results.atomic_file import write_text
 from ..results.log import TIME, Log

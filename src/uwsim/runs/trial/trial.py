@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 from ...benchmark.plugin import attribute_errors_to
 from ...benchmark.plugin_checks import check_values, parameters_of
-from ...benchmark.score import parse
 from ...benchmark.spec import MAX_TASK_DURATION
 from ...benchmark.updater_settings import benchmark_of_seed
 from ...benchmark.updaters import (
@@ -29,6 +28,7 @@ from ...benchmark.updaters import (
 )
 from ...bus import Algorithm
 from ...errors import NeverStarted, RunFailed, UwsimError
+from ...expression import parse
 from ...interrupts import is_of_user
 from ...messages import String
 from ...simulation import Calls, RendererPool, Simulation, what_broke

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from uwsim.benchmark.score import FUNCTIONS, ScoreFault, parse
+from uwsim.expression import FUNCTIONS, ScoreFault, parse
 
 
 def value(text: str, **values: float | None) -> float | None:

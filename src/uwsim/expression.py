@@ -1,4 +1,4 @@
-r"""The score: an expression over the measures of a level, in the language of muParser.
+r"""Expressions with names for numbers, in the language of muParser: scores, error rates.
 
 .. code-block:: text
 
@@ -38,8 +38,8 @@ from typing import Any
 import lark
 import numpy as np
 
-from .. import elementwise
-from ..errors import UwsimError, did_you_mean
+from . import elementwise
+from .errors import UwsimError, did_you_mean
 
 MAX_LENGTH = 4096
 MAX_DEPTH = 100
@@ -116,12 +116,12 @@ class _Step:
 
 @dataclass(frozen=True)
 class Expression:
-    """A parsed expression."""
+    """A parsed expression over named numbers."""
 
     text: str
     """As it was written."""
     names: tuple[str, ...]
-    """The measures in it, in the order of appearance."""
+    """The names in it, in the order of appearance."""
     steps: tuple[_Step, ...]
     """What is done, in postfix order."""
 
@@ -172,8 +172,13 @@ class Expression:
         return float(value)
 
 
-def parse(text: str, names: Collection[str]) -> Expression:
-    """Parse an expression over measures called ``names``.
+def parse(text: str, names: Collection[str], *, kind: str = "measure") -> Expression:
+    """Parse an expression over numbers called ``names``.
+
+    Args:
+        text: the expression.
+        names: of the numbers.
+        kind: what has these names, for error messages.
 
     Raises:
         ScoreFault: a syntax error, an unknown name or function, a wrong number of arguments, or
@@ -196,7 +201,7 @@ def parse(text: str, names: Collection[str]) -> Expression:
             raise ScoreFault(text, len(text), "the expression ends too early") from None
         column = fault.token.start_pos or 0
         raise ScoreFault(text, column, f"{str(fault.token)!r} cannot stand here") from None
-    steps, used = _compile(tree, text, tuple(names))
+    steps, used = _compile(tree, text, tuple(names), kind)
     return Expression(text, tuple(used), tuple(steps))
 
 
@@ -219,7 +224,7 @@ def _parser() -> lark.Lark:
 
 
 def _compile(
-    tree: lark.Tree[Any], text: str, names: tuple[str, ...]
+    tree: lark.Tree[Any], text: str, names: tuple[str, ...], kind: str
 ) -> tuple[list[_Step], dict[str, None]]:
     """Turn a syntax tree into steps, without recursion: chains may be thousands long."""
     steps: list[_Step] = []
@@ -235,7 +240,7 @@ def _compile(
         if node.data == "number":
             steps.append(_Step(column, 0, constant=_number(str(parts[0]), column, text)))
         elif node.data == "name":
-            steps.append(_name(str(parts[0]), column, text, names, used))
+            steps.append(_name(str(parts[0]), column, text, names, kind, used))
         else:
             operands = [part for part in parts if isinstance(part, lark.Tree)]
             tokens = [part for part in parts if isinstance(part, lark.Token)]
@@ -253,7 +258,7 @@ def _number(word: str, column: int, text: str) -> float:
 
 
 def _name(
-    name: str, column: int, text: str, names: tuple[str, ...], used: dict[str, None]
+    name: str, column: int, text: str, names: tuple[str, ...], kind: str, used: dict[str, None]
 ) -> _Step:
     if name in names:
         used[name] = None
@@ -264,7 +269,7 @@ def _name(
         raise ScoreFault(text, column, f"{name} is a function; expected {name}(...)")
     known = ", ".join(names) or "none"
     near = did_you_mean(name, [*names, *CONSTANTS])
-    raise ScoreFault(text, column, f"no measure is called {name!r}.{near} Known: {known}")
+    raise ScoreFault(text, column, f"no {kind} is called {name!r}.{near} Known: {known}")
 
 
 def _operation(kind: str, tokens: list[lark.Token], count: int, column: int, text: str) -> _Step:
