@@ -12,10 +12,11 @@ from typing import Literal
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from lxml import etree
 
 from uwsim import schema
 from uwsim.errors import FileError
-from uwsim.schema import Faults, Original, element, number, parse, read, write
+from uwsim.schema import Faults, Numbers, Original, TwoNumbers, element, number, parse, read, write
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -330,3 +331,38 @@ def test_a_file_that_was_cut_off_is_one_fault_in_whole_words(tmp_path: Path) -> 
         cut = "the file ends in the middle; it was cut off"
         if not whole[:n].rstrip().endswith(">"):
             assert fault.message == f"not well-formed XML: {cut}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class CurveSpec:
+    """A ``<curve>``: numbers in one text."""
+
+    terms: Numbers = element(default=(), minimum=0.0)
+    """Coefficients [N]."""
+    ends: TwoNumbers | None = None
+    """Least and greatest."""
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("<terms>1 2, 3</terms> <ends>-1 M_PI</ends>", ((1.0, 2.0, 3.0), (-1.0, math.pi))),
+        ("<terms/>", ((), None)),
+        ("<terms>1 x 3</terms>", "<terms> holds 'x'; expected numbers >= 0 [N]"),
+        ("<terms>1 -2</terms>", "<terms> holds '-2'; expected numbers >= 0 [N]"),
+        ("<terms>,</terms>", "<terms> holds ','; expected numbers >= 0 [N]"),
+        ("<terms>1e12</terms>", "<terms> holds '1e12'; no quantity is beyond 1e+09"),
+        ("<ends>1 2 3</ends>", "<ends> has 3 numbers; expected 2"),
+        (f"<terms>{'1 ' * 37}</terms>", "<terms> holds 37 numbers; expected 36 at most"),
+    ],
+)
+def test_numbers_stand_in_one_text(text: str, expected: object) -> None:
+    node = etree.fromstring(f"<curve>{text}</curve>")
+    faults = Faults("curve.xml")
+    spec = read(CurveSpec, node, faults)
+    assert spec is not None
+    if isinstance(expected, str):
+        assert [fault.message for fault in faults.all()] == [expected]
+        return
+    assert (spec.terms, spec.ends) == expected
+    assert read(CurveSpec, write(spec, "curve"), Faults("curve.xml")) == spec

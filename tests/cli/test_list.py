@@ -14,7 +14,8 @@ from uwsim.assets.bundled import bundled
 from uwsim.benchmark.measures import MEASURES
 from uwsim.cli import main
 from uwsim.cli.list import KINDS, first_line, head_comment, limit_in, without_title
-from uwsim.physics.vehicle_file import find_vehicle, read_vehicle
+from uwsim.physics.vehicle_file import read_vehicle
+from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.runs.tables import bundled_tables
 from uwsim.scene.unsupported import not_simulated
 from uwsim.scene.urdf_reader import read_urdf

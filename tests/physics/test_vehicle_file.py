@@ -17,7 +17,8 @@ from uwsim.physics.hydrodynamics import (
 )
 from uwsim.physics.hydrodynamics.faults import body_faults
 from uwsim.physics.hydrodynamics.spec import matrix
-from uwsim.physics.vehicle_file import VehicleError, find_vehicle, read_vehicle, vehicle_sets
+from uwsim.physics.vehicle_file import VehicleError, read_vehicle
+from uwsim.physics.vehicle_sets import find_vehicle, vehicle_sets
 from uwsim.scene.urdf_reader import read_urdf
 
 DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data"

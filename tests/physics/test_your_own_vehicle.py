@@ -11,7 +11,7 @@ import pytest
 
 from uwsim.cli.check import faults_of
 from uwsim.errors import SceneError
-from uwsim.physics.vehicle_elements import BodyElement, HydrodynamicsElement, ThrusterElement
+from uwsim.physics.hydrodynamics.spec import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics
 from uwsim.scene.reader import read_scene
 from uwsim.schema import fields_of
 from uwsim.simulation import Simulation
@@ -73,7 +73,7 @@ def test_what_the_program_of_the_page_raises_is_seen(
 
 def test_the_page_names_every_element() -> None:
     text = PAGE.read_text()
-    for element in (BodyElement, ThrusterElement, HydrodynamicsElement):
+    for element in (BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics):
         for field in fields_of(element):
             assert (
                 f"`{field.shown}`" in text

@@ -15,7 +15,8 @@ from uwsim.physics.hydrodynamics import (
     VehicleHydrodynamics,
     prepare,
 )
-from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
+from uwsim.physics.vehicle_file import read_vehicle
+from uwsim.physics.vehicle_sets import vehicle_sets
 from uwsim.scene.urdf_reader import read_urdf
 
 FAR_BELOW = 1000.0  # a surface that nothing reaches [m]

@@ -18,7 +18,8 @@ from uwsim.physics.actuation.power import power_table
 from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
 from uwsim.physics.compile import servo_gains
 from uwsim.physics.hydrodynamics import VehicleHydrodynamics
-from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
+from uwsim.physics.vehicle_file import read_vehicle
+from uwsim.physics.vehicle_sets import vehicle_sets
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 from uwsim.topics.arm_to_ros_joint_state import ArmToROSJointStateSpec

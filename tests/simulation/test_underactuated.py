@@ -23,7 +23,8 @@ from uwsim.physics.actuation.allocation import (
 )
 from uwsim.physics.balance import balance_of
 from uwsim.physics.hydrodynamics.spec import ThrusterSpec
-from uwsim.physics.vehicle_file import find_vehicle, read_vehicle
+from uwsim.physics.vehicle_file import read_vehicle
+from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.simulation import Simulation

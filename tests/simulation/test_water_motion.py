@@ -13,7 +13,8 @@ import pytest
 from uwsim.currents import Place
 from uwsim.currents.current import Current
 from uwsim.physics.hydrodynamics import BodyHydrodynamics
-from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
+from uwsim.physics.vehicle_file import read_vehicle
+from uwsim.physics.vehicle_sets import vehicle_sets
 from uwsim.scene.reader import read_scene
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation

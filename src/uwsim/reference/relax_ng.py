@@ -174,6 +174,7 @@ def _data(node: etree._Element, field: Field, *, may_be_empty: bool = False) -> 
         return
     patterns = {
         "int": r"[+\-]?[0-9]+",
+        "numbers": rf"({NUMBER})([ ,]+({NUMBER}))*",
         "bool": "true|false|0|1" if field.xml.attribute else "0|1",
         "word": "|".join(map(re.escape, field.type)) if field.kind == "word" else "",
     }

@@ -18,6 +18,7 @@ annotation                 in the file
 ``Literal["a", "b"]``      one of these words
 ``tuple[float, x3]``       three elements, ``parts="xyz"`` (or ``rpy``, ``rgb``)
 a dataclass                an element that is filled from its own fields
+`Numbers`                  numbers in one text, separated by blanks; `TwoNumbers`: two
 ``tuple[T, ...]``          the element any number of times, or with ``item=`` one list of items
 ``tuple[Base, ...]``       with ``choice=TABLE``: an element whose children the table names
 ``T | None``               may be absent
@@ -31,7 +32,16 @@ never asked. `Faults` in strict mode also holds a file against the order of the 
 from .declaration import REQUIRED, Limits, Original, element
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
 from .faults import MAX_FAULTS, Faults
-from .grammar import FARTHEST, LARGEST, Field, camel, field_docs, fields_of
+from .grammar import (
+    FARTHEST,
+    LARGEST,
+    Field,
+    Numbers,
+    TwoNumbers,
+    camel,
+    field_docs,
+    fields_of,
+)
 from .names import NAMESPACE, advice, cut, shown_tag
 from .reading import read, read_choice, text_of
 from .values import TOKENS, number
@@ -51,7 +61,9 @@ __all__ = [
     "Faults",
     "Field",
     "Limits",
+    "Numbers",
     "Original",
+    "TwoNumbers",
     "advice",
     "camel",
     "check_head",

@@ -14,7 +14,7 @@ import types
 import typing
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import MISSING, dataclass
-from typing import Any, Literal, cast
+from typing import Annotated, Any, Literal, cast
 
 from .declaration import Xml
 from .names import NAMESPACE, local
@@ -24,11 +24,19 @@ FARTHEST = 1e6
 LARGEST = 1e9
 """Greatest number that any quantity needs, in whatever unit; larger ones are mistakes of units."""
 
+QUANTITIES = ("float", "int", "triple", "numbers")
+"""Kinds of a `Field` that limits and a unit belong to."""
+
+Numbers = Annotated[tuple[float, ...], "numbers"]
+"""Numbers in the text of one element, separated by blanks."""
+TwoNumbers = Annotated[tuple[float, float], "numbers"]
+"""Two of them."""
+
 
 _SIGNS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
     "minimum": (">=", operator.ge),
-    "maximum": ("<=", operator.le),
     "above": (">", operator.gt),
+    "maximum": ("<=", operator.le),
     "below": ("<", operator.lt),
 }
 """How each of `Limits` is written, and the comparison that it stands for."""
@@ -43,9 +51,10 @@ class Field:
     tag: str
     """Qualified name in the file."""
     kind: str
-    """str, float, int, bool, word, triple, spec, choice, or manual (read by the caller)."""
+    """str, float, int, bool, word, triple, numbers, list, spec, choice, or manual (left to the
+    caller)."""
     type: Any
-    """The scalar's type, the spec, or the words of a Literal."""
+    """The scalar's type, the spec, the words of a Literal, or how many numbers (0: any)."""
     repeated: bool
     """Whether it is a tuple of these."""
     optional: bool
@@ -73,7 +82,7 @@ class Field:
     def unit(self) -> str:
         """Its unit, from the brackets of its documentation; may be empty."""
         brackets = re.search(r"\[([^\]]+)\]", self.doc)
-        return brackets[1] if brackets and self.kind in ("float", "int", "triple") else ""
+        return brackets[1] if brackets and self.kind in QUANTITIES else ""
 
     @property
     def expected(self) -> str:
@@ -84,7 +93,8 @@ class Field:
             return f"{said}, or {parts}" if self.words else said
         if self.kind == "bool":
             return "true or false" if self.xml.attribute else "0 or 1"
-        words = {"float": "a number", "triple": "a number", "int": "a whole number"}
+        words = {"int": "a whole number", "numbers": "numbers"}
+        words |= dict.fromkeys(("float", "triple"), "a number")
         limits = [f"{sign} {limit:g}" for sign, limit, _ in self._limits()]
         said = " ".join([words.get(self.kind, "text"), *([" and ".join(limits)] if limits else [])])
         return f"{said} [{self.unit}]" if self.unit else said
@@ -114,7 +124,7 @@ def fields_of(cls: type) -> tuple[Field, ...]:
 @functools.cache
 def _fields_of(cls: Hashable) -> tuple[Field, ...]:
     assert isinstance(cls, type)
-    hints = typing.get_type_hints(cls)
+    hints = typing.get_type_hints(cls, include_extras=True)
     return tuple(
         _field(cls, field, hints[field.name])
         for field in dataclasses.fields(cls)
@@ -151,7 +161,9 @@ def _kind(hint: Any, xml: Xml) -> tuple[str, Any]:
         return "choice", xml.choice
     if typing.get_origin(hint) is Literal:
         return "word", typing.get_args(hint)
-    if typing.get_origin(hint) is tuple and typing.get_args(hint) == (float, float, float):
+    if hint in (Numbers, TwoNumbers):
+        return "numbers", 0 if hint == Numbers else 2
+    if hint == tuple[float, float, float]:
         return "triple", float
     if _is_variadic(hint) and xml.item:  # a repeated list: tuple[tuple[float, ...], ...]
         return "list", typing.get_args(hint)[0]

@@ -23,6 +23,8 @@ TOKENS = {
 }
 """What may stand in the place of a number."""
 
+MAX_NUMBERS = 36
+"""In one element: a full matrix of six rows."""
 BLANKS = " \t\n\r"
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
@@ -39,6 +41,8 @@ BAD = Bad()
 def scalar(field: Field, text: str, node: etree._Element, faults: Faults, shown: str) -> Any:
     """A scalar from its text."""
     value: Any = BAD
+    if field.kind == "numbers":
+        return numbers(field, text, node, faults, shown)
     if field.kind == "str":
         value = text
     elif field.kind in ("float", "triple"):
@@ -81,6 +85,29 @@ def scalar(field: Field, text: str, node: etree._Element, faults: Faults, shown:
             near = f" Did you mean {text.replace(',', '.')}?"
         faults.add(node, f"{shown} is {cut(text)}; expected {field.expected}.{near}".rstrip("."))
     return value
+
+
+def numbers(field: Field, text: str, node: etree._Element, faults: Faults, shown: str) -> Any:
+    """Several numbers from their text, separated by blanks; commas may stand between them."""
+    words = text.replace(",", " ").split()
+    values = [number(word) for word in words]
+    beyond = [word for word, value in zip(words, values, strict=True) if abs(value or 0) > LARGEST]
+    wrong = [
+        word for word, value in zip(words, values, strict=True)
+        if value is None or not field.allows(value)
+    ]  # fmt: skip
+    if len(words) > MAX_NUMBERS:
+        said = f"holds {len(words)} numbers; expected {MAX_NUMBERS} at most"
+    elif wrong or not words:
+        said = f"holds {cut(wrong[0] if wrong else text)}; expected {field.expected}"
+    elif beyond:
+        said = f"holds {cut(beyond[0])}; no quantity is beyond {LARGEST:g}"
+    elif field.type and len(words) != field.type:
+        said = f"has {len(words)} numbers; expected {field.type}"
+    else:
+        return tuple(values)
+    faults.add(node, f"{shown} {said}")
+    return BAD
 
 
 def number(text: str) -> float | None:

@@ -73,6 +73,8 @@ def _write_one(node: etree._Element, field: Field, value: Any) -> None:
 
 
 def _text(value: Any, *, attribute: bool = False) -> str:
+    if isinstance(value, tuple):
+        return " ".join(map(repr, value))
     if isinstance(value, bool):
         return str(value).lower() if attribute else str(int(value))
     return repr(value) if isinstance(value, float) else str(value)

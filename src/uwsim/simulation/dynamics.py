@@ -15,7 +15,8 @@ from ..currents import Place, PythonFunctionSpec
 from ..errors import Fault, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import MIN_MASS
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
-from ..physics.vehicle_file import VehicleError, find_vehicle, read_vehicle_into
+from ..physics.vehicle_file import VehicleError, read_vehicle_into
+from ..physics.vehicle_sets import find_vehicle
 from ..rng import stream
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec

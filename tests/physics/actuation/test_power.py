@@ -12,7 +12,8 @@ from uwsim.physics.actuation.power import power_table
 from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
 from uwsim.physics.hydrodynamics import ThrusterSpec, VehicleHydrodynamics, vehicle_faults
 from uwsim.physics.hydrodynamics.spec import JointDrive
-from uwsim.physics.vehicle_file import VehicleError, read_vehicle, vehicle_sets
+from uwsim.physics.vehicle_file import VehicleError, read_vehicle
+from uwsim.physics.vehicle_sets import vehicle_sets
 
 T200 = [  # thrust [kgf] and power [W] at 12 V, Blue Robotics, September 2019
     (-2.90, 204.4), (-2.34, 144.0), (-1.53, 74.4), (-0.87, 28.9),
@@ -115,7 +116,7 @@ def test_a_file_says_what_its_actuators_draw(tmp_path: Path) -> None:
     [
         (
             "<efficiency>0</efficiency>",
-            "<efficiency> is '0'; expected a number <= 1.41 and > 0 [1]",
+            "<efficiency> is '0'; expected a number > 0 and <= 1.41 [1]",
         ),
         ("<efficiency>1.5</efficiency>", "<efficiency> is '1.5'; expected a number"),
         ("<power>1 x</power>", "<power> holds 'x'; expected numbers"),
@@ -159,7 +160,7 @@ def test_faults_of_drives_made_in_python_are_said_too() -> None:
     )
     assert vehicle_faults(vehicle, ["base_link"]) == [
         "two entries for the joint 'a'; only one may be",
-        "thruster 't': efficiency is 0; expected > 0 and <= 1.41",
-        "joint 'a': efficiency is 2; expected > 0 and <= 1",
-        "joint 'a': copper loss is -1; expected >= 0",
+        "thruster 't': efficiency is 0; expected a number > 0 and <= 1.41 [1]",
+        "joint 'a': efficiency is 2; expected a number > 0 and <= 1 [1]",
+        "joint 'a': copper loss is -1; expected a number >= 0 [W/(N m)2, W/N2]",
     ]

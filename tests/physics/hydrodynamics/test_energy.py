@@ -16,7 +16,8 @@ from tests.physics.water_models import FAR_BELOW, ROBOTS, free_body, random_adde
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, VehicleHydrodynamics, prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 from uwsim.physics.hydrodynamics.spec import matrix
-from uwsim.physics.vehicle_file import read_vehicle, vehicle_sets
+from uwsim.physics.vehicle_file import read_vehicle
+from uwsim.physics.vehicle_sets import vehicle_sets
 from uwsim.scene.urdf_reader import read_urdf
 
 TAG = BodyHydrodynamics(  # a plate of steel, 10 x 10 x 0.2 cm

@@ -33,7 +33,11 @@ import math
 import numpy as np
 
 from ...geometry import Array
-from ..hydrodynamics.spec import Numbers, ThrusterSpec
+from ...schema import Numbers
+from ..hydrodynamics.spec import ThrusterSpec
+
+DEFAULT_EFFICIENCY = 0.4
+"""Of a thruster whose file says nothing [1]."""
 
 
 def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array:
@@ -50,7 +54,8 @@ def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array
     disc = math.pi * thruster.radius**2
     for row, curve in enumerate((forward, backward)):
         if curve is None:
-            table[row, 0] = 1.0 / (thruster.efficiency * math.sqrt(2.0 * density * disc))
+            efficiency = DEFAULT_EFFICIENCY if thruster.efficiency is None else thruster.efficiency
+            table[row, 0] = 1.0 / (efficiency * math.sqrt(2.0 * density * disc))
         else:
             table[row, 1 : 1 + len(curve)] = curve
     return table

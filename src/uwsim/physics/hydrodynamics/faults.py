@@ -10,14 +10,14 @@ import numpy as np
 
 from ...errors import choices, did_you_mean
 from ...geometry import Array
+from ...schema import Numbers, fields_of
 from .passivity import Kind, bearable_share, driving_motion
 from .spec import (
-    BEST_EFFICIENCY,
+    LIQUIDS,
     N_CURVE,
     SIZES,
     BodyHydrodynamics,
     JointDrive,
-    Numbers,
     ThrusterSpec,
     VehicleHydrodynamics,
     matrix,
@@ -25,15 +25,8 @@ from .spec import (
 
 LONGEST = 500.0
 """No length or place of a vehicle is beyond that of the longest ship [m]."""
-MIN_RADIUS = 0.001
-"""Of a propeller [m]."""
 MIN_INERTIA = 1e-12
 """What the engine still takes for one [kg m2]."""
-SLOWEST_ROTOR = 60.0
-"""Longest lag of a thruster [s]."""
-LIQUIDS = (100.0, 20000.0)
-"""Least and greatest density of what a vehicle may swim in: liquid hydrogen has 71, mercury 13 534
-[kg/m3]."""
 SAG = 0.02
 """A measured thrust curve, or the polynomial through it, may fall by this share of its greatest
 thrust."""
@@ -56,8 +49,6 @@ def body_faults(body: BodyHydrodynamics) -> list[str]:
             faults += _mass_faults(who, matrix(numbers))
         else:
             faults += _drag_faults(who, name, matrix(numbers))
-    if not body.volume >= 0.0:
-        faults.append(f"{who}: volume is {body.volume:g}; expected >= 0 [m3]")
     if body.shape not in SIZES:
         faults.append(
             f"{who}: shape is {body.shape!r}; expected one of {', '.join(SIZES)}."
@@ -70,15 +61,9 @@ def body_faults(body: BodyHydrodynamics) -> list[str]:
         )
     elif not body.size and body.shape != "sphere":
         faults.append(f"{who}: a {body.shape} needs its {SIZES[body.shape]} lengths (size) [m]")
-    if any(not length > 0.0 for length in body.size):
-        faults.append(f"{who}: size is {_list(body.size)}; expected lengths > 0 [m]")
-    if body.mass is not None and not body.mass > 0.0:
-        faults.append(f"{who}: mass is {body.mass:g}; expected > 0 [kg]")
     if body.inertia is not None:
         faults += _inertia_faults(who, body.inertia)
-    if not 0.0 <= body.implicitness <= 1.0:
-        faults.append(f"{who}: implicitness is {body.implicitness:g}; expected 0..1")
-    return faults
+    return faults + _beyond_limits(who, body)
 
 
 def thruster_faults(thruster: ThrusterSpec) -> list[str]:
@@ -96,25 +81,15 @@ def thruster_faults(thruster: ThrusterSpec) -> list[str]:
             )
     if thruster.power is None and thruster.power_backward is not None:
         faults.append(f"{who}: power backward is given without power")
-    if not 0.0 < thruster.efficiency <= BEST_EFFICIENCY:
-        faults.append(
-            f"{who}: efficiency is {thruster.efficiency:g}; expected > 0 and <= {BEST_EFFICIENCY:g}"
-        )
-    if not thruster.dead_zone >= 0.0:
-        faults.append(f"{who}: dead zone is {thruster.dead_zone:g}; expected >= 0")
+    if thruster.efficiency is not None and thruster.power is not None:
+        faults.append(f"{who}: <efficiency> and <power> both say what it draws; give one")
     for name in ("limits", "saturation"):
         ends = getattr(thruster, name)
         if ends is not None and not (ends[0] <= 0.0 <= ends[1] and ends[0] < ends[1]):
             faults.append(
                 f"{who}: {name} are {_list(ends)}; expected least <= 0 <= greatest, not both 0"
             )
-    if not 0.0 <= thruster.time_constant <= SLOWEST_ROTOR:
-        faults.append(
-            f"{who}: time constant is {thruster.time_constant:g}; expected >= 0 and "
-            f"<= {SLOWEST_ROTOR:g} [s]"
-        )
-    if not thruster.radius >= MIN_RADIUS:
-        faults.append(f"{who}: radius is {thruster.radius:g}; expected >= {MIN_RADIUS:g} [m]")
+    faults += _beyond_limits(who, thruster)
     if abs(thruster.torque) > 2.0 * thruster.radius > 0.0:
         faults.append(
             f"{who}: torque is {thruster.torque:g} per thrust; expected at most the propeller's "
@@ -126,13 +101,7 @@ def thruster_faults(thruster: ThrusterSpec) -> list[str]:
 def drive_faults(drive: JointDrive) -> list[str]:
     """Everything that is wrong with the numbers of a joint's drive."""
     who = f"joint {drive.name!r}"
-    if faults := _no_numbers(who, drive):
-        return faults
-    if not 0.0 < drive.efficiency <= 1.0:
-        faults.append(f"{who}: efficiency is {drive.efficiency:g}; expected > 0 and <= 1")
-    if not drive.copper_loss >= 0.0:
-        faults.append(f"{who}: copper loss is {drive.copper_loss:g}; expected >= 0")
-    return faults
+    return _no_numbers(who, drive) or _beyond_limits(who, drive)
 
 
 def density_faults(density: float) -> list[str]:
@@ -179,9 +148,7 @@ def _no_numbers(who: str, spec: BodyHydrodynamics | ThrusterSpec | JointDrive) -
     """Say what is not finite, and which lengths are beyond those of any vehicle."""
     faults = []
     for each in dataclasses.fields(spec):
-        value = getattr(spec, each.name)
-        values = value if isinstance(value, tuple) else (value,)
-        numbers = [one for one in values if isinstance(one, int | float)]
+        numbers = _numbers_of(spec, each.name)
         if not all(math.isfinite(number) for number in numbers):
             faults.append(
                 f"{who}: {_words(each.name)} is {_list(numbers)}; expected finite numbers"
@@ -192,6 +159,21 @@ def _no_numbers(who: str, spec: BodyHydrodynamics | ThrusterSpec | JointDrive) -
                 f"{LONGEST:g} (metres, not millimetres) [m]"
             )
     return faults
+
+
+def _beyond_limits(who: str, spec: BodyHydrodynamics | ThrusterSpec | JointDrive) -> list[str]:
+    """Say which numbers are beyond the limits that their fields declare."""
+    return [
+        f"{who}: {_words(field.name)} is {_list(numbers)}; expected {field.expected}"
+        for field in fields_of(type(spec))
+        if not all(map(field.allows, numbers := _numbers_of(spec, field.name)))
+    ]
+
+
+def _numbers_of(spec: BodyHydrodynamics | ThrusterSpec | JointDrive, field: str) -> list[float]:
+    value = getattr(spec, field)
+    values = value if isinstance(value, tuple) else (value,)
+    return [one for one in values if isinstance(one, int | float)]
 
 
 def _mass_faults(who: str, added: Array) -> list[str]:

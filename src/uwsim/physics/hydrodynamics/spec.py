@@ -1,4 +1,4 @@
-"""What the water does to a body, and what a thruster does, in numbers; `faults` checks them.
+"""A vehicle in water, in numbers: what its hydrodynamics file says; `faults` checks them.
 
 Every 6x6 matrix is in the literature's order (surge, sway, heave, roll, pitch, yaw) in the axes of
 the body (link) it belongs to, about its reference point. Forces oppose motion with positive
@@ -16,9 +16,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import UwsimError
+from ...schema import Numbers, TwoNumbers, element
 
 Triple = tuple[float, float, float]
-Numbers = tuple[float, ...]
 DragLaw = Literal["axes", "speed", "x", "y", "z"]
 Shape = Literal["sphere", "ellipsoid", "box", "cylinder", "shrinking-sphere"]
 
@@ -28,6 +28,14 @@ SIZES: dict[str, int] = {
 }  # fmt: skip
 """Shape -> how many lengths it has."""
 N_CURVE = 9
+"""Most coefficients of a curve."""
+MIN_RADIUS = 0.001
+"""Of a propeller [m]."""
+SLOWEST_ROTOR = 60.0
+"""Longest lag of a thruster [s]."""
+LIQUIDS = (100.0, 20000.0)
+"""Least and greatest density of what a vehicle may swim in: liquid hydrogen has 71, mercury 13 534
+[kg/m3]."""
 BEST_EFFICIENCY = 1.41
 """Of a thruster, sqrt(2): an ideal propeller in an ideal duct [1]."""
 
@@ -44,40 +52,41 @@ class BadHydrodynamics(UwsimError):
 class BodyHydrodynamics:
     """What the water does to one link or object."""
 
-    link: str
-    """The link it belongs to."""
+    link: str = element(attribute=True)
+    """The link of the URDF that it belongs to."""
     reference: Triple = ZERO
     """The point that added mass and damping are about, in the link's frame [m]."""
     added_mass: Numbers = (0.0,) * 6
-    """6 numbers (the diagonal) or 36, row by row; symmetric, positive semi-definite
-    [kg, kg m, kg m2]."""
+    """6 numbers (the diagonal) or 36, row by row: surge, sway, heave, roll, pitch, yaw; symmetric,
+    positive semi-definite [kg, kg m, kg m2]."""
     linear_damping: Numbers = (0.0,) * 6
     """6 or 36: force per relative velocity [N s/m, N s, N m s]."""
     quadratic_damping: Numbers = (0.0,) * 6
     """6 or 36: force = coefficient |v_j| v_j of the column's velocity [N s2/m2, ...]."""
-    volume: float = 0.0
+    volume: float = element(default=0.0, minimum=0.0)
     """Water displaced when fully submerged [m3]."""
     centre_of_buoyancy: Triple = ZERO
     """In the link's frame [m]."""
     shape: Shape = "sphere"
     """How it comes out of the water: volume as a function of depth and attitude. The shape
     stands at the centre of buoyancy with the link's axes; a cylinder's axis is z."""
-    size: Numbers = ()
+    size: Numbers = element(default=(), above=0.0)
     """Of the shape [m]: radius; half-axes; edges; radius and length. Without: the sphere of that
     volume. Only the submerged *fraction* is taken from the shape."""
-    mass: float | None = None
+    mass: float | None = element(default=None, above=0.0)
     """Replaces the URDF's mass [kg]."""
     centre_of_mass: Triple | None = None
     """Replaces the URDF's; in the link's frame [m]."""
     inertia: Numbers | None = None
-    """Replaces the URDF's, about the centre of mass, link's axes: xx, yy, zz, xy, xz, yz
+    """Replaces the URDF's; about the centre of mass, link's axes: xx, yy, zz, xy, xz, yz
     [kg m2]."""
     drag_law: DragLaw = "axes"
     """What the quadratic drag of 6 numbers goes with: by ``axes`` each component's own speed,
     |v_j| v_j, which for a ball would depend on how it is turned; by ``speed`` that of all three,
     |v| v, for what has no axes; about ``x``, ``y`` or ``z`` that of both components across the
-    axis, for a body of revolution. 36 numbers go by ``axes``."""
-    implicitness: float = 0.5
+    axis, for a body of revolution. 36 numbers go by ``axes``. A file without it: ``speed`` where
+    the first three numbers are equal."""
+    implicitness: float = element(default=0.5, minimum=0.0, maximum=1.0)
     """How much of the drag is taken at the end of a step: 0 explicit, 0.5 the trapezoidal rule, 1
     implicit (for light things with much drag). Not used by RK4."""
 
@@ -86,33 +95,33 @@ class BodyHydrodynamics:
 class ThrusterSpec:
     """A propeller: command in, thrust out, along its direction at its place."""
 
-    name: str
+    name: str = element(attribute=True)
     """Its name; the actuator's too."""
-    link: str
+    link: str = element(attribute=True)
     """The link it is fixed to."""
     position: Triple = ZERO
     """In the link's frame [m]."""
     direction: Triple = (1.0, 0.0, 0.0)
     """Of the force on the vehicle at a positive command, in the link's frame [1]."""
-    forward: Numbers = (1.0,)
+    forward: Numbers
     """Thrust = c1 x + c2 x^2 + ... of the command x > 0, up to nine coefficients [N]."""
     backward: Numbers | None = None
     """The same for x < 0 (thrust = -(c1 |x| + c2 x^2 + ...)); without: as forward [N]."""
-    dead_zone: float = 0.0
+    dead_zone: float = element(default=0.0, minimum=0.0)
     """Commands up to this give nothing, and the curve starts there [1]."""
-    limits: tuple[float, float] = (-1.0, 1.0)
+    limits: TwoNumbers = (-1.0, 1.0)
     """Least and greatest command [1]."""
-    saturation: tuple[float, float] | None = None
+    saturation: TwoNumbers | None = None
     """Least and greatest thrust [N]."""
-    time_constant: float = 0.0
+    time_constant: float = element(default=0.0, minimum=0.0, maximum=SLOWEST_ROTOR)
     """First-order lag between command and rotor [s]; 0 for none."""
     torque: float = 0.0
     """Torque about the direction per thrust, positive right-handed [m]."""
-    radius: float = 0.05
+    radius: float = element(default=0.05, minimum=MIN_RADIUS)
     """Of the propeller, for the loss of thrust at the surface and the power it draws [m]."""
-    efficiency: float = 0.4
-    """From the battery to the ideal propeller of that radius (`uwsim.physics.actuation.power`)
-    [1]."""
+    efficiency: float | None = element(default=None, above=0.0, maximum=BEST_EFFICIENCY)
+    """From the battery to the ideal propeller of that radius (`uwsim.physics.actuation.power`);
+    without it and without ``power``: 0.4 [1]."""
     power: Numbers | None = None
     """What it draws instead: c1 |T| + c2 |T|^2 + ... of its thrust T, up to nine [W]."""
     power_backward: Numbers | None = None
@@ -123,31 +132,33 @@ class ThrusterSpec:
 class JointDrive:
     """What the motor of a joint draws (`uwsim.physics.actuation.power`)."""
 
-    name: str
-    """Of the joint."""
-    efficiency: float = 0.6
+    name: str = element(attribute=True)
+    """The joint of the URDF."""
+    efficiency: float = element(default=0.6, above=0.0, maximum=1.0)
     """Mechanical power per electrical power, copper loss aside [1]."""
-    copper_loss: float = 0.0
-    """Power per effort squared, moving or not [W/(N m)2 or W/N2]."""
+    copper_loss: float = element(default=0.0, minimum=0.0)
+    """Power per effort squared, moving or not [W/(N m)2, W/N2]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class VehicleHydrodynamics:
     """A named set: every link and thruster of a vehicle."""
 
-    name: str
-    """As scenes call it in ``<u:dynamics>``."""
-    source: str
+    name: str = element(attribute=True)
+    """What scenes call it in ``<u:dynamics>``."""
+    source: str = ""
     """Where the numbers come from, and which are estimates."""
-    bodies: tuple[BodyHydrodynamics, ...]
-    """One a link, at most."""
-    thrusters: tuple[ThrusterSpec, ...] = ()
-    """In the order of the command vector."""
-    joints: tuple[JointDrive, ...] = ()
-    """Joints whose drives are known; any other is as `JointDrive` has it."""
-    density: float = 1000.0
+    density: float = element(default=1000.0, minimum=LIQUIDS[0], maximum=LIQUIDS[1])
     """Of the water that the numbers are for: volumes were trimmed in it [kg/m3]."""
-    files: tuple[Path, ...] = field(default=(), compare=False)
+    include: tuple[str, ...] = ()
+    """Other hydrodynamics files in its folder; what they have is added when it is read."""
+    bodies: tuple[BodyHydrodynamics, ...] = element("body", default=())
+    """One a link, at most."""
+    thrusters: tuple[ThrusterSpec, ...] = element("thruster", default=())
+    """In the order of the command vector."""
+    joints: tuple[JointDrive, ...] = element("joint", default=())
+    """Joints whose drives are known, one each, at most; any other is as `JointDrive` has it."""
+    files: tuple[Path, ...] = field(default=(), compare=False, metadata={"path": True})
     """What it was read from, the set's own file first."""
 
     def body(self, link: str) -> BodyHydrodynamics | None:

@@ -1,0 +1,51 @@
+"""Sets of hydrodynamics by name: the bundled ones, and those that lie beside a scene."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from importlib.resources import files
+from pathlib import Path
+
+from ..errors import UnknownName
+
+HEAD = 65536
+"""Bytes of a file in which its root element begins."""
+
+
+def vehicle_sets() -> dict[str, Path]:
+    """The bundled sets: name -> file."""
+    return {path.stem: path for path in sorted(bundled_folder().glob("*.xml"))}
+
+
+def find_vehicle(name: str, beside: Path | None = None) -> Path:
+    """Find the hydrodynamics file of a set: ``name.xml`` beside the scene, or a bundled one.
+
+    Raises:
+        UnknownName: there is none.
+    """
+    if beside is not None and name == Path(name).name:
+        own = beside.parent / f"{name}.xml"
+        with suppress(OSError, ValueError):  # no name of a file
+            if own.is_file():
+                return own
+    known = vehicle_sets()
+    if name not in known:
+        raise UnknownName("hydrodynamics set", name, [*_own_sets(beside), *known])
+    return known[name]
+
+
+def bundled_folder() -> Path:
+    """The folder of the bundled hydrodynamics files; ``<include>`` searches it last."""
+    return Path(str(files("uwsim"))) / "data" / "vehicles"
+
+
+def _own_sets(beside: Path | None) -> list[str]:
+    """Names of the hydrodynamics files that lie beside a scene."""
+    found = []
+    with suppress(OSError):
+        found_here = [] if beside is None else sorted(beside.parent.glob("*.xml"))
+        for path in filter(Path.is_file, found_here):
+            with path.open("rb") as file:
+                if b"<hydrodynamics" in file.read(HEAD):
+                    found.append(path.stem)
+    return found
