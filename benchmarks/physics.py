@@ -7,6 +7,8 @@ of the CIRS tank. Water on every body, 2 ms, one core. A dry engine step is the 
 callback removed. Targets: at least 60 000 steps/s in all; with water at most 1.35 times the dry
 step.
 
+The public `Simulation` in scenes that grow: see `steps.py`.
+
 Accuracy: the fall of a thin tag against DOP853, and what energy a tumbling box gains.
 
 The soak (``--soak``, minutes): 64 simulations of 30 s with random thrust, joint targets, jaws and
@@ -25,6 +27,7 @@ from statistics import median
 
 import mujoco
 import numpy as np
+import steps
 from measure import main
 from mujoco import batch
 
@@ -305,7 +308,9 @@ def accuracy() -> dict[str, object]:
 
 
 def figures() -> dict[str, object]:
-    found: dict[str, object] = {"speed": speeds(), "accuracy": accuracy()}
+    found: dict[str, object] = {
+        "speed": speeds(), "simulation": steps.rows(), "accuracy": accuracy()
+    }  # fmt: skip
     return found | {"soak": soak()} if SOAK else found
 
 

@@ -139,17 +139,17 @@ def compile_scene(
     loose: dict[str, PhysicsSpec] = {}
     for index, thing in enumerate(scene.objects):
         name = object_body(index)
+        if name not in shapes:
+            continue
         world_from_object = world_from_localized @ thing.localized_from_object
-        if name in shapes and thing.solid.is_loose:
+        if thing.solid.is_loose:
             link = loose_link(name, thing.solid, shapes[name])
             body = _add_body(spec.worldbody, name, world_from_object, link)
             body.add_freejoint(name=loose_joint(index))
             loose[name] = thing.solid
-        else:
-            _add_body(spec.worldbody, name, world_from_object, None)
-            if name in shapes:  # on the world's body the engine need not sort them every step
-                _add_shapes(spec, spec.worldbody, name, shapes[name], world_from_object)
-                _give_surface(spec, name, shapes[name], thing.solid)
+        else:  # without a body of their own they cost the engine nothing
+            _add_shapes(spec, spec.worldbody, name, shapes[name], world_from_object)
+            _give_surface(spec, name, shapes[name], thing.solid)
     for name, parts in shapes.items():
         if name in loose or not name.startswith("object/"):
             _add_shapes(spec, spec.body(name), name, parts, Pose.identity())
@@ -169,6 +169,10 @@ def compile_scene(
             f"The scene cannot be simulated: {' '.join(str(error).split())}"
         ) from error
     rebuild_world_tree(model)
+    if model.opt.integrator != mujoco.mjtIntegrator.mjINT_RK4:
+        # what never moves is then placed once, and not at every step; nothing is to fall asleep
+        model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+        model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER)
     return model
 
 

@@ -81,7 +81,14 @@ class Engine:
             for i in robots
             for link in robots[i].links
         }
-        self._objects = [ids[object_body(i)] for i in range(len(scene.objects))]
+        self._objects = {
+            i: ids[name] for i in range(len(scene.objects)) if (name := object_body(i)) in ids
+        }
+        self._fixed = {
+            i: standing_pose(scene.world_from_localized @ thing.localized_from_object)
+            for i, thing in enumerate(scene.objects)
+            if i not in self._objects
+        }
         self._warnings = self._data.warning.number
         self._velocities = self._data.qvel
         self._speeds = speeds_of(self._model)
@@ -375,11 +382,13 @@ class Engine:
 
     def object_pose(self, index: int) -> Pose:
         """Return ``world_from_object`` (before its offsets and its scale)."""
+        if index in self._fixed:
+            return self._fixed[index].copy()
         return self._body_pose(self._objects[index])
 
     def is_fixed(self, index: int) -> bool:
         """Whether an object stays where it is."""
-        return int(self._model.body_weldid[self._objects[index]]) == 0
+        return index in self._fixed
 
     def _make_autopilot(self, index: int) -> Autopilot:
         pose = self.vehicle_pose(index)
@@ -438,6 +447,14 @@ def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
     from .hydrodynamics.hydrodynamics import install
 
     return install(model)
+
+
+def standing_pose(pose: Pose) -> Pose:
+    """Return a pose as the engine has it: by way of a quaternion."""
+    rotation, quaternion = np.zeros(9), quaternion_from_rotation(pose.rotation)
+    mujoco.mju_normalize4(quaternion)
+    mujoco.mju_quat2Mat(rotation, quaternion)
+    return Pose(pose.position.copy(), rotation.reshape(3, 3))
 
 
 def _owner(name: str) -> str:

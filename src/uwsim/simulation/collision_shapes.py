@@ -11,7 +11,7 @@ a link.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -27,7 +27,7 @@ from ..scene.kinematics import link_poses
 from ..scene.spec import ObjectSpec, PhysicsSpec, SceneSpec
 from ..scene.urdf import RobotSpec, VisualSpec
 from ..scene.vehicle import VehicleSpec
-from .parts import object_model, visual_model
+from .parts import object_models, visual_model
 
 MAX_TRIANGLES = 8000
 """Of solid scenery without ``<physics>`` as it is touched: a mesh of more is simplified."""
@@ -79,10 +79,11 @@ def collision_shapes(
         data_path: folders in which files are looked for.
     """
     shapes: dict[str, tuple[Shape, ...]] = {}
+    load = object_models(scene, data_path)
     for index, physics in objects.items():
         thing = scene.objects[index]
         shapes[object_body(index)] = shapes_of(
-            _touched_model(thing, physics, scene, data_path),
+            _touched_model(thing, physics, load),
             _object_from_mesh(thing),
             physics.collision_shape_type,
             is_fixed=not physics.is_loose,
@@ -147,7 +148,7 @@ def standing_faces(
     """
     thing = scene.objects[index]
     world_from_object = scene.world_from_localized @ thing.localized_from_object
-    model = _touched_model(thing, physics, scene, data_path)
+    model = _touched_model(thing, physics, object_models(scene, data_path))
     if physics.collision_shape_type not in TRIMESHES:
         shapes = shapes_of(
             model, _object_from_mesh(thing), physics.collision_shape_type, is_fixed=True
@@ -161,13 +162,11 @@ def standing_faces(
 
 
 def _touched_model(
-    thing: ObjectSpec, physics: PhysicsSpec, scene: SceneSpec, data_path: tuple[Path, ...]
+    thing: ObjectSpec, physics: PhysicsSpec, load: Callable[[str, int | None], Model]
 ) -> Model:
     """The mesh that an object is touched as, of `MAX_TRIANGLES` at most without ``<physics>``."""
-    file = physics.collision_shape or thing.file
-    beside = Path(scene.path).parent if scene.path else None
     most = MAX_TRIANGLES if thing.physics is None else None
-    return object_model(file, scene, beside, data_path, max_triangles=most)
+    return load(physics.collision_shape or thing.file, most)
 
 
 def _object_from_mesh(thing: ObjectSpec) -> Array:

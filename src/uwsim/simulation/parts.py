@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import functools
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -68,14 +69,14 @@ def parts_of(
                         is_hidden=bool(vehicle.vr),
                     )
                 )
-    beside = Path(scene.path).parent if scene.path else None
+    load = object_models(scene, data_path)
     for index, thing in enumerate(scene.objects):
         number += 1
         parts.append(
             Part(
                 id=number,
                 name=thing.name,
-                model=_worn(object_model(thing.file, scene, beside, data_path), thing),
+                model=_worn(load(thing.file, None), thing),
                 vehicle=None,
                 link="",
                 object=index,
@@ -125,21 +126,23 @@ def visual_model(
     return (model if visual.colour is None else painted(model, visual.colour)), scale
 
 
-def object_model(
-    name: str,
-    scene: SceneSpec,
-    beside: Path | None,
-    data_path: tuple[Path, ...],
-    *,
-    max_triangles: int | None = None,
-) -> Model:
-    """Load what an object looks like; in a scene of the original a labelled box if need be.
+def object_models(
+    scene: SceneSpec, data_path: tuple[Path, ...]
+) -> Callable[[str, int | None], Model]:
+    """Return what loads the looks of objects by file and greatest number of triangles, each once.
 
-    A file of more than ``max_triangles`` is simplified to about as many.
+    A file of more triangles is simplified to about as many; one that is nowhere is a labelled box
+    in a scene of the original.
     """
-    try:
-        return load_model(name, beside=beside, data_path=data_path, max_triangles=max_triangles)
-    except AssetNotFound:
-        if not scene.is_original:
-            raise
-        return unknown_model(name)
+    beside = Path(scene.path).parent if scene.path else None
+
+    @functools.cache
+    def load(name: str, max_triangles: int | None) -> Model:
+        try:
+            return load_model(name, beside=beside, data_path=data_path, max_triangles=max_triangles)
+        except AssetNotFound:
+            if not scene.is_original:
+                raise
+            return unknown_model(name)
+
+    return load

@@ -7,6 +7,8 @@ would then be scaled for a much lighter one.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import mujoco
 import numpy as np
 
@@ -19,41 +21,54 @@ _ABOVE_ALL = 1e9  # a surface so high that everything is under water [m]
 
 
 def correct_inverse_weights(model: mujoco.MjModel) -> None:
-    """Recompute the inverse weights of ``model`` from M plus the added mass at ``qpos0``."""
+    """Recompute the inverse weights of ``model`` from M plus the added mass at ``qpos0``.
+
+    No tree of bodies has anything to do with another, so that each is inverted by itself: the time
+    grows with their number, not with its cube.
+    """
     if model.nv == 0:
         return
-    inverted = _inverse(_mass_matrix(model), model.dof_treeid)
+    first = model.tree_dofadr.tolist()
+    dofs = [slice(a, a + n) for a, n in zip(first, model.tree_dofnum.tolist(), strict=True)]
+    inverted = _inverted_masses(model, dofs)
+    diagonal = np.concatenate([np.diag(block) for block in inverted])  # (nv,)
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     mujoco.mj_tendon(model, data)
     for joint in range(model.njnt):
-        first = model.jnt_dofadr[joint]
+        first_dof = model.jnt_dofadr[joint]
         n_parts = {_FREE: 2, _BALL: 1}.get(int(model.jnt_type[joint]), 0)
         if n_parts == 0:
-            model.dof_invweight0[first] = inverted[first, first]
+            model.dof_invweight0[first_dof] = diagonal[first_dof]
             continue
         for part in range(n_parts):
-            dofs = slice(first + 3 * part, first + 3 * part + 3)
-            model.dof_invweight0[dofs] = np.diag(inverted)[dofs].mean()
+            three = slice(first_dof + 3 * part, first_dof + 3 * part + 3)
+            model.dof_invweight0[three] = diagonal[three].mean()
     jacobian = np.empty((6, model.nv))
     for body in range(1, model.nbody):
         if model.body_weldid[body] == 0:
             continue
+        tree = int(model.body_treeid[body])
         mujoco.mj_jacBodyCom(model, data, jacobian[:3], jacobian[3:], body)
-        spread = np.einsum("ij,jk,ik->i", jacobian, inverted, jacobian)
+        spread = _spread(jacobian[:, dofs[tree]], inverted[tree])
         model.body_invweight0[body] = spread[:3].mean(), spread[3:].mean()
     if model.ntendon:
         rows = _tendon_jacobian(model, data)
-        model.tendon_invweight0[:] = np.einsum("ij,jk,ik->i", rows, inverted, rows)
+        parts = zip(dofs, inverted, strict=True)
+        model.tendon_invweight0[:] = sum(_spread(rows[:, own], block) for own, block in parts)
 
 
-def _mass_matrix(model: mujoco.MjModel) -> np.ndarray:
-    """M at ``qpos0`` with everything under water, without implicit drag, (nv, nv)."""
+def _spread(rows: np.ndarray, inverted: np.ndarray) -> np.ndarray:
+    """The diagonal of ``J M^-1 J^T``."""
+    return np.asarray(np.einsum("ij,jk,ik->i", rows, inverted, rows))
+
+
+def _inverted_masses(model: mujoco.MjModel, dofs: Sequence[slice]) -> list[np.ndarray]:
+    """Each tree's inverse of M at ``qpos0`` with all of it under water, without implicit drag."""
     surface, thetas = model.body_user[0, c.SURFACE], model.body_user[1:, c.THETA].copy()
     flags = model.opt.enableflags
     data = mujoco.MjData(model)
-    full = np.empty((model.nv, model.nv))
     try:
         model.body_user[0, c.SURFACE] = _ABOVE_ALL
         model.body_user[1:, c.THETA] = 0.0
@@ -62,22 +77,24 @@ def _mass_matrix(model: mujoco.MjModel) -> np.ndarray:
         mujoco.mj_fwdPosition(model, data)
         mujoco.mj_fwdVelocity(model, data)
         callback.add_water(model, data)
-        mujoco.mj_fullM(model, data, full)
     finally:
         model.body_user[0, c.SURFACE] = surface
         model.body_user[1:, c.THETA] = thetas
         model.opt.enableflags = flags
-    model.stat.meaninertia = float(np.diag(full).mean())
-    return full
+    blocks = [_block(model, data, own) for own in dofs]
+    model.stat.meaninertia = float(np.concatenate([np.diag(block) for block in blocks]).mean())
+    return [inverse(block) for block in blocks]
 
 
-def _inverse(masses: np.ndarray, trees: np.ndarray) -> np.ndarray:
-    """Invert M, in which no tree of bodies has anything to do with another."""
-    found = np.zeros_like(masses)
-    for tree in np.unique(trees):
-        dofs = np.ix_(trees == tree, trees == tree)
-        found[dofs] = inverse(masses[dofs])
-    return found
+def _block(model: mujoco.MjModel, data: mujoco.MjData, dofs: slice) -> np.ndarray:
+    """M of one tree, (n, n): MuJoCo keeps the entries on and left of the diagonal."""
+    n = dofs.stop - dofs.start
+    block = np.zeros((n, n))
+    for row in range(n):
+        first, length = model.M_rowadr[dofs.start + row], model.M_rownnz[dofs.start + row]
+        columns = model.M_colind[first : first + length] - dofs.start
+        block[row, columns] = block[columns, row] = data.M[first : first + length]
+    return block
 
 
 def _tendon_jacobian(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
