@@ -16,7 +16,7 @@ from uwsim.analysis.comparison import compare, differences, read_entries, remark
 from uwsim.analysis.comparison.page import render as render_comparison
 from uwsim.analysis.report.page import render
 from uwsim.cli.faults import one_line
-from uwsim.cli.verify import head, made_otherwise
+from uwsim.cli.verify import head
 from uwsim.errors import UwsimError
 from uwsim.results.interrupted import instead_of_a_result, resuming
 from uwsim.results.journal_check import check_rows
@@ -25,6 +25,7 @@ from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.run import Run
 from uwsim.terminal import printable
+from uwsim.verify.environment import made_otherwise
 from uwsim.verify.recorded_plan import FileOverrides, check_inputs, plan_of
 from uwsim.verify.verify import finished, verify
 

@@ -7,7 +7,9 @@ from typing import Any
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
-from uwsim.runs.run import Run, hash_inputs
+from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.prepare import hash_inputs
+from uwsim.runs.run import Run
 
 BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="esm">
   <measures>
@@ -57,16 +59,16 @@ def bench_of(
     compat: list[str] | None = None,
 ) -> Run:
     plan = make_plan(
-        str(benchmark),
-        scene=None,
-        algorithm=algorithm,
-        seed=seed,
-        repeat=repeat,
-        mode=mode,
-        levels=levels or [],
-        settings=settings or [],
-        compat=compat or [],
-        data_path=(),
+        PlanRequest(
+            benchmark=str(benchmark),
+            algorithm=algorithm,
+            seed=seed,
+            repeat=repeat,
+            mode=mode,
+            levels=levels or [],
+            settings=settings or [],
+            compat=compat or [],
+        )
     )
     inputs, renderer = hash_inputs(plan)
     return Run(plan=plan, out=out, inputs=inputs, renderer=renderer)

@@ -89,42 +89,32 @@ def bench(
     Raises:
         UwsimError: an input is wrong, or a run failed; finished rows are kept in ``out``.
     """
-    from .cli.executor import CALLBACK_LIMIT, executor_of
     from .results.directory import check as check_directory
-    from .results.inputs import without_algorithm
+    from .runs.executors.choose import CALLBACK_LIMIT, executor_of
     from .runs.executors.executor import run_all
-    from .runs.inputs_read import of_algorithm
     from .runs.make_plan import make_plan
-    from .runs.run import Run, hash_inputs
+    from .runs.plan_request import PlanRequest
+    from .runs.prepare import prepare_run
 
-    given = algorithm if isinstance(algorithm, str) or algorithm is None else None
-    plan = make_plan(
-        str(benchmark),
+    request = PlanRequest(
+        benchmark=str(benchmark),
         scene=None if scene is None else str(scene),
-        algorithm=given,
+        algorithm=algorithm if isinstance(algorithm, str) else None,
         seed=_first_of(seeds),
         repeat=len(seeds),
-        mode=None,
         levels=[f"{name}={value:g}" for name, each in (levels or {}).items() for value in each],
         settings=[f"{path}={value}" for path, value in (settings or {}).items()],
-        compat=[],
         data_path=tuple(Path(folder) for folder in data_path),
     )
+    plan = make_plan(request)
     if algorithm is not None and not isinstance(algorithm, str):
         name = f"{algorithm.__module__}:{algorithm.__qualname__}"
         plan = replace(plan, algorithm=algorithm, algorithm_name=name)
     executor = executor_of(str(workers), CALLBACK_LIMIT)
-    inputs, renderer = hash_inputs(plan)
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
         directory = Path(scratch) / "result" if out is None else Path(out)
         check_directory(directory, resume=False, overwrite=False, results=[])
-        run = Run(
-            plan=plan,
-            out=directory,
-            inputs={**without_algorithm(inputs), **of_algorithm(plan)},
-            renderer=renderer,
-        )
-        (result,) = run_all([run], executor)
+        (result,) = run_all([prepare_run(plan, directory)], executor)
     return result
 
 

@@ -21,7 +21,9 @@ from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
-from uwsim.runs.run import Run, hash_inputs
+from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.prepare import hash_inputs
+from uwsim.runs.run import Run
 from uwsim.runs.tables import bundled_tables, read_plugins
 
 PARTS = '''
@@ -166,7 +168,7 @@ def plan_of(benchmark: str, *plugins: Path, **changed: Any) -> Plan:
         "scene": None, "algorithm": None, "seed": 0, "repeat": 1, "mode": None, "levels": [],
         "settings": [], "compat": [], "data_path": (), "plugins": plugins,
     }  # fmt: skip
-    return make_plan(benchmark, **given | changed)
+    return make_plan(PlanRequest(benchmark=benchmark, **given | changed))
 
 
 @pytest.mark.slow

@@ -8,10 +8,10 @@ import pytest
 
 from tests.short_benchmark import fingerprint, write_benchmark
 from uwsim.cli import main
-from uwsim.cli.executor import executor_of
 from uwsim.errors import BadSetting
 from uwsim.results.provenance import load_provenance
 from uwsim.results.result_file import load
+from uwsim.runs.executors.choose import executor_of
 from uwsim.runs.executors.executor import SerialExecutor
 from uwsim.runs.executors.processes import ProcessExecutor
 

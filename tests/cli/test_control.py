@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from tests.short_benchmark import bench_of, write_benchmark
-from uwsim.cli import bench, main
-from uwsim.cli.bench import control_of
+from uwsim.cli import main
+from uwsim.runs import control
+from uwsim.runs.control import control_of, image_topic
 from uwsim.runs.run import Run
 
 SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
@@ -28,7 +29,7 @@ def test_the_control_waits_for_images_of_the_camera_of_the_truth(
     benchmark = write_benchmark(tmp_path, "0.2")
     benchmark.write_text(benchmark.read_text().replace("visibility-scene.xml", "own.xml"))
     run = bench_of(benchmark, tmp_path / "out")
-    assert run.plan.told_topic == topic
+    assert image_topic(run.plan) == topic
     assert control_of(run).plan.parameters == parameters
 
 
@@ -36,11 +37,11 @@ def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def bound_to_fail(run: Run) -> Run:
-        control = control_of(run)
-        no_images = replace(control.plan, parameters={"image_topic": "/uwsim/camera1_info"})
-        return replace(control, plan=no_images)
+        found = control_of(run)
+        no_images = replace(found.plan, parameters={"image_topic": "/uwsim/camera1_info"})
+        return replace(found, plan=no_images)
 
-    monkeypatch.setattr(bench, "control_of", bound_to_fail)
+    monkeypatch.setattr(control, "control_of", bound_to_fail)
     path, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
     assert main(["bench", str(path), "--level", "fog=0", "--out", str(out)]) == 0
     said = capsys.readouterr()

@@ -20,7 +20,9 @@ from uwsim.results.provenance import save_provenance
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
-from uwsim.runs.run import Run, hash_inputs
+from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.prepare import hash_inputs
+from uwsim.runs.run import Run
 from uwsim.simulation import Simulation
 from uwsim.verify.derived import contradictions
 from uwsim.verify.differences import of_row, of_text
@@ -58,9 +60,13 @@ def played(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scene = bundled("scenes")["visibility-scene"].read_text()
     (folder / "tank.xml").write_text(scene.replace("<rate>30</rate>", "<rate>10</rate>"))
     plan = make_plan(
-        str(folder / "b.xml"), scene=None, algorithm=None, seed=3, repeat=1, mode=None, levels=[],
-        settings=["algorithm.zncc_threshold=0.4"], compat=[], data_path=(),
-    )  # fmt: skip
+        PlanRequest(
+            benchmark=str(folder / "b.xml"),
+            seed=3,
+            repeat=1,
+            settings=["algorithm.zncc_threshold=0.4"],
+        )
+    )
     inputs, renderer = hash_inputs(plan)
     run_all([Run(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)])
     return folder
@@ -324,10 +330,7 @@ def test_a_forged_total_or_value_is_found_though_units_and_result_agree(
     folder: Path, column: str, said: str
 ) -> None:
     result = load(folder / "out")
-    plan = make_plan(
-        "b.xml", scene=None, algorithm=None, seed=3, repeat=1, mode=None, levels=[], settings=[],
-        compat=[], data_path=(),
-    )  # fmt: skip
+    plan = make_plan(PlanRequest(benchmark="b.xml", seed=3, repeat=1))
     assert list(contradictions(result, plan.benchmark)) == []
     row = list(result.rows[1])
     row[result.index(column)] = "lost" if column == "status" else 9.5

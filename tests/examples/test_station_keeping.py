@@ -28,7 +28,9 @@ from uwsim.results.log import Log, load_log
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
-from uwsim.runs.run import Run, hash_inputs
+from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.prepare import hash_inputs
+from uwsim.runs.run import Run
 
 P, PI = Loop(kp=0.4), Loop(kp=0.4, ki=0.04)
 DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "benchmarks"
@@ -131,16 +133,15 @@ def play(algorithm: str, out: Path, *settings: str) -> Station:
     short.write_text(text.replace("<interval>120<", "<interval>60.2<"))
     camera = "vehicle[girona500].virtualCamera[bowtech1]"
     plan = make_plan(
-        str(short),
-        scene="currents-scene.xml",
-        algorithm=algorithm,
-        seed=1,
-        repeat=1,
-        mode=None,
-        levels=["current=0.1"],
-        settings=[f"{camera}.resw=320", f"{camera}.resh=240", *settings],
-        compat=[],
-        data_path=(),
+        PlanRequest(
+            benchmark=str(short),
+            scene="currents-scene.xml",
+            algorithm=algorithm,
+            seed=1,
+            repeat=1,
+            levels=["current=0.1"],
+            settings=[f"{camera}.resw=320", f"{camera}.resh=240", *settings],
+        )
     )
     inputs, renderer = hash_inputs(plan)
     [result] = run_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])

@@ -13,7 +13,6 @@ import pytest
 from tests.compared_results import made
 from tests.stored_rows import stored_row
 from uwsim.analysis.report.configuration import machine as shown
-from uwsim.cli.verify import made_otherwise
 from uwsim.errors import ReplayDiffers
 from uwsim.results import journal
 from uwsim.results.chosen_code import chosen_code, names_text, other_code
@@ -25,6 +24,7 @@ from uwsim.results.provenance import (
     save_beginning,
     save_provenance,
 )
+from uwsim.verify.environment import made_otherwise
 
 OLD = {"numpy": ["OLD_X86"], "OpenBLAS": ["Katmai"]}
 ELSEWHERE = "OpenBLAS Katmai there, "

@@ -20,6 +20,7 @@ from uwsim.results.inputs import differing, files_by_role, without_algorithm
 from uwsim.runs.inputs_read import inputs_of
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
+from uwsim.runs.plan_request import PlanRequest
 from uwsim.runs.run import Run
 from uwsim.simulation import Simulation
 from uwsim.verify.recorded_plan import check_inputs
@@ -118,10 +119,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def _plan(algorithm: str = "own_tracker:Tracker") -> Plan:
-    return make_plan(
-        "b.xml", scene=None, algorithm=algorithm, seed=0, repeat=1, mode=None, levels=[],
-        settings=[], compat=[], data_path=(),
-    )  # fmt: skip
+    return make_plan(PlanRequest(benchmark="b.xml", algorithm=algorithm, seed=0, repeat=1))
 
 
 def _inputs(algorithm: str = "own_tracker:Tracker") -> dict[str, object]:
@@ -141,10 +139,21 @@ def _edited(name: str, data: bytes) -> bytes:
 
 
 ASSETS = [
-    "data/drift.csv", "hull.stl", "hull.xml", "models/box.gltf", "models/gltf_buffer_0.bin",
-    "models/gltf_buffer_1.bin", "models/rock.mtl", "models/rock.obj", "models/rock.png",
-    "own_depth.py", "own_eddy.py", "rov.urdf", "small.xml", "tide.nc",
-]  # fmt: skip
+    "data/drift.csv",
+    "hull.stl",
+    "hull.xml",
+    "models/box.gltf",
+    "models/gltf_buffer_0.bin",
+    "models/gltf_buffer_1.bin",
+    "models/rock.mtl",
+    "models/rock.obj",
+    "models/rock.png",
+    "own_depth.py",
+    "own_eddy.py",
+    "rov.urdf",
+    "small.xml",
+    "tide.nc",
+]
 SOURCES = ["own_parts/__init__.py", "own_parts/filter.py", "own_parts/numbers.py", "own_tracker.py"]
 
 

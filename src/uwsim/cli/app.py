@@ -17,6 +17,7 @@ import typer
 from .. import __version__
 from .completion import words_typed
 from .faults import INTERRUPTED, exit_status, one_line
+from .option_groups import with_flat_options
 from .taught import HELP_NAMES, TaughtCommand
 
 
@@ -36,8 +37,7 @@ class Command:
     def load(self) -> Callable[..., object]:
         """Import the module and return its function."""
         module = importlib.import_module(f".{self.module}", __package__)
-        function: Callable[..., object] = getattr(module, self.function)
-        return function
+        return with_flat_options(getattr(module, self.function))
 
 
 COMMANDS: dict[str, Command] = {

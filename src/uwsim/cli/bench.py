@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,25 +14,23 @@ import typer
 from ..analysis.repeats_note import repeats_note
 from ..errors import AllErrors, BadSetting, RunFailed
 from ..files.file_names import file_names
-from ..files.input_files import InputFile, recorded
 from ..interrupts import raise_from_now_on
+from ..runs.executors.choose import n_at_once
 from ..runs.foreign_code import announce_code
 from ..runs.make_plan import make_plan, say_warnings
+from ..runs.plan_request import PlanRequest
 from ..runs.timing import Stopwatch, Timing
 from ..terminal import warn
 from .completion import algorithm_names
 from .console import Console
-from .executor import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, executor_of, n_at_once
 from .faults import running
 from .options import (
-    BenchmarkArgument,
-    CompatOption,
-    DataPathOption,
+    CodeOptions,
     ModeOption,
-    NoCodeOption,
-    PluginOption,
-    SceneOption,
-    SetOption,
+    SettingOptions,
+    TaskOptions,
+    WorkerOptions,
+    request_of,
 )
 from .progress import progress
 from .taught import INPUT, OUTPUT, RUN, in_group
@@ -44,8 +42,6 @@ if TYPE_CHECKING:
     from ..runs.plan import Plan
     from ..runs.run import Run
 
-CONTROL = "frozen"
-ALGORITHM_ERROR = "algorithm error"
 OTHER_CODE = (
     "the run was begun where libraries chose other code for the processor: {}. What is bundled "
     "gives the same bytes all the same; an algorithm or a measure of one's own may not."
@@ -55,10 +51,11 @@ UNWRAPPED = 1000
 """Columns for a reader that is a program: wide enough to leave every line whole."""
 
 
-def bench(
-    context: typer.Context,
-    benchmark: BenchmarkArgument,
-    scene: SceneOption = None,
+@dataclass(frozen=True, kw_only=True)
+class BenchOptions:
+    """What ``uwsim bench`` takes."""
+
+    task: TaskOptions
     algorithm: Annotated[
         list[str] | None,
         in_group(
@@ -70,8 +67,8 @@ def bench(
             "its result in a folder of --out.",
             autocompletion=algorithm_names,
         ),
-    ] = None,
-    mode: ModeOption = None,
+    ] = None
+    mode: ModeOption = None
     level: Annotated[
         list[str] | None,
         in_group(
@@ -80,12 +77,11 @@ def bench(
             metavar="NAME=VALUE",
             help="Only this level of the sweep, as fog=0.5; may be repeated.",
         ),
-    ] = None,
-    settings: SetOption = None,
-    compat: CompatOption = None,
+    ] = None
+    changes: SettingOptions
     seed: Annotated[
         int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of every random stream.")
-    ] = 0,
+    ] = 0
     repeat: Annotated[
         int,
         in_group(
@@ -96,23 +92,38 @@ def bench(
             help="Play K times, with seeds SEED ... SEED+K-1; a comparison of two results needs "
             "six at least.",
         ),
-    ] = 1,
-    workers: WorkersOption = "1",
-    callback_limit: CallbackLimitOption = CALLBACK_LIMIT,
+    ] = 1
+    by: WorkerOptions
     out: Annotated[
         Path | None,
         in_group(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
-    ] = None,
+    ] = None
     resume: Annotated[
         bool, in_group(OUTPUT, "--resume", help="Go on with an interrupted run in --out.")
-    ] = False,
+    ] = False
     overwrite: Annotated[
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier result in --out.")
-    ] = False,
-    plugin: PluginOption = None,
-    no_code: NoCodeOption = False,
-    data_path: DataPathOption = None,
-) -> None:
+    ] = False
+    files: CodeOptions
+
+    @property
+    def directory(self) -> Path:
+        """Where the result goes."""
+        return self.out or Path(f"{Path(self.task.benchmark).stem}.result")
+
+    def request(self, algorithm: str | None) -> PlanRequest:
+        """Return what is asked for of one algorithm."""
+        return replace(
+            request_of(self.task, self.changes, self.files),
+            algorithm=algorithm,
+            seed=self.seed,
+            repeat=self.repeat,
+            mode=self.mode,
+            levels=self.level or (),
+        )
+
+
+def bench(context: typer.Context, options: BenchOptions) -> None:
     """Play a benchmark: every level, scored; a table, logs, plots and a report come out.
 
     Written into --out: result.json (all numbers, with units, seeds and hashes), result.dat (the
@@ -120,73 +131,32 @@ def bench(
     run that was stopped goes on with --resume.
     """
     from ..results.directory import check, prepared
+    from ..runs.prepare import prepare_runs
 
     wrong, executor, folders = AllErrors(), None, []
+    how = {"resume": options.resume, "overwrite": options.overwrite}
     with wrong.kept():
-        executor = executor_of(workers, callback_limit)
+        executor = options.by.executor()
     plans: list[Plan] = []
-    for name in algorithm or (None,):
+    for name in options.algorithm or (None,):
         with wrong.kept():
-            plans.append(
-                make_plan(
-                    benchmark,
-                    scene=scene,
-                    algorithm=name,
-                    seed=seed,
-                    repeat=repeat,
-                    mode=mode,
-                    levels=level or [],
-                    settings=settings or [],
-                    compat=compat or [],
-                    data_path=tuple(data_path or ()),
-                    plugins=plugin or [],
-                    no_code=no_code,
-                )
-            )
+            plans.append(make_plan(options.request(name)))
     with wrong.kept():
-        folders = folders_of(algorithm or ())
-    directory = out or Path(f"{Path(benchmark).stem}.result")
+        folders = folders_of(options.algorithm or ())
     with wrong.kept():
-        check(directory, resume=resume, overwrite=overwrite, results=folders)
+        check(options.directory, **how, results=folders)
     wrong.check()
     assert executor is not None
 
-    from ..results.inputs import without_algorithm
-    from ..runs.run import Run, hash_inputs
-
     watch = Stopwatch()
     announce_code(plans[0].scene)
-    with recorded() as files:
-        inputs, renderer = hash_inputs(plans[0])
-    shared = without_algorithm(inputs)
+    runs = prepare_runs(plans, options.directory, folders)
     say_warnings(plans[0])
     raise_from_now_on()
-    runs = [
-        with_sources(
-            Run(plan=plan, out=directory / folder, inputs=shared, renderer=renderer), files
-        )
-        for plan, folder in zip(plans, folders or [""], strict=True)
-    ]
-    said = repeats_note(len(plans), len(plans[0].levels()), repeat)
-    if said is not None:
-        print(said, file=sys.stderr)
-    with running(), prepared(directory, resume=resume, overwrite=overwrite, results=folders):
-        run_and_finish(runs, executor, workers, watch, context.obj)
-
-
-def with_sources(run: Run, files: Sequence[InputFile]) -> Run:
-    """Return the same with the sources of its algorithm among its inputs.
-
-    Args:
-        run: its inputs are those of scene and benchmark.
-        files: the places of these.
-    """
-    from ..runs.input_watch import watchable
-    from ..runs.inputs_read import of_algorithm
-
-    with recorded() as sources:
-        inputs = {**run.inputs, **of_algorithm(run.plan)}
-    return replace(run, inputs=inputs, files=watchable([*files, *sources]))
+    if note := repeats_note(len(plans), len(plans[0].levels()), options.repeat):
+        print(note, file=sys.stderr)
+    with running(), prepared(options.directory, **how, results=folders):
+        run_and_finish(runs, executor, options.by.workers, watch, context.obj)
 
 
 def run_and_finish(
@@ -210,13 +180,15 @@ def run_and_finish(
         RunFailed: an algorithm broke in every row.
     """
     from ..results.provenance import save_beginning
+    from ..runs.control import control_of, wants_control
     from ..runs.executors.background import BackgroundProcess
+    from ..runs.failed_algorithms import refuse_if_a_process_ended, refuse_if_all_broke
 
     for run in runs:
         if said := save_beginning(command, run.out):
             warn(OTHER_CODE.format(said))
     with BackgroundProcess(load_reporter) as background:
-        controls = [control_of(run) for run in runs if wants_control(run)]
+        controls = [control_of(run) for run in runs if wants_control(run.plan)]
         if controls:
             background.ask(controls[0])
         outcome = run_with_progress(runs, executor, n_at_once(workers))
@@ -255,43 +227,6 @@ def folders_of(algorithms: Sequence[str]) -> list[str]:
     return list(file_names(algorithms, taken=FOLDERS).values())
 
 
-def wants_control(run: Run) -> bool:
-    """Whether `frozen` is played beside it."""
-    return run.plan.wants_control and run.plan.algorithm_name != CONTROL
-
-
-def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:
-    """Fail if an algorithm broke in every row; all is written by then.
-
-    Raises:
-        RunFailed: names the algorithms, and why the first row of each is as it is.
-    """
-    broke = [
-        f"{run.plan.algorithm_name} ({result.why(0, 'total')})"
-        for run, result in zip(runs, results, strict=True)
-        if result.rows and set(result.values("status")) == {ALGORITHM_ERROR}
-    ]
-    if broke:
-        raise RunFailed(f"Every row ended in {ALGORITHM_ERROR!r}: {'; '.join(broke)}.")
-
-
-def refuse_if_a_process_ended(runs: Sequence[Run], results: Sequence[Result]) -> None:
-    """Fail if an algorithm took its process with it.
-
-    Raises:
-        RunFailed: names the algorithms, and why the first such row of each is as it is.
-    """
-    from ..runs.trial.status import ended_its_process
-
-    ended = []
-    for run, result in zip(runs, results, strict=True):
-        reasons = [result.why(row, "total") or "" for row in range(len(result.rows))]
-        name = run.plan.algorithm_name
-        ended += [why for why in reasons if ended_its_process(name, why)][:1]
-    if ended:
-        raise RunFailed(f"{'; '.join(ended)}. Rows are kept; --resume tries those again.")
-
-
 def run_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> Outcome:
     """Play one benchmark, with an algorithm each, and show how far it is."""
     from ..runs.executors.executor import run_each
@@ -304,30 +239,10 @@ def run_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> 
         return run_each(runs, executor, on_level=on_level)
 
 
-def control_of(run: Run) -> Run:
-    """Return the same with `frozen`, which looks at no image, into ``control/``."""
-    from ..algorithms import load_algorithm
-    from ..algorithms.tracker_node import INPUT
-    from ..results.directory import CONTROL as FOLDER_OF_CONTROL
-    from ..results.inputs import without_algorithm
-    from ..runs.run import Run
-
-    topic, usual = run.plan.told_topic, str(INPUT["image_topic"])
-    is_usual = topic is None or topic.strip("/") == usual.strip("/")
-    plan = replace(
-        run.plan,
-        algorithm=load_algorithm(CONTROL),
-        algorithm_name=CONTROL,
-        parameters={} if topic is None or is_usual else {"image_topic": topic},
-        is_blind=True,
-    )
-    out = run.out / FOLDER_OF_CONTROL
-    inputs = without_algorithm(run.inputs)
-    return Run(plan=plan, out=out, inputs=inputs, renderer="none", files=run.files)
-
-
 def wait_for_controls(background: BackgroundProcess, controls: Sequence[Run]) -> None:
     """Wait for the control of a run; what was asked for is whole without it."""
+    from ..runs.control import CONTROL
+
     try:
         background.wait()
         for other in controls[1:]:  # the control looks at nothing: it is the same for all

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -26,8 +27,10 @@ UNWRAPPED = 1000
 """Columns for a reader that is a program: wide enough to leave every line whole."""
 
 
-def compare(
-    results: Results,
+@dataclass(frozen=True, kw_only=True)
+class CompareOptions:
+    """What is compared, and how."""
+
     measure: Annotated[
         str | None,
         in_group(
@@ -37,7 +40,7 @@ def compare(
             help="What is compared: a column of the results, as corners or corners.max; without "
             "it the score.",
         ),
-    ] = None,
+    ] = None
     baseline: Annotated[
         Path | None,
         in_group(
@@ -46,23 +49,35 @@ def compare(
             metavar="RESULT",
             help="Compare every other result with this one; without it each with each.",
         ),
-    ] = None,
+    ] = None
     higher_is_better: Annotated[
         bool,
         in_group(COMPARED, "--higher-is-better", help="More of it is better; errors are not so."),
-    ] = False,
+    ] = False
     force: Annotated[
         bool,
         in_group(
             COMPARED, "--force", help="Compare results of different experiments, with a warning."
         ),
-    ] = False,
+    ] = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaceOptions:
+    """Where the comparison goes."""
+
     out: Annotated[
         Path, in_group(OUTPUT, "--out", metavar="DIR", help="Where numbers, plots and page go.")
-    ] = Path("comparison"),
+    ] = Path("comparison")
     overwrite: Annotated[
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier comparison in --out.")
-    ] = False,
+    ] = False
+
+
+def compare(
+    results: Results,
+    options: CompareOptions,
+    place: PlaceOptions,
     as_json: JsonOption = False,
 ) -> None:
     """Say which of several results is better, by how much, and how surely.
@@ -84,11 +99,16 @@ def compare(
     from ..analysis.comparison.write import FOLDERS, OURS
     from ..results.directory import make_room
 
-    paths, place = with_baseline(each_of(results), baseline)
+    paths, baseline = with_baseline(each_of(results), options.baseline)
     comparison = compare_files(
-        paths, column=measure, baseline=place, higher_is_better=higher_is_better, force=force
+        paths,
+        column=options.measure,
+        baseline=baseline,
+        higher_is_better=options.higher_is_better,
+        force=options.force,
     )
-    make_room(out, overwrite=overwrite, ours=OURS, folders=FOLDERS)
+    out = place.out
+    make_room(out, overwrite=place.overwrite, ours=OURS, folders=FOLDERS)
     if comparison.forced:
         warning = f"warning: not of one experiment: {'; '.join(comparison.forced)}"
         print(printable(warning), file=sys.stderr)

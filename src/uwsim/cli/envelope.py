@@ -2,33 +2,32 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..envelope.directory import check_out, prepared
 from ..envelope.search_request import SearchRequest, search_request
 from ..errors import AllErrors, BadSetting
-from ..files.input_files import recorded
 from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code
-from ..runs.make_plan import chosen_level, make_plan, say_warnings
+from ..runs.make_plan import make_plan, say_warnings
+from ..runs.option_values import chosen_level
+from ..runs.plan_request import PlanRequest
 from ..runs.timing import Stopwatch
 from ..terminal import printable, warn
 from .bench import OTHER_CODE
 from .completion import algorithm_names
-from .executor import CALLBACK_LIMIT, CallbackLimitOption, WorkersOption, executor_of, n_at_once
 from .faults import running
 from .options import (
-    BenchmarkArgument,
-    CompatOption,
-    DataPathOption,
-    NoCodeOption,
-    PluginOption,
-    SceneOption,
-    SetOption,
+    CodeOptions,
+    SettingOptions,
+    TaskOptions,
+    WorkerOptions,
+    request_of,
 )
 from .progress import progress
 from .taught import INPUT, OUTPUT, RUN, SEARCH, in_group
@@ -37,14 +36,14 @@ if TYPE_CHECKING:
     from ..envelope import Envelope
     from ..runs.executors.executor import Executor
     from ..runs.plan import Plan
-    from ..runs.run import Run
 
 MAX_REPEATS = 1000
 
 
-def envelope(
-    context: typer.Context,
-    benchmark: BenchmarkArgument,
+@dataclass(frozen=True, kw_only=True)
+class SearchOptions:
+    """What is searched for."""
+
     over: Annotated[
         str,
         in_group(
@@ -53,7 +52,7 @@ def envelope(
             metavar="PARAMETER",
             help="What grows: a swept parameter of the benchmark, as fog.",
         ),
-    ],
+    ]
     until: Annotated[
         str,
         in_group(
@@ -62,17 +61,17 @@ def envelope(
             metavar="CRITERION",
             help="When a run counts as broken, in the language of scores: corners > 5.",
         ),
-    ],
+    ]
     start: Annotated[
         float | None,
         in_group(
             SEARCH, "--from", metavar="A", help="Near end, where it holds [first of the sweep]."
         ),
-    ] = None,
+    ] = None
     stop: Annotated[
         float | None,
         in_group(SEARCH, "--to", metavar="B", help="Far end, where it breaks [last of the sweep]."),
-    ] = None,
+    ] = None
     tolerance: Annotated[
         float | None,
         in_group(
@@ -81,7 +80,7 @@ def envelope(
             metavar="T",
             help="How finely each seed is searched [1 % of the range].",
         ),
-    ] = None,
+    ] = None
     confidence: Annotated[
         float,
         in_group(
@@ -90,7 +89,7 @@ def envelope(
             metavar="C",
             help="How surely the bound shall hold the breaking point.",
         ),
-    ] = 0.95,
+    ] = 0.95
     level: Annotated[
         list[str] | None,
         in_group(
@@ -99,8 +98,23 @@ def envelope(
             metavar="NAME=VALUE",
             help="Where another swept parameter stays, as current=0.1.",
         ),
-    ] = None,
-    scene: SceneOption = None,
+    ] = None
+
+    def fixed(self, wrong: AllErrors) -> list[tuple[str, float]]:
+        """Read ``--level``; keeps each that is wrong."""
+        chosen = []
+        for text in self.level or []:
+            with wrong.kept():
+                chosen.append(chosen_level(text))
+        return chosen
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnvelopeOptions:
+    """What ``uwsim envelope`` takes."""
+
+    task: TaskOptions
+    search: SearchOptions
     algorithm: Annotated[
         str | None,
         in_group(
@@ -110,12 +124,11 @@ def envelope(
             help="What is tested; without it the one that the benchmark names.",
             autocompletion=algorithm_names,
         ),
-    ] = None,
-    settings: SetOption = None,
-    compat: CompatOption = None,
+    ] = None
+    changes: SettingOptions
     seed: Annotated[
         int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of the first search.")
-    ] = 0,
+    ] = 0
     repeat: Annotated[
         int,
         in_group(
@@ -125,23 +138,41 @@ def envelope(
             min=1,
             help="Search with K seeds, SEED ... SEED+K-1; 95 % needs six.",
         ),
-    ] = 10,
-    workers: WorkersOption = "1",
-    callback_limit: CallbackLimitOption = CALLBACK_LIMIT,
+    ] = 10
+    by: WorkerOptions
     out: Annotated[
         Path | None,
         in_group(OUTPUT, "--out", metavar="DIR", help="Where it goes [./NAME.envelope]."),
-    ] = None,
+    ] = None
     resume: Annotated[
         bool, in_group(OUTPUT, "--resume", help="Use the runs that are in --out already.")
-    ] = False,
+    ] = False
     overwrite: Annotated[
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier envelope in --out.")
-    ] = False,
-    plugin: PluginOption = None,
-    no_code: NoCodeOption = False,
-    data_path: DataPathOption = None,
-) -> None:
+    ] = False
+    files: CodeOptions
+
+    @property
+    def directory(self) -> Path:
+        """Where the envelope goes."""
+        return self.out or Path(f"{Path(self.task.benchmark).stem}.envelope")
+
+    @property
+    def seeds(self) -> tuple[int, ...]:
+        """One a search."""
+        return tuple(range(self.seed, self.seed + self.repeat))
+
+    def plan_request(self) -> PlanRequest:
+        """Return what is asked for of each run."""
+        return replace(
+            request_of(self.task, self.changes, self.files),
+            algorithm=self.algorithm,
+            seed=self.seed,
+            mode="independent",
+        )
+
+
+def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
     """Find the level at which a benchmark breaks: one number, its unit, and its bound.
 
     Each seed is searched by bisection, every level played alone (mode independent). A run is broken
@@ -157,46 +188,25 @@ def envelope(
     """
     from ..envelope import plan_for
 
-    wrong, executor, plan = AllErrors(), None, None
+    wrong, executor, plan, request = AllErrors(), None, None, None
     with wrong.kept():
-        executor = executor_of(workers, callback_limit)
+        executor = options.by.executor()
     with wrong.kept():
-        check_numbers(confidence, repeat)
+        check_numbers(options.search.confidence, options.repeat)
     with wrong.kept():
-        plan = make_plan(
-            benchmark,
-            scene=scene,
-            algorithm=algorithm,
-            seed=seed,
-            repeat=1,
-            mode="independent",
-            levels=[],
-            settings=settings or [],
-            compat=compat or [],
-            data_path=tuple(data_path or ()),
-            plugins=plugin or [],
-            no_code=no_code,
-        )
-    chosen = []
-    for text in level or []:
-        with wrong.kept():
-            chosen.append(chosen_level(text))
-    directory = out or Path(f"{Path(benchmark).stem}.envelope")
+        plan = make_plan(options.plan_request())
+    search = options.search
+    chosen = search.fixed(wrong)
     with wrong.kept():
-        check_out(directory, resume=resume, overwrite=overwrite)
-    request = None
+        check_out(options.directory, resume=options.resume, overwrite=options.overwrite)
     if plan is not None:
-        request = search_request(plan, over, until, (start, stop, tolerance), chosen, wrong)
+        ends = (search.start, search.stop, search.tolerance)
+        request = search_request(plan, search.over, search.until, ends, chosen, wrong)
     wrong.check()
     assert executor is not None
     assert plan is not None
     assert request is not None
-    seeds = tuple(range(seed, seed + repeat))
-    play(
-        plan_for(plan), directory, request, seeds, confidence=confidence, executor=executor,
-        at_once=n_at_once(workers),
-        resume=resume, overwrite=overwrite, command=context.obj,
-    )  # fmt: skip
+    search_and_write(plan_for(plan), request, executor, options, context.obj)
 
 
 def check_numbers(confidence: float, repeat: int) -> None:
@@ -207,111 +217,38 @@ def check_numbers(confidence: float, repeat: int) -> None:
         raise BadSetting(f"--repeat {repeat}: at most {MAX_REPEATS}.")
 
 
-def check_out(directory: Path, *, resume: bool, overwrite: bool) -> None:
-    """Refuse a directory that may not be written into; raises BadSetting."""
-    from ..results.directory import check_begun, check_room
-
-    if resume and overwrite:
-        raise BadSetting("--resume and --overwrite exclude each other.")
-    if resume:
-        check_begun(directory, ours=OURS, folders=FOLDERS)
-    else:
-        hint = "Use --resume to use its runs, or --overwrite to start anew."
-        check_room(directory, overwrite=overwrite, ours=OURS, folders=FOLDERS, hint=hint)
-
-
-def play(
+def search_and_write(
     plan: Plan,
-    directory: Path,
     request: SearchRequest,
-    seeds: tuple[int, ...],
-    *,
-    confidence: float,
     executor: Executor,
-    at_once: int,
-    resume: bool,
-    overwrite: bool,
+    options: EnvelopeOptions,
     command: Sequence[str],
 ) -> None:
     """Search, write and say what was found."""
-    from ..envelope import Asked, Envelope, Evaluations, strategy
+    from ..envelope.find import find, most_runs
     from ..envelope.plot import draw
-    from ..results.directory import alone_in, discard_drafts, empty
     from ..results.provenance import carried, machine, save_beginning, save_provenance
-    from ..runs.input_watch import watchable
-    from ..runs.run import Run, hash_inputs
+    from ..runs.prepare import prepare_run
 
+    directory = options.directory
     announce_code(plan.scene)
-    with recorded() as files:
-        inputs, renderer = hash_inputs(plan)
+    run = prepare_run(plan, directory)
     say_warnings(plan)
     raise_from_now_on()
-    over, where, at = request.over, request.where, request.at
     watch = Stopwatch()
-    with running(), alone_in(directory):
-        check_out(directory, resume=resume, overwrite=overwrite)
-        if not resume:
-            empty(directory)
-        discard_drafts(directory, OURS, FOLDERS)
+    asked = request.asked(options.seeds, options.search.confidence)
+    with running(), prepared(directory, resume=options.resume, overwrite=options.overwrite):
         if said := save_beginning(command, directory):
             warn(OTHER_CODE.format(said))
-        run = Run(
-            plan=plan,
-            out=directory,
-            inputs=inputs,
-            renderer=renderer,
-            files=watchable(files),
-        )
-        most = 9 + len(seeds) * (where.most_cuts() + 1)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
-        with progress(title, most, of="runs", at_once=at_once) as on_run:
-            runs = Evaluations(run, at=at, over=over, criterion=request.criterion)
-            found = runs.run(strategy(seeds, where), executor, on_run)
-        envelope = Envelope(
-            asked=Asked(
-                over=over,
-                unit=request.spec.reference_unit,
-                until=request.criterion.text,
-                fixed={name: value for name, value in at.values if name != over},
-                where=where,
-                seeds=seeds,
-                confidence=confidence,
-            ),
-            found=found,
-            evaluations=tuple(runs.made[key] for key in sorted(runs.made, key=lambda k: k[::-1])),
-            inputs=inputs,
-            run=played(run),
-        )
+        most = most_runs(asked)
+        with progress(title, most, of="runs", at_once=options.by.at_once) as on_run:
+            envelope = find(run, request, asked, executor, on_run)
         envelope.save(directory)
         draw(envelope, directory)
-        save_provenance(
-            {
-                **machine(),
-                "wall_s": watch.passed(),
-                "command": list(command),
-                **carried(directory),
-            },
-            directory,
-        )
+        how = {"wall_s": watch.passed(), "command": list(command)}
+        save_provenance({**machine(), **how, **carried(directory)}, directory)
     tell(envelope, directory)
-
-
-OURS = re.compile(
-    r"""(?x)
-    envelope\.(json|png) | provenance\.json | units/\d+\.(jsonl|part)
-  | pictures/\d+-[^/]+\.png(\.part)?
-    """
-)
-"""Files that this command writes."""
-FOLDERS = ("units", "pictures")
-
-
-def played(run: Run) -> dict[str, object]:
-    """Say what was played and with what, as results do; seeds and levels stand elsewhere."""
-    from ..runs.plan import Trial
-
-    head = run.head(Trial(index=0, repeat=0, seed=0, levels=(), is_alone=True))
-    return {k: v for k, v in head["run"].items() if k not in ("seed", "repeats", "levels")}
 
 
 def tell(envelope: Envelope, directory: Path) -> None:

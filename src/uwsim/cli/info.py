@@ -14,7 +14,7 @@ from rich.text import Text
 
 from ..assets.bundled import scene_file
 from ..errors import AllErrors
-from ..runs.make_plan import pairs_of
+from ..runs.option_values import pairs_of
 from ..terminal import printable
 from .check import faults_of
 from .console import Console

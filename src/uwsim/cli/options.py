@@ -1,14 +1,20 @@
-"""Options that several commands share, said once."""
+"""Options that several commands share: each alone, and in groups that a command takes whole."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
+from ..runs.plan_request import PlanRequest
 from .completion import benchmark_names, one_of, scene_names
-from .taught import FILES, INPUT, OUTPUT, in_group
+from .taught import FILES, INPUT, OUTPUT, RUN, in_group
+
+if TYPE_CHECKING:
+    from ..runs.executors.executor import Executor
 
 BenchmarkArgument = Annotated[
     str,
@@ -109,3 +115,86 @@ NoCodeOption = Annotated[
         "benchmark or a result) instead of running it.",
     ),
 ]
+
+WorkersOption = Annotated[
+    str,
+    in_group(
+        RUN,
+        "--workers",
+        metavar="N|ray",
+        help="Processes to use on this machine; ray: the cluster that RAY_ADDRESS names, else all "
+        "cores here; 0: this very process, as a debugger wants it, where an algorithm can do more "
+        "harm.",
+    ),
+]
+
+CallbackLimitOption = Annotated[
+    float,
+    in_group(
+        RUN,
+        "--callback-limit",
+        metavar="SECONDS",
+        help="How long the algorithm may take to return from one callback, in wall time; a row in "
+        "which it takes longer ends in 'algorithm error'. 0: for ever. Not for ray.",
+    ),
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaskOptions:
+    """What is run."""
+
+    benchmark: BenchmarkArgument
+    scene: SceneOption = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SettingOptions:
+    """What is changed in the files."""
+
+    settings: SetOption = None
+    compat: CompatOption = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class WorkerOptions:
+    """Who executes the trials."""
+
+    workers: WorkersOption = "1"
+    callback_limit: CallbackLimitOption = CALLBACK_LIMIT
+
+    def executor(self) -> Executor:
+        """Return who executes the trials; raises BadSetting, MissingExtra."""
+        return executor_of(self.workers, self.callback_limit)
+
+    @property
+    def at_once(self) -> int:
+        """How many levels are run at one time."""
+        return n_at_once(self.workers)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CodeOptions:
+    """Code and data of the user's own."""
+
+    plugin: PluginOption = None
+    no_code: NoCodeOption = False
+    data_path: DataPathOption = None
+
+    @property
+    def folders(self) -> tuple[Path, ...]:
+        """Folders in which files are looked for."""
+        return tuple(self.data_path or ())
+
+
+def request_of(task: TaskOptions, changes: SettingOptions, files: CodeOptions) -> PlanRequest:
+    """Return what these options ask for; the rest as it is without options."""
+    return PlanRequest(
+        benchmark=task.benchmark,
+        scene=task.scene,
+        settings=changes.settings or (),
+        compat=changes.compat or (),
+        data_path=files.folders,
+        plugins=files.plugin or (),
+        no_code=files.no_code,
+    )

@@ -11,7 +11,7 @@ from ..errors import AllErrors, BadSetting, UwsimError, did_you_mean
 if TYPE_CHECKING:
     from ..benchmark.updaters import Level, SceneUpdaterSpec
     from ..runs.plan import Plan
-    from . import Criterion, Range
+    from . import Asked, Criterion, Range
 
 MAX_CUTS = 30
 """A range is not cut finer than 2 to the power of minus this."""
@@ -31,6 +31,20 @@ class SearchRequest:
     """From where to where, and how finely."""
     at: Level
     """Where the other references stay."""
+
+    def asked(self, seeds: tuple[int, ...], confidence: float) -> Asked:
+        """Return the same as the envelope stores it."""
+        from . import Asked
+
+        return Asked(
+            over=self.over,
+            unit=self.spec.reference_unit,
+            until=self.criterion.text,
+            fixed={name: value for name, value in self.at.values if name != self.over},
+            where=self.where,
+            seeds=seeds,
+            confidence=confidence,
+        )
 
 
 def search_request(

@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..assets.bundled import benchmark_file, scene_file
-from ..errors import AllErrors, AssetNotFound, BadSetting, did_you_mean
+from ..errors import AllErrors, AssetNotFound, BadSetting
 from ..terminal import say_notices
 from .foreign_code import announce, refuse_code, refused
+from .option_values import (
+    compatibility_of,
+    levels_of,
+    mode_of,
+    number_or_text,
+    pairs_of,
+)
+from .plan_request import PlanRequest
 from .stand_ins import warn_of_stand_ins
 from .tables import read_plugins
 
@@ -28,101 +37,121 @@ LONGEST = 1e8
 """A benchmark that would simulate longer than this is taken for a typing error [s]."""
 
 
-def make_plan(
-    benchmark: str,
-    *,
-    scene: str | None,
-    algorithm: str | None,
-    seed: int,
-    repeat: int,
-    mode: str | None,
-    levels: list[str],
-    settings: list[str],
-    compat: list[str],
-    data_path: tuple[Path, ...],
-    plugins: Sequence[Path] = (),
-    no_code: bool = False,
-    algorithm_is_from: str = "",
-) -> Plan:
+@dataclass(frozen=True, kw_only=True)
+class _Files:
+    """What was read; None where a file could not be."""
+
+    plugins: tuple[Plugin, ...] = ()
+    tables: Tables | None = None
+    benchmark: BenchmarkSpec | None = None
+    scene: SceneSpec | None = None
+
+
+def make_plan(request: PlanRequest) -> Plan:
     """Read the files and put together what is to be played.
 
-    Code that they name is announced before it runs, or refused (``no_code``). An ``algorithm`` that
-    the user did not type is from a file: ``algorithm_is_from`` is its name.
+    Code that they name is announced before it runs, or refused.
 
     Raises:
         UwsimError: a file, a name or a setting that is wrong; or SeveralErrors, with all of them.
     """
-    from ..benchmark.updater_settings import apply_updater_setting, leads_to_updater
-    from ..scene.settings import apply_setting
     from .plan import Plan
 
     wrong = AllErrors()
-    own: tuple[Plugin, ...] = ()
-    tables: Tables | None = None
-    with wrong.kept():
-        own, tables = read_plugins(plugins)
-    path: Path | None = None
-    spec: BenchmarkSpec | None = None
-    with wrong.kept():
-        path = benchmark_file(benchmark, data_path)
-        spec = None if tables is None else benchmark_of(path, own, tables)
-    scene_spec: SceneSpec | None = None
-    with wrong.kept():
-        scene_spec = scene_of(scene, path, spec, data_path)
-    pairs = pairs_of(settings, wrong)
+    read = _read_files(request, wrong)
+    pairs = pairs_of(request.settings, wrong)
     parameters = {
         name.removeprefix(OF_ALGORITHM): number_or_text(value)
         for name, value in pairs
         if name.startswith(OF_ALGORITHM)
     }
+    read = _with_settings(read, pairs, wrong)
+    spec, scene = read.benchmark, read.scene
+    kind: type[Algorithm] | None = None
+    with wrong.kept():
+        if scene is not None and request.no_code:
+            refuse_code(scene)
+    with wrong.kept():
+        kind = _algorithm(request, read)
+    check_parameters(kind, parameters, wrong)
+    mode: Mode = "sequential"
+    with wrong.kept():
+        mode = mode_of(request.mode or (None if spec is None else spec.mode))
+    of_file = () if spec is None else spec.compatibility
+    quirks = compatibility_of([*of_file, *request.compat], wrong)
+    chosen = levels_of(request.levels, spec, wrong)
+    with wrong.kept():
+        check_length(spec, chosen, request.repeat)
+    wrong.check()
+    assert spec is not None
+    assert scene is not None
+    assert kind is not None
+    return Plan(
+        benchmark=spec,
+        scene=scene,
+        algorithm=kind,
+        algorithm_name=_wanted(request, spec),
+        parameters=parameters,
+        settings=tuple(pairs),
+        mode=mode,
+        seed=request.seed,
+        repeats=request.repeat,
+        chosen=chosen,
+        compatibility=quirks,
+        data_path=tuple(request.data_path),
+        plugins=read.plugins,
+    )
+
+
+def _read_files(request: PlanRequest, wrong: AllErrors) -> _Files:
+    """Read plugins, benchmark and scene; keeps what is wrong with them."""
+    plugins: tuple[Plugin, ...] = ()
+    tables: Tables | None = None
+    path: Path | None = None
+    spec: BenchmarkSpec | None = None
+    scene: SceneSpec | None = None
+    data_path = tuple(request.data_path)
+    with wrong.kept():
+        plugins, tables = read_plugins(request.plugins)
+    with wrong.kept():
+        path = benchmark_file(request.benchmark, data_path)
+        spec = None if tables is None else benchmark_of(path, plugins, tables)
+    with wrong.kept():
+        scene = scene_of(request.scene, path, spec, data_path)
+    return _Files(plugins=plugins, tables=tables, benchmark=spec, scene=scene)
+
+
+def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErrors) -> _Files:
+    """Apply every ``--set`` of scene and updaters; keeps each that cannot be."""
+    from ..benchmark.updater_settings import apply_updater_setting, leads_to_updater
+    from ..scene.settings import apply_setting
+
+    spec, scene = read.benchmark, read.scene
     for name, value in pairs:
         with wrong.kept():
             if name.startswith(OF_ALGORITHM):
                 continue
             if spec is not None and leads_to_updater(spec, name):
                 spec = apply_updater_setting(spec, name, value)
-            elif scene_spec is not None:
-                scene_spec = apply_setting(scene_spec, name, value)
-    kind: type[Algorithm] | None = None
-    wanted = algorithm or (None if spec is None else spec.algorithm) or ""
-    with wrong.kept():
-        if scene_spec is not None and no_code:
-            refuse_code(scene_spec)
-    with wrong.kept():
-        file = algorithm_is_from or ("" if algorithm or spec is None else spec.path)
-        if file and ":" in wanted:
-            if no_code:
-                raise refused(wanted, file)
-            announce(wanted, file)
-        kind = algorithm_of(wanted, spec, tables)
-    check_parameters(kind, parameters, wrong)
-    chosen_mode: Mode = "sequential"
-    with wrong.kept():
-        chosen_mode = mode_of(mode or (None if spec is None else spec.mode))
-    of_file = () if spec is None else spec.compatibility
-    quirks = compatibility_of([*of_file, *compat], wrong)
-    chosen = levels_of(levels, spec, wrong)
-    with wrong.kept():
-        check_length(spec, chosen, repeat)
-    wrong.check()
-    assert spec is not None
-    assert scene_spec is not None
-    assert kind is not None
-    return Plan(
-        benchmark=spec,
-        scene=scene_spec,
-        algorithm=kind,
-        algorithm_name=wanted,
-        parameters=parameters,
-        settings=tuple(pairs),
-        mode=chosen_mode,
-        seed=seed,
-        repeats=repeat,
-        chosen=chosen,
-        compatibility=quirks,
-        data_path=data_path,
-        plugins=own,
-    )
+            elif scene is not None:
+                scene = apply_setting(scene, name, value)
+    return replace(read, benchmark=spec, scene=scene)
+
+
+def _wanted(request: PlanRequest, spec: BenchmarkSpec | None) -> str:
+    """Return the name of the algorithm; empty where nobody says which."""
+    return request.algorithm or (None if spec is None else spec.algorithm) or ""
+
+
+def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
+    """Find the algorithm; a class that a file names is announced, or refused."""
+    wanted, spec = _wanted(request, read.benchmark), read.benchmark
+    file = request.algorithm_is_from or ("" if request.algorithm or spec is None else spec.path)
+    if file and ":" in wanted:
+        if request.no_code:
+            raise refused(wanted, file)
+        announce(wanted, file)
+    return algorithm_of(wanted, spec, read.tables)
 
 
 def say_warnings(plan: Plan) -> None:
@@ -175,15 +204,6 @@ def scene_of(
         raise
 
 
-def pairs_of(settings: Sequence[str], wrong: AllErrors) -> list[tuple[str, str]]:
-    """Cut every ``--set``; keeps each that cannot be."""
-    pairs = []
-    for setting in settings:
-        with wrong.kept():
-            pairs.append(split(setting, "--set"))
-    return pairs
-
-
 def algorithm_of(
     wanted: str, spec: BenchmarkSpec | None, tables: Tables | None
 ) -> type[Algorithm] | None:
@@ -220,45 +240,6 @@ def check_parameters(
                 algorithms.check_parameters(kind, {name: value})
 
 
-def mode_of(mode: str | None) -> Mode:
-    """Return how levels follow each other; raises BadSetting."""
-    if mode is None or mode == "sequential":
-        return "sequential"
-    if mode == "independent":
-        return "independent"
-    near = did_you_mean(mode, ("sequential", "independent"))
-    raise BadSetting(f"--mode is {mode!r}; expected sequential or independent.{near}")
-
-
-def compatibility_of(compat: Sequence[str], wrong: AllErrors) -> frozenset[str]:
-    """Return the quirks of ``--compat``; an unknown name goes into ``wrong``."""
-    from ..compatibility import compatibility
-
-    found: frozenset[str] = frozenset()
-    for name in [word for words in compat for word in words.replace(",", " ").split()]:
-        with wrong.kept():
-            found |= compatibility([name])
-    return found
-
-
-def levels_of(
-    texts: Sequence[str], spec: BenchmarkSpec | None, wrong: AllErrors
-) -> tuple[tuple[str, float], ...]:
-    """Read ``--level``; keeps each that is wrong, or that the sweep does not have."""
-    from ..benchmark import updaters
-    from .plan import chosen_levels
-
-    levels = () if spec is None or not texts else updaters.levels(spec.scene_updater)
-    chosen = []
-    for text in texts:
-        with wrong.kept():
-            pair = chosen_level(text)
-            if levels:
-                chosen_levels(levels, [pair])
-            chosen.append(pair)
-    return tuple(chosen)
-
-
 def check_length(
     spec: BenchmarkSpec | None, chosen: Sequence[tuple[str, float]], repeat: int
 ) -> None:
@@ -278,29 +259,3 @@ def check_length(
         raise BadSetting(
             f"The benchmark would simulate {total:.3g} s; at most {LONGEST:g} s can be asked for."
         )
-
-
-def split(setting: str, option: str) -> tuple[str, str]:
-    """Cut ``NAME=VALUE``; raises BadSetting."""
-    name, equals, value = setting.partition("=")
-    if not equals or not name.strip():
-        raise BadSetting(f"{option} {setting!r}: expected NAME=VALUE.")
-    return name.strip(), value.strip()
-
-
-def chosen_level(text: str) -> tuple[str, float]:
-    """Read ``fog=0.5``; raises BadSetting."""
-    name, value = split(text, "--level")
-    number = number_or_text(value)
-    if isinstance(number, str):
-        raise BadSetting(f"--level {text!r}: expected a number behind {name!r}.")
-    return name, number
-
-
-def number_or_text(text: str) -> float | str:
-    """Return a finite number where the text is one, else the text."""
-    try:
-        number = float(text)
-    except ValueError:
-        return text
-    return number if abs(number) < float("inf") else text

@@ -11,17 +11,15 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, Literal
 
-from ..benchmark.measures import EuclideanNormSpec
 from ..benchmark.plugin import Plugin
 from ..benchmark.spec import BenchmarkSpec
 from ..benchmark.updater_settings import updater_draws
-from ..benchmark.updaters import Level, chain
+from ..benchmark.updaters import Level
 from ..benchmark.updaters import levels as levels_of
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean
 from ..scene.spec import SceneSpec
 from ..scene.variation import Draw, draw
-from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from ..world import TIMESTEP
 
 Mode = Literal["sequential", "independent"]
@@ -97,33 +95,6 @@ class Plan:
     def is_bundled(self) -> bool:
         """Whether the algorithm is uwsim's own, and nothing runs beside it that is not."""
         return self.algorithm.__module__.startswith("uwsim.") and not self.plugins
-
-    @property
-    def wants_control(self) -> bool:
-        """Whether `frozen` is worth playing beside it: a tracker is told where its target is.
-
-        Where a current drives the vehicle the algorithm steers, and `frozen` is no control.
-        """
-        drifts = any(updater.name == "current" for updater in chain(self.benchmark.scene_updater))
-        return not drifts and any(
-            isinstance(spec, EuclideanNormSpec) and spec.ground_truth.publish_on is not None
-            for spec in self.benchmark.measures
-        )
-
-    @property
-    def told_topic(self) -> str | None:
-        """Topic of the images of the camera by which a tracker is told where its target is."""
-        told = [
-            spec.ground_truth.camera
-            for spec in self.benchmark.measures
-            if isinstance(spec, EuclideanNormSpec) and spec.ground_truth.publish_on is not None
-        ]
-        topics = {
-            interface.camera_name: interface.image_topic
-            for interface in self.scene.ros_interfaces
-            if isinstance(interface, VirtualCameraToROSImageSpec)
-        }
-        return next((topics[camera] for camera in told if camera in topics), None)
 
     @property
     def patience(self) -> float:

@@ -16,12 +16,9 @@ from pathlib import Path
 import numpy as np
 
 from .. import __version__
-from ..benchmark.plugin import attribute_errors_to, check_bound
-from ..benchmark.unknown_names import unknown_names
 from ..benchmark.updaters import chain, references
-from ..errors import BenchmarkError, UwsimError
 from ..files.file_names import file_names
-from ..files.input_files import InputFile, recorded
+from ..files.input_files import InputFile
 from ..results import journal
 from ..results.log import TIME, Log, save_log
 from ..results.result import (
@@ -36,12 +33,9 @@ from ..results.result import (
 )
 from ..results.result_file import save
 from ..results.summary import save_summary
-from ..simulation import RendererPool, Simulation
-from .inputs_read import inputs_of
 from .plan import Plan, Trial
 from .trial.floor import largest
 from .trial.status import ended_its_process, was_stopped
-from .trial.trial import bind_all
 from .uwsim_files import save_dat, save_data
 
 
@@ -54,9 +48,9 @@ class Run:
     out: Path
     """The result directory."""
     inputs: Json
-    """Names and hashes of the files read (`hash_inputs`)."""
+    """Names and hashes of the files read (`prepare`)."""
     renderer: str
-    """What draws the images (`hash_inputs`)."""
+    """What draws the images (`prepare`)."""
     files: tuple[InputFile, ...] = ()
     """Files that must not change while it is played (`watchable`)."""
     n_resumed: int = 0
@@ -310,49 +304,6 @@ def _run(plan: Plan, renderer: str) -> dict[str, object]:
         "renderer": renderer,
         "numpy": np.__version__,
     }
-
-
-def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[dict[str, object], str]:
-    """Open the scene once: hash every file that is read, and name the renderer.
-
-    Every name of the benchmark is looked up on the way, so that no name can fail later. Inside
-    `recorded` the files are told with their places.
-
-    Args:
-        plan: what will be played.
-        pool: lends the renderer; without one it is made, and closed again.
-
-    Returns:
-        The ``inputs`` of the result, and what draws the images.
-
-    Raises:
-        UwsimError: a file, a body, a camera or a service that is not there.
-    """
-    with recorded() as files:
-        simulation = Simulation(
-            plan.scene,
-            timestep=plan.timestep,
-            data_path=plan.data_path,
-            compatibility=plan.compatibility,
-            pool=pool,
-        )
-        try:
-            with attribute_errors_to(plan.plugins):
-                check_bound(plan.plugins, plan.benchmark.parts, simulation.world)
-                _bind_all(plan, simulation)
-            return inputs_of(plan, simulation, files), simulation.world.scenery.renderer_name
-        finally:
-            simulation.close()
-
-
-def _bind_all(plan: Plan, simulation: Simulation) -> None:
-    """Look up every name of the benchmark; BenchmarkError says all that are wrong."""
-    try:
-        bind_all(plan, simulation)
-    except UwsimError:
-        if faults := unknown_names(plan.benchmark, simulation.world):
-            raise BenchmarkError(faults) from None
-        raise
 
 
 def _plain(value: object) -> object:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ..assets.bundled import bundled
 from ..errors import AssetNotFound, ResultError
 from ..runs.make_plan import make_plan
+from ..runs.plan_request import PlanRequest
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -59,8 +60,8 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
     )
     is_blind = run.text("renderer") == NOT_DRAWN
     settings = [f"{name}={value}" for name, value in run.pairs("settings")]
-    plan = make_plan(
-        str(benchmark),
+    request = PlanRequest(
+        benchmark=str(benchmark),
         scene=str(scene),
         algorithm=run.text("algorithm"),
         seed=run.number("seed"),
@@ -74,7 +75,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
         no_code=overrides.no_code,
         algorithm_is_from=str(directory),
     )
-    return replace(plan, is_blind=is_blind)
+    return replace(make_plan(request), is_blind=is_blind)
 
 
 def check_inputs(recorded: Mapping[str, Any], found: Mapping[str, Any]) -> None:

@@ -21,7 +21,9 @@ from uwsim.messages import (
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
-from uwsim.runs.run import Run, hash_inputs
+from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.prepare import hash_inputs
+from uwsim.runs.run import Run
 from uwsim.runs.trial.trial import Row, execute
 
 TRACKERS = ("ecc", "esm", "ic", "orb", "ssd-esm")
@@ -108,16 +110,9 @@ def totals(algorithm: str, out: Path) -> dict[float, float | None]:
 
 def plan_of(algorithm: str, levels: list[str]) -> Plan:
     return make_plan(
-        "visibility-moving",
-        scene=None,
-        algorithm=algorithm,
-        seed=1,
-        repeat=1,
-        mode=None,
-        levels=levels,
-        settings=[],
-        compat=[],
-        data_path=(),
+        PlanRequest(
+            benchmark="visibility-moving", algorithm=algorithm, seed=1, repeat=1, levels=levels
+        )
     )
 
 

@@ -22,6 +22,7 @@ from uwsim.cli import main
 from uwsim.errors import ResultError, SeveralErrors, UwsimError
 from uwsim.results.result_file import dumps, load, loads
 from uwsim.runs.make_plan import make_plan
+from uwsim.runs.plan_request import PlanRequest
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 
@@ -29,10 +30,8 @@ BENCHMARKS = DATA / "benchmarks"
 
 
 def plan_of(name: str, *settings: str, seed: int = 1, repeat: int = 3):  # type: ignore[no-untyped-def]
-    return make_plan(
-        name, scene=None, algorithm=None, seed=seed, repeat=repeat, mode=None, levels=[],
-        settings=list(settings), compat=[], data_path=(),
-    )  # fmt: skip
+    return make_plan(PlanRequest(benchmark=name, seed=seed, repeat=repeat,
+        settings=list(settings)))  # fmt: skip
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,8 @@ from ...files.scratch import OWNER, scratch_folder
 from ...results import journal
 from ...simulation import RendererPool
 from ..plan import Trial
-from ..run import Run, hash_inputs
+from ..prepare import hash_inputs
+from ..run import Run
 from .executor import ENVIRONMENT, Job, JobQueue
 from .worker import Event, JournalWriter, TrialEnded, TrialFailed, picklable, run_trial
 

@@ -1,16 +1,15 @@
-"""Who plays a benchmark: ``--workers``."""
+"""Choosing the executor of a run: ``--workers`` and ``--callback-limit``."""
 
 from __future__ import annotations
 
 import math
 import os
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-from ..errors import BadSetting, did_you_mean
-from .taught import RUN, in_group
+from ...errors import BadSetting, did_you_mean
 
 if TYPE_CHECKING:
-    from ..runs.executors.executor import Executor
+    from .executor import Executor
 
 RAY = "ray"
 MAX_WORKERS = 1024
@@ -18,28 +17,6 @@ MAX_WORKERS = 1024
 
 CALLBACK_LIMIT = 600.0
 """How long a call into an algorithm may take, unless the user says otherwise [s]."""
-
-WorkersOption = Annotated[
-    str,
-    in_group(
-        RUN,
-        "--workers",
-        metavar="N|ray",
-        help="Processes to use on this machine; ray: the cluster that RAY_ADDRESS names, else all "
-        "cores here; 0: this very process, as a debugger wants it, where an algorithm can do more "
-        "harm.",
-    ),
-]
-CallbackLimitOption = Annotated[
-    float,
-    in_group(
-        RUN,
-        "--callback-limit",
-        metavar="SECONDS",
-        help="How long the algorithm may take to return from one callback, in wall time; a row in "
-        "which it takes longer ends in 'algorithm error'. 0: for ever. Not for ray.",
-    ),
-]
 
 
 def n_at_once(workers: str) -> int:
@@ -58,12 +35,12 @@ def executor_of(workers: str, callback_limit: float) -> Executor:
         BadSetting: neither a number nor ``ray``, or no time.
         MissingExtra: Ray is not installed.
     """
-    from ..runs.executors.executor import SerialExecutor
+    from .executor import SerialExecutor
 
     if not 0.0 <= callback_limit < math.inf:
         raise BadSetting(f"--callback-limit {callback_limit:g}: expected a time >= 0 [s].")
     if workers == RAY:
-        from ..runs.executors.ray import RayExecutor
+        from .ray import RayExecutor
 
         return RayExecutor()
     number = int(workers) if workers.isascii() and workers.isdigit() else -1
@@ -74,6 +51,6 @@ def executor_of(workers: str, callback_limit: float) -> Executor:
         )
     if number == 0:
         return SerialExecutor()
-    from ..runs.executors.processes import ProcessExecutor
+    from .processes import ProcessExecutor
 
     return ProcessExecutor(number, callback_limit=callback_limit or None)

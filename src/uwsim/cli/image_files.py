@@ -1,0 +1,54 @@
+"""The files that ``uwsim render`` writes: colours, depth, and which thing each pixel shows."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PIL import Image
+
+if TYPE_CHECKING:
+    from ..rendering.renderer import RenderedImage
+
+MILLIMETRES = 1000.0
+DEEPEST = 65535
+"""Largest value of a 16-bit depth image [mm]; what is farther has this value, nothing has 0."""
+
+
+def save(path: Path, pixels: np.ndarray) -> Path:
+    """Write an image, (h, w, 3) or (h, w); 8 or 16 bit as its array is."""
+    Image.fromarray(pixels).save(path)
+    return path
+
+
+def save_depth(out: Path, image: RenderedImage) -> list[Path]:
+    """Write the planar depth: millimetres for the eye, metres for programs."""
+    metres = image.depth  # (h, w) [m]
+    seen = np.isfinite(metres)
+    rounded = np.rint(np.where(seen, metres, 0.0) * MILLIMETRES)
+    exact = beside(out, "-depth.npy")
+    np.save(exact, metres)
+    return [
+        save(beside(out, "-depth.png"), np.minimum(rounded, DEEPEST).astype(np.uint16)),
+        exact,
+    ]
+
+
+def save_ids(out: Path, image: RenderedImage, names: dict[int, str]) -> list[Path]:
+    """Write which thing each pixel shows, and what the numbers mean."""
+    assert image.ids is not None
+    numbers, counts = np.unique(image.ids, return_counts=True)
+    legend = beside(out, "-ids.csv")
+    with legend.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["id", "name", "pixels"])
+        for number, count in zip(numbers.tolist(), counts.tolist(), strict=True):
+            table.writerow([number, names.get(number, ""), count])
+    return [save(beside(out, "-ids.png"), image.ids), legend]
+
+
+def beside(out: Path, ending: str) -> Path:
+    """``view.png`` and ``-ids.csv`` -> ``view-ids.csv``."""
+    return out.with_name(out.stem + ending)

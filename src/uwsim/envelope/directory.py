@@ -1,0 +1,42 @@
+"""The directory of an envelope: which files are its own, and whether it may be written into."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import BadSetting
+from ..results.directory import alone_in, check_begun, check_room, discard_drafts, empty
+
+OURS = re.compile(
+    r"""(?x)
+    envelope\.(json|png) | provenance\.json | units/\d+\.(jsonl|part)
+  | pictures/\d+-[^/]+\.png(\.part)?
+    """
+)
+"""Files of an envelope."""
+FOLDERS = ("units", "pictures")
+
+
+def check_out(directory: Path, *, resume: bool, overwrite: bool) -> None:
+    """Refuse a directory that may not be written into; raises BadSetting."""
+    if resume and overwrite:
+        raise BadSetting("--resume and --overwrite exclude each other.")
+    if resume:
+        check_begun(directory, ours=OURS, folders=FOLDERS)
+    else:
+        hint = "Use --resume to use its runs, or --overwrite to start anew."
+        check_room(directory, overwrite=overwrite, ours=OURS, folders=FOLDERS, hint=hint)
+
+
+@contextmanager
+def prepared(directory: Path, *, resume: bool, overwrite: bool) -> Iterator[None]:
+    """Have the directory to oneself, empty of an earlier envelope unless its runs are used."""
+    with alone_in(directory):
+        check_out(directory, resume=resume, overwrite=overwrite)
+        if not resume:
+            empty(directory)
+        discard_drafts(directory, OURS, FOLDERS)
+        yield

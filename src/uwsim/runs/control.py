@@ -1,0 +1,62 @@
+"""The control of a run: `frozen`, which looks at no image, so that a tracker can be compared."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..benchmark.measures import EuclideanNormSpec
+from ..benchmark.updaters import chain
+from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
+from .plan import Plan
+from .run import Run
+
+CONTROL = "frozen"
+"""The algorithm."""
+
+
+def wants_control(plan: Plan) -> bool:
+    """Whether `frozen` is worth running, too: a tracker is told where its target is.
+
+    Where a current drives the vehicle the algorithm steers, and `frozen` is no control.
+    """
+    drifts = any(updater.name == "current" for updater in chain(plan.benchmark.scene_updater))
+    return plan.algorithm_name != CONTROL and not drifts and bool(_cameras(plan))
+
+
+def image_topic(plan: Plan) -> str | None:
+    """Topic of the images of the camera by which a tracker is told where its target is."""
+    topics = {
+        interface.camera_name: interface.image_topic
+        for interface in plan.scene.ros_interfaces
+        if isinstance(interface, VirtualCameraToROSImageSpec)
+    }
+    return next((topics[camera] for camera in _cameras(plan) if camera in topics), None)
+
+
+def _cameras(plan: Plan) -> list[str | None]:
+    """Cameras by which a tracker is told where its target is."""
+    return [
+        spec.ground_truth.camera
+        for spec in plan.benchmark.measures
+        if isinstance(spec, EuclideanNormSpec) and spec.ground_truth.publish_on is not None
+    ]
+
+
+def control_of(run: Run) -> Run:
+    """Return the same with `frozen`, into ``control/``."""
+    from ..algorithms import load_algorithm
+    from ..algorithms.tracker_node import INPUT
+    from ..results.directory import CONTROL as FOLDER
+    from ..results.inputs import without_algorithm
+
+    topic, usual = image_topic(run.plan), str(INPUT["image_topic"])
+    is_usual = topic is None or topic.strip("/") == usual.strip("/")
+    plan = replace(
+        run.plan,
+        algorithm=load_algorithm(CONTROL),
+        algorithm_name=CONTROL,
+        parameters={} if topic is None or is_usual else {"image_topic": topic},
+        is_blind=True,
+    )
+    inputs = without_algorithm(run.inputs)
+    return Run(plan=plan, out=run.out / FOLDER, inputs=inputs, renderer="none", files=run.files)

@@ -1,0 +1,86 @@
+"""Reading the texts of options: ``NAME=VALUE``, modes, levels, names of quirks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ..errors import AllErrors, BadSetting, did_you_mean
+
+if TYPE_CHECKING:
+    from ..benchmark.spec import BenchmarkSpec
+    from .plan import Mode
+
+
+def pairs_of(settings: Sequence[str], wrong: AllErrors) -> list[tuple[str, str]]:
+    """Cut every ``--set``; keeps each that cannot be."""
+    pairs = []
+    for setting in settings:
+        with wrong.kept():
+            pairs.append(split(setting, "--set"))
+    return pairs
+
+
+def mode_of(mode: str | None) -> Mode:
+    """Return how levels follow each other; raises BadSetting."""
+    if mode is None or mode == "sequential":
+        return "sequential"
+    if mode == "independent":
+        return "independent"
+    near = did_you_mean(mode, ("sequential", "independent"))
+    raise BadSetting(f"--mode is {mode!r}; expected sequential or independent.{near}")
+
+
+def compatibility_of(compat: Sequence[str], wrong: AllErrors) -> frozenset[str]:
+    """Return the quirks of ``--compat``; an unknown name goes into ``wrong``."""
+    from ..compatibility import compatibility
+
+    found: frozenset[str] = frozenset()
+    for name in [word for words in compat for word in words.replace(",", " ").split()]:
+        with wrong.kept():
+            found |= compatibility([name])
+    return found
+
+
+def levels_of(
+    texts: Sequence[str], spec: BenchmarkSpec | None, wrong: AllErrors
+) -> tuple[tuple[str, float], ...]:
+    """Read ``--level``; keeps each that is wrong, or that the sweep does not have."""
+    from ..benchmark import updaters
+    from .plan import chosen_levels
+
+    levels = () if spec is None or not texts else updaters.levels(spec.scene_updater)
+    chosen = []
+    for text in texts:
+        with wrong.kept():
+            pair = chosen_level(text)
+            if levels:
+                chosen_levels(levels, [pair])
+            chosen.append(pair)
+    return tuple(chosen)
+
+
+def split(setting: str, option: str) -> tuple[str, str]:
+    """Cut ``NAME=VALUE``; raises BadSetting."""
+    name, equals, value = setting.partition("=")
+    if not equals or not name.strip():
+        raise BadSetting(f"{option} {setting!r}: expected NAME=VALUE.")
+    return name.strip(), value.strip()
+
+
+def chosen_level(text: str) -> tuple[str, float]:
+    """Read ``fog=0.5``; raises BadSetting."""
+    name, value = split(text, "--level")
+    number = number_or_text(value)
+    if isinstance(number, str):
+        raise BadSetting(f"--level {text!r}: expected a number behind {name!r}.")
+    return name, number
+
+
+def number_or_text(text: str) -> float | str:
+    """Return a finite number where the text is one, else the text."""
+    try:
+        number = float(text)
+    except ValueError:
+        return text
+    return number if abs(number) < float("inf") else text

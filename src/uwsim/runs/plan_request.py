@@ -1,0 +1,39 @@
+"""A request for a run: what a user asks for, as text, before any file is read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanRequest:
+    """The options of a run, as they are given to ``uwsim bench``."""
+
+    benchmark: str
+    """A benchmark file, or a bundled name."""
+    scene: str | None = None
+    """A scene file or a bundled name; without it the one that the benchmark names."""
+    algorithm: str | None = None
+    """A name or ``module:Class``; without it the one that the benchmark names."""
+    seed: int = 0
+    """Seed of the first repeat."""
+    repeat: int = 1
+    """Number of repeats."""
+    mode: str | None = None
+    """``sequential`` or ``independent``; without it what the benchmark says."""
+    levels: Sequence[str] = ()
+    """``NAME=VALUE`` of the levels to run; all without any."""
+    settings: Sequence[str] = ()
+    """``PATH=VALUE`` of each ``--set``."""
+    compat: Sequence[str] = ()
+    """Names of quirks of the original."""
+    data_path: Sequence[Path] = ()
+    """Folders in which files are looked for."""
+    plugins: Sequence[Path] = ()
+    """Files of ``--plugin``."""
+    no_code: bool = False
+    """Whether code that the files name is refused."""
+    algorithm_is_from: str = ""
+    """The file that names ``algorithm``, where the user did not."""

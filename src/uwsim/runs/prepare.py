@@ -1,0 +1,91 @@
+"""Preparing runs: every name is looked up and every file hashed before anything is executed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..benchmark.plugin import attribute_errors_to, check_bound
+from ..benchmark.unknown_names import unknown_names
+from ..errors import BenchmarkError, UwsimError
+from ..files.input_files import recorded
+from ..results.inputs import without_algorithm
+from ..simulation import RendererPool, Simulation
+from .input_watch import watchable
+from .inputs_read import inputs_of, of_algorithm
+from .plan import Plan
+from .run import Run
+from .trial.trial import bind_all
+
+
+def prepare_run(plan: Plan, out: Path) -> Run:
+    """Return the run of a plan, with its result in ``out``; raises as `hash_inputs` does."""
+    with recorded() as files:
+        inputs, renderer = hash_inputs(plan)
+    return Run(plan=plan, out=out, inputs=inputs, renderer=renderer, files=watchable(files))
+
+
+def prepare_runs(plans: Sequence[Plan], out: Path, folders: Sequence[str]) -> list[Run]:
+    """Return the runs of plans that differ in the algorithm alone; the scene is opened once.
+
+    Args:
+        plans: an algorithm each.
+        out: the result directory.
+        folders: of each algorithm's result in ``out``; none where there is one algorithm.
+
+    Raises:
+        UwsimError: as `hash_inputs` does.
+    """
+    first = prepare_run(plans[0], out)
+    shared = without_algorithm(first.inputs)
+    runs = []
+    for plan, folder in zip(plans, folders or [""], strict=True):
+        with recorded() as sources:
+            inputs = {**shared, **of_algorithm(plan)}
+        files = watchable([*first.files, *sources])
+        run = Run(plan=plan, out=out / folder, inputs=inputs, renderer=first.renderer, files=files)
+        runs.append(run)
+    return runs
+
+
+def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[dict[str, object], str]:
+    """Open the scene once: hash every file that is read, and name the renderer.
+
+    Every name of the benchmark is looked up on the way, so that no name can fail later. Inside
+    `recorded` the files are told with their places.
+
+    Args:
+        plan: what will be played.
+        pool: lends the renderer; without one it is made, and closed again.
+
+    Returns:
+        The ``inputs`` of the result, and what draws the images.
+
+    Raises:
+        UwsimError: a file, a body, a camera or a service that is not there.
+    """
+    with recorded() as files:
+        simulation = Simulation(
+            plan.scene,
+            timestep=plan.timestep,
+            data_path=plan.data_path,
+            compatibility=plan.compatibility,
+            pool=pool,
+        )
+        try:
+            with attribute_errors_to(plan.plugins):
+                check_bound(plan.plugins, plan.benchmark.parts, simulation.world)
+                _bind_all(plan, simulation)
+            return inputs_of(plan, simulation, files), simulation.world.scenery.renderer_name
+        finally:
+            simulation.close()
+
+
+def _bind_all(plan: Plan, simulation: Simulation) -> None:
+    """Look up every name of the benchmark; BenchmarkError says all that are wrong."""
+    try:
+        bind_all(plan, simulation)
+    except UwsimError:
+        if faults := unknown_names(plan.benchmark, simulation.world):
+            raise BenchmarkError(faults) from None
+        raise
