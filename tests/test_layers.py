@@ -30,13 +30,14 @@ GROUND = {
     "files",
     "terminal",
 }
-BASE = GROUND | {"world", "vehicle", "messages", "bus"}
+BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
 PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"}
 ENGINES = PARTS | {"physics", "rendering"}
 TASKS = PARTS | {"simulation", "algorithms", "statistics", "benchmark", "results"}
 
 MAY_IMPORT: dict[str, set[str]] = {
     **{room: GROUND for room in GROUND},
+    "network": GROUND | {"network"},
     "messages": BASE,
     "bus": GROUND | {"bus"},
     "world": BASE,

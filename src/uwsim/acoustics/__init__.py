@@ -1,6 +1,8 @@
-"""Sound in water: how fast it is, what the water takes, what comes back from a surface."""
+"""Sound in water: how fast it is, what the water takes, how loud the sea is, what comes back."""
 
 from .absorption import absorption
+from .ambient_noise import ambient_noise, power_sum
 from .sound_speed import sound_speed
+from .thorp import thorp_absorption
 
-__all__ = ["absorption", "sound_speed"]
+__all__ = ["absorption", "ambient_noise", "power_sum", "sound_speed", "thorp_absorption"]

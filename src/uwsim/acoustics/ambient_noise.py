@@ -1,0 +1,40 @@
+r"""Ambient noise of the sea: turbulence, ships, wind and heat, after Wenz in Coates's formulas.
+
+R. F. W. Coates, *Underwater acoustic systems*, 1990; as in M. Stojanovic, *On the relationship
+between capacity and distance in an underwater acoustic communication channel*, 2007. With f in kHz,
+shipping s from 0 to 1 and the wind speed w in m/s, in dB re 1 uPa^2/Hz,
+
+.. math::
+
+    N_t &= 17 - 30 \log f \\
+    N_s &= 40 + 20 (s - 0.5) + 26 \log f - 60 \log(f + 0.03) \\
+    N_w &= 50 + 7.5 \sqrt{w} + 20 \log f - 40 \log(f + 0.4) \\
+    N_{th} &= -15 + 20 \log f
+
+and their powers add up. Not modelled: rain, animals, the vehicle's own thrusters.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+
+def ambient_noise(frequency: float, *, shipping: float, wind_speed: float) -> float:
+    """Return the spectral level of the noise [dB re 1 uPa^2/Hz].
+
+    Args:
+        frequency: [Hz].
+        shipping: from 0, few ships, to 1 [1].
+        wind_speed: at the surface [m/s].
+    """
+    f = frequency / 1000.0
+    log_f = math.log10(f)
+    ships = 40.0 + 20.0 * (shipping - 0.5) + 26.0 * log_f - 60.0 * math.log10(f + 0.03)
+    wind = 50.0 + 7.5 * math.sqrt(wind_speed) + 20.0 * log_f - 40.0 * math.log10(f + 0.4)
+    return power_sum((17.0 - 30.0 * log_f, ships, wind, -15.0 + 20.0 * log_f))
+
+
+def power_sum(levels: Iterable[float]) -> float:
+    """Return the level of several sources together [dB]."""
+    return 10.0 * math.log10(math.fsum(10.0 ** (level / 10.0) for level in levels))

@@ -1,0 +1,36 @@
+"""A network of packets inside the process: acoustic modems and links described by delays."""
+
+from .channel import Channel, DelayChannel, Path, WaterChannel
+from .energy import EnergyModel
+from .events import NANOSECONDS, nanoseconds
+from .link_budget import AbsorptionModel, LinkBudget, bpsk_error_rate
+from .mac import Mac, mac_kind
+from .modem import Modem, ModemSettings
+from .network import Network
+from .packet import EVERYONE, Counts, Packet
+from .packet_errors import BitErrors, ErrorModel, RateErrors, Unit
+
+__all__ = [
+    "EVERYONE",
+    "NANOSECONDS",
+    "AbsorptionModel",
+    "BitErrors",
+    "Channel",
+    "Counts",
+    "DelayChannel",
+    "EnergyModel",
+    "ErrorModel",
+    "LinkBudget",
+    "Mac",
+    "Modem",
+    "ModemSettings",
+    "Network",
+    "Packet",
+    "Path",
+    "RateErrors",
+    "Unit",
+    "WaterChannel",
+    "bpsk_error_rate",
+    "mac_kind",
+    "nanoseconds",
+]

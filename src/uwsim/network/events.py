@@ -1,0 +1,47 @@
+"""What happens when: events in the order of their time, then of their rank, then as added."""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass, field
+from typing import Generic, TypeVar
+
+NANOSECONDS = 1_000_000_000
+
+T = TypeVar("T")
+
+
+def nanoseconds(time: float) -> int:
+    """Return a time [s] in nanoseconds, to the nearest."""
+    return round(time * NANOSECONDS)
+
+
+@dataclass(order=True, frozen=True)
+class _Entry(Generic[T]):
+    time: int
+    rank: int
+    number: int
+    event: T = field(compare=False)
+
+
+class EventQueue(Generic[T]):
+    """Events with integer times [ns]."""
+
+    STATE = ("_heap", "_n_added")
+    """What of it changes as time goes by."""
+
+    def __init__(self) -> None:
+        self._heap: list[_Entry[T]] = []
+        self._n_added = 0
+
+    def add(self, time: int, event: T, *, rank: int = 0) -> None:
+        """Let something happen at ``time`` [ns]; of one time the lowest rank comes first."""
+        self._n_added += 1
+        heapq.heappush(self._heap, _Entry(time, rank, self._n_added, event))
+
+    def take(self, until: int) -> tuple[int, T] | None:
+        """Take out the next event and its time, if that is not after ``until`` [ns]."""
+        if not self._heap or self._heap[0].time > until:
+            return None
+        entry = heapq.heappop(self._heap)
+        return entry.time, entry.event

@@ -1,0 +1,77 @@
+r"""The sonar equation of a link: how far the signal stands out of the noise.
+
+.. math::
+
+    TL &= L + 10 k \log_{10} r + \alpha r \\
+    SNR &= SL - TL - (NL + 10 \log_{10} B) \\
+    E_b / N_0 &= SNR \cdot B / R \\
+    P_b &= \tfrac{1}{2} \operatorname{erfc} \sqrt{E_b / N_0}
+
+with the distance r from 1 m on, the spreading k (1 cylindrical, 1.5 practical, 2 spherical), the
+absorption :math:`\alpha` of Thorp or of Francois and Garrison at the carrier, the level NL of the
+noise in 1 Hz, the bandwidth B and the bit rate R; the last line is coherent BPSK in white Gaussian
+noise (Proakis, *Digital communications*). Not modelled: multipath, fading, Doppler shift, coding.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from ..acoustics import absorption, thorp_absorption
+from .channel import Path
+
+AbsorptionModel = Literal["thorp", "francoisGarrison"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinkBudget:
+    """Levels of a link."""
+
+    source_level: float
+    """Of the sender [dB re 1 uPa at 1 m]."""
+    frequency: float
+    """Carrier [Hz]."""
+    bandwidth: float
+    """In which the receiver hears noise [Hz]."""
+    noise_level: float
+    """Of the noise in 1 Hz [dB re 1 uPa^2/Hz]."""
+    spreading: float = 2.0
+    """1 cylindrical to 2 spherical [1]."""
+    constant_loss: float = 0.0
+    """On every path [dB]."""
+    absorption: AbsorptionModel = "francoisGarrison"
+    """Whose formula."""
+    temperature: float = 10.0
+    """Of the water, for Francois and Garrison [degrees Celsius]."""
+    salinity: float = 35.0
+    """Of the water, for Francois and Garrison [g/kg]."""
+
+    def transmission_loss(self, path: Path) -> float:
+        """Return what the signal loses on its way [dB]."""
+        distance = max(path.distance, 1.0)
+        spread = 10.0 * self.spreading * math.log10(distance)
+        return self.constant_loss + spread + self._absorption(path.depth) * distance
+
+    def snr(self, path: Path) -> float:
+        """Return the signal-to-noise ratio at the receiver [dB]."""
+        noise = self.noise_level + 10.0 * math.log10(self.bandwidth)
+        return self.source_level - self.transmission_loss(path) - noise
+
+    def bit_error_rate(self, path: Path, bit_rate: float) -> float:
+        """Return how likely a bit is wrong at ``bit_rate`` [bit/s]."""
+        ratio = 10.0 ** (self.snr(path) / 10.0) * self.bandwidth / bit_rate
+        return bpsk_error_rate(ratio)
+
+    def _absorption(self, depth: float) -> float:
+        if self.absorption == "thorp":
+            return thorp_absorption(self.frequency)
+        return absorption(
+            self.frequency, temperature=self.temperature, salinity=self.salinity, depth=depth
+        )
+
+
+def bpsk_error_rate(ratio: float) -> float:
+    """Return how likely a bit of BPSK is wrong at an energy ``ratio`` Eb/N0 [1]."""
+    return 0.5 * math.erfc(math.sqrt(ratio))

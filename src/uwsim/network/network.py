@@ -1,0 +1,238 @@
+"""Packets between devices: queued, sent, on their way, received or lost.
+
+A packet occupies its channel at a receiver from the arrival of its first bit to that of its last,
+each over the distance at the moment when that bit is sent: on its way nothing moves. Times are
+whole nanoseconds. A packet is lost at a receiver
+
+- if another one arrives at any moment of its arrival (a collision, both are lost),
+- if the receiver sends at any moment of its arrival on the channel it listens to (half duplex),
+- at random, with the probability of the sender's error model.
+
+Every random number is the first of a stream of its own, named after the devices and the number of
+the packet: one device more changes nothing of what the others draw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ..errors import UnknownName
+from ..linear import length
+from .channel import Path
+from .events import EventQueue, nanoseconds
+from .modem import Modem, Waiting
+from .packet import EVERYONE, Packet, Reception
+
+
+@dataclass(frozen=True)
+class _Event:
+    kind: Literal["try", "sent"]
+    modem: int
+
+
+@dataclass(frozen=True)
+class _Arrival:
+    kind: Literal["begin", "end", "deliver"]
+    reception: Reception
+
+
+class Network:
+    """Devices and the packets between them.
+
+    Args:
+        stream: the random generator of a name.
+        surface: height of the water surface in W [m].
+    """
+
+    STATE = ("_modems", "_events", "_now")
+    """What of it changes as time goes by."""
+
+    def __init__(
+        self, stream: Callable[[str], np.random.Generator], *, surface: float = 0.0
+    ) -> None:
+        self._stream, self._surface = stream, surface
+        self._modems: list[Modem] = []
+        self._events: EventQueue[_Event | _Arrival] = EventQueue()
+        self._now = 0
+
+    @property
+    def now(self) -> int:
+        """Time up to which everything has happened [ns]."""
+        return self._now
+
+    def join(self, modem: Modem) -> Callable[[bytes, int], None]:
+        """Let a device take part; returns ``send(data, destination)``."""
+        number = len(self._modems)
+        self._modems.append(modem)
+        return lambda data, destination: self._queue(number, data, destination)
+
+    def modem(self, name: str) -> Modem:
+        """Find a device by its name; UnknownName if there is none."""
+        for modem in self._modems:
+            if modem.settings.name == name:
+                return modem
+        raise UnknownName("modem", name, [each.settings.name for each in self._modems])
+
+    def advance(self, now: int) -> None:
+        """Let everything happen up to ``now`` [ns]."""
+        if not self._modems:
+            return
+        while (due := self._events.take(now)) is not None:
+            self._now, event = due
+            self._happen(event)
+        self._now = max(self._now, now)
+
+    def _happen(self, event: _Event | _Arrival) -> None:
+        if isinstance(event, _Event):
+            (self._try if event.kind == "try" else self._sent)(event.modem)
+        elif event.kind == "begin":
+            self._begin(event.reception)
+        elif event.kind == "end":
+            self._end(event.reception)
+        else:
+            modem = self._modems[event.reception.receiver]
+            modem.counts.received += 1
+            modem.deliver(event.reception.packet, self._now)
+
+    def _queue(self, number: int, data: bytes, destination: int) -> None:
+        """Put a packet into the queue of a device, if there is room."""
+        modem = self._modems[number]
+        settings, index = modem.settings, modem.n_packets
+        modem.n_packets += 1
+        modem.counts.queued += 1
+        if modem.is_dead(self._now):
+            modem.counts.no_energy += 1
+            return
+        if modem.n_queued_bytes + len(data) > settings.queue_size:
+            modem.counts.queue_full += 1
+            return
+        packet = Packet(number=index, source=settings.address, destination=destination, data=data)
+        delay = settings.send_delay
+        if settings.send_jitter > 0.0:
+            delay += settings.send_jitter * self._draw(f"{settings.name}/{index}/send").random()
+        modem.queue.append(Waiting(packet=packet, ready=self._now + nanoseconds(delay)))
+        modem.n_queued_bytes += len(data)
+        if not modem.is_busy:
+            self._plan_next(number)
+
+    def _plan_next(self, number: int) -> None:
+        """Try to send the first packet of a device's queue as soon as it may be."""
+        modem = self._modems[number]
+        modem.is_busy = bool(modem.queue)
+        if modem.queue:
+            self._events.add(max(modem.queue[0].ready, self._now), _Event("try", number))
+
+    def _try(self, number: int) -> None:
+        """Send the first packet of the queue, or try again when the protocol says."""
+        modem = self._modems[number]
+        waiting, settings = modem.queue[0], modem.settings
+        if modem.is_dead(self._now):
+            modem.counts.no_energy += 1
+            self._drop_first(modem)
+            self._plan_next(number)
+            return
+        name = f"{settings.name}/{waiting.packet.number}/backoff/{waiting.n_tries}"
+        waiting.n_tries += 1
+        time = settings.mac.send_time(
+            self._now,
+            hears=bool(modem.arriving),
+            draw=lambda below: int(self._draw(name).integers(below)),
+        )
+        if time > self._now:
+            self._events.add(time, _Event("try", number))
+        else:
+            self._send(number, waiting.packet)
+
+    def _send(self, number: int, packet: Packet) -> None:
+        """Send a packet to all that hear the device."""
+        sender = self._modems[number]
+        settings = sender.settings
+        duration = settings.airtime(len(packet.data))
+        sender.sends_until = self._now + duration
+        sender.time_sending += duration
+        sender.counts.sent += 1
+        if settings.is_half_duplex:
+            for reception in sender.arriving:
+                reception.lost = reception.lost or "half_duplex"
+        self._events.add(sender.sends_until, _Event("sent", number))
+        sender.outgoing = [
+            self._reception(number, other, packet)
+            for other, receiver in enumerate(self._modems)
+            if other != number and receiver.settings.listens_to == settings.sends_on
+            if sender.reaches(self._path(sender, receiver))
+        ]
+        for reception in sender.outgoing:
+            self._events.add(reception.arrival, _Arrival("begin", reception), rank=1)
+
+    def _reception(self, sender: int, receiver: int, packet: Packet) -> Reception:
+        settings = self._modems[sender].settings
+        path = self._path(self._modems[sender], self._modems[receiver])
+        return Reception(
+            packet=packet,
+            sender=sender,
+            receiver=receiver,
+            arrival=self._now + nanoseconds(settings.channel.delay(path)),
+            error_probability=settings.errors.probability(path, len(packet.data)),
+        )
+
+    def _sent(self, number: int) -> None:
+        """The last bit is sent: it arrives over the distance that there is now."""
+        modem = self._modems[number]
+        for reception in modem.outgoing:
+            path = self._path(modem, self._modems[reception.receiver])
+            end = self._now + nanoseconds(modem.settings.channel.delay(path))
+            self._events.add(max(end, reception.arrival + 1), _Arrival("end", reception))
+        modem.outgoing = []
+        self._drop_first(modem)
+        self._plan_next(number)
+
+    def _drop_first(self, modem: Modem) -> None:
+        modem.n_queued_bytes -= len(modem.queue.popleft().packet.data)
+
+    def _begin(self, reception: Reception) -> None:
+        """Begin to receive a packet; what arrives already is lost with it."""
+        modem = self._modems[reception.receiver]
+        if modem.is_dead(self._now):
+            reception.lost = "no_energy"
+        elif modem.settings.is_half_duplex and modem.sends_until > self._now:
+            reception.lost = "half_duplex"
+        if modem.arriving:
+            for each in (*modem.arriving, reception):
+                each.lost = each.lost or "collisions"
+        modem.arriving.append(reception)
+
+    def _end(self, reception: Reception) -> None:
+        """Hand a packet on that has arrived, unless it is lost."""
+        modem, packet = self._modems[reception.receiver], reception.packet
+        modem.arriving = [each for each in modem.arriving if each is not reception]
+        if reception.lost != "no_energy":
+            modem.time_receiving += self._now - reception.arrival
+        sender = self._modems[reception.sender].settings.name
+        name = f"{modem.settings.name}/{sender}/{packet.number}"
+        if not reception.lost and self._is_damaged(reception, name):
+            reception.lost = "errors"
+        if reception.lost:
+            counts = modem.counts
+            setattr(counts, reception.lost, getattr(counts, reception.lost) + 1)
+        elif packet.destination in (EVERYONE, modem.settings.address):
+            delay = 0.0
+            if modem.settings.receive_jitter > 0.0:
+                delay = modem.settings.receive_jitter * self._draw(f"{name}/receive").random()
+            modem.last_delivery = max(self._now + nanoseconds(delay), modem.last_delivery)
+            self._events.add(modem.last_delivery, _Arrival("deliver", reception))
+
+    def _is_damaged(self, reception: Reception, name: str) -> bool:
+        likely = reception.error_probability
+        return likely > 0.0 and float(self._draw(f"{name}/error").random()) < likely
+
+    def _path(self, sender: Modem, receiver: Modem) -> Path:
+        a, b = sender.position(), receiver.position()
+        depth = self._surface - 0.5 * (float(a[2]) + float(b[2]))
+        return Path(distance=length(a - b), depth=max(depth, 0.0))
+
+    def _draw(self, name: str) -> np.random.Generator:
+        return self._stream(f"network/{name}")

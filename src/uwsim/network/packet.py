@@ -1,0 +1,62 @@
+"""Packets, and what becomes of them at a receiver."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+EVERYONE = -1
+"""Address of all devices that hear a packet."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Packet:
+    """Bytes on their way from one device to others."""
+
+    number: int
+    """Counts the packets of its sender, from 0."""
+    source: int
+    """Address of the sender."""
+    destination: int
+    """Address of the device it is for; `EVERYONE`."""
+    data: bytes
+    """What is sent."""
+
+
+@dataclass(kw_only=True)
+class Reception:
+    """A packet that arrives at a device."""
+
+    packet: Packet
+    """What arrives."""
+    sender: int
+    """Number of the device that sent it."""
+    receiver: int
+    """Number of the device that it arrives at."""
+    arrival: int
+    """When its first bit arrives [ns]."""
+    error_probability: float
+    """How likely it is damaged by noise [1]."""
+    lost: str = ""
+    """Why it is lost, as `Counts` calls it; empty while it is not."""
+
+
+@dataclass(kw_only=True)
+class Counts:
+    """What became of the packets of a device."""
+
+    queued: int = 0
+    """Handed over to be sent."""
+    sent: int = 0
+    """Sent."""
+    received: int = 0
+    """Received and handed on."""
+    queue_full: int = 0
+    """Not sent: the transmit queue was full."""
+    no_energy: int = 0
+    """Neither sent nor received: the energy was used up."""
+    collisions: int = 0
+    """Not received: another packet arrived at the same time."""
+    half_duplex: int = 0
+    """Not received: the device was sending."""
+    errors: int = 0
+    """Not received: damaged by noise, or as the error model has it."""
