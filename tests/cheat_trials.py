@@ -239,7 +239,7 @@ def by_name(outcome: Outcome) -> dict[str, Result]:
     return {str(result.run["algorithm"]): result for result in outcome.results}
 
 
-def faults(results: dict[str, Result]) -> list[str]:
+def errors(results: dict[str, Result]) -> list[str]:
     """Say what a cheat gained that should not have, and whom it changed."""
     before, after = results["Holds"], results["HoldsAfterwards"]
     found = []
@@ -270,8 +270,8 @@ def main() -> int:
             print(f"{name}: {status}, {total if total is not None else result.why(row, 'total')}")
     for bench, error in outcome.failures:
         print(f"{bench.plan.algorithm_name}: {error}")
-    for fault in (found := faults(results)):
-        print("FAULT", fault)
+    for error in (found := errors(results)):
+        print("ERROR", error)
     return 1 if found else 0
 
 

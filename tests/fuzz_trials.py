@@ -1,4 +1,4 @@
-"""Damage files by chance and see that every fault is one clean line.
+"""Damage files by chance and see that every error is one clean line.
 
     scripts/fuzz results --trials 5000 --seed 1
 

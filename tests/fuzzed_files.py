@@ -16,10 +16,10 @@ from PIL import Image
 from scipy.io import netcdf_file
 
 from uwsim.assets.loaders import read_model
-from uwsim.cli.check import faults_of
+from uwsim.cli.check import diagnostics_of
 from uwsim.currents import read_grid
 from uwsim.errors import UwsimError
-from uwsim.expression import ScoreFault, parse
+from uwsim.expression import ScoreError, parse
 
 TESTS = Path(__file__).parent
 DATA = TESTS.parent / "src" / "uwsim" / "data"
@@ -56,10 +56,10 @@ def xml(kind: str, folder: Path, chance: random.Random) -> None:
         path.write_bytes(bent(text.encode(), chance))
     else:
         path.write_text(rewritten(text, chance))
-    for fault in faults_of(path):
-        is_score = "<function>" in fault.message  # shown with a mark below the place
-        assert is_score or "\n" not in str(fault), f"two lines: {str(fault)[:200]!r}"
-        assert len(str(fault)) < MAX_LETTERS, f"{len(str(fault))} letters"
+    for error in diagnostics_of(path):
+        is_score = "<function>" in error.message  # shown with a mark below the place
+        assert is_score or "\n" not in str(error), f"two lines: {str(error)[:200]!r}"
+        assert len(str(error)) < MAX_LETTERS, f"{len(str(error))} letters"
 
 
 def rewritten(text: str, chance: random.Random) -> str:
@@ -199,8 +199,8 @@ def trial(folder: Path, target: str, seed: int) -> str | None:
             warnings.simplefilter("error")
             TARGETS[target](folder, chance)
     except UwsimError as error:
-        is_one = "\n" not in str(error) or hasattr(error, "faults")
-        return None if is_one or isinstance(error, ScoreFault) else f"two lines: {error}"
+        is_one = "\n" not in str(error) or hasattr(error, "diagnostics")
+        return None if is_one or isinstance(error, ScoreError) else f"two lines: {error}"
     except Exception as error:
         return f"{type(error).__name__}: {error}"
     return None

@@ -48,7 +48,7 @@ WORDS = (
 
 
 def damaged(text: str, chance: random.Random) -> str:
-    """Return the text with a few faults in its lines."""
+    """Return the text with a few errors in its lines."""
     for _ in range(chance.choice((1, 1, 2, 4))):
         lines = text.split("\n")
         k = chance.randrange(len(lines))

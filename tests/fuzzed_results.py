@@ -15,7 +15,7 @@ from tests.short_benchmark import bench_of, write_benchmark
 from uwsim.analysis.comparison import compare, differences, read_entries, remarks, shared_column
 from uwsim.analysis.comparison.page import render as render_comparison
 from uwsim.analysis.report.page import render
-from uwsim.cli.faults import one_line
+from uwsim.cli.exit_status import one_line
 from uwsim.cli.verify import head
 from uwsim.errors import UwsimError
 from uwsim.results.interrupted import instead_of_a_result, resuming
@@ -62,14 +62,14 @@ def made(folder: Path) -> Sound:
 
 
 def damaged(data: bytes, chance: random.Random) -> bytes:
-    """Return the bytes of a JSON file, or of one with a document a line, with a few faults."""
+    """Return the bytes of a JSON file, or of one with a document a line, with a few errors."""
     if chance.random() < 0.15:
         return _damaged_bytes(data, chance)
     lines = data.split(b"\n") if data.count(b"\n{") else [data]
     k = chance.choice([i for i, line in enumerate(lines) if line.strip()])
     document = json.loads(lines[k])
     for _ in range(chance.choice((1, 1, 1, 2, 4))):
-        document = _with_fault(document, chance)
+        document = _with_error(document, chance)
     lines[k] = json.dumps(document).encode()
     return b"\n".join(lines)
 
@@ -101,7 +101,7 @@ def _places(node: Any) -> Iterator[tuple[Any, Any]]:
                 todo.append(here[key])
 
 
-def _with_fault(document: Any, chance: random.Random) -> Any:
+def _with_error(document: Any, chance: random.Random) -> Any:
     places = list(_places(document)) if isinstance(document, dict | list) else []
     if not places or chance.random() < 0.03:
         return deepcopy(chance.choice(VALUES))

@@ -75,7 +75,7 @@ class Ended:
     status: int
     said: str
     seconds: float
-    faults: list[str] = field(default_factory=list)
+    errors: list[str] = field(default_factory=list)
 
 
 @dataclass(kw_only=True)
@@ -117,8 +117,8 @@ def prepare(folder: Path) -> Workplace:
         log = folder / "changes"
         log.unlink(missing_ok=True)
         ended = run(place, place.bench(place.undisturbed, "1"), change=0)
-        if ended.status != 0 or ended.faults:
-            raise SystemExit(f"the undisturbed run failed: {ended.said}{ended.faults}")
+        if ended.status != 0 or ended.errors:
+            raise SystemExit(f"the undisturbed run failed: {ended.said}{ended.errors}")
         place.seconds, place.n_changes = ended.seconds, log.stat().st_size
     place.whole = fingerprint(place.undisturbed)
     return place
@@ -164,25 +164,25 @@ def run(
             start_new_session=True,
             preexec_fn=lambda: _as_from_a_terminal(file_size),
         )
-        faults = []
+        errors = []
         try:
             if number is not None:
                 _disturb(process, number, after)
             process.wait(PATIENCE)
         except subprocess.TimeoutExpired:
-            faults.append(f"it did not end within {PATIENCE:g} s")
+            errors.append(f"it did not end within {PATIENCE:g} s")
         finally:  # Ctrl-C ends a trial with what it has started
             process.kill()
             process.wait()
         seconds = time.monotonic() - began
-        faults += [f"left behind: {line}" for line in _left_behind(mark)]
+        errors += [f"left behind: {line}" for line in _left_behind(mark)]
         said.seek(0)
         text = said.read().decode(errors="replace")
-    faults += [f"it said {word!r}: {text}" for word in ("Traceback", "ignored in") if word in text]
+    errors += [f"it said {word!r}: {text}" for word in ("Traceback", "ignored in") if word in text]
     left = [*scratch.iterdir(), *(set(Path("/tmp").glob("uwsim-ray-*")) - ours)]
-    faults += [f"left in the temporary folder: {path.name}" for path in left]
+    errors += [f"left in the temporary folder: {path.name}" for path in left]
     shutil.rmtree(scratch)
-    return Ended(process.returncode, text, seconds, faults)
+    return Ended(process.returncode, text, seconds, errors)
 
 
 def _disturb(process: subprocess.Popen[bytes], number: int, after: float) -> None:
@@ -238,14 +238,14 @@ def broken_files(out: Path) -> list[str]:
 
 def outcome(place: Workplace, out: Path, workers: str) -> list[str]:
     """Go on to the end, and compare with the undisturbed run; returns what is wrong."""
-    faults = broken_files(out)
+    errors = broken_files(out)
     ended = run(place, [*place.bench(out, workers), "--resume"])
-    faults += ended.faults
+    errors += ended.errors
     if ended.status != 0:
-        return [*faults, f"--resume ended with {ended.status}: {ended.said}"]
+        return [*errors, f"--resume ended with {ended.status}: {ended.said}"]
     now = fingerprint(out)
     differ = [n for n in sorted({*now, *place.whole}) if now.get(n) != place.whole.get(n)]
-    return faults + [f"other bytes: {', '.join(differ)}"] * bool(differ)
+    return errors + [f"other bytes: {', '.join(differ)}"] * bool(differ)
 
 
 def of_signals(place: Workplace, chance: np.random.Generator, out: Path) -> tuple[str, list[str]]:
@@ -261,7 +261,7 @@ def of_ray(place: Workplace, chance: np.random.Generator, out: Path) -> tuple[st
 def _signalled(
     place: Workplace, chance: np.random.Generator, out: Path, workers: str
 ) -> tuple[str, list[str]]:
-    told, faults = [f"--workers {workers}"], []
+    told, errors = [f"--workers {workers}"], []
     for _ in range(int(chance.integers(1, 4))):
         number = signal.Signals(int(chance.choice([int(s) for s in SIGNALS])))
         after = float(chance.uniform(0.02, 1.1)) * place.seconds
@@ -269,8 +269,8 @@ def _signalled(
         words = [*place.bench(out, workers), *(["--resume"] if out.exists() else [])]
         ended = run(place, words, number=number, after=after)
         place.counts["signals"] += 1
-        faults += ended.faults + _wrong_status(ended, number)
-    return ", ".join(told), faults + outcome(place, out, workers)
+        errors += ended.errors + _wrong_status(ended, number)
+    return ", ".join(told), errors + outcome(place, out, workers)
 
 
 def _wrong_status(ended: Ended, number: signal.Signals) -> list[str]:
@@ -290,7 +290,7 @@ def of_changes(place: Workplace, chance: np.random.Generator, out: Path) -> tupl
     place.counts["changes"] += 1
     told = f"killed at change {change} of {place.n_changes}"
     missed = [] if ended.status == -signal.SIGKILL else [f"was not killed: {ended.status}"]
-    return told, [*ended.faults, *missed, *outcome(place, out, "1")]
+    return told, [*ended.errors, *missed, *outcome(place, out, "1")]
 
 
 def of_disks(place: Workplace, chance: np.random.Generator, out: Path) -> tuple[str, list[str]]:
@@ -303,13 +303,13 @@ def of_disks(place: Workplace, chance: np.random.Generator, out: Path) -> tuple[
         kind = "tmpfs" if is_mounted else "files"
         told = f"{kind} of {size} bytes"
         if ended.status == 0:
-            return f"{told}, which was enough", ended.faults
-        faults = list(ended.faults)
+            return f"{told}, which was enough", ended.errors
+        errors = list(ended.errors)
         if ended.status != 3 or len(ended.said.strip().splitlines()) != 1:
-            faults.append(f"exit status {ended.status} and not one line: {ended.said}")
+            errors.append(f"exit status {ended.status} and not one line: {ended.said}")
         if is_mounted:
             subprocess.run(["mount", "-o", "remount,size=64m", str(out)], check=True)
-        return told, faults + outcome(place, out / "r", "1")
+        return told, errors + outcome(place, out / "r", "1")
 
 
 @contextmanager
@@ -333,10 +333,10 @@ def of_verify(place: Workplace, chance: np.random.Generator, out: Path) -> tuple
     call = ["verify", str(place.undisturbed), "--all", "--workers", workers]
     ended = run(place, call, number=number, after=after)
     place.counts["signals"] += 1
-    faults = ended.faults + _wrong_status(ended, number)
+    errors = ended.errors + _wrong_status(ended, number)
     if fingerprint(place.undisturbed) != place.whole:
-        faults.append("the verified result was changed")
-    return f"verify --workers {workers}, {number.name} after {after:.2f} s", faults
+        errors.append("the verified result was changed")
+    return f"verify --workers {workers}, {number.name} after {after:.2f} s", errors
 
 
 TRIALS: dict[str, Callable[[Workplace, np.random.Generator, Path], tuple[str, list[str]]]] = {
@@ -353,13 +353,13 @@ def trial(place: Workplace, seed: int, index: int, kinds: Sequence[str]) -> list
     kind = kinds[index % len(kinds)]
     chance = np.random.Generator(np.random.Philox([seed, index]))
     out = place.folder / f"trial-{index}"
-    told, faults = TRIALS[kind](place, chance, out)
+    told, errors = TRIALS[kind](place, chance, out)
     place.counts["trials"] += 1
-    print(f"{index} {kind}: {told}: {'WRONG' if faults else 'right'}", flush=True)
-    for fault in faults:
-        print(f"  {fault}", flush=True)
+    print(f"{index} {kind}: {told}: {'WRONG' if errors else 'right'}", flush=True)
+    for error in errors:
+        print(f"  {error}", flush=True)
     shutil.rmtree(out, ignore_errors=True)
-    return faults
+    return errors
 
 
 def main() -> int:
@@ -378,7 +378,7 @@ def main() -> int:
         print(f"undisturbed: {place.seconds:.1f} s, {place.n_changes} changes", flush=True)
         kinds = arguments.kind or KINDS
         found = [trial(place, arguments.seed, i, kinds) for i in range(arguments.count)]
-    n_wrong = sum(bool(faults) for faults in found)
+    n_wrong = sum(bool(errors) for errors in found)
     counts = ", ".join(f"{n} {what}" for what, n in sorted(place.counts.items()))
     print(f"{counts}; {n_wrong} trials went wrong")
     return 1 if n_wrong else 0

@@ -136,8 +136,8 @@ def test_seeds_that_are_not_consecutive_are_refused() -> None:
         uwsim.bench("visibility", seeds=(1, 3))
 
 
-def test_check_gives_the_faults_of_files(tmp_path: Path) -> None:
+def test_check_gives_the_errors_of_files(tmp_path: Path) -> None:
     bad = tmp_path / "bad.xml"
     bad.write_text("<UWSimScene><oceanState><windx>fast</windx></oceanState></UWSimScene>")
-    faults = uwsim.check(str(bad))
-    assert any(fault.severity == "fault" and fault.line == 1 for fault in faults)
+    errors = uwsim.check(str(bad))
+    assert any(diagnostic.severity == "error" and diagnostic.line == 1 for diagnostic in errors)

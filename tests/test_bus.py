@@ -164,7 +164,7 @@ def test_a_latched_inbox_begins_with_the_newest_message() -> None:
         ),
     ],
 )
-def test_a_field_that_holds_something_else_is_the_senders_fault(message: M, said: str) -> None:
+def test_a_field_that_holds_something_else_is_the_senders_error(message: M, said: str) -> None:
     bus = Bus()
     heard = bus.inbox("a", type(message))
     with pytest.raises(BadMessage, match=rf"^Topic 'a' carries .*: {said}.*\.$"):
@@ -204,7 +204,7 @@ def test_a_reader_may_refuse_what_it_can_do_nothing_with() -> None:
 
 
 @pytest.mark.parametrize("data", [None, "?"])
-def test_a_request_that_holds_something_else_is_the_callers_fault(data: object) -> None:
+def test_a_request_that_holds_something_else_is_the_callers_error(data: object) -> None:
     bus = Bus()
     bus.serve("s", Float32MultiArray, lambda request: request)
     request = floats(np.zeros(1))

@@ -11,7 +11,7 @@ SECTIONS = {"Added", "Changed", "Deprecated", "Removed", "Fixed", "Security"}
 RELEASE = re.compile(r"\[(\d+\.\d+\.\d+)\] - (\d{4}-\d{2}-\d{2})")
 
 
-def faults(text: str) -> list[str]:
+def errors(text: str) -> list[str]:
     """Return everything that is wrong with a changelog."""
     found: list[str] = []
     releases: list[str] = []
@@ -51,7 +51,7 @@ def faults(text: str) -> list[str]:
 
 
 def test_the_changelog_keeps_its_form() -> None:
-    assert faults(CHANGELOG.read_text()) == []
+    assert errors(CHANGELOG.read_text()) == []
 
 
 def test_the_newest_release_is_this_version() -> None:
@@ -61,7 +61,7 @@ def test_the_newest_release_is_this_version() -> None:
 
 def test_each_mistake_of_form_is_found() -> None:
     good = "# Changelog\n\n## [Unreleased]\n\n### Added\n\n- A thing.\n\n"
-    assert faults(good) == []
+    assert errors(good) == []
     for bad in (
         good.replace("# Changelog", "# News"),
         good.replace("[Unreleased]", "[Next]"),
@@ -73,4 +73,4 @@ def test_each_mistake_of_form_is_found() -> None:
         good + "## [0.1.0] - 2026-01-01\n\n## [0.2.0] - 2026-02-01\n",
         good + "### Fixed\n\n### Changed\n\n- It.\n",
     ):
-        assert len(faults(bad)) >= 1, bad
+        assert len(errors(bad)) >= 1, bad

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cheat_trials import CHEATS, GAINS, Bursts, Holds, bench_of, by_name, faults, trial
+from tests.cheat_trials import CHEATS, GAINS, Bursts, Holds, bench_of, by_name, errors, trial
 from tests.played import rows_of
 
 
@@ -23,6 +23,6 @@ def test_guesses_that_nobody_looks_at_gain_nothing(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_no_cheat_gains_but_those_within_their_own_process(tmp_path: Path) -> None:
     results = by_name(trial(tmp_path, CHEATS, seed=2, length=1.0))
-    assert faults(results) == []
+    assert errors(results) == []
     for cheat in GAINS:
         assert results[cheat.__name__].values("total") == pytest.approx((0.0, 0.0), abs=0.1)

@@ -6,13 +6,13 @@ from uwsim.errors import (
     AllErrors,
     BadSetting,
     BenchmarkError,
-    Fault,
+    Diagnostic,
     NeverStarted,
     SeveralErrors,
     UnknownName,
     UwsimError,
 )
-from uwsim.expression import ScoreFault
+from uwsim.expression import ScoreError
 
 
 @pytest.mark.parametrize(
@@ -20,8 +20,8 @@ from uwsim.expression import ScoreFault
     [
         NeverStarted("nobody called startBench"),
         UnknownName("body", "girona50", ["girona500"]),
-        BenchmarkError([Fault(file="a", line=n, message="no") for n in (3, None)]),
-        ScoreFault("1 +", 3, "something is missing"),
+        BenchmarkError([Diagnostic(file="a", line=n, message="no") for n in (3, None)]),
+        ScoreError("1 +", 3, "something is missing"),
     ],
 )  # fmt: skip
 def test_an_error_sent_home_by_a_worker_is_the_one_that_was_raised(error: UwsimError) -> None:

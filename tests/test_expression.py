@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from uwsim.expression import FUNCTIONS, ScoreFault, parse
+from uwsim.expression import FUNCTIONS, ScoreError, parse
 
 
 def value(text: str, **values: float | None) -> float | None:
@@ -86,10 +86,10 @@ def test_the_side_that_is_not_chosen_is_not_used(text: str) -> None:
     assert parse(text, []).evaluate({}) == 2.0
 
 
-def test_a_number_beyond_float64_is_a_fault_where_it_stands() -> None:
-    with pytest.raises(ScoreFault, match="1e999 is beyond the largest number") as fault:
+def test_a_number_beyond_float64_is_an_error_where_it_stands() -> None:
+    with pytest.raises(ScoreError, match="1e999 is beyond the largest number") as error:
         parse("1 + 1e999", [])
-    assert fault.value.column == 4
+    assert error.value.column == 4
 
 
 def test_nothing_measured_gives_no_score_and_says_which_measure() -> None:
@@ -136,8 +136,8 @@ def test_a_branch_that_is_not_taken_may_divide_by_zero() -> None:
         ("__import__('os')", 11, "cannot stand here"),
     ],
 )
-def test_a_fault_is_shown_with_a_caret_under_it(text: str, column: int, message: str) -> None:
-    with pytest.raises(ScoreFault, match=message) as caught:
+def test_an_error_is_shown_with_a_caret_under_it(text: str, column: int, message: str) -> None:
+    with pytest.raises(ScoreError, match=message) as caught:
         parse(text, ["corners", "centroid"])
     assert caught.value.column == column
     assert str(caught.value).split("\n")[-1] == "  " + " " * column + "^"
@@ -146,8 +146,8 @@ def test_a_fault_is_shown_with_a_caret_under_it(text: str, column: int, message:
 @pytest.mark.parametrize(
     "text", ["(" * 4000, "(" * 101 + "1" + ")" * 101, "1+" * 3000 + "1", "1?" * 2000]
 )
-def test_an_expression_too_long_or_too_deep_is_a_clean_fault(text: str) -> None:
-    with pytest.raises(ScoreFault):
+def test_an_expression_too_long_or_too_deep_is_a_clean_error(text: str) -> None:
+    with pytest.raises(ScoreError):
         parse(text, [])
 
 
@@ -160,12 +160,12 @@ def test_a_long_chain_is_no_deep_nesting() -> None:
 
 @settings(max_examples=200, deadline=None)
 @given(st.text(alphabet="ab12.+-*/^()?:<>=&|, _e\n$", max_size=40))
-def test_any_text_gives_an_expression_or_a_clean_fault(text: str) -> None:
+def test_any_text_gives_an_expression_or_a_clean_error(text: str) -> None:
     column = 0
     try:
         parse(text, ["a", "b"]).score({"a": 1.5, "b": -2.0})
-    except ScoreFault as fault:
-        column = fault.column
+    except ScoreError as error:
+        column = error.column
     assert 0 <= column <= len(text)
 
 

@@ -1,4 +1,4 @@
-"""Specs in XML: every fault at once, at its line, with the nearest right name."""
+"""Specs in XML: every error at once, at its line, with the nearest right name."""
 
 from __future__ import annotations
 
@@ -16,7 +16,17 @@ from lxml import etree
 
 from uwsim import schema
 from uwsim.errors import FileError
-from uwsim.schema import Faults, Numbers, Original, TwoNumbers, element, number, parse, read, write
+from uwsim.schema import (
+    Diagnostics,
+    Numbers,
+    Original,
+    TwoNumbers,
+    element,
+    number,
+    parse,
+    read,
+    write,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,9 +76,9 @@ def read_text(
 ) -> tuple[ThingSpec | None, list[str]]:
     file = folder / "thing.xml"
     file.write_text(text)
-    faults = Faults("thing.xml", strict=strict)
-    spec = read(ThingSpec, parse(file).root, faults)
-    return spec, [str(fault) for fault in faults.all()]
+    diagnostics = Diagnostics("thing.xml", strict=strict)
+    spec = read(ThingSpec, parse(file).root, diagnostics)
+    return spec, [str(diagnostic) for diagnostic in diagnostics.all()]
 
 
 def refused(data: bytes, folder: Path) -> str:
@@ -94,7 +104,7 @@ def test_strict_holds_a_file_against_the_order_of_the_fields(tmp_path: Path) -> 
     assert said == ["thing.xml:3: <name> stands behind <count>; the original wants it before"]
 
 
-def test_every_fault_is_said_at_once_with_its_line(tmp_path: Path) -> None:
+def test_every_error_is_said_at_once_with_its_line(tmp_path: Path) -> None:
     _, said = read_text(
         """<thing>
         <fogDensty>1</fogDensty>
@@ -121,7 +131,7 @@ def test_every_fault_is_said_at_once_with_its_line(tmp_path: Path) -> None:
     ]
 
 
-def test_what_the_original_read_leniently_is_a_notice(tmp_path: Path) -> None:
+def test_what_the_original_read_leniently_is_a_warning(tmp_path: Path) -> None:
     spec, said = read_text(
         "<thing><name>a</name><count>320.5</count><flag>yes</flag><lean>3deg</lean></thing>",
         tmp_path,
@@ -135,7 +145,7 @@ def test_an_element_that_may_stand_once_stands_once(tmp_path: Path) -> None:
     assert said == ["thing.xml:2: <name> stands twice in <thing> (first in line 1); only one may"]
 
 
-def test_an_old_name_is_read_with_a_notice(tmp_path: Path) -> None:
+def test_an_old_name_is_read_with_a_warning(tmp_path: Path) -> None:
     spec, said = read_text("<thing><name>a</name><title>t</title></thing>", tmp_path)
     assert spec is not None
     assert spec.label == "t"
@@ -153,14 +163,14 @@ def test_an_empty_element_keeps_the_default(tmp_path: Path) -> None:
     assert (spec, said) == (ThingSpec(name="a"), [])
 
 
-def test_an_empty_joint_is_a_fault_because_it_would_shift_the_others(tmp_path: Path) -> None:
+def test_an_empty_joint_is_an_error_because_it_would_shift_the_others(tmp_path: Path) -> None:
     _, said = read_text(
         "<thing><name>a</name><jointValues><joint>1</joint><joint/></jointValues></thing>", tmp_path
     )
     assert said == ["thing.xml:1: <joint> is empty; expected a number [rad]"]
 
 
-def test_stray_text_and_unknown_attributes_are_faults(tmp_path: Path) -> None:
+def test_stray_text_and_unknown_attributes_are_errors(tmp_path: Path) -> None:
     _, said = read_text('<thing buryed="1">oops<name>a</name></thing>', tmp_path)
     assert said == [
         "thing.xml:1: stray text 'oops' in <thing>",
@@ -187,10 +197,10 @@ def test_a_file_with_extensions_carries_no_doctype(tmp_path: Path) -> None:
     file.write_text(
         '<!DOCTYPE thing SYSTEM "t.dtd">\n<thing xmlns:u="urn:uwsim:1">\n<u:extra/></thing>'
     )
-    faults = Faults("thing.xml")
-    schema.check_head(parse(file), "thing", faults)
-    assert [fault.line for fault in faults.all()] == [3]
-    assert "drop the DOCTYPE" in faults.all()[0].message
+    diagnostics = Diagnostics("thing.xml")
+    schema.check_head(parse(file), "thing", diagnostics)
+    assert [diagnostic.line for diagnostic in diagnostics.all()] == [3]
+    assert "drop the DOCTYPE" in diagnostics.all()[0].message
 
 
 def test_lines_beyond_65535_are_right(tmp_path: Path) -> None:
@@ -198,10 +208,10 @@ def test_lines_beyond_65535_are_right(tmp_path: Path) -> None:
     assert any(line.startswith("thing.xml:70001: <oops>") for line in said)
 
 
-def test_faults_beyond_a_hundred_are_counted(tmp_path: Path) -> None:
+def test_errors_beyond_a_hundred_are_counted(tmp_path: Path) -> None:
     _, said = read_text("<thing><name>a</name>" + "<x/>" * 150 + "</thing>", tmp_path)
     assert len(said) == 101
-    assert said[-1] == "thing.xml: and 50 more faults"
+    assert said[-1] == "thing.xml: and 50 more errors"
 
 
 @pytest.mark.parametrize(("token", "value"), sorted(schema.TOKENS.items()))
@@ -246,9 +256,9 @@ SPECS = st.builds(
 
 @given(SPECS)
 def test_reading_what_was_written_gives_the_same_spec(spec: ThingSpec) -> None:
-    faults = Faults("thing.xml", strict=True)
-    assert read(ThingSpec, write(spec, "thing"), faults) == spec
-    assert faults.all() == []
+    diagnostics = Diagnostics("thing.xml", strict=True)
+    assert read(ThingSpec, write(spec, "thing"), diagnostics) == spec
+    assert diagnostics.all() == []
 
 
 def test_a_field_documents_itself() -> None:
@@ -278,7 +288,7 @@ NEAR = b'<?xml version="1.0"?>\n'
         (b"<a>\xff</a>", "not well-formed"),
     ],
 )
-def test_hostile_files_are_refused_with_a_clean_fault(
+def test_hostile_files_are_refused_with_a_clean_error(
     data: bytes, said: str, tmp_path: Path
 ) -> None:
     assert said in refused(data, tmp_path)
@@ -315,22 +325,22 @@ def test_no_bytes_raise_anything_but_a_file_error(data: bytes) -> None:
 
 
 @pytest.mark.parametrize("text", ["1e300", "-1e308", "1000000001"])
-def test_numbers_beyond_any_quantity_are_faults(text: str, tmp_path: Path) -> None:
+def test_numbers_beyond_any_quantity_are_errors(text: str, tmp_path: Path) -> None:
     _, said = read_text(f"<thing><name>a</name><lean>{text}</lean></thing>", tmp_path)
     assert said == [f"thing.xml:1: <lean> is '{text}'; no quantity is beyond 1e+09"]
 
 
-def test_a_file_that_was_cut_off_is_one_fault_in_whole_words(tmp_path: Path) -> None:
+def test_a_file_that_was_cut_off_is_one_error_in_whole_words(tmp_path: Path) -> None:
     file = tmp_path / "thing.xml"
     whole = "<thing>\n  <name>a</name>\n  <fogDensity>0.5</fogDensity>\n</thing>"
     for n in range(len("<thing>\n"), len(whole)):
         file.write_text(whole[:n])
         with pytest.raises(FileError) as caught:
             parse(file)
-        (fault,) = caught.value.faults
+        (diagnostic,) = caught.value.diagnostics
         cut = "the file ends in the middle; it was cut off"
         if not whole[:n].rstrip().endswith(">"):
-            assert fault.message == f"not well-formed XML: {cut}"
+            assert diagnostic.message == f"not well-formed XML: {cut}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -358,11 +368,11 @@ class CurveSpec:
 )
 def test_numbers_stand_in_one_text(text: str, expected: object) -> None:
     node = etree.fromstring(f"<curve>{text}</curve>")
-    faults = Faults("curve.xml")
-    spec = read(CurveSpec, node, faults)
+    diagnostics = Diagnostics("curve.xml")
+    spec = read(CurveSpec, node, diagnostics)
     assert spec is not None
     if isinstance(expected, str):
-        assert [fault.message for fault in faults.all()] == [expected]
+        assert [diagnostic.message for diagnostic in diagnostics.all()] == [expected]
         return
     assert (spec.terms, spec.ends) == expected
-    assert read(CurveSpec, write(spec, "curve"), Faults("curve.xml")) == spec
+    assert read(CurveSpec, write(spec, "curve"), Diagnostics("curve.xml")) == spec

@@ -205,9 +205,9 @@ def finish(site: Path) -> None:
         up = "../" * len(page.relative_to(site).parts[1:])
         text = page.read_text().replace(SHIM, f"{up}iframe-worker.js")
         page.write_text(with_mathml(text))
-    faults = broken_links(site) + loaded_from_elsewhere(site)
-    if faults:
-        raise SystemExit("\n".join(faults))
+    errors = broken_links(site) + loaded_from_elsewhere(site)
+    if errors:
+        raise SystemExit("\n".join(errors))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from lxml import html
 
 def broken_links(site: Path) -> list[str]:
     """Return one line for each link within the site to a page or an anchor that is not there."""
-    faults = []
+    errors = []
     for page in sorted(site.rglob("*.html")):
         if page.name == "404.html":
             continue
@@ -21,10 +21,10 @@ def broken_links(site: Path) -> list[str]:
                 continue
             path = (page.parent / unquote(parts.path)).resolve() if parts.path else page
             if not path.exists():
-                faults.append(f"{page.relative_to(site)}: {target} is not there")
+                errors.append(f"{page.relative_to(site)}: {target} is not there")
             elif parts.fragment and unquote(parts.fragment) not in anchors(path):
-                faults.append(f"{page.relative_to(site)}: {target} has no such anchor")
-    return faults
+                errors.append(f"{page.relative_to(site)}: {target} has no such anchor")
+    return errors
 
 
 @cache

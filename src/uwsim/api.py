@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .errors import BadSetting, Fault
+from .errors import BadSetting, Diagnostic
 from .world import TIMESTEP
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def load(
         data_path: more folders in which files are looked for.
 
     Raises:
-        UwsimError: a file, a name or a setting is wrong; names all faults of the file.
+        UwsimError: a file, a name or a setting is wrong; names all errors of the file.
     """
     from .assets.bundled import scene_file
     from .scene.reader import read_scene
@@ -157,11 +157,11 @@ def compare(
     return compare_files(paths, column=column, higher_is_better=higher_is_better)
 
 
-def check(*paths: str | Path) -> tuple[Fault, ...]:
+def check(*paths: str | Path) -> tuple[Diagnostic, ...]:
     """Return what ``uwsim check`` says of scene, benchmark, robot and vehicle files.
 
-    Faults come with their file, line and severity; a file without any gives none.
+    Errors come with their file, line and severity; a file without any gives none.
     """
-    from .cli.check import faults_of
+    from .cli.check import diagnostics_of
 
-    return tuple(fault for path in paths for fault in faults_of(Path(path)))
+    return tuple(diagnostic for path in paths for diagnostic in diagnostics_of(Path(path)))

@@ -4,7 +4,7 @@
 
     UwsimError
       SeveralErrors        ... all that is wrong with a call, at once
-      FileError            a file is wrong: all its faults at once, each with its place
+      FileError            a file is wrong: all its errors at once, each with its place
         SceneError         ... a scene or robot file
         BenchmarkError     ... a benchmark file
         PluginError        ... a plugin
@@ -51,7 +51,7 @@ class UwsimError(Exception):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fault:
+class Diagnostic:
     """One thing that is wrong, or worth knowing, about a file."""
 
     file: str
@@ -60,8 +60,8 @@ class Fault:
     """Line number from 1; None when the whole file is meant."""
     message: str
     """What was found, what was expected, and the nearest right answer."""
-    severity: Literal["fault", "notice"] = "fault"
-    """A notice does not make the file wrong ("read, not simulated yet")."""
+    severity: Literal["error", "warning"] = "error"
+    """A warning does not make the file wrong ("read, not simulated yet")."""
 
     def __str__(self) -> str:
         place = self.file if self.line is None else f"{self.file}:{self.line}"
@@ -69,11 +69,11 @@ class Fault:
 
 
 class FileError(UwsimError):
-    """A file is wrong; carries every fault found, not only the first."""
+    """A file is wrong; carries every error found, not only the first."""
 
-    def __init__(self, faults: Sequence[Fault]) -> None:
-        self.faults = tuple(faults)
-        super().__init__("\n".join(str(fault) for fault in self.faults))
+    def __init__(self, diagnostics: Sequence[Diagnostic]) -> None:
+        self.diagnostics = tuple(diagnostics)
+        super().__init__("\n".join(str(diagnostic) for diagnostic in self.diagnostics))
 
 
 class SeveralErrors(UwsimError):
@@ -117,7 +117,7 @@ class BadSetting(UwsimError):
 
 
 class BadMessage(UwsimError):
-    """A message or request that its topic or service does not take: the sender's fault."""
+    """A message or request that its topic or service does not take: the sender's error."""
 
 
 class NotAllowed(UwsimError):

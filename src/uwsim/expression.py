@@ -76,7 +76,7 @@ SHOWN = 60
 Function = Callable[..., Any]
 
 
-class ScoreFault(UwsimError):
+class ScoreError(UwsimError):
     """An expression that cannot be parsed; shows where."""
 
     def __init__(self, text: str, column: int, message: str) -> None:
@@ -181,26 +181,26 @@ def parse(text: str, names: Collection[str], *, kind: str = "measure") -> Expres
         kind: what has these names, for error messages.
 
     Raises:
-        ScoreFault: a syntax error, an unknown name or function, a wrong number of arguments, or
+        ScoreError: a syntax error, an unknown name or function, a wrong number of arguments, or
             an expression longer than 4096 characters or with brackets deeper than 100 levels.
     """
     text = text.strip()
     if not text:
-        raise ScoreFault(text, 0, "the function is empty; expected an expression")
+        raise ScoreError(text, 0, "the function is empty; expected an expression")
     if len(text) > MAX_LENGTH:
-        raise ScoreFault(text[:60] + " ...", 0, f"longer than {MAX_LENGTH} characters")
+        raise ScoreError(text[:60] + " ...", 0, f"longer than {MAX_LENGTH} characters")
     text = _one_line(text)
     _check_depth(text)
     try:
         tree = _parser().parse(text)
-    except lark.exceptions.UnexpectedCharacters as fault:
-        column = fault.pos_in_stream or 0
-        raise ScoreFault(text, column, f"{text[column]!r} cannot stand here") from None
-    except lark.exceptions.UnexpectedToken as fault:
-        if fault.token.type == "$END":
-            raise ScoreFault(text, len(text), "the expression ends too early") from None
-        column = fault.token.start_pos or 0
-        raise ScoreFault(text, column, f"{str(fault.token)!r} cannot stand here") from None
+    except lark.exceptions.UnexpectedCharacters as error:
+        column = error.pos_in_stream or 0
+        raise ScoreError(text, column, f"{text[column]!r} cannot stand here") from None
+    except lark.exceptions.UnexpectedToken as error:
+        if error.token.type == "$END":
+            raise ScoreError(text, len(text), "the expression ends too early") from None
+        column = error.token.start_pos or 0
+        raise ScoreError(text, column, f"{str(error.token)!r} cannot stand here") from None
     steps, used = _compile(tree, text, tuple(names), kind)
     return Expression(text, tuple(used), tuple(steps))
 
@@ -215,7 +215,7 @@ def _check_depth(text: str) -> None:
     for column, letter in enumerate(text):
         depth += (letter == "(") - (letter == ")")
         if depth > MAX_DEPTH:
-            raise ScoreFault(text, column, f"brackets nested deeper than {MAX_DEPTH} levels")
+            raise ScoreError(text, column, f"brackets nested deeper than {MAX_DEPTH} levels")
 
 
 @functools.cache
@@ -253,7 +253,7 @@ def _compile(
 def _number(word: str, column: int, text: str) -> float:
     number = float(word)
     if not math.isfinite(number):
-        raise ScoreFault(text, column, f"{word[:20]} is beyond the largest number, 1.8e308")
+        raise ScoreError(text, column, f"{word[:20]} is beyond the largest number, 1.8e308")
     return number
 
 
@@ -266,10 +266,10 @@ def _name(
     if name in CONSTANTS:
         return _Step(column, 0, constant=CONSTANTS[name])
     if name in FUNCTIONS:
-        raise ScoreFault(text, column, f"{name} is a function; expected {name}(...)")
+        raise ScoreError(text, column, f"{name} is a function; expected {name}(...)")
     known = ", ".join(names) or "none"
     near = did_you_mean(name, [*names, *CONSTANTS])
-    raise ScoreFault(text, column, f"no {kind} is called {name!r}.{near} Known: {known}")
+    raise ScoreError(text, column, f"no {kind} is called {name!r}.{near} Known: {known}")
 
 
 def _operation(kind: str, tokens: list[lark.Token], count: int, column: int, text: str) -> _Step:
@@ -282,11 +282,11 @@ def _operation(kind: str, tokens: list[lark.Token], count: int, column: int, tex
     name = str(tokens[0])
     if name not in FUNCTIONS:
         near = did_you_mean(name, FUNCTIONS)
-        raise ScoreFault(text, column, f"no function is called {name!r}.{near}")
+        raise ScoreError(text, column, f"no function is called {name!r}.{near}")
     wanted, function = FUNCTIONS[name]
     if count != wanted if wanted is not None else count == 0:
         expected = "at least 1 argument" if wanted is None else f"{wanted} argument(s)"
-        raise ScoreFault(text, column, f"{name} takes {expected}, not {count}")
+        raise ScoreError(text, column, f"{name} takes {expected}, not {count}")
     return _Step(column, count, function)
 
 

@@ -6,7 +6,7 @@ import re
 import sys
 from collections.abc import Iterable
 
-from .errors import Fault
+from .errors import Diagnostic
 
 MAX_QUOTE_LENGTH = 300
 """Letters of what a file said that are shown: a word, or what stands between quotes."""
@@ -21,10 +21,10 @@ def warn(message: str) -> None:
     print(printable(f"uwsim: warning: {message}"), file=sys.stderr)
 
 
-def say_notices(notices: Iterable[Fault]) -> None:
+def print_warnings(warnings: Iterable[Diagnostic]) -> None:
     """Tell the user what of a file seems not to be meant; the command goes on."""
-    for notice in notices:
-        print(printable(f"{notice} (notice)"), file=sys.stderr)
+    for warning in warnings:
+        print(printable(f"{warning} (warning)"), file=sys.stderr)
 
 
 def printable(text: str) -> str:

@@ -44,7 +44,7 @@ def written(
 
 
 def said(path: Path) -> list[str]:
-    return [str(fault).split(": ", 1)[1] for fault in check_benchmark(path)]
+    return [str(error).split(": ", 1)[1] for error in check_benchmark(path)]
 
 
 def test_numbers_are_read_as_far_as_they_go_as_the_original_reads_them(tmp_path: Path) -> None:
@@ -64,7 +64,7 @@ def test_a_file_that_the_original_would_not_read_is_held_to_whole_numbers(tmp_pa
     assert said(path) == ["<interval> is '2 s'; expected a number > 0 [s]"]
 
 
-def test_a_decimal_comma_is_a_fault_and_not_the_number_before_it(tmp_path: Path) -> None:
+def test_a_decimal_comma_is_an_error_and_not_the_number_before_it(tmp_path: Path) -> None:
     path = written(tmp_path, "0", "1,5", "0,5", "2")
     assert said(path) == [
         "<finalValue> is '1,5'; expected a number >= 0. Did you mean 1.5?",
@@ -114,6 +114,6 @@ def test_what_another_program_should_have_replaced_is_said(
 def test_an_attribute_of_another_namespace_is_named_with_it(tmp_path: Path) -> None:
     path = written(tmp_path, head="")
     path.write_text(path.read_text().replace("<measures>", '<measures xml:lang="es">'))
-    [fault] = said(path)
-    assert "lang" in fault
-    assert fault.count("<") == fault.count(">")
+    [error] = said(path)
+    assert "lang" in error
+    assert error.count("<") == error.count(">")

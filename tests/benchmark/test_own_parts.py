@@ -25,7 +25,7 @@ def blocks(page: str, language: str) -> list[str]:
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_the_part_of_a_page_passes_its_test_and_its_benchmark_has_no_faults(
+def test_the_part_of_a_page_passes_its_test_and_its_benchmark_has_no_errors(
     page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     name = PAGES[page]

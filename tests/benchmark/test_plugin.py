@@ -1,4 +1,4 @@
-"""Plugins: a user's parts come in with one file; wrong ones leave with a clean fault."""
+"""Plugins: a user's parts come in with one file; wrong ones leave with a clean error."""
 
 from __future__ import annotations
 
@@ -266,7 +266,7 @@ def test_a_result_without_plugins_does_not_mention_them(folder: Path) -> None:
         (PARTS + "\nALGORITHMS = {'esm': Idle}", "'esm' is a name of uwsim; call it otherwise"),
     ],
 )
-def test_each_mistake_in_a_plugin_is_one_clean_fault(tmp_path: Path, text: str, wrong: str) -> None:
+def test_each_mistake_in_a_plugin_is_one_clean_error(tmp_path: Path, text: str, wrong: str) -> None:
     found = said(plugin(tmp_path, text))
     assert wrong in found
     assert len(found.splitlines()) == 1
@@ -279,7 +279,7 @@ def test_a_file_that_is_not_there_or_no_file_is_said(tmp_path: Path) -> None:
     assert "bytes.py" in said(tmp_path / "bytes.py")
 
 
-def test_two_plugins_with_one_name_are_a_fault_that_names_both(folder: Path) -> None:
+def test_two_plugins_with_one_name_are_an_error_that_names_both(folder: Path) -> None:
     other = plugin(folder, PARTS + "\n# other\n", "other.py")
     with pytest.raises(PluginError) as caught:
         read_plugins([folder / "parts.py", other])
@@ -289,7 +289,7 @@ def test_two_plugins_with_one_name_are_a_fault_that_names_both(folder: Path) -> 
     assert lines[0].startswith(f"{other}:12: MEASURES['count']")
 
 
-def test_one_plugin_given_twice_is_a_fault(folder: Path) -> None:
+def test_one_plugin_given_twice_is_an_error(folder: Path) -> None:
     with pytest.raises(BadSetting, match=r"is parts\.py once more"):
         read_plugins([Path("parts.py"), folder / "parts.py"])
 

@@ -1,4 +1,4 @@
-"""Reading benchmark files: the whole dialect in any order, and every fault with its line."""
+"""Reading benchmark files: the whole dialect in any order, and every error with its line."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ from uwsim.benchmark.updaters import (
     SphericalSpec,
     n_levels,
 )
-from uwsim.errors import BenchmarkError, Fault
+from uwsim.errors import BenchmarkError, Diagnostic
 
 BUNDLED = Path(uwsim.__file__).parent / "data" / "benchmarks"
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
@@ -88,14 +88,14 @@ def reading(file: Path, content: str) -> BenchmarkSpec:
     return read_benchmark(file)
 
 
-def faults(file: Path, content: str) -> list[Fault]:
+def diagnostics(file: Path, content: str) -> list[Diagnostic]:
     file.write_text(content)
-    return [fault for fault in check_benchmark(file) if fault.severity == "fault"]
+    return [diagnostic for diagnostic in check_benchmark(file) if diagnostic.severity == "error"]
 
 
-def only_fault(file: Path, content: str) -> Fault:
-    found = faults(file, content)
-    assert len(found) == 1, [str(fault) for fault in found]
+def only_error(file: Path, content: str) -> Diagnostic:
+    found = diagnostics(file, content)
+    assert len(found) == 1, [str(diagnostic) for diagnostic in found]
     with pytest.raises(BenchmarkError):
         read_benchmark(file)
     return found[0]
@@ -237,7 +237,7 @@ def test_the_whole_dialect_becomes_specs(file: Path) -> None:
 
 def test_the_whole_dialect_stands_in_the_originals_order(file: Path) -> None:
     file.write_text(WHOLE)
-    assert [f for f in check_benchmark(file, strict=True) if f.severity == "fault"] == []
+    assert [f for f in check_benchmark(file, strict=True) if f.severity == "error"] == []
 
 
 def reverse(node: etree._Element) -> None:
@@ -257,7 +257,7 @@ def test_any_order_gives_the_same_specs_and_strict_names_what_is_misplaced(file:
     reverse(root)
     file.write_bytes(etree.tostring(root))
     assert read_benchmark(file) == WHOLE_SPEC
-    misplaced = [str(f) for f in check_benchmark(file, strict=True) if f.severity == "fault"]
+    misplaced = [str(f) for f in check_benchmark(file, strict=True) if f.severity == "error"]
     assert any("<startOn> stands behind" in message for message in misplaced)
     assert any("the original wants it before" in message for message in misplaced)
 
@@ -297,19 +297,20 @@ def test_every_updater_is_read_old_names_included(file: Path, updater: str, spec
     assert reading(file, text(updater=updater)).scene_updater == spec
 
 
-def test_old_names_are_a_notice_and_no_fault(file: Path) -> None:
+def test_old_names_are_a_warning_and_no_error(file: Path) -> None:
     content = text(updater=FOG.replace("initialValue", "initialFog"))
-    assert faults(file, content) == []
+    assert diagnostics(file, content) == []
     assert any(
         "<initialFog> is an old name of <initialValue>" in str(f) for f in check_benchmark(file)
     )
 
 
-def test_a_target_that_a_trigger_does_not_need_is_ignored_with_a_notice(file: Path) -> None:
+def test_a_target_that_a_trigger_does_not_need_is_ignored_with_a_warning(file: Path) -> None:
     gate = GATE.replace("onInit</type>", "onInit</type><target>girona500</target>")
     assert reading(file, text(gate=gate)).start_on == OnInitSpec()
     assert any(
-        "<target> means nothing to 'onInit'" in str(fault) for fault in check_benchmark(file)
+        "<target> means nothing to 'onInit'" in str(diagnostic)
+        for diagnostic in check_benchmark(file)
     )
 
 
@@ -339,7 +340,7 @@ def test_a_ground_truth_of_2013_without_a_type_is_its_constants(file: Path) -> N
     norm = reading(file, text(measure)).measures[0]
     assert isinstance(norm, EuclideanNormSpec)
     assert norm.ground_truth == ConstantSpec(values=(0.2, 1.5))
-    assert any("constant" in fault.message for fault in check_benchmark(file))
+    assert any("constant" in diagnostic.message for diagnostic in check_benchmark(file))
 
 
 def test_a_ground_truth_of_a_camera_wants_its_type(file: Path) -> None:
@@ -347,8 +348,8 @@ def test_a_ground_truth_of_a_camera_wants_its_type(file: Path) -> None:
         "<euclideanNorm><name>t</name><groundTruth><camera>c</camera><target>b</target>"
         f"</groundTruth><target>x</target>{GATE}</euclideanNorm>"
     )
-    fault = only_fault(file, text(measure))
-    assert "<groundTruth> lacks the attribute type" in fault.message
+    diagnostic = only_error(file, text(measure))
+    assert "<groundTruth> lacks the attribute type" in diagnostic.message
 
 
 def test_a_reconstruction_without_from_is_given_in_the_world(file: Path) -> None:
@@ -419,48 +420,51 @@ FACE = (
         ("<benchmark><measures>", 1, "not well-formed XML"),
     ],
 )  # fmt: skip
-def test_a_fault_gives_its_line_and_the_right_answer(
+def test_an_error_gives_its_line_and_the_right_answer(
     file: Path, content: str, line: int, message: str
 ) -> None:
-    found = faults(file, content)
-    assert any(message in fault.message and fault.line == line for fault in found), found
+    found = diagnostics(file, content)
+    assert any(message in diagnostic.message and diagnostic.line == line for diagnostic in found), (
+        found
+    )
     with pytest.raises(BenchmarkError):
         read_benchmark(file)
 
 
-def test_one_mistake_is_one_fault(file: Path) -> None:
-    assert "tme" in only_fault(file, text(TIME + "\n<tme/>")).message
-    assert "lacks <type>" in only_fault(file, text(TIME.replace("<type>never</type>", ""))).message
-    only_fault(file, text(function="<function>t+</function>"))
-    only_fault(file, text(updater=FOG.replace(">0.05<", ">-0.05<")))
-    only_fault(file, text(FACE.replace(' u:truth="face"', "").replace("constant", "constnt")))
+def test_one_mistake_is_one_error(file: Path) -> None:
+    assert "tme" in only_error(file, text(TIME + "\n<tme/>")).message
+    assert "lacks <type>" in only_error(file, text(TIME.replace("<type>never</type>", ""))).message
+    only_error(file, text(function="<function>t+</function>"))
+    only_error(file, text(updater=FOG.replace(">0.05<", ">-0.05<")))
+    only_error(file, text(FACE.replace(' u:truth="face"', "").replace("constant", "constnt")))
 
 
-def test_all_faults_are_reported_at_once_in_the_order_of_the_file(file: Path) -> None:
+def test_all_errors_are_reported_at_once_in_the_order_of_the_file(file: Path) -> None:
     content = text(
         TIME.replace("onInit", "onint") + "\n<tme/>\n<distance><name>d</name></distance>",
         function="<function>t +* d</function>",
         updater=FOG.replace(">0.05<", ">x<").replace(">2<", ">soon<"),
     )
-    assert [fault.line for fault in faults(file, content)] == [3, 4, 5, 8, 10, 10]
+    assert [diagnostic.line for diagnostic in diagnostics(file, content)] == [3, 4, 5, 8, 10, 10]
 
 
 def test_every_measure_of_the_original_is_played(file: Path) -> None:
     file.write_text(WHOLE)
-    assert [str(fault) for fault in check_benchmark(file)] == []
+    assert [str(diagnostic) for diagnostic in check_benchmark(file)] == []
 
 
-def test_a_path_without_a_topic_is_a_notice(file: Path) -> None:
+def test_a_path_without_a_topic_is_a_warning(file: Path) -> None:
     path = f"<pathFollowing><name>p</name><target>girona500</target>{GATE}</pathFollowing>"
     file.write_text(text(path, function="<function>p</function>"))
-    notices = [fault.message for fault in check_benchmark(file)]
-    assert "<pathFollowing> without <topic> has no path, and no value" in notices
+    warnings = [diagnostic.message for diagnostic in check_benchmark(file)]
+    assert "<pathFollowing> without <topic> has no path, and no value" in warnings
 
 
-def test_a_benchmark_that_nothing_ends_is_a_notice(file: Path) -> None:
+def test_a_benchmark_that_nothing_ends_is_a_warning(file: Path) -> None:
     file.write_text(text())
     assert any(
-        "it ends after 600 s, in timeout" in fault.message for fault in check_benchmark(file)
+        "it ends after 600 s, in timeout" in diagnostic.message
+        for diagnostic in check_benchmark(file)
     )
 
 
@@ -474,28 +478,30 @@ def test_updaters_nested_to_a_hundred_levels_are_read(file: Path) -> None:
     assert n_levels(reading(file, text(updater=updater)).scene_updater) == 1
 
 
-def test_too_many_levels_by_nesting_are_a_fault_and_not_a_long_wait(file: Path) -> None:
+def test_too_many_levels_by_nesting_are_an_error_and_not_a_long_wait(file: Path) -> None:
     updater = "<none/>"
     for _ in range(40):
         updater = (
             "<repeat><iterations>1000</iterations><interval>1</interval>"
             f"<sceneUpdater>{updater}</sceneUpdater></repeat>"
         )
-    assert any("more than 100000 levels" in f.message for f in faults(file, text(updater=updater)))
+    assert any(
+        "more than 100000 levels" in f.message for f in diagnostics(file, text(updater=updater))
+    )
 
 
-def test_more_arm_positions_than_levels_are_a_fault_and_no_flood(file: Path) -> None:
+def test_more_arm_positions_than_levels_are_an_error_and_no_flood(file: Path) -> None:
     updater = (
         "<armMoveUpdater>"
         + "<armPosition><joint>1</joint></armPosition>" * 100
         + "<step>100000</step><interval>1</interval><target>a</target></armMoveUpdater>"
     )
-    assert "9900100 positions; at most 100000" in only_fault(file, text(updater=updater)).message
+    assert "9900100 positions; at most 100000" in only_error(file, text(updater=updater)).message
 
 
 @settings(max_examples=150, deadline=None)
 @given(data=st.data())
-def test_a_damaged_file_gives_faults_and_never_an_exception(
+def test_a_damaged_file_gives_errors_and_never_an_exception(
     tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
 ) -> None:
     file = tmp_path_factory.getbasetemp() / "damaged.xml"
@@ -513,7 +519,7 @@ def test_a_damaged_file_gives_faults_and_never_an_exception(
         elif parent is not None:
             parent.remove(node)
     file.write_bytes(etree.tostring(root))
-    assert all(fault.message for fault in check_benchmark(file, strict=True))
+    assert all(diagnostic.message for diagnostic in check_benchmark(file, strict=True))
 
 
 def test_a_benchmark_can_be_read_with_one_more_measure(file: Path) -> None:
@@ -573,7 +579,7 @@ def test_the_bundled_benchmarks_bind() -> None:
 
 
 @pytest.mark.skipif(ORIGINALS is None, reason="UWSIM_ORIGINALS is not set")
-def test_every_original_file_is_read_without_a_fault() -> None:
+def test_every_original_file_is_read_without_an_error() -> None:
     paths = sorted(
         path
         for path in Path(ORIGINALS or "").rglob("*.xml")
@@ -581,4 +587,4 @@ def test_every_original_file_is_read_without_a_fault() -> None:
     )
     assert paths
     for path in paths:
-        assert [str(f) for f in check_benchmark(path, strict=True) if f.severity == "fault"] == []
+        assert [str(f) for f in check_benchmark(path, strict=True) if f.severity == "error"] == []

@@ -21,13 +21,13 @@ def joints(*values: float) -> str:
     return "".join(f"<joint>{value:g}</joint>" for value in values)
 
 
-def notices(text: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> list[tuple[int, str]]:
-    """Line and words of each notice of a file without faults."""
+def warnings(text: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> list[tuple[int, str]]:
+    """Line and words of each warning of a file without errors."""
     file = folder / "b.xml"
     file.write_text(text)
     assert main(["check", str(file), "--scene", "visibility-scene"]) == 0
     said = capsys.readouterr().out
-    found = re.findall(r"b\.xml:(\d+): (.*) \(notice\)", said)
+    found = re.findall(r"b\.xml:(\d+): (.*) \(warning\)", said)
     return [(int(line), words) for line, words in found]
 
 
@@ -41,7 +41,7 @@ def test_arm_positions_that_the_arm_cannot_take_are_said(
     arm = ARM.replace("FIRST", joints(*[0] * 9)).replace("SECOND", joints(99, *[0] * 8))
     text = re.sub("<sceneUpdater>.*</sceneUpdater>", arm, BASE, flags=re.DOTALL)
     first = line_of(text, "<armPosition>")
-    found = [(line, words) for line, words in notices(text, tmp_path, capsys) if "joint" in words]
+    found = [(line, words) for line, words in warnings(text, tmp_path, capsys) if "joint" in words]
     assert [line for line, _ in found if line == first] != []
     assert all("<armPosition> has 9 values for 5 joints" in w for line, w in found if line == first)
     assert any(line == first + 1 and "at 99 is held at its limit" in w for line, w in found)
@@ -61,7 +61,7 @@ def test_a_start_that_never_comes_is_said(
     end = BASE.index("</startOn>", tail)
     text = f"{BASE[:tail]}<startOn>{start}{BASE[end:]}"
     line = line_of(BASE[tail:], "<startOn>") + BASE.count("\n", 0, tail)
-    assert [said for at, said in notices(text, tmp_path, capsys) if at == line and words in said]
+    assert [said for at, said in warnings(text, tmp_path, capsys) if at == line and words in said]
 
 
 def test_a_benchmark_that_measures_nothing_is_said(
@@ -69,5 +69,5 @@ def test_a_benchmark_that_measures_nothing_is_said(
 ) -> None:
     text = re.sub("<measures>.*</measures>", "<measures/>", BASE, flags=re.DOTALL)
     text = re.sub("<function .*</function>", "<function>1</function>", text, flags=re.DOTALL)
-    said = [words for _, words in notices(text, tmp_path, capsys)]
+    said = [words for _, words in warnings(text, tmp_path, capsys)]
     assert "<measures> is empty: nothing is measured" in said

@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from uwsim import errors, terminal
-from uwsim.cli import COMMANDS, app, faults, main
+from uwsim.cli import COMMANDS, app, exit_status, main
 
 
 def uwsim(*arguments: str) -> subprocess.CompletedProcess[str]:
@@ -143,15 +143,17 @@ def test_who_leaves_something_out_is_told_where_to_look(capsys: pytest.CaptureFi
     assert capsys.readouterr().err == said
 
 
-FAULT = errors.Fault(file="a.xml", line=3, message="<fog> is 'thick'; expected a number [1/m].")
-WHOLE = errors.Fault(file="a.xml", line=None, message="too deep.")
+ERROR = errors.Diagnostic(
+    file="a.xml", line=3, message="<fog> is 'thick'; expected a number [1/m]."
+)
+WHOLE = errors.Diagnostic(file="a.xml", line=None, message="too deep.")
 
 
 @pytest.mark.parametrize(
     ("error", "said", "status"),
     [
         (
-            errors.SceneError([FAULT, WHOLE]),
+            errors.SceneError([ERROR, WHOLE]),
             "a.xml:3: <fog> is 'thick'; expected a number [1/m].\na.xml: too deep.\n",
             2,
         ),
@@ -205,7 +207,7 @@ def test_every_error_of_the_tree_has_an_exit_status_of_wrong_input_or_failed_run
         return {kind}.union(*(below(child) for child in kind.__subclasses__()))
 
     for kind in below(errors.UwsimError):
-        assert faults.exit_status(kind.__new__(kind)) in (2, 3), kind
+        assert exit_status.exit_status(kind.__new__(kind)) in (2, 3), kind
 
 
 @pytest.mark.parametrize(
@@ -217,7 +219,7 @@ def test_every_error_of_the_tree_has_an_exit_status_of_wrong_input_or_failed_run
     ],
 )
 def test_an_error_shows_no_more_of_a_file_than_can_be_read(said: str, expected: str) -> None:
-    shown = faults.one_line(errors.BadSetting(said))
+    shown = exit_status.one_line(errors.BadSetting(said))
     assert 300 < len(shown) < 420
     assert shown.endswith(expected)
     assert "more letters)" in shown
@@ -226,16 +228,16 @@ def test_an_error_shows_no_more_of_a_file_than_can_be_read(said: str, expected: 
 def test_an_error_of_normal_length_is_shown_whole() -> None:
     folders = ", ".join(f"/home/someone/simulation/data/folder-{i}" for i in range(20))
     said = f"'box.obj' is neither a file nor bundled. The file's folders: {folders}. Is 'x' meant?"
-    assert faults.one_line(errors.BadSetting(said)) == f"uwsim: {said}"
+    assert exit_status.one_line(errors.BadSetting(said)) == f"uwsim: {said}"
     long = terminal.printable(" ".join(["word"] * 10_000))
     assert len(long) == terminal.MAX_LINE_LENGTH + 1
 
 
 def test_what_the_system_refuses_while_a_run_is_on_is_a_failed_run() -> None:
     said = r"No such file or directory: out/result\.json"
-    with pytest.raises(errors.RunFailed, match=said), faults.running():
+    with pytest.raises(errors.RunFailed, match=said), exit_status.running():
         raise FileNotFoundError(2, "No such file or directory", "out/result.json")
-    with pytest.raises(BrokenPipeError), faults.running():
+    with pytest.raises(BrokenPipeError), exit_status.running():
         raise BrokenPipeError
 
 

@@ -1,4 +1,4 @@
-"""``uwsim check``: 0 without faults, 2 with, every fault on its own line."""
+"""``uwsim check``: 0 without errors, 2 with, every error on its own line."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ def status(*words: str) -> int:
     return main(["check", *words])
 
 
-def test_a_file_without_faults_is_status_0(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_file_without_errors_is_status_0(capsys: pytest.CaptureFixture[str]) -> None:
     assert status(str(DATA / "scenes" / "cirs.xml"), str(DATA / "scenes" / "g500ARM5.urdf")) == 0
     said = capsys.readouterr().out
     assert "read, not simulated yet: imu" in said
-    assert said.count(": no faults") == 2
+    assert said.count(": no errors") == 2
 
 
-def test_faults_are_status_2_and_all_are_said(
+def test_errors_are_status_2_and_all_are_said(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "scene.xml"
@@ -37,7 +37,7 @@ def test_faults_are_status_2_and_all_are_said(
         f"{file}:2: <vehicel> is not an element of <UWSimScene>. Did you mean vehicle?"
     )
     assert said[1] == f"{file}:3: <fov> is 'wide'; expected a number > 0 and < 180 [deg]"
-    assert f"{file}: 2 faults" in said
+    assert f"{file}: 2 errors" in said
     assert any("there is no such file" in line for line in said)
 
 
@@ -113,7 +113,7 @@ def test_a_hostile_file_costs_little_time_and_less_than_500_mb(
     )
 
 
-def test_names_of_a_benchmark_that_its_scene_does_not_have_are_faults(
+def test_names_of_a_benchmark_that_its_scene_does_not_have_are_errors(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = (DATA / "benchmarks" / "visibility.xml").read_text()
@@ -130,7 +130,7 @@ def test_names_of_a_benchmark_that_its_scene_does_not_have_are_faults(
     assert f"{file}:10: No virtual camera" in said
 
 
-def test_a_benchmark_whose_scene_is_nowhere_is_a_fault(
+def test_a_benchmark_whose_scene_is_nowhere_is_an_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = (DATA / "benchmarks" / "visibility.xml").read_text()
@@ -209,6 +209,9 @@ def test_json_says_the_same_to_programs(tmp_path: Path, capsys: pytest.CaptureFi
     assert main(["check", "--json", str(file), "visibility"]) == 2
     said = json.loads(capsys.readouterr().out)
     first, second = said["files"]
-    assert second["faults"] == []
-    assert said["n_faults"] == sum(f["severity"] == "fault" for f in first["faults"]) > 0
-    assert f"{file}:{first['faults'][0]['line']}: {first['faults'][0]['message']}" in lines[0]
+    assert second["diagnostics"] == []
+    assert said["n_errors"] == sum(f["severity"] == "error" for f in first["diagnostics"]) > 0
+    assert (
+        f"{file}:{first['diagnostics'][0]['line']}: {first['diagnostics'][0]['message']}"
+        in lines[0]
+    )

@@ -218,7 +218,7 @@ def test_runs_that_another_search_writes_are_not_overwritten(
         (["--resume", "--overwrite"], "--resume and --overwrite exclude each other."),
     ],
 )
-def test_each_mistake_is_one_clean_fault_and_nothing_is_written(
+def test_each_mistake_is_one_clean_error_and_nothing_is_written(
     folder: Path, capsys: pytest.CaptureFixture[str], options: list[str], wrong: str
 ) -> None:
     given = ["--until", "strain > 5", *options]

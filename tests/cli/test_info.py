@@ -43,7 +43,7 @@ def test_every_bundled_scene_can_be_shown_and_json_says_the_same(
     text, found = said(capsys, name), json.loads(said(capsys, name, "--json"))
     assert list(found) == [
         "file", "frame", "water", "vehicles", "cameras", "objects", "topics", "services",
-        "varies", "not_simulated", "notices",
+        "varies", "not_simulated", "warnings",
     ]  # fmt: skip
     for kind in ("vehicles", "cameras", "objects"):
         assert found[kind]
@@ -75,7 +75,7 @@ def test_a_setting_is_applied_before_it_is_shown(capsys: pytest.CaptureFixture[s
     assert "fog 0.4 1/m" in text
 
 
-def test_a_scene_with_faults_is_refused_with_its_lines(
+def test_a_scene_with_errors_is_refused_with_its_lines(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "a.xml"

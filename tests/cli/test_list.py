@@ -19,7 +19,7 @@ from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.runs.tables import bundled_tables
 from uwsim.scene.unsupported import not_simulated
 from uwsim.scene.urdf_reader import read_urdf
-from uwsim.schema import Faults
+from uwsim.schema import Diagnostics
 from uwsim.simulation.bodies import find_file
 
 YOUR_OWN = Path(__file__).parents[2] / "docs" / "your-own-vehicle.md"
@@ -68,9 +68,9 @@ def test_the_marks_are_those_that_check_gives_a_file(kind: str) -> None:
         scene = etree.fromstring(
             f"<UWSimScene xmlns:u='urn:uwsim:1'><{parent}><{name}/></{parent}></UWSimScene>"
         )
-        faults = Faults("a.xml")
-        not_simulated(scene, faults)
-        assert bool(faults.all()) == bool(limit_in(kind, name)), name
+        diagnostics = Diagnostics("a.xml")
+        not_simulated(scene, diagnostics)
+        assert bool(diagnostics.all()) == bool(limit_in(kind, name)), name
 
 
 def test_json_lists_the_same_for_programs(capsys: pytest.CaptureFixture[str]) -> None:

@@ -55,7 +55,7 @@ def test_a_scene_may_hold_several_currents_in_any_order(tmp_path: Path) -> None:
     assert "stands behind" not in str(check_scene(path, strict=True))
 
 
-def test_a_misspelt_current_is_a_fault_that_names_the_right_one(tmp_path: Path) -> None:
+def test_a_misspelt_current_is_an_error_that_names_the_right_one(tmp_path: Path) -> None:
     path = scene(tmp_path, "<u:gausMarkov/>")
     with pytest.raises(SceneError, match="Did you mean u:gaussMarkov"):
         read_scene(path)
@@ -157,5 +157,7 @@ def test_the_example_of_every_current_is_one(name: str, tmp_path: Path) -> None:
     ],
 )
 def test_water_that_cannot_move_so_is_refused(inside: str, said: str, tmp_path: Path) -> None:
-    (fault,) = [each for each in check_scene(scene(tmp_path, inside)) if each.severity == "fault"]
-    assert said in fault.message
+    (diagnostic,) = [
+        each for each in check_scene(scene(tmp_path, inside)) if each.severity == "error"
+    ]
+    assert said in diagnostic.message

@@ -8,7 +8,7 @@ import pytest
 
 from uwsim.envelope import parse_criterion
 from uwsim.envelope.criterion import Judgement, reasons
-from uwsim.expression import ScoreFault
+from uwsim.expression import ScoreError
 
 
 def row(status: str = "ok", total: float | None = 2.0, **measures: float | None) -> dict[str, Any]:
@@ -65,7 +65,7 @@ def test_a_measure_of_that_name_comes_first() -> None:
     ],
 )
 def test_a_criterion_that_cannot_be_meant_is_refused(text: str, wrong: str) -> None:
-    with pytest.raises(ScoreFault) as caught:
+    with pytest.raises(ScoreError) as caught:
         parse_criterion(text, ["corners"])
     assert wrong in str(caught.value)
 

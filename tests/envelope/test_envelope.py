@@ -96,7 +96,7 @@ def test_a_finding_has_a_verdict(law: Law, verdict: str) -> None:
     assert envelope(law).plain()["verdict"] == verdict
 
 
-def test_a_criterion_that_goes_back_and_faults_of_an_algorithm_are_warned_of() -> None:
+def test_a_criterion_that_goes_back_and_errors_of_an_algorithm_are_warned_of() -> None:
     folded = envelope(lambda seed, level: 9.0 if 0.6 < level < 1.4 else 0.0)
     assert folded.sentence.startswith("fog 0.6")
     (warning,) = folded.warnings
@@ -105,7 +105,7 @@ def test_a_criterion_that_goes_back_and_faults_of_an_algorithm_are_warned_of() -
         "the first breaking point was searched"
     )
     faulty = envelope(lambda seed, level: None if level > 1 else 0.0, 1, status="algorithm error")
-    assert "broken by an algorithm error: a fault, not a limit?" in faulty.warnings[0]
+    assert "ended with an algorithm error: a bug rather than a limit?" in faulty.warnings[0]
 
 
 def test_the_file_is_json_with_a_run_a_line_and_the_plot_is_drawn(tmp_path: Path) -> None:

@@ -83,7 +83,7 @@ def test_seeds_that_never_break_stand_beside_those_that_do() -> None:
     assert sum(high == math.inf for _, high in brackets(result)) == 5
 
 
-def test_a_criterion_that_goes_back_is_noticed_and_its_first_point_found() -> None:
+def test_a_criterion_that_goes_back_is_warned_of_and_its_first_point_found() -> None:
     result = found(lambda seed, level: 0.4 < level < 0.9 or level > 1.2)
     assert result.fold is not None
     assert (result.fold.broken, result.fold.holds) == (0.488, 1.137)

@@ -1,4 +1,4 @@
-"""Hydrodynamics files of hydrodynamics: read whole, with every fault at once."""
+"""Hydrodynamics files of hydrodynamics: read whole, with every error at once."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from uwsim.physics.hydrodynamics import (
     BodyHydrodynamics,
     ThrusterSpec,
     VehicleHydrodynamics,
-    vehicle_faults,
+    vehicle_errors,
 )
-from uwsim.physics.hydrodynamics.faults import body_faults
+from uwsim.physics.hydrodynamics.checks import body_errors
 from uwsim.physics.hydrodynamics.spec import matrix
 from uwsim.physics.vehicle_file import VehicleError, read_vehicle
 from uwsim.physics.vehicle_sets import find_vehicle, vehicle_sets
@@ -39,12 +39,12 @@ MINIMAL = """<hydrodynamics name="mine">
 </hydrodynamics>"""
 
 
-def faults_of(path: Path, text: str, links: tuple[str, ...] = ("base_link",)) -> list[str]:
+def diagnostics_of(path: Path, text: str, links: tuple[str, ...] = ("base_link",)) -> list[str]:
     file = path / "mine.xml"
     file.write_text(text)
     with pytest.raises(VehicleError) as caught:
         read_vehicle(file, links)
-    return [f"{fault.line}: {fault.message}" for fault in caught.value.faults]
+    return [f"{diagnostic.line}: {diagnostic.message}" for diagnostic in caught.value.diagnostics]
 
 
 def test_a_short_file_is_read_with_defaults(tmp_path: Path) -> None:
@@ -65,7 +65,7 @@ def test_a_short_file_is_read_with_defaults(tmp_path: Path) -> None:
     )
 
 
-def test_every_fault_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> None:
+def test_every_error_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> None:
     text = """<hydrodynamics name="mine">
   <body link="base_lnk"> <addedMass>1 2 3</addedMass> </body>
   <body link="base_link"> <addedMass>-1 2 3 4 5 6</addedMass> <mss>3</mss> </body>
@@ -75,7 +75,7 @@ def test_every_fault_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> 
   <thruster name="t" link="base_link"> <direction><x>0</x><y>0</y><z>0</z></direction>
     <forward>40</forward> <saturation>5 10</saturation> </thruster>
 </hydrodynamics>"""
-    said = "\n".join(faults_of(tmp_path, text))
+    said = "\n".join(diagnostics_of(tmp_path, text))
     for message in (
         "2: the robot has no link 'base_lnk'. Did you mean 'base_link'?",
         "2: link 'base_lnk': added mass has 3 numbers; expected 6 or 36",
@@ -95,9 +95,9 @@ def test_every_fault_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> 
 
 def test_a_shape_that_is_none_is_said_once_and_its_lengths_are_not_counted(tmp_path: Path) -> None:
     shape = "<shape>cone</shape> <size>0.5 0.4 0.3</size> </body>"
-    (said,) = faults_of(tmp_path, MINIMAL.replace("</body>", shape))
+    (said,) = diagnostics_of(tmp_path, MINIMAL.replace("</body>", shape))
     assert "<shape> is 'cone'; expected one of" in said
-    (said,) = faults_of(tmp_path, MINIMAL.replace("</body>", shape.replace("cone", "sphere")))
+    (said,) = diagnostics_of(tmp_path, MINIMAL.replace("</body>", shape.replace("cone", "sphere")))
     assert said.endswith("a sphere has 1 length; found 3")
 
 
@@ -105,22 +105,22 @@ def test_an_added_mass_that_is_not_symmetric_names_the_entries(tmp_path: Path) -
     rows = np.eye(6)
     rows[0, 4] = 0.5
     text = MINIMAL.replace("1, 2, 3, 4, 5, 6", " ".join(map(str, rows.ravel())))
-    assert faults_of(tmp_path, text) == [
+    assert diagnostics_of(tmp_path, text) == [
         "2: link 'base_link': added mass is not symmetric: entry (1,5) is 0.5 and (5,1) is 0"
     ]
 
 
 def test_an_inertia_that_no_body_has_is_refused(tmp_path: Path) -> None:
     text = MINIMAL.replace("<volume>", "<inertia>1 1 3 0 0 0</inertia> <volume>")
-    assert "no body can have one above the sum" in faults_of(tmp_path, text)[0]
+    assert "no body can have one above the sum" in diagnostics_of(tmp_path, text)[0]
 
 
-def test_an_included_file_brings_its_bodies_and_its_faults(tmp_path: Path) -> None:
+def test_an_included_file_brings_its_bodies_and_its_errors(tmp_path: Path) -> None:
     (tmp_path / "arm.xml").write_text(
         '<hydrodynamics name="arm"> <body link="hand"> <volume>-1</volume> </body></hydrodynamics>'
     )
     text = MINIMAL.replace("<body", "<include>arm.xml</include> <body", 1)
-    said = faults_of(tmp_path, text, ("base_link", "hand"))
+    said = diagnostics_of(tmp_path, text, ("base_link", "hand"))
     assert said == ["2: in arm.xml, line 1: <volume> is '-1'; expected a number >= 0 [m3]"]
 
 
@@ -149,17 +149,17 @@ def test_an_unknown_set_is_told_of_those_beside_the_scene(tmp_path: Path) -> Non
 
 def test_a_file_that_includes_itself_is_refused(tmp_path: Path) -> None:
     text = MINIMAL.replace("<body", "<include>mine.xml</include> <body", 1)
-    assert "includes itself" in faults_of(tmp_path, text)[0]
+    assert "includes itself" in diagnostics_of(tmp_path, text)[0]
 
 
-def test_faults_of_a_set_made_in_python_are_the_same() -> None:
+def test_errors_of_a_set_made_in_python_are_the_same() -> None:
     vehicle = VehicleHydrodynamics(
         name="v",
         source="",
         bodies=(BodyHydrodynamics(link="a"), BodyHydrodynamics(link="a", shape="box")),
         thrusters=(ThrusterSpec(name="t", link="b", forward=(1.0,) * 10),),
     )
-    assert vehicle_faults(vehicle, ["a"]) == [
+    assert vehicle_errors(vehicle, ["a"]) == [
         "two entries for the link 'a'; only one may be",
         "link 'a': a box needs its 3 lengths (size) [m]",
         "thruster 't': forward has 10 coefficients; expected 1 to 9",
@@ -240,9 +240,9 @@ THRUST = "<forward>0 40</forward>"
     ],
 )
 def test_a_thruster_that_cannot_be_is_refused(curve: str, said: str, tmp_path: Path) -> None:
-    (fault,) = faults_of(tmp_path, MINIMAL.replace(THRUST, curve))
-    assert fault.startswith("7: ")
-    assert said in fault
+    (diagnostic,) = diagnostics_of(tmp_path, MINIMAL.replace(THRUST, curve))
+    assert diagnostic.startswith("7: ")
+    assert said in diagnostic
 
 
 @pytest.mark.parametrize(
@@ -275,8 +275,8 @@ def test_a_thruster_of_one_way_or_measured_or_of_other_units_may_be(
 def test_a_number_that_no_vehicle_has_is_refused(
     old: str, new: str, said: str, tmp_path: Path
 ) -> None:
-    (fault,) = faults_of(tmp_path, MINIMAL.replace(old, new, 1))
-    assert said in fault
+    (diagnostic,) = diagnostics_of(tmp_path, MINIMAL.replace(old, new, 1))
+    assert said in diagnostic
 
 
 @pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf])
@@ -288,7 +288,7 @@ def test_a_body_made_in_python_with_a_number_that_is_none_is_refused(
 ) -> None:
     how_many = {"reference": 3, "inertia": 6, "size": 1, "added_mass": 6}.get(name)
     value = number if how_many is None else (number,) * how_many
-    (said,) = body_faults(BodyHydrodynamics(link="a", **{name: value}))  # type: ignore[arg-type]
+    (said,) = body_errors(BodyHydrodynamics(link="a", **{name: value}))  # type: ignore[arg-type]
     assert "expected finite numbers" in said
 
 
@@ -310,13 +310,13 @@ def test_what_cannot_be_included_is_said_where_it_should_be(
     (tmp_path / "torn.xml").write_text("<hydrodynamics")
     (tmp_path / "arm.xml").write_text('<hydrodynamics name="arm"/>')
     text = MINIMAL.replace("\n  <body", f"\n<include>{name}</include> <body", 1)
-    (fault,) = faults_of(tmp_path, text)
-    assert fault.startswith(said)
+    (diagnostic,) = diagnostics_of(tmp_path, text)
+    assert diagnostic.startswith(said)
 
 
 def test_what_has_no_name_is_refused(tmp_path: Path) -> None:
     text = MINIMAL.replace('name="mine"', 'name=" "').replace('name="t"', 'name=" "')
-    assert faults_of(tmp_path, text) == ["1: the set has no name", "7: a thruster has no name"]
+    assert diagnostics_of(tmp_path, text) == ["1: the set has no name", "7: a thruster has no name"]
 
 
 @pytest.mark.parametrize("name", ["x" * 5000, "../mine", "a\0b"])
@@ -327,11 +327,11 @@ def test_a_set_whose_name_no_file_can_have_is_an_unknown_one(name: str, tmp_path
         find_vehicle(name, tmp_path / "inner" / "scene.xml")
 
 
-def test_an_inertia_that_the_engine_refuses_and_a_propeller_of_no_size_are_faults(
+def test_an_inertia_that_the_engine_refuses_and_a_propeller_of_no_size_are_errors(
     tmp_path: Path,
 ) -> None:
     tiny = "<inertia>1e-300 1e-300 1e-300 0 0 0</inertia> <volume>"
     text = MINIMAL.replace("<volume>", tiny).replace(THRUST, f"{THRUST} <radius>1e-300</radius>")
-    said = faults_of(tmp_path, text)
+    said = diagnostics_of(tmp_path, text)
     assert "expected > 1e-12 [kg m2]" in said[0]
     assert "<radius> is '1e-300'; expected a number >= 0.001 [m]" in said[1]

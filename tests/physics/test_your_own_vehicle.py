@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.cli.check import faults_of
+from uwsim.cli.check import diagnostics_of
 from uwsim.errors import SceneError
 from uwsim.physics.hydrodynamics.spec import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics
 from uwsim.scene.reader import read_scene
@@ -82,25 +82,25 @@ def test_the_page_names_every_element() -> None:
             ), field.shown
 
 
-def test_a_vehicle_without_any_mass_is_a_fault_of_its_scene(folder: Path) -> None:
+def test_a_vehicle_without_any_mass_is_an_error_of_its_scene(folder: Path) -> None:
     side_file = folder / "my_rov.xml"
     side_file.write_text(side_file.read_text().replace("<mass>20</mass>", ""))
-    said = [str(fault) for fault in faults_of(folder / "my_scene.xml")]
+    said = [str(diagnostic) for diagnostic in diagnostics_of(folder / "my_scene.xml")]
     assert len(said) == 1
     assert "my_scene.xml:10: the vehicle 'my_rov' has no mass" in said[0]
 
 
 @pytest.mark.parametrize(
     ("volume", "severity"),
-    [("1e9", "fault"), ("20.1", "fault"), ("0.2", "notice"), ("0.0001", "notice")],
+    [("1e9", "error"), ("20.1", "error"), ("0.2", "warning"), ("0.0001", "warning")],
 )
 def test_a_vehicle_far_from_floating_is_said(volume: str, severity: str, folder: Path) -> None:
     side_file = folder / "my_rov.xml"
     side_file.write_text(side_file.read_text().replace("0.0201", volume))
-    (fault,) = faults_of(folder / "my_scene.xml")
-    assert (fault.line, fault.severity) == (10, severity)
-    assert f"has 20 kg and displaces {float(volume) * 1000:g} kg of water" in fault.message
-    if severity == "notice":
+    (diagnostic,) = diagnostics_of(folder / "my_scene.xml")
+    assert (diagnostic.line, diagnostic.severity) == (10, severity)
+    assert f"has 20 kg and displaces {float(volume) * 1000:g} kg of water" in diagnostic.message
+    if severity == "warning":
         Simulation(read_scene(folder / "my_scene.xml"), is_blind=True).close()
     else:
         with pytest.raises(SceneError, match="lighter than any foam"):

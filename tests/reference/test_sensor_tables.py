@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from uwsim import messages
-from uwsim.cli.check import faults_of
+from uwsim.cli.check import diagnostics_of
 from uwsim.devices import DEVICES
 from uwsim.reference.sensor_tables import filled
 from uwsim.scene.unsupported import limit_of
@@ -52,4 +52,6 @@ def test_the_camera_of_the_page_is_one_that_a_scene_can_have(tmp_path: Path) -> 
     camera, topic = re.findall(r"^```xml\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.format(5 * "<joint>0</joint>", camera, topic))
-    assert [str(fault) for fault in faults_of(scene) if fault.severity == "fault"] == []
+    assert [
+        str(diagnostic) for diagnostic in diagnostics_of(scene) if diagnostic.severity == "error"
+    ] == []

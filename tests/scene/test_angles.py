@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.scene.reader import angle_notices, check_robot, check_scene, read_scene
+from uwsim.scene.reader import angle_warnings, check_robot, check_scene, read_scene
 from uwsim.scene.settings import apply_setting
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
@@ -28,7 +28,7 @@ ROBOT = """<robot name="rov"> <link name="base_link"/> <link name="arm"/>
 def test_angles_beyond_a_turn_are_said_as_degrees_and_within_a_turn(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(SCENE)
-    said = {fault.line: fault.message for fault in check_scene(path)}
+    said = {diagnostic.line: diagnostic.message for diagnostic in check_scene(path)}
     assert said == {
         2: "<offsetr> is 180 0 -90 in radians, more than a turn; as degrees it would be 3.1416 0 "
         "-1.5708, else write -2.2124 0 -2.0354, which is the same",
@@ -48,7 +48,7 @@ def test_limits_of_a_robot_that_look_like_degrees_are_asked_about(
 ) -> None:
     path = tmp_path / "rov.urdf"
     path.write_text(ROBOT.format(lower, upper))
-    said = [fault.message for fault in check_robot(path)]
+    said = [diagnostic.message for diagnostic in check_robot(path)]
     assert said[0].startswith("rpy of <origin> is 0 0 90 in radians, more than a turn")
     assert [message.split(";")[0] for message in said[1:]] == (
         [f"joint 'a' turns from {lower} to {upper} rad"] if is_asked else []
@@ -61,7 +61,7 @@ def test_angles_of_a_scene_that_was_set_are_asked_about_at_the_lines_of_its_file
     path = tmp_path / "scene.xml"
     path.write_text(SCENE)
     scene = apply_setting(read_scene(path), "vehicle[rov].orientation", "0 0 1.57")
-    assert [(fault.line, fault.message[:30]) for fault in angle_notices(scene)] == [
+    assert [(diagnostic.line, diagnostic.message[:30]) for diagnostic in angle_warnings(scene)] == [
         (2, "<offsetr> is 180 0 -90 in radi"),
         (6, "<orientation> is 0 180 1.5708 "),
     ]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from uwsim import schema
-from uwsim.cli.check import faults_of
+from uwsim.cli.check import diagnostics_of
 from uwsim.devices.object_picker import ObjectPickerSpec
 from uwsim.geometry import Pose, rotation_from_rpy
 from uwsim.scene.mounts import Stand, in_words
@@ -153,7 +153,9 @@ SCENE = """<UWSimScene xmlns:u="urn:uwsim:1"><vehicle><name>g</name>
 def said(folder: Path, inside: str) -> list[str]:
     file = folder / "scene.xml"
     file.write_text(SCENE.format(inside))
-    return [fault.message for fault in faults_of(file) if "eye" in fault.message]
+    return [
+        diagnostic.message for diagnostic in diagnostics_of(file) if "eye" in diagnostic.message
+    ]
 
 
 @pytest.mark.parametrize(
@@ -175,15 +177,15 @@ def test_check_says_that_an_orientation_beside_a_lookat_is_not_used(tmp_path: Pa
     assert any("<orientation> is not used" in message for message in said(tmp_path, turned))
 
 
-def test_a_direction_that_is_none_is_a_fault_with_the_nearest_and_the_other_way(
+def test_a_direction_that_is_none_is_an_error_with_the_nearest_and_the_other_way(
     tmp_path: Path,
 ) -> None:
     file = tmp_path / "scene.xml"
     file.write_text(SCENE.format("<u:lookAt>donw</u:lookAt>"))
-    (fault,) = [each for each in check_scene(file) if each.severity == "fault"]
-    assert "expected one of 'forward'" in fault.message
-    assert "or <x> <y> <z>" in fault.message
-    assert "Did you mean 'down'?" in fault.message
+    (diagnostic,) = [each for each in check_scene(file) if each.severity == "error"]
+    assert "expected one of 'forward'" in diagnostic.message
+    assert "or <x> <y> <z>" in diagnostic.message
+    assert "Did you mean 'down'?" in diagnostic.message
 
 
 def test_where_a_camera_looks_can_be_set_from_the_command_line(tmp_path: Path) -> None:
@@ -208,7 +210,7 @@ def test_a_scene_of_before_july_2014_is_told_the_switch_that_turns_its_cameras(
 ) -> None:
     file = tmp_path / "scene.xml"
     file.write_text(OF_2013.format(pitch))
-    messages = [fault.message for fault in faults_of(file)]
+    messages = [diagnostic.message for diagnostic in diagnostics_of(file)]
     assert any("--compat visual-frames" in message for message in messages) is is_old
 
 

@@ -1,4 +1,4 @@
-"""Scene files: every element of UWSim's dialect, old names, frames, and faults all at once."""
+"""Scene files: every element of UWSim's dialect, old names, frames, and errors all at once."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from uwsim.cli.check import faults_of
+from uwsim.cli.check import diagnostics_of
 from uwsim.currents import UwsimSinusoidSpec
 from uwsim.errors import SceneError
 from uwsim.geometry import Pose
@@ -25,7 +25,7 @@ from uwsim.scene.reader import check_scene
 from uwsim.scene.spec import ObjectSpec, ShowTrajectorySpec
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
-from uwsim.schema import Faults, Field, fields_of
+from uwsim.schema import Diagnostics, Field, fields_of
 from uwsim.topics import INTERFACES
 from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
 from uwsim.topics.sensor_topic import CustomCommsDeviceROSSpec, EchoROSSpec, ProfilingSonarROSSpec
@@ -50,19 +50,21 @@ def written(text: str, folder: Path) -> Path:
 
 
 def scene_of(inside: str, folder: Path) -> tuple[SceneSpec, list[str]]:
-    """Read a scene with this inside; also every fault and notice of its reading."""
+    """Read a scene with this inside; also every error and warning of its reading."""
     file = written(f"<UWSimScene>{inside}</UWSimScene>", folder)
     said = [
-        fault.message
-        for fault in check_scene(file)
-        if not fault.message.startswith("read, not simulated yet")
+        diagnostic.message
+        for diagnostic in check_scene(file)
+        if not diagnostic.message.startswith("read, not simulated yet")
     ]
     return read_scene(file), said
 
 
-def faults(inside: str, folder: Path) -> list[str]:
+def diagnostics(inside: str, folder: Path) -> list[str]:
     file = written(f"<UWSimScene>{inside}</UWSimScene>", folder)
-    return [fault.message for fault in check_scene(file) if fault.severity == "fault"]
+    return [
+        diagnostic.message for diagnostic in check_scene(file) if diagnostic.severity == "error"
+    ]
 
 
 VEHICLE = "<vehicle><name>g</name><file>data/scenes/g500ARM5.urdf</file>{}</vehicle>"
@@ -113,7 +115,7 @@ def test_dropping_the_extensions_gives_a_scene_in_the_originals_order(
     text = to_original(read_scene(path))
     assert "urn:uwsim" not in text
     said = check_scene(written(text, tmp_path), strict=True)
-    wrong = {fault.message for fault in said if fault.severity == "fault"}
+    wrong = {diagnostic.message for diagnostic in said if diagnostic.severity == "error"}
     assert wrong <= {
         "<ProfilingSonar> is not in the original grammar",
         "<ProfilingSonarROS> is not in the original grammar",
@@ -140,19 +142,21 @@ def test_dropping_the_extensions_gives_a_valid_original(path: Path) -> None:
 @pytest.mark.parametrize(
     "path", [*originals("*.xml"), *originals("*.urdf")], ids=lambda path: path.name
 )
-def test_every_original_file_is_without_faults(path: Path) -> None:
-    assert [fault for fault in faults_of(path) if fault.severity == "fault"] == []
+def test_every_original_file_is_without_errors(path: Path) -> None:
+    assert [
+        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+    ] == []
 
 
 @needs_originals
 @pytest.mark.parametrize("path", originals("*[sS]cene.xml"), ids=lambda path: path.name)
 def test_every_original_scene_is_in_the_originals_order(path: Path) -> None:
-    assert [f for f in faults_of(path, strict=True) if f.severity == "fault"] == []
+    assert [f for f in diagnostics_of(path, strict=True) if f.severity == "error"] == []
 
 
 @pytest.mark.parametrize("path", BUNDLED, ids=lambda path: path.stem)
-def test_every_bundled_scene_is_without_faults_and_in_order(path: Path) -> None:
-    assert [f for f in faults_of(path, strict=True) if f.severity == "fault"] == []
+def test_every_bundled_scene_is_without_errors_and_in_order(path: Path) -> None:
+    assert [f for f in diagnostics_of(path, strict=True) if f.severity == "error"] == []
 
 
 def camera_in_l(scene: SceneSpec) -> tuple[np.ndarray, np.ndarray]:
@@ -234,7 +238,7 @@ def test_an_empty_scene_has_the_originals_usual_water(tmp_path: Path) -> None:
     assert scene == SceneSpec()
 
 
-def test_a_file_without_faults_may_have_a_doctype_or_none(tmp_path: Path) -> None:
+def test_a_file_without_errors_may_have_a_doctype_or_none(tmp_path: Path) -> None:
     doctype = '<!DOCTYPE UWSimScene SYSTEM "UWSimScene.dtd">'
     assert read_scene(written(doctype + "<UWSimScene/>", tmp_path)) == SceneSpec()
 
@@ -360,7 +364,7 @@ def test_a_current_of_2013_in_the_ocean_is_a_sinusoid(tmp_path: Path) -> None:
 
 
 def test_a_word_in_a_current_of_2013_is_told_at_its_line(tmp_path: Path) -> None:
-    said = faults(CURRENT_OF_2013.replace(" 0.1 ", "strong"), tmp_path)
+    said = diagnostics(CURRENT_OF_2013.replace(" 0.1 ", "strong"), tmp_path)
     assert len(said) == 1
     assert "strong" in said[0]
 
@@ -373,7 +377,7 @@ def test_a_word_in_a_current_of_2013_is_told_at_its_line(tmp_path: Path) -> None
          "<includesFixedAndMimic>1</includesFixedAndMimic></ArmToROSJointState>"),
     ],
 )  # fmt: skip
-def test_what_has_no_effect_any_more_is_dropped_with_a_notice(
+def test_what_has_no_effect_any_more_is_dropped_with_a_warning(
     parent: str, dropped: str, tmp_path: Path
 ) -> None:
     _, said = scene_of(f"<{parent}>{dropped}</{parent}>" + VEHICLE.format(""), tmp_path)
@@ -413,7 +417,7 @@ def test_a_comms_device_of_2017_becomes_a_custom_one(tmp_path: Path) -> None:
     assert len(said) >= 5
 
 
-def test_physics_water_and_an_old_visible_are_dropped_with_a_notice(tmp_path: Path) -> None:
+def test_physics_water_and_an_old_visible_are_dropped_with_a_warning(tmp_path: Path) -> None:
     scene, said = scene_of(
         "<simParams><physicsWater><size><minX>1</minX></size></physicsWater></simParams>"
         + VEHICLE.format(
@@ -431,7 +435,7 @@ def test_a_scene_with_a_wrong_root_says_what_was_expected(tmp_path: Path) -> Non
         read_scene(written("<scene/>", tmp_path))
 
 
-def test_a_misspelt_camera_is_a_fault_with_file_and_line(tmp_path: Path) -> None:
+def test_a_misspelt_camera_is_an_error_with_file_and_line(tmp_path: Path) -> None:
     file = written("<UWSimScene>\n" + VEHICLE.format("<virtualCamra/>") + "</UWSimScene>", tmp_path)
     with pytest.raises(SceneError) as caught:
         read_scene(file)
@@ -440,7 +444,7 @@ def test_a_misspelt_camera_is_a_fault_with_file_and_line(tmp_path: Path) -> None
     )
 
 
-def test_a_topic_of_a_sensor_that_is_not_there_is_a_notice_as_in_the_original(
+def test_a_topic_of_a_sensor_that_is_not_there_is_a_warning_as_in_the_original(
     tmp_path: Path,
 ) -> None:
     inside = "<virtualCamera><name>bowtech1</name><relativeTo>part0</relativeTo></virtualCamera>"
@@ -457,9 +461,9 @@ def test_a_topic_of_a_sensor_that_is_not_there_is_a_notice_as_in_the_original(
     ]
 
 
-def test_depth_of_a_colour_camera_is_a_fault_because_the_original_crashes(tmp_path: Path) -> None:
+def test_depth_of_a_colour_camera_is_an_error_because_the_original_crashes(tmp_path: Path) -> None:
     camera = "<virtualCamera><name>c</name><relativeTo>part0</relativeTo></virtualCamera>"
-    said = faults(
+    said = diagnostics(
         VEHICLE.format(camera)
         + "<rosInterfaces><VirtualCameraToROSImage><cameraName>c</cameraName><imageTopic>/i"
         "</imageTopic><infoTopic>/c</infoTopic><depth>1</depth></VirtualCameraToROSImage>"
@@ -472,13 +476,13 @@ def test_depth_of_a_colour_camera_is_a_fault_because_the_original_crashes(tmp_pa
 def checked(inside: str, folder: Path, doctype: str = "") -> list[tuple[str, str]]:
     file = written(f"{doctype}<UWSimScene>{inside}</UWSimScene>", folder)
     return [
-        (fault.severity, fault.message)
-        for fault in faults_of(file)
-        if not fault.message.startswith("read, not simulated yet")
+        (diagnostic.severity, diagnostic.message)
+        for diagnostic in diagnostics_of(file)
+        if not diagnostic.message.startswith("read, not simulated yet")
     ]
 
 
-def test_a_sensor_on_an_unknown_link_is_a_notice_and_a_force_sensor_a_fault(
+def test_a_sensor_on_an_unknown_link_is_a_warning_and_a_force_sensor_an_error(
     tmp_path: Path,
 ) -> None:
     said = checked(
@@ -488,28 +492,28 @@ def test_a_sensor_on_an_unknown_link_is_a_notice_and_a_force_sensor_a_fault(
         ),
         tmp_path,
     )
-    assert [severity for severity, _ in said] == ["notice", "fault"]
+    assert [severity for severity, _ in said] == ["warning", "error"]
     assert "'part9' is no link of data/scenes/g500ARM5.urdf. Did you mean part" in said[0][1]
 
 
-def test_a_model_that_is_nowhere_is_a_fault_that_names_the_folders(tmp_path: Path) -> None:
+def test_a_model_that_is_nowhere_is_an_error_that_names_the_folders(tmp_path: Path) -> None:
     thing = "<object><name>o</name><file>objects/mermaid.osg</file></object>"
     ((severity, message),) = checked(thing, tmp_path)
-    assert severity == "fault"
+    assert severity == "error"
     assert str(tmp_path) in message
     ((severity, _),) = checked(thing, tmp_path, '<!DOCTYPE UWSimScene SYSTEM "UWSimScene.dtd">')
-    assert severity == "notice"
+    assert severity == "warning"
 
 
-def test_a_joint_beyond_its_limit_is_a_notice(tmp_path: Path) -> None:
+def test_a_joint_beyond_its_limit_is_a_warning(tmp_path: Path) -> None:
     joints = "<joint>0</joint><joint>0</joint><joint>2.2</joint>"
     ((severity, message),) = checked(
         VEHICLE.format(f"<jointValues>{joints}</jointValues>"), tmp_path
     )
-    assert (severity, message) == ("notice", "joint 'Elbow' at 2.2 is held at its limit 2.15294")
+    assert (severity, message) == ("warning", "joint 'Elbow' at 2.2 is held at its limit 2.15294")
 
 
-def test_faults_of_the_robots_file_are_faults_of_its_scene(tmp_path: Path) -> None:
+def test_errors_of_the_robots_file_are_errors_of_its_scene(tmp_path: Path) -> None:
     (tmp_path / "bad.urdf").write_text('<robot name="r"><link/></robot>')
     ((_, message), *_) = checked("<vehicle><name>v</name><file>bad.urdf</file></vehicle>", tmp_path)
     assert message == "a <link> lacks the attribute name"
@@ -525,7 +529,7 @@ def test_what_is_not_simulated_yet_is_one_line_a_kind(tmp_path: Path) -> None:
         + "</UWSimScene>",
         tmp_path,
     )
-    assert [str(fault) for fault in check_scene(file)] == [
+    assert [str(diagnostic) for diagnostic in check_scene(file)] == [
         f"{file}:3: read, not simulated yet: imu (lines 3, 4)"
     ]
 
@@ -548,7 +552,7 @@ def test_objects_that_a_search_never_finds_and_topics_of_two_are_named(tmp_path:
         + f"<rosInterfaces>{odom}\n{odom}</rosInterfaces></UWSimScene>",
         tmp_path,
     )  # fmt: skip
-    assert [str(fault) for fault in check_scene(file)] == [
+    assert [str(diagnostic) for diagnostic in check_scene(file)] == [
         f"{file}:4: the object 'a' is called as an object before it; searches find the first",
         f"{file}:6: the object 'g' is called as a vehicle before it; searches find the first",
         f"{file}:8: the topic '/o' carries 'g' and 'g': who reads it gets both",
@@ -575,12 +579,12 @@ def test_no_mutation_of_a_scene_raises_anything_but_a_scene_error(data: st.DataO
         file = Path(folder) / "scene.xml"
         file.write_bytes(text)
         said = check_scene(file)
-        assert all(fault.message for fault in said)
+        assert all(diagnostic.message for diagnostic in said)
         with contextlib.suppress(SceneError):
             assert isinstance(read_scene(file), SceneSpec)
 
 
-def test_a_fault_never_shows_a_long_value_whole() -> None:
-    faults = Faults("f")
-    faults.unknown(etree.Element("a"), "what", "x" * 10_000, ["y"])
-    assert len(faults.all()[0].message) < 100
+def test_an_error_never_shows_a_long_value_whole() -> None:
+    diagnostics = Diagnostics("f")
+    diagnostics.unknown(etree.Element("a"), "what", "x" * 10_000, ["y"])
+    assert len(diagnostics.all()[0].message) < 100

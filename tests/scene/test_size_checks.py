@@ -10,7 +10,7 @@ from uwsim.errors import SceneError
 from uwsim.scene.reader import read_scene
 
 
-def faults(cameras: str, folder: Path) -> list[str]:
+def diagnostics(cameras: str, folder: Path) -> list[str]:
     path = folder / "scene.xml"
     path.write_text(
         "<UWSimScene>\n<vehicle><name>v</name><file>g500ARM5.urdf</file>"
@@ -19,7 +19,7 @@ def faults(cameras: str, folder: Path) -> list[str]:
     try:
         read_scene(path)
     except SceneError as error:
-        return [fault.message for fault in error.faults]
+        return [diagnostic.message for diagnostic in error.diagnostics]
     return []
 
 
@@ -40,8 +40,8 @@ def sonar(step: str, kind: str) -> str:
 
 @pytest.mark.parametrize("kind", ["virtualCamera", "virtualRangeImage"])
 def test_an_image_may_have_8k_and_no_more(kind: str, tmp_path: Path) -> None:
-    assert faults(camera(7680, 4320, kind), tmp_path) == []
-    assert faults(camera(16384, 16384, kind), tmp_path) == [
+    assert diagnostics(camera(7680, 4320, kind), tmp_path) == []
+    assert diagnostics(camera(16384, 16384, kind), tmp_path) == [
         "an image of 16384 x 16384 pixels; at most 33 million are drawn"
     ]
 
@@ -54,15 +54,15 @@ def test_so_has_the_window(tmp_path: Path) -> None:
 
 
 def test_all_images_together_have_a_largest_size(tmp_path: Path) -> None:
-    assert faults(camera(7680, 4320) * 3, tmp_path) == []
-    assert faults(camera(7680, 4320) * 5, tmp_path) == [
+    assert diagnostics(camera(7680, 4320) * 3, tmp_path) == []
+    assert diagnostics(camera(7680, 4320) * 5, tmp_path) == [
         "with this one, the images of the scene have 133 million pixels; at most 133 are drawn"
     ]
 
 
 @pytest.mark.parametrize("kind", ["multibeamSensor", "ProfilingSonar"])
 def test_a_fan_of_beams_has_a_largest_number(kind: str, tmp_path: Path) -> None:
-    assert faults(sonar("0.1", kind), tmp_path) == []
+    assert diagnostics(sonar("0.1", kind), tmp_path) == []
     for step in ("1e-9", "5e-324"):
-        (said,) = faults(sonar(step, kind), tmp_path)
+        (said,) = diagnostics(sonar(step, kind), tmp_path)
         assert said.endswith("are more than 100000 beams")

@@ -17,7 +17,7 @@ from uwsim.errors import SceneError
 from uwsim.scene.kinematics import joint_positions, link_poses
 from uwsim.scene.urdf import RobotSpec
 from uwsim.scene.urdf_reader import read_robot, read_urdf
-from uwsim.schema import Faults
+from uwsim.schema import Diagnostics
 
 G500 = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "scenes" / "g500ARM5.urdf"
 
@@ -31,7 +31,7 @@ def robot_of(inside: str, folder: Path) -> RobotSpec:
 def refused(inside: str, folder: Path) -> list[str]:
     with pytest.raises(SceneError) as caught:
         robot_of(inside, folder)
-    return [fault.message for fault in caught.value.faults]
+    return [diagnostic.message for diagnostic in caught.value.diagnostics]
 
 
 def joint(name: str, inside: str = "", *, kind: str = "continuous", of: str = "a b") -> str:
@@ -142,12 +142,12 @@ def test_a_joint_that_mimics_nobody_is_free_and_the_user_is_told(tmp_path: Path)
     file = tmp_path / "robot.urdf"
     inside = LINKS + joint("jaw_1") + joint("jaw_2", '<mimic joint="jaw1"/>', of="a c")
     file.write_text(f'<robot name="r">{inside}</robot>')
-    faults = Faults(file)
-    robot = read_robot(file, faults)
+    diagnostics = Diagnostics(file)
+    robot = read_robot(file, diagnostics)
     assert robot is not None
     assert [joint.name for joint in robot.movable] == ["jaw_1", "jaw_2"]
-    (said,) = faults.all()
-    assert said.severity == "notice"
+    (said,) = diagnostics.all()
+    assert said.severity == "warning"
     assert "'jaw1', which is no joint. Did you mean jaw_1?" in said.message
 
 
@@ -204,7 +204,7 @@ def test_what_other_programs_wrote_is_passed_over(tmp_path: Path) -> None:
     assert robot.root == "a"
 
 
-def test_every_fault_of_a_robot_is_said_at_once(tmp_path: Path) -> None:
+def test_every_error_of_a_robot_is_said_at_once(tmp_path: Path) -> None:
     said = refused(
         '<link name="arm"/><link name="arm"/>'
         '<link name="b"><visual><geometry><mesh/></geometry></visual></link>'
@@ -261,7 +261,7 @@ def chain(n: int) -> str:
     return links + "".join(joint(f"j{i}", kind="fixed", of=f"{i} {i + 1}") for i in range(n))
 
 
-def test_a_chain_of_3000_links_is_a_fault_and_no_recursion_error(tmp_path: Path) -> None:
+def test_a_chain_of_3000_links_is_an_error_and_no_recursion_error(tmp_path: Path) -> None:
     assert len(robot_of(chain(256), tmp_path).joints) == 256
     assert refused(chain(3000), tmp_path) == ["joint 'j256' ends a chain of more than 256 joints"]
 
@@ -282,7 +282,7 @@ def test_1200_joints_that_mimic_the_next_are_followed_once_each(last: str, tmp_p
     text = links + "".join(joint(f"j{i}", mimics[i], of=f"a {i}") for i in range(n))
     start = time.process_time()
     if last:
-        assert "and 1100 more faults" in refused(text, tmp_path)
+        assert "and 1100 more errors" in refused(text, tmp_path)
     else:
         assert len(robot_of(text, tmp_path).joints) == n
     assert time.process_time() - start < 2.0  # it took 4 s and 14 s
@@ -297,7 +297,7 @@ def test_1200_joints_that_mimic_the_next_are_followed_once_each(last: str, tmp_p
         ('<box size="1 1e300 1"/>', "expected numbers up to 1e+06"),
     ],
 )
-def test_negative_and_endless_sizes_are_faults(shape: str, said: str, tmp_path: Path) -> None:
+def test_negative_and_endless_sizes_are_errors(shape: str, said: str, tmp_path: Path) -> None:
     (message,) = refused(
         f'<link name="a"><visual><geometry>{shape}</geometry></visual></link>', tmp_path
     )
@@ -311,13 +311,13 @@ def test_negative_and_endless_sizes_are_faults(shape: str, said: str, tmp_path: 
         ('<limit lower="1" upper="-1"/>', "lower 1 is above upper -1"),
     ],
 )
-def test_joints_that_cannot_move_are_noticed_with_their_line(
+def test_joints_that_cannot_move_are_warned_of_with_their_line(
     inside: str, said: str, tmp_path: Path
 ) -> None:
     file, pair = tmp_path / "robot.urdf", '<link name="a"/><link name="b"/>'
     file.write_text(f'<robot name="r">\n{pair}\n{joint("j", inside, kind="revolute")}</robot>')
-    faults = Faults(file)
-    read_robot(file, faults)
-    (notice,) = faults.all()
-    assert (notice.line, notice.severity) == (3, "notice")
-    assert said in notice.message
+    diagnostics = Diagnostics(file)
+    read_robot(file, diagnostics)
+    (warning,) = diagnostics.all()
+    assert (warning.line, warning.severity) == (3, "warning")
+    assert said in warning.message

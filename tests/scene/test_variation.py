@@ -174,9 +174,11 @@ def test_what_cannot_vary_is_an_error_with_its_line(
     tmp_path: Path, variation: str, message: str
 ) -> None:
     path = write(tmp_path, uniform("object[blackbox].position.z", "4", "5"), variation)
-    [fault] = [fault for fault in check_scene(path) if fault.severity == "fault"]
-    assert message in fault.message
-    assert path.read_text().split("\n")[(fault.line or 0) - 1].strip() == variation.strip()
+    [diagnostic] = [
+        diagnostic for diagnostic in check_scene(path) if diagnostic.severity == "error"
+    ]
+    assert message in diagnostic.message
+    assert path.read_text().split("\n")[(diagnostic.line or 0) - 1].strip() == variation.strip()
     with pytest.raises(SceneError):
         read_scene(path)
 
@@ -184,7 +186,7 @@ def test_what_cannot_vary_is_an_error_with_its_line(
 def test_one_value_cannot_vary_twice(tmp_path: Path) -> None:
     path = "object[blackbox].position.x"
     found = check_scene(write(tmp_path, UNIFORM, uniform(path, "1", "3")))
-    said = [fault.message for fault in found if fault.severity == "fault"]
+    said = [diagnostic.message for diagnostic in found if diagnostic.severity == "error"]
     assert said == [f"<u:path> {path}: {path} varies already"]
 
 

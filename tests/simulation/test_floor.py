@@ -10,7 +10,7 @@ import pytest
 
 from tests.simulation.simulated import SCENE, run
 from uwsim.assets import load_model
-from uwsim.cli.check import faults_of
+from uwsim.cli.check import diagnostics_of
 from uwsim.errors import SceneError
 from uwsim.geometry import Pose
 from uwsim.scene.on_floor import OnFloorSpec
@@ -293,11 +293,15 @@ FILE = """<UWSimScene xmlns:u="urn:uwsim:1">
 def test_check_says_with_its_line_where_there_is_no_ground(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(FILE.format(x=3))
-    assert [fault for fault in faults_of(path) if fault.severity == "fault"] == []
+    assert [
+        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+    ] == []
     assert Simulation(read_scene(path)).world.body("pot").world_from_body.position[2] > -7.2
     path.write_text(FILE.format(x=300))
-    (fault,) = [fault for fault in faults_of(path) if fault.severity == "fault"]
-    assert (fault.line, "at x 300, y 0" in fault.message) == (6, True)
+    (diagnostic,) = [
+        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+    ]
+    assert (diagnostic.line, "at x 300, y 0" in diagnostic.message) == (6, True)
     with pytest.raises(SceneError) as caught:
         Simulation(read_scene(path))
-    assert caught.value.faults == (fault,)
+    assert caught.value.diagnostics == (diagnostic,)

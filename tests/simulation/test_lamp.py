@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.cli.check import faults_of
+from uwsim.cli.check import diagnostics_of
 from uwsim.devices.lamp import MAX_LAMPS as MAX_IN_A_SCENE
 from uwsim.devices.lamp import LampSpec
 from uwsim.errors import UnknownName, UwsimError
@@ -101,13 +101,15 @@ def test_the_check_finds_both_and_a_cone_too_wide(tmp_path: Path) -> None:
     text = SCENE.read_text("utf-8").replace("<UWSimScene>", '<UWSimScene xmlns:u="urn:uwsim:1">')
     file = tmp_path / "scene.xml"
     file.write_text(text.replace("</vehicle>", f"{lamps}</vehicle>"), "utf-8")
-    said = [fault.message for fault in faults_of(file) if fault.severity == "fault"]
+    said = [
+        diagnostic.message for diagnostic in diagnostics_of(file) if diagnostic.severity == "error"
+    ]
     assert any("'part9' is no link" in message for message in said)
     assert any("more than 4 lamps" in message for message in said)
     assert len(said) == 2
     wide = lamp.format("l", "part0", "<u:fov>170</u:fov>")
     file.write_text(text.replace("</vehicle>", f"{wide}</vehicle>"), "utf-8")
-    (said_of_fov,) = [f.message for f in faults_of(file) if f.severity == "fault"]
+    (said_of_fov,) = [f.message for f in diagnostics_of(file) if f.severity == "error"]
     assert "fov" in said_of_fov
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.cli.check import faults_of
+from uwsim.cli.check import diagnostics_of
 from uwsim.geometry import quaternion_from_rotation, rotation_from_rpy
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.physics.actuation.allocation import (
@@ -238,10 +238,14 @@ def test_weight_and_righting_of_a_vehicle_with_an_arm_are_those_of_the_engine() 
 
 def said_of(folder: Path, *thrusters: str) -> list[str]:
     simulation = torpedo(folder, *thrusters)
-    checked = [fault for fault in faults_of(folder / "scene.xml") if "drive" in fault.message]
+    checked = [
+        diagnostic
+        for diagnostic in diagnostics_of(folder / "scene.xml")
+        if "drive" in diagnostic.message
+    ]
     assert tuple(checked) == simulation.world.warnings
-    assert all((fault.severity, fault.line) == ("notice", 5) for fault in checked)
-    return [fault.message for fault in checked]
+    assert all((diagnostic.severity, diagnostic.line) == ("warning", 5) for diagnostic in checked)
+    return [diagnostic.message for diagnostic in checked]
 
 
 def test_what_thrusters_cannot_give_is_said_at_the_start_and_by_check(tmp_path: Path) -> None:
@@ -259,7 +263,7 @@ def test_what_thrusters_cannot_give_is_said_at_the_start_and_by_check(tmp_path: 
     (tmp_path / "scene.xml").write_text(
         scene.replace("</u:dynamics>", "</u:dynamics> <u:accept>thrust</u:accept>")
     )
-    assert [f for f in faults_of(tmp_path / "scene.xml") if "drive" in f.message] == []
+    assert [f for f in diagnostics_of(tmp_path / "scene.xml") if "drive" in f.message] == []
     assert Simulation(read_scene(tmp_path / "scene.xml")).world.warnings == ()
 
 

@@ -70,7 +70,7 @@ class LossTest:
         return _not_convex(estimate.corners)
 
 
-def quad_fault(quad: Array, width: int, height: int) -> str | None:
+def quad_error(quad: Array, width: int, height: int) -> str | None:
     """What makes a quad (4, 2) [px] impossible to follow in an image; None when nothing does."""
     names = ("NW", "NE", "SE", "SW")
     for name, (u, v) in zip(names, quad, strict=True):

@@ -32,7 +32,7 @@ from ..messages import (
     pixels_of,
 )
 from .esm.pyramid import Grey, grey
-from .tracker import LossTest, Tracker, quad_fault
+from .tracker import LossTest, Tracker, quad_error
 
 Array = npt.NDArray[np.float64]
 
@@ -139,7 +139,7 @@ class TrackerNode(abc.ABC):
 
     def _begin(self, message: Image, quad: Array, told_by: str) -> None:
         """Take the template."""
-        why = quad_fault(quad, message.width, message.height)
+        why = quad_error(quad, message.width, message.height)
         tracker = why or self.follow(grey(pixels_of(message)), quad)
         if isinstance(tracker, str):
             self._fail(f"{told_by}: {tracker}")
@@ -149,7 +149,7 @@ class TrackerNode(abc.ABC):
 
     def _place(self, tracker: Tracker, message: Image, quad: Array) -> None:
         """Go on from another place, with the template there is."""
-        if why := quad_fault(quad, message.width, message.height):
+        if why := quad_error(quad, message.width, message.height):
             self._lose(f"autoInit: {why}")
             return
         tracker.place(quad)

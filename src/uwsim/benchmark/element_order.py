@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ..schema import Faults
+from ..schema import Diagnostics
 
 GATE = ("log", "startOn", "stopOn")
 SWEEP = ("initialValue", "finalValue", "step", "interval")
@@ -58,7 +58,7 @@ REQUIRED: dict[str, tuple[str, ...]] = {
 """Children that the original wants although they have a meaning when absent."""
 
 
-def check_order(root: etree._Element, faults: Faults) -> None:
+def check_order(root: etree._Element, diagnostics: Diagnostics) -> None:
     """Say what the original's grammar refuses though we read it."""
     for node in root.iter("*"):
         order = ORDER.get(str(node.tag), ())
@@ -70,9 +70,11 @@ def check_order(root: etree._Element, faults: Faults) -> None:
             if tag not in order:
                 continue
             if order.index(tag) < last:
-                faults.add(child, f"<{tag}> stands behind <{shown}>; the original wants it before")
+                diagnostics.error(
+                    child, f"<{tag}> stands behind <{shown}>; the original wants it before"
+                )
             else:
                 last, shown = order.index(tag), tag
         for tag in REQUIRED.get(str(node.tag), ()):
             if tag not in present:
-                faults.add(node, f"<{node.tag}> lacks <{tag}>; the original wants it")
+                diagnostics.error(node, f"<{node.tag}> lacks <{tag}>; the original wants it")

@@ -9,7 +9,7 @@
 
 Any of the four may be left out. Names without a prefix are the original's, so what a plugin adds to
 a file lives in the namespace ``urn:uwsim:1``; should uwsim or another plugin have the name already,
-that is a fault.
+that is an error.
 
 A plugin is one file and travels as its source: a worker, here or on another machine, runs the very
 bytes whose hash stands in the result. What it imports must be installed. Its module is called after
@@ -36,7 +36,7 @@ from ..bus import Algorithm
 from ..errors import (
     AssetError,
     BadSetting,
-    Fault,
+    Diagnostic,
     PluginError,
     RunFailed,
     UwsimError,
@@ -127,7 +127,7 @@ class Plugin:
         except SyntaxError as error:
             del sys.modules[name]
             line = error.lineno if error.filename == self.path else None
-            raise self.fault(f"not Python: {error.msg}", line) from error
+            raise self.diagnostic(f"not Python: {error.msg}", line) from error
         except BaseException as error:
             del sys.modules[name]
             if is_of_user(error):
@@ -135,12 +135,12 @@ class Plugin:
             said = f"cannot be imported: {raised(error)}"
             if isinstance(error, ModuleNotFoundError):
                 said += " (a plugin is one file; what it imports must be installed)"
-            raise self.fault(said, self.line_of(error)) from error
+            raise self.diagnostic(said, self.line_of(error)) from error
         return module
 
-    def fault(self, message: str, line: int | None = None) -> PluginError:
+    def diagnostic(self, message: str, line: int | None = None) -> PluginError:
         """Make an error out of what is wrong with the file."""
-        return PluginError([Fault(file=self.path, line=line, message=message)])
+        return PluginError([Diagnostic(file=self.path, line=line, message=message)])
 
     def line_of(self, error: BaseException) -> int | None:
         """Return the line of this file in which an error arose; None if it was elsewhere."""
@@ -178,9 +178,9 @@ def read_plugin(path: Path) -> Plugin:
         source = read_bytes(path, at_most=MAX_BYTES)
     except AssetError as error:
         said = str(error).removeprefix(f"{path}: ").removesuffix(".")
-        raise Plugin(str(path), b"").fault(f"{said}: not a plugin") from None
+        raise Plugin(str(path), b"").diagnostic(f"{said}: not a plugin") from None
     except OSError as error:
-        raise Plugin(str(path), b"").fault(f"cannot be read: {error.strerror}") from None
+        raise Plugin(str(path), b"").diagnostic(f"cannot be read: {error.strerror}") from None
     return _imported(str(path), source)
 
 
@@ -191,34 +191,36 @@ def with_plugins(bundled: Tables, plugins: Sequence[Plugin]) -> Tables:
         PluginError: with everything that is wrong about what the plugins declare.
         BadSetting: a plugin is given twice.
     """
-    faults: list[Fault] = []
+    diagnostics: list[Diagnostic] = []
     tables = {name: dict(getattr(bundled, name.lower())) for name in DECLARED}
     owners: dict[tuple[str, str], Plugin] = {}
     by_module: dict[str, Plugin] = {}
     for plugin in plugins:
         if (twin := by_module.setdefault(plugin.module_name, plugin)) is not plugin:
             raise BadSetting(f"--plugin {plugin.path}: is {twin.path} once more.")
-        for table, key, value in _declared(plugin, faults):
+        for table, key, value in _declared(plugin, diagnostics):
             name = key if table == "ALGORITHMS" else PREFIX + key
             if name in tables[table]:
                 first = owners.get((table, name))
                 whose = f"is in {first.path}, too" if first else "is a name of uwsim"
                 said = f"{table}[{key!r}]: {name!r} {whose}; call it otherwise"
-                faults.append(Fault(file=plugin.path, line=_line(value, plugin), message=said))
+                diagnostics.append(
+                    Diagnostic(file=plugin.path, line=_line(value, plugin), message=said)
+                )
                 continue
             owners[table, name] = plugin
             tables[table][name] = value
-    if faults:
-        raise PluginError(faults)
+    if diagnostics:
+        raise PluginError(diagnostics)
     return Tables(**{name.lower(): table for name, table in tables.items()})
 
 
-def _declared(plugin: Plugin, faults: list[Fault]) -> Iterator[tuple[str, str, type]]:
-    """Yield table, key and class of what a plugin declares; what is wrong goes into ``faults``."""
+def _declared(plugin: Plugin, diagnostics: list[Diagnostic]) -> Iterator[tuple[str, str, type]]:
+    """Yield table, key and class of what a plugin declares; errors go to ``diagnostics``."""
     module = plugin.module()
 
     def add(message: str, value: object = None) -> None:
-        faults.append(Fault(file=plugin.path, line=_line(value, plugin), message=message))
+        diagnostics.append(Diagnostic(file=plugin.path, line=_line(value, plugin), message=message))
 
     given = [name for name in DECLARED if hasattr(module, name)]
     if not given:
@@ -340,7 +342,7 @@ def attribute_errors_to(plugins: Sequence[Plugin], *, is_running: bool = False) 
                 said = raised(error)
                 if is_running:
                     raise RunFailed(f"{plugin.path}:{line}: {said}") from error
-                raise plugin.fault(said, line) from error
+                raise plugin.diagnostic(said, line) from error
         raise
 
 
@@ -364,10 +366,10 @@ def check_bound(
             if isinstance(part, spec) and not isinstance(live, kind):
                 gives = "None" if live is None else type(live).__name__
                 said = f"{type(part).__name__}.bind gives {gives}; expected a {kind.__name__}"
-                raise plugin.fault(said, _line(type(part), plugin))
+                raise plugin.diagnostic(said, _line(type(part), plugin))
         if isinstance(live, Measure) and not isinstance(getattr(live, "unit", None), str):
             said = f"{type(live).__name__} has no unit, such as unit = 'm/s'"
-            raise plugin.fault(said, _line(type(live), plugin))
+            raise plugin.diagnostic(said, _line(type(live), plugin))
         if isinstance(live, Measure | Trigger):
             live.close()
 

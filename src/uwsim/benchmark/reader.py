@@ -1,4 +1,4 @@
-"""Reading a benchmark file: XML -> `BenchmarkSpec`, every fault at once.
+"""Reading a benchmark file: XML -> `BenchmarkSpec`, every error at once.
 
 .. code-block:: xml
 
@@ -30,11 +30,11 @@ from lxml import etree
 
 from .. import expression
 from ..compatibility import COMPATIBILITY
-from ..errors import BadSetting, BenchmarkError, Fault, did_you_mean
+from ..errors import BadSetting, BenchmarkError, Diagnostic, did_you_mean
 from ..scene.variation import check_variations
 from ..schema import (
     NAMESPACE,
-    Faults,
+    Diagnostics,
     advice,
     check_head,
     fields_of,
@@ -92,9 +92,9 @@ def read_benchmark(
         BenchmarkError: with everything that is wrong about it.
     """
     path = Path(path)
-    faults = Faults(path)
-    spec = _Reader(faults, measures, triggers, updaters, timestep).benchmark(path)
-    faults.check(BenchmarkError)
+    diagnostics = Diagnostics(path)
+    spec = _Reader(diagnostics, measures, triggers, updaters, timestep).benchmark(path)
+    diagnostics.check(BenchmarkError)
     assert spec is not None
     return spec
 
@@ -107,7 +107,7 @@ def check_benchmark(
     triggers: Mapping[str, type[TriggerSpec]] = TRIGGERS,
     updaters: Mapping[str, type[SceneUpdaterSpec]] = UPDATERS,
     timestep: float = TIMESTEP,
-) -> list[Fault]:
+) -> list[Diagnostic]:
     """Return everything that is wrong or worth knowing about a benchmark file, line by line.
 
     Args:
@@ -118,19 +118,19 @@ def check_benchmark(
         updaters: element -> spec.
         timestep: length of a step [s].
     """
-    faults = Faults(path)
+    diagnostics = Diagnostics(path)
     try:
-        _Reader(faults, measures, triggers, updaters, timestep).benchmark(path, strict=strict)
+        _Reader(diagnostics, measures, triggers, updaters, timestep).benchmark(path, strict=strict)
     except BenchmarkError as error:
-        return list(error.faults)
-    return faults.all()
+        return list(error.diagnostics)
+    return diagnostics.all()
 
 
 @dataclass(frozen=True)
 class _Reader:
     """One file, and what may stand in it."""
 
-    faults: Faults
+    diagnostics: Diagnostics
     measures: Mapping[str, type[MeasureSpec]]
     triggers: Mapping[str, type[TriggerSpec]]
     updaters: Mapping[str, type[SceneUpdaterSpec]]
@@ -139,12 +139,12 @@ class _Reader:
     def benchmark(self, path: Path, *, strict: bool = False) -> BenchmarkSpec | None:
         document = parse(path, error=BenchmarkError)
         root = document.root
-        check_head(document, "benchmark", self.faults)
+        check_head(document, "benchmark", self.diagnostics)
         if root.tag != "benchmark":
             return None
-        self.faults.lenient = document.has_doctype  # the original read its numbers with atof
+        self.diagnostics.lenient = document.has_doctype  # the original read its numbers with atof
         if strict:
-            check_order(root, self.faults)
+            check_order(root, self.diagnostics)
         given: dict[str, object] = {"path": str(path)}
         for tag, field in (("startOn", "start_on"), ("stopOn", "stop_on")):
             if (node := root.find(tag)) is not None:
@@ -159,14 +159,14 @@ class _Reader:
             given["scene_updater"] = updater or NoneSpec()
         if updater is not None:
             self.check_levels(updater)
-            self.notice_overridden(updater)
-            self.notice_still_water(updater)
+            self.warn_overridden(updater)
+            self.warn_still_water(updater)
         given["compatibility"] = self.compatibility(root)
-        spec = read(BenchmarkSpec, root, self.faults, given=given)
+        spec = read(BenchmarkSpec, root, self.diagnostics, given=given)
         if spec is not None and updater is not None:
             check_variations(
                 spec,
-                self.faults,
+                self.diagnostics,
                 find=locate_in_benchmark,
                 also=functools.partial(same_levels, spec),
             )
@@ -174,13 +174,13 @@ class _Reader:
         function = None if spec is None else spec.function
         if function is not None:
             self.check_function(root, function, found)
-        for node, message in too_short(self.faults, found, updater, function, self.timestep):
-            self.faults.add(node, message)
+        for node, message in too_short(self.diagnostics, found, updater, function, self.timestep):
+            self.diagnostics.error(node, message)
         if spec is not None and updater is not None:
-            self.notice_endless(root, spec)
+            self.warn_endless(root, spec)
         if spec is not None:
             for place, message in never_started(root, spec):
-                self.faults.notice(place, message)
+                self.diagnostics.warning(place, message)
         return spec
 
     def all_measures(self, box: etree._Element) -> list[MeasureSpec]:
@@ -195,18 +195,20 @@ class _Reader:
         return found
 
     def measure(self, cls: type[MeasureSpec], node: etree._Element) -> MeasureSpec | None:
-        spec = read(cls, node, self.faults, given=self.by_hand(cls, node))
+        spec = read(cls, node, self.diagnostics, given=self.by_hand(cls, node))
         if spec is None:
             return None
         if isinstance(spec, PathFollowingSpec) and spec.topic is None:
-            self.faults.notice(node, "<pathFollowing> without <topic> has no path, and no value")
+            self.diagnostics.warning(
+                node, "<pathFollowing> without <topic> has no path, and no value"
+            )
         if spec.value not in cls.values:
-            self.faults.add(
+            self.diagnostics.error(
                 node,
                 f"u:value is {spec.value!r}; the value of <{_name(node)}> is always its last",
             )
-        for message in spec.faults():
-            self.faults.add(self.place_of(node, message), message)
+        for message in spec.errors():
+            self.diagnostics.error(self.place_of(node, message), message)
         return spec
 
     def by_hand(self, cls: type, node: etree._Element) -> dict[str, Any]:
@@ -224,25 +226,27 @@ class _Reader:
                 given[field.name] = self.updater(child)
         for own in dataclasses.fields(cls):
             if "path" in own.metadata:
-                given[own.name] = self.faults.file
+                given[own.name] = self.diagnostics.file
         return given
 
     def trigger(self, node: etree._Element) -> TriggerSpec:
         """Read ``<startOn>`` or ``<stopOn>``; what a type has no use for is ignored."""
         kinds = node.findall("type")
-        kind = text_of(kinds[0], self.faults) if kinds else ""
+        kind = text_of(kinds[0], self.diagnostics) if kinds else ""
         if not kind:
-            self.faults.add(node, f"<{node.tag}> lacks <type>: one of {', '.join(self.triggers)}")
+            self.diagnostics.error(
+                node, f"<{node.tag}> lacks <type>: one of {', '.join(self.triggers)}"
+            )
         elif kind not in self.triggers:
             near = did_you_mean(kind, self.triggers) if len(kind) < 80 else ""
             own = OF_A_PLUGIN * (kind.startswith(PREFIX) and not near)
-            self.faults.add(
+            self.diagnostics.error(
                 kinds[0],
                 f"<type> is {kind[:60]!r}; expected one of {', '.join(self.triggers)}{own}.{near}",
             )
         cls = self.triggers.get(kind)
         if len(kinds) > 1:
-            self.faults.add(kinds[1], f"<type> stands twice in <{node.tag}>; only one may")
+            self.diagnostics.error(kinds[1], f"<type> stands twice in <{node.tag}>; only one may")
         for child in kinds:
             _take_out(child)
         if cls is None:
@@ -250,9 +254,9 @@ class _Reader:
         known = {field.tag for field in fields_of(cls)}
         for child in list(node.iterchildren("target", "position")):
             if child.tag not in known:
-                self.faults.notice(child, f"<{child.tag}> means nothing to {kind!r}: ignored")
+                self.diagnostics.warning(child, f"<{child.tag}> means nothing to {kind!r}: ignored")
                 _take_out(child)
-        return read(cls, node, self.faults) or NeverSpec()
+        return read(cls, node, self.diagnostics) or NeverSpec()
 
     def ground_truth(self, node: etree._Element) -> GroundTruthSpec:
         """Read ``<groundTruth>``, by its type."""
@@ -260,24 +264,28 @@ class _Reader:
         kind = str(node.attrib.pop("type", "")).strip()
         if not kind and {_name(child) for child in self.children(node)} == {"value"}:
             kind = "constant"
-            self.faults.notice(node, "<groundTruth> without a type, as in 2013: read as constant")
+            self.diagnostics.warning(
+                node, "<groundTruth> without a type, as in 2013: read as constant"
+            )
         cls = GROUND_TRUTHS.get(kind)
         if cls is None:
             near = did_you_mean(kind, GROUND_TRUTHS) if len(kind) < 80 else ""
             said = f"type is {kind[:60]!r}" if kind else "<groundTruth> lacks the attribute type"
-            self.faults.add(node, f"{said}; expected one of {', '.join(GROUND_TRUTHS)}.{near}")
+            self.diagnostics.error(
+                node, f"{said}; expected one of {', '.join(GROUND_TRUTHS)}.{near}"
+            )
             return placeholder
-        return read(cls, node, self.faults) or placeholder
+        return read(cls, node, self.diagnostics) or placeholder
 
     def updater(self, box: etree._Element) -> SceneUpdaterSpec | None:
         """Read what stands in ``<sceneUpdater>``, and what is nested in it."""
         nodes = self.children(box)
         if not nodes:
-            self.faults.add(
+            self.diagnostics.error(
                 box, f"<sceneUpdater> is empty; expected one of <{'>, <'.join(UPDATERS)}>"
             )
         for extra in nodes[1:]:
-            self.faults.add(
+            self.diagnostics.error(
                 extra,
                 f"<{_name(extra)}> stands beside <{_name(nodes[0])}> in <sceneUpdater>; "
                 "only one may: nest it in a <sceneUpdater> of its own",
@@ -289,10 +297,10 @@ class _Reader:
         if cls is None:
             self.unknown(node, box, self.updaters)
             return None
-        spec = read(cls, node, self.faults, given=self.by_hand(cls, node))
-        wrong = [] if spec is None else list(spec.faults())
+        spec = read(cls, node, self.diagnostics, given=self.by_hand(cls, node))
+        wrong = [] if spec is None else list(spec.errors())
         for message in wrong:
-            self.faults.add(self.place_of(node, message), message)
+            self.diagnostics.error(self.place_of(node, message), message)
         return None if wrong else spec
 
     def place_of(self, node: etree._Element, message: str) -> etree._Element:
@@ -305,43 +313,45 @@ class _Reader:
         """Refuse a sweep that never ends, or a nest of them with too many levels."""
         count = 1
         for updater in chain(outermost):
-            node = self.faults.node_of(updater)
+            node = self.diagnostics.node_of(updater)
             values: tuple[float, ...] = ()
             try:
                 values = updater.values()
-            except BadSetting as fault:
-                self.faults.add(node, str(fault))
+            except BadSetting as diagnostic:
+                self.diagnostics.error(node, str(diagnostic))
             else:
                 if not values or not all(
                     isinstance(value, int | float) and math.isfinite(value) for value in values
                 ):
-                    self.faults.add(node, "a sweep needs at least one level, and finite values")
+                    self.diagnostics.error(
+                        node, "a sweep needs at least one level, and finite values"
+                    )
             count *= max(1, len(values))
             if count > MAX_LEVELS:
-                self.faults.add(node, f"with this, there are more than {MAX_LEVELS} levels")
+                self.diagnostics.error(node, f"with this, there are more than {MAX_LEVELS} levels")
                 return
 
-    def notice_overridden(self, outermost: SceneUpdaterSpec) -> None:
+    def warn_overridden(self, outermost: SceneUpdaterSpec) -> None:
         """Say where an updater has no effect: another within it turns the same knob."""
         around: list[SceneUpdaterSpec] = []
         for updater in chain(outermost):
             if isinstance(updater, ONE_KNOB) and any(type(o) is type(updater) for o in around):
-                node = self.faults.node_of(updater)
+                node = self.diagnostics.node_of(updater)
                 name = "" if node is None else _name(node)
-                self.faults.notice(
+                self.diagnostics.warning(
                     node, f"<{name}> within another: only the inner one's values have an effect"
                 )
             around.append(updater)
 
-    def notice_still_water(self, outermost: SceneUpdaterSpec) -> None:
+    def warn_still_water(self, outermost: SceneUpdaterSpec) -> None:
         """Say where levels are over before their current flows."""
         length, deepest = interval(outermost), chain(outermost)[-1]
         for updater in chain(outermost):
             if not isinstance(updater, CurrentForceUpdaterSpec) or length is None:
                 continue
             if 0.0 < length + updater.settling_time <= STILL_WATER:
-                node = self.faults.node_of(deepest)
-                self.faults.notice(
+                node = self.diagnostics.node_of(deepest)
+                self.diagnostics.warning(
                     None if node is None else self.place_of(node, "<interval>"),
                     f"<interval> {length:g} s: for {STILL_WATER:g} s after each change of the "
                     "current the water is still, so such a level sees nothing of it",
@@ -351,7 +361,7 @@ class _Reader:
         names = tuple(str(root.get(f"{{{NAMESPACE}}}compatibility", "")).replace(",", " ").split())
         known = [*COMPATIBILITY, "uwsim"]
         for name in [name for name in names if name not in known][:10]:
-            self.faults.unknown(root, f"u:compatibility names {name[:60]!r}", name, known)
+            self.diagnostics.unknown(root, f"u:compatibility names {name[:60]!r}", name, known)
         return names
 
     def check_names(self, measures: list[MeasureSpec], updater: SceneUpdaterSpec | None) -> None:
@@ -359,31 +369,31 @@ class _Reader:
         columns = () if updater is None else references(updater)
         seen: dict[str, MeasureSpec] = {}
         for spec in measures:
-            node = self.faults.node_of(spec)
+            node = self.diagnostics.node_of(spec)
             name = spec.name[:60]
             if not (spec.name.isascii() and spec.name.isidentifier()):
-                self.faults.add(
+                self.diagnostics.error(
                     node,
                     f"the name {name!r} cannot stand in the function; "
                     "expected letters, digits and _, no digit first",
                 )
             elif len(spec.name) > MAX_NAME_LENGTH:
-                self.faults.add(
+                self.diagnostics.error(
                     node,
                     f"the name {name!r}... has {len(spec.name)} letters; at most "
                     f"{MAX_NAME_LENGTH}, for files are called after it",
                 )
             elif spec.name in seen:
-                first = self.faults.node_of(seen[spec.name])
+                first = self.diagnostics.node_of(seen[spec.name])
                 line = "" if first is None else f" (line {first.sourceline})"
-                self.faults.add(node, f"another measure{line} is called {name!r}")
+                self.diagnostics.error(node, f"another measure{line} is called {name!r}")
             elif spec.name in RESERVED or spec.name in columns:
-                self.faults.add(
+                self.diagnostics.error(
                     node, f"{name!r} is another column of the result; call it otherwise"
                 )
             elif spec.name in expression.CONSTANTS or spec.name in expression.FUNCTIONS:
                 kind = "constant" if spec.name in expression.CONSTANTS else "function"
-                self.faults.add(
+                self.diagnostics.error(
                     node, f"{name!r} is a {kind} of the language of scores; call it otherwise"
                 )
             seen.setdefault(spec.name, spec)
@@ -391,25 +401,25 @@ class _Reader:
     def check_function(
         self, root: etree._Element, function: FunctionSpec, measures: list[MeasureSpec]
     ) -> None:
-        """Parse the function; a measure that has faults of its own may stand in it."""
+        """Parse the function; a measure that has errors of its own may stand in it."""
         names = [spec.name for spec in measures]
-        were_read = {self.faults.node_of(spec) for spec in measures}
+        were_read = {self.diagnostics.node_of(spec) for spec in measures}
         for name in root.iterfind("measures/*/name"):
             if name.getparent() not in were_read:
                 names.append((name.text or "").strip())
         try:
             expression.parse(function.text, names)
-        except expression.ScoreFault as fault:
-            message = textwrap.shorten(fault.message, 300, placeholder=" ...")
-            self.faults.add(
+        except expression.ScoreError as error:
+            message = textwrap.shorten(error.message, 300, placeholder=" ...")
+            self.diagnostics.error(
                 root.find("function"),
-                f"<function>: {message} (column {fault.column + 1})\n{fault.pointed_at()}",
+                f"<function>: {message} (column {error.column + 1})\n{error.pointed_at()}",
             )
 
-    def notice_endless(self, root: etree._Element, spec: BenchmarkSpec) -> None:
+    def warn_endless(self, root: etree._Element, spec: BenchmarkSpec) -> None:
         deepest = chain(spec.scene_updater)[-1]
         if deepest.seconds_per_level is None and isinstance(spec.stop_on, NeverSpec):
-            self.faults.notice(
+            self.diagnostics.warning(
                 root.find("stopOn"),
                 f"no interval and no <stopOn>: it ends after {MAX_TASK_DURATION:g} s, in timeout",
             )
@@ -418,16 +428,16 @@ class _Reader:
         """The elements in a box that has nothing else in it."""
         for piece in (box.text, *(child.tail for child in box)):
             if (stray := (piece or "").strip()) != "":
-                self.faults.add(box, f"stray text {stray[:60]!r} in <{box.tag}>")
+                self.diagnostics.error(box, f"stray text {stray[:60]!r} in <{box.tag}>")
                 break
         for name in box.attrib:
-            self.faults.add(box, f"{str(name)[:60]} is not an attribute of <{box.tag}>")
+            self.diagnostics.error(box, f"{str(name)[:60]} is not an attribute of <{box.tag}>")
         return list(box.iterchildren("*"))
 
     def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
         name = _name(node)
         said = f"{shown_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
-        self.faults.unknown(node, said + OF_A_PLUGIN * name.startswith(PREFIX), name, known)
+        self.diagnostics.unknown(node, said + OF_A_PLUGIN * name.startswith(PREFIX), name, known)
 
 
 def _name(node: etree._Element) -> str:

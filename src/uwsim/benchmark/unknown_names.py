@@ -9,8 +9,8 @@ from typing import Any
 
 from lxml import etree
 
-from ..errors import Fault, UnknownName, UwsimError
-from ..schema import Faults, parse
+from ..errors import Diagnostic, UnknownName, UwsimError
+from ..schema import Diagnostics, parse
 from ..world import Stage
 from .measures import MeasureSpec
 from .spec import BenchmarkSpec
@@ -23,24 +23,24 @@ MOST = 10
 Part = MeasureSpec | TriggerSpec | SceneUpdaterSpec
 
 
-def unknown_names(benchmark: BenchmarkSpec, stage: Stage) -> list[Fault]:
+def unknown_names(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic]:
     """Look up every name of a benchmark file; also say what else keeps a part of it from running.
 
     Args:
-        benchmark: what was read from the file without a fault.
+        benchmark: what was read from the file without an error.
         stage: the scene.
     """
     root = parse(Path(benchmark.path)).root
-    faults = Faults(benchmark.path)
+    diagnostics = Diagnostics(benchmark.path)
     said: set[tuple[int, str]] = set()
     for part, node in _places(benchmark, root):
         for error in _wrong(part, stage):
             place = _place(node, error.name)
-            fault = (int(str(place.sourceline)), str(error))
-            if fault not in said:
-                said.add(fault)
-                faults.add(place, str(error))
-    return faults.all()
+            diagnostic = (int(str(place.sourceline)), str(error))
+            if diagnostic not in said:
+                said.add(diagnostic)
+                diagnostics.error(place, str(error))
+    return diagnostics.all()
 
 
 def _places(

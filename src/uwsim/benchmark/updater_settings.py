@@ -53,7 +53,7 @@ def same_levels(benchmark: BenchmarkSpec, changed: BenchmarkSpec) -> None:
     """Refuse a change of the levels; raises BadSetting."""
     before, after = benchmark.scene_updater, changed.scene_updater
     for updater in chain(after):
-        for wrong in updater.faults():
+        for wrong in updater.errors():
             raise BadSetting(wrong)
     if levels_of(before) != levels_of(after) or interval(before) != interval(after):
         raise BadSetting("it decides the levels, or how long they last; change the file.")

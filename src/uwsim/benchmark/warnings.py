@@ -11,9 +11,9 @@ from pathlib import Path
 
 from lxml import etree
 
-from ..errors import Fault
+from ..errors import Diagnostic
 from ..scene.urdf import RobotSpec
-from ..schema import Faults, parse
+from ..schema import Diagnostics, parse
 from .measures import EuclideanNormSpec, MeasureSpec
 from .spec import BenchmarkSpec, FunctionSpec
 from .triggers import NeverSpec, ServiceSpec
@@ -47,7 +47,7 @@ Said = tuple[etree._Element | None, str]
 
 
 def too_short(
-    faults: Faults,
+    diagnostics: Diagnostics,
     measures: Sequence[MeasureSpec],
     updater: SceneUpdaterSpec | None,
     function: FunctionSpec | None,
@@ -56,7 +56,7 @@ def too_short(
     """Yield what is shorter than half a step, and the element that says so.
 
     Args:
-        faults: knows from which element a spec was read.
+        diagnostics: knows from which element a spec was read.
         measures: what could be read.
         updater: the outermost, if it could be read.
         function: the score's element, if it could be read.
@@ -65,26 +65,26 @@ def too_short(
     step = f"less than half a step of {timestep:g} s"
     for spec in measures:
         if spec.log is not None and _is_nothing(spec.log, timestep):
-            yield _child(faults.node_of(spec), "log"), f"<log> is {spec.log:g} s: {step}"
+            yield _child(diagnostics.node_of(spec), "log"), f"<log> is {spec.log:g} s: {step}"
     rate = 0.0 if function is None else function.publish_rate
     if rate > 0.0 and _is_nothing(rate, timestep):
         said = f"publishRate is {rate:g} s: {step}; 0 publishes at every step"
-        yield faults.node_of(function), said
+        yield diagnostics.node_of(function), said
     if updater is not None:
-        yield from _empty_level(faults, updater, timestep, step)
+        yield from _empty_level(diagnostics, updater, timestep, step)
 
 
 def _empty_level(
-    faults: Faults, updater: SceneUpdaterSpec, timestep: float, step: str
+    diagnostics: Diagnostics, updater: SceneUpdaterSpec, timestep: float, step: str
 ) -> Iterator[Said]:
     """Say that levels are over before they begin, or that a settling time is none."""
     length, deepest = interval(updater), chain(updater)[-1]
     if length is not None and _is_nothing(length, timestep):
-        place = _child(faults.node_of(deepest), "interval")
+        place = _child(diagnostics.node_of(deepest), "interval")
         yield place, f"<interval> is {length:g} s: {step}, so nothing would be played"
     for each in chain(updater):
         if each.settling_time > 0.0 and _is_nothing(each.settling_time, timestep):
-            yield faults.node_of(each), f"u:settlingTime is {each.settling_time:g} s: {step}"
+            yield diagnostics.node_of(each), f"u:settlingTime is {each.settling_time:g} s: {step}"
 
 
 def _is_nothing(seconds: float, timestep: float) -> bool:
@@ -96,17 +96,17 @@ def _child(node: etree._Element | None, tag: str) -> etree._Element | None:
     return node if child is None else child
 
 
-def arm_notices(
+def arm_warnings(
     benchmark: BenchmarkSpec, vehicles: Sequence[str], robots: Mapping[int, RobotSpec]
-) -> list[Fault]:
+) -> list[Diagnostic]:
     """Say which joints are not there, and which are held at their limits.
 
     Args:
-        benchmark: what was read from the file without a fault.
+        benchmark: what was read from the file without an error.
         vehicles: names of the scene's vehicles.
         robots: their robots, by number of the vehicle.
     """
-    faults = Faults(benchmark.path)
+    diagnostics = Diagnostics(benchmark.path)
     nodes = parse(Path(benchmark.path)).root.iter("armMoveUpdater")
     specs = [s for s in chain(benchmark.scene_updater) if isinstance(s, ArmMoveUpdaterSpec)]
     for spec, node in zip(specs, nodes, strict=True):
@@ -115,7 +115,7 @@ def arm_notices(
         joints = robots[vehicles.index(spec.target)].movable
         for given, place in zip(spec.arm_position, node.iterfind("armPosition"), strict=True):
             if len(given) > len(joints):
-                faults.notice(
+                diagnostics.warning(
                     place,
                     f"<armPosition> has {len(given)} values for {len(joints)} joints "
                     f"({', '.join(joint.name for joint in joints)}); the rest is not used",
@@ -124,5 +124,5 @@ def arm_notices(
                 held = min(max(value, joint.lower), joint.upper)
                 if held != value:
                     said = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
-                    faults.notice(at, said)
-    return faults.all()
+                    diagnostics.warning(at, said)
+    return diagnostics.all()

@@ -1,4 +1,4 @@
-"""The frame of the command line: which commands there are, and how their faults are said.
+"""The frame of the command line: which commands there are, and how their errors are said.
 
 A command is a function with typer's annotations in a module of its own. `COMMANDS` names them;
 only the one that was asked for is imported, so that ``uwsim --help`` stays under 0.3 s.
@@ -16,7 +16,7 @@ import typer
 
 from .. import __version__
 from .completion import words_typed
-from .faults import INTERRUPTED, exit_status, one_line
+from .exit_status import INTERRUPTED, exit_status, one_line
 from .option_groups import with_flat_options
 from .taught import HELP_NAMES, TaughtCommand
 
@@ -53,7 +53,7 @@ COMMANDS: dict[str, Command] = {
     "check": Command(
         module="check",
         function="check",
-        summary="Find every fault of scene and benchmark files, with line numbers.",
+        summary="Find every error of scene and benchmark files, with line numbers.",
         examples=("uwsim check my-scene.xml my-benchmark.xml",),
     ),
     "compare": Command(
@@ -147,7 +147,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def say(error: BaseException) -> int:
-    """Print an error for its reader, one line a fault, and return the exit status it earns."""
+    """Print an error for its reader, one line an error, and return the exit status it earns."""
     message = one_line(error)
     if message:
         print(message, file=sys.stderr)

@@ -23,7 +23,7 @@ from ..runs.timing import Stopwatch, Timing
 from ..terminal import warn
 from .completion import algorithm_names
 from .console import Console
-from .faults import running
+from .exit_status import running
 from .options import (
     CodeOptions,
     ModeOption,

@@ -1,4 +1,4 @@
-"""``uwsim check``: every fault of scene, robot, side and benchmark files at once, with its line."""
+"""``uwsim check``: every error of scene, robot, side and benchmark files at once, with its line."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..assets.bundled import bundled, scene_file
-from ..errors import BadSetting, Fault, FileError, PluginError, UwsimError
+from ..errors import BadSetting, Diagnostic, FileError, PluginError, UwsimError
 from ..runs.tables import read_plugins
 from ..terminal import printable
 from .completion import checked_names, scene_names
-from .faults import WRONG_INPUT
+from .exit_status import WRONG_INPUT
 from .options import DataPathOption, JsonOption, PluginOption
 from .taught import INPUT, in_group
 
@@ -56,41 +56,48 @@ def check(
 
     Code that these files name is looked for and never run; that of a --plugin, which you name, is.
 
-    Exit status 0 without faults, else 2; what is read and not simulated yet is a notice. With
-    --json: {"files": [{"file", "faults": [{"file", "line", "severity", "message"}]}], "n_faults"}.
+    Exit status 0 without errors, else 2; what is read and not simulated yet is a warning. With
+    --json: {"files": [{"file", "diagnostics": [{"file", "line", "severity", "message"}]}],
+    "n_errors"}.
     """
     folders = tuple(data_path or ())
     own = read_plugins(plugin)
     named = [bundled_or(file) for file in files]
     scene = None if scene is None else bundled_or(scene)
     found = {
-        str(file): faults_of(file, strict=strict, data_path=folders, scene=scene, own=own)
+        str(file): diagnostics_of(file, strict=strict, data_path=folders, scene=scene, own=own)
         for file in [*named, *([scene] if scene is not None and scene not in named else [])]
     }
-    n_faults = sum(fault.severity == "fault" for faults in found.values() for fault in faults)
-    typer.echo(json_of(found, n_faults) if as_json else lines_of(found))
-    if n_faults:
+    n_errors = sum(
+        diagnostic.severity == "error"
+        for diagnostics in found.values()
+        for diagnostic in diagnostics
+    )
+    typer.echo(json_of(found, n_errors) if as_json else lines_of(found))
+    if n_errors:
         raise typer.Exit(WRONG_INPUT)
 
 
-def lines_of(found: Mapping[str, Sequence[Fault]]) -> str:
-    """Return a line a fault or notice, and one a file."""
+def lines_of(found: Mapping[str, Sequence[Diagnostic]]) -> str:
+    """Return one line for each error and warning, and a count for each file."""
     lines = []
-    for file, faults in found.items():
-        for fault in faults:
-            mark = "" if fault.severity == "fault" else " (notice)"
-            lines.append(f"{fault}{mark}")
-        lines.append(f"{file}: {_count(sum(fault.severity == 'fault' for fault in faults))}")
+    for file, diagnostics in found.items():
+        for diagnostic in diagnostics:
+            mark = "" if diagnostic.severity == "error" else " (warning)"
+            lines.append(f"{diagnostic}{mark}")
+        lines.append(
+            f"{file}: {_count(sum(diagnostic.severity == 'error' for diagnostic in diagnostics))}"
+        )
     return printable("\n".join(lines))
 
 
-def json_of(found: Mapping[str, Sequence[Fault]], n_faults: int) -> str:
+def json_of(found: Mapping[str, Sequence[Diagnostic]], n_errors: int) -> str:
     """Return the same for a program."""
     files = [
-        {"file": file, "faults": [asdict(fault) for fault in faults]}
-        for file, faults in found.items()
+        {"file": file, "diagnostics": [asdict(diagnostic) for diagnostic in diagnostics]}
+        for file, diagnostics in found.items()
     ]
-    return json.dumps({"files": files, "n_faults": n_faults}, indent=1)
+    return json.dumps({"files": files, "n_errors": n_errors}, indent=1)
 
 
 def bundled_or(file: Path) -> Path:
@@ -100,14 +107,14 @@ def bundled_or(file: Path) -> Path:
     return {**bundled("scenes"), **bundled("benchmarks")}.get(str(file), file)
 
 
-def faults_of(
+def diagnostics_of(
     file: Path,
     *,
     strict: bool = False,
     data_path: tuple[Path, ...] = (),
     scene: Path | None = None,
     own: tuple[tuple[Plugin, ...], Tables] | None = None,
-) -> list[Fault]:
+) -> list[Diagnostic]:
     """Return everything wrong or worth knowing about a file; its root element says its kind.
 
     A benchmark is held against ``scene``, or against the scene that it names itself; it may use
@@ -119,42 +126,42 @@ def faults_of(
     try:
         node = parse(file).root
     except FileError as error:
-        return list(error.faults)
+        return list(error.diagnostics)
     root = str(node.tag)
     library = Folders(data_path)
     if root == "robot":
         return check_robot(file, library=library)
     if root == "benchmark":
         plugins, tables = own or read_plugins(())
-        return faults_of_benchmark(file, strict, scene, data_path, plugins, tables)
+        return diagnostics_of_benchmark(file, strict, scene, data_path, plugins, tables)
     if root == ROOT:
         return check_scene(
             file,
             strict=strict,
             library=library,
-            further=partial(faults_of_dynamics, data_path=data_path),
+            further=partial(diagnostics_of_dynamics, data_path=data_path),
             settled=partial(settled, data_path=data_path),
         )
     if root == "hydrodynamics":
-        return faults_of_hydrodynamics_file(file)
+        return diagnostics_of_hydrodynamics_file(file)
     said = (
         f"the root element is {shown_tag(root)}; expected <{ROOT}>, <benchmark>, <robot> or "
         "<hydrodynamics>"
     )
-    return [Fault(file=str(file), line=int(str(node.sourceline)), message=said)]
+    return [Diagnostic(file=str(file), line=int(str(node.sourceline)), message=said)]
 
 
-def faults_of_hydrodynamics_file(file: Path) -> list[Fault]:
+def diagnostics_of_hydrodynamics_file(file: Path) -> list[Diagnostic]:
     """Return everything wrong with a hydrodynamics file; its links are looked up with a scene."""
     from ..physics.vehicle_file import read_vehicle_into
-    from ..schema import Faults
+    from ..schema import Diagnostics
 
-    faults = Faults(file)
-    read_vehicle_into(file, None, faults)
-    return faults.all()
+    diagnostics = Diagnostics(file)
+    read_vehicle_into(file, None, diagnostics)
+    return diagnostics.all()
 
 
-def faults_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fault]:
+def diagnostics_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnostic]:
     """Return everything wrong with what of a scene is simulated; the engine is heavy to load."""
     from ..topics.thruster_commands import AutopilotTopicSpec
 
@@ -183,14 +190,14 @@ def settled(scene: SceneSpec, data_path: tuple[Path, ...]) -> SceneSpec:
         return scene
 
 
-def faults_of_benchmark(
+def diagnostics_of_benchmark(
     file: Path,
     strict: bool,
     scene: Path | None,
     data_path: tuple[Path, ...],
     plugins: tuple[Plugin, ...],
     tables: Tables,
-) -> list[Fault]:
+) -> list[Diagnostic]:
     """Return everything wrong or worth knowing about a benchmark and about plugins in it."""
     from ..benchmark.plugin import attribute_errors_to
     from ..benchmark.reader import check_benchmark
@@ -204,37 +211,37 @@ def faults_of_benchmark(
                 triggers=tables.triggers,
                 updaters=tables.updaters,
             )
-            if not any(fault.severity == "fault" for fault in found):
+            if not any(diagnostic.severity == "error" for diagnostic in found):
                 found += unknown_names(file, scene, data_path, tables)
     except PluginError as error:
-        return list(error.faults)
+        return list(error.diagnostics)
     return found
 
 
 def unknown_names(
     file: Path, scene: Path | None, data_path: tuple[Path, ...], tables: Tables
-) -> list[Fault]:
+) -> list[Diagnostic]:
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
     from ..algorithms import load_algorithm
     from ..benchmark import unknown_names as names
     from ..benchmark.reader import read_benchmark
-    from ..benchmark.warnings import arm_notices
+    from ..benchmark.warnings import arm_warnings
     from ..scene.reader import read_scene
-    from ..schema import Faults
+    from ..schema import Diagnostics
     from ..simulation import Simulation
 
     benchmark = read_benchmark(
         file, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
     )
-    faults = Faults(file)
+    diagnostics = Diagnostics(file)
     if benchmark.algorithm is not None and ":" not in benchmark.algorithm:
         try:
             load_algorithm(benchmark.algorithm, tables.algorithms)
         except BadSetting as error:
-            faults.add(root_line(file), str(error))
+            diagnostics.error(root_line(file), str(error))
     wanted = scene or benchmark.scene
     if wanted is None:
-        return faults.all()
+        return diagnostics.all()
     try:
         named_by = file if scene is None else None
         path = scene_file(str(wanted), (file.parent, *data_path), named_by=named_by)
@@ -242,20 +249,20 @@ def unknown_names(
         simulation = Simulation(spec, data_path=data_path, is_blind=True, runs_code=False)
     except FileError:
         if scene is None:
-            said = f"the scene {str(wanted)!r} has faults: uwsim check {wanted}"
-            faults.add(root_line(file), said)
+            said = f"the scene {str(wanted)!r} has errors: uwsim check {wanted}"
+            diagnostics.error(root_line(file), said)
     except UwsimError as error:
-        faults.add(root_line(file) if scene is None else None, str(error))
+        diagnostics.error(root_line(file) if scene is None else None, str(error))
     else:
         try:
             return [
-                *faults.all(),
+                *diagnostics.all(),
                 *names.unknown_names(benchmark, simulation.world),
-                *arm_notices(benchmark, simulation.world.vehicles, simulation.world.robots),
+                *arm_warnings(benchmark, simulation.world.vehicles, simulation.world.robots),
             ]
         finally:
             simulation.close()
-    return faults.all()
+    return diagnostics.all()
 
 
 def root_line(file: Path) -> int:
@@ -304,4 +311,4 @@ class Folders:
 
 
 def _count(number: int) -> str:
-    return {0: "no faults", 1: "1 fault"}.get(number, f"{number} faults")
+    return {0: "no errors", 1: "1 error"}.get(number, f"{number} errors")

@@ -21,7 +21,7 @@ from ..runs.timing import Stopwatch
 from ..terminal import printable, warn
 from .bench import OTHER_CODE
 from .completion import algorithm_names
-from .faults import running
+from .exit_status import running
 from .options import (
     CodeOptions,
     SettingOptions,

@@ -16,7 +16,7 @@ from ..assets.bundled import scene_file
 from ..errors import AllErrors
 from ..runs.option_values import pairs_of
 from ..terminal import printable
-from .check import faults_of
+from .check import diagnostics_of
 from .console import Console
 from .options import DataPathOption, JsonOption, SceneArgument, SetOption
 
@@ -52,7 +52,7 @@ def info(
     wrong.check()
     simulation = Simulation(spec.nominal, data_path=folders, is_blind=True, runs_code=False)
     try:
-        found = inventory(spec, simulation, faults_of(path, data_path=folders))
+        found = inventory(spec, simulation, diagnostics_of(path, data_path=folders))
     finally:
         simulation.close()
     if as_json:
@@ -79,8 +79,8 @@ def drawn(found: Fields) -> Iterator[RenderableType]:
     if found["varies"]:
         yield from _section("differs from seed to seed", map(_varying, found["varies"]))
     yield from _section("read, not simulated", found["not_simulated"])
-    if found["notices"]:
-        yield from _section("notices of uwsim check", found["notices"])
+    if found["warnings"]:
+        yield from _section("warnings of uwsim check", found["warnings"])
 
 
 def _varying(one: Fields) -> str:

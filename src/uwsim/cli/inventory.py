@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import Fault
+from ..errors import Diagnostic
 from ..scene.spec import ObjectSpec, SceneSpec
 from ..scene.unsupported import READ_ONLY, limit_of
 from ..scene.urdf import JointSpec
@@ -27,9 +27,13 @@ from ..topics import InterfaceSpec, element_of
 Fields = dict[str, Any]
 
 
-def inventory(scene: SceneSpec, simulation: Simulation, faults: Sequence[Fault]) -> Fields:
+def inventory(
+    scene: SceneSpec, simulation: Simulation, diagnostics: Sequence[Diagnostic]
+) -> Fields:
     """Return everything that can be named in a scene, and what of it is not simulated."""
-    notices = [fault.message for fault in faults if fault.severity == "notice"]
+    warnings = [
+        diagnostic.message for diagnostic in diagnostics if diagnostic.severity == "warning"
+    ]
     return {
         "file": scene.path,
         "frame": _frame(scene),
@@ -47,13 +51,13 @@ def inventory(scene: SceneSpec, simulation: Simulation, faults: Sequence[Fault])
             {"path": each.path, "unit": each.unit, "drawn_from": each.drawn_from}
             for each in draw(scene, 0)
         ],
-        "not_simulated": [said.partition(": ")[2] for said in notices if _is_unsimulated(said)],
-        "notices": [said for said in notices if not _is_unsimulated(said)],
+        "not_simulated": [said.partition(": ")[2] for said in warnings if _is_unsimulated(said)],
+        "warnings": [said for said in warnings if not _is_unsimulated(said)],
     }
 
 
-def _is_unsimulated(notice: str) -> bool:
-    return notice.startswith(READ_ONLY)
+def _is_unsimulated(warning: str) -> bool:
+    return warning.startswith(READ_ONLY)
 
 
 def _frame(scene: SceneSpec) -> Fields:

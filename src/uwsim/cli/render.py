@@ -12,7 +12,7 @@ from ..errors import AllErrors, BadSetting
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.option_values import compatibility_of, pairs_of
 from ..runs.stand_ins import warn_of_stand_ins
-from ..terminal import say_notices
+from ..terminal import print_warnings
 from .image_files import save, save_depth, save_ids
 from .options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .taught import INPUT, OUTPUT, in_group
@@ -142,7 +142,7 @@ def render(
     warn_of_stand_ins(spec, folders)
     simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=quirks)
     try:
-        say_notices(simulation.world.warnings)
+        print_warnings(simulation.world.warnings)
         rendered = wanted.render(simulation, spec)
         written = save_all(rendered, simulation.world.scenery.part_names, output)
     finally:

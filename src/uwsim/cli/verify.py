@@ -15,7 +15,7 @@ from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code
 from ..terminal import printable
 from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named_input, plan_of
-from .faults import RUN_FAILED, running
+from .exit_status import RUN_FAILED, running
 from .options import CodeOptions, ResultArgument, WorkerOptions
 from .progress import progress
 from .taught import FILES, RUN, in_group

@@ -71,14 +71,14 @@ def parse_criterion(text: str, measures: Collection[str]) -> Criterion:
     """Parse a criterion over measures of these names; a measure called ``lost`` is that measure.
 
     Raises:
-        ScoreFault: it cannot be parsed, or asks for nothing that a run has.
+        ScoreError: it cannot be parsed, or asks for nothing that a run has.
     """
     expression = expressions.parse(text, [*measures, TOTAL, STATUS, *NAMES])
     own = tuple(name for name in expression.names if name in measures)
     asks_status = STATUS in expression.names and STATUS not in measures
     if not own and not asks_status and TOTAL not in expression.names:
         known = ", ".join([*measures, TOTAL, STATUS])
-        raise expressions.ScoreFault(
+        raise expressions.ScoreError(
             text.strip(), 0, f"the criterion asks for nothing that is measured: {known}"
         )
     return Criterion(expression, own, asks_status)

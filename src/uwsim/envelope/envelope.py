@@ -137,7 +137,7 @@ class Envelope:
             )
         failed = reasons(e.judgement for e in self.evaluations).get("algorithm error", 0)
         if failed:
-            said.append(f"{failed} runs are broken by an algorithm error: a fault, not a limit?")
+            said.append(f"{failed} runs ended with an algorithm error: a bug rather than a limit?")
         return tuple(said)
 
     def plain(self) -> dict[str, object]:

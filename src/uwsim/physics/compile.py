@@ -111,7 +111,7 @@ def compile_scene(
         shapes: what can be touched, by the name of its body.
 
     Raises:
-        BadHydrodynamics: with every fault.
+        BadHydrodynamics: with every error.
         BadSetting: the step is no time, or longer than the physics bears.
     """
     _check_step(timestep, is_simulated=bool(dynamics) or scene.things_fall)

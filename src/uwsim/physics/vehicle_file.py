@@ -39,9 +39,9 @@ from lxml import etree
 from ..assets.find import roots
 from ..errors import FileError, choices
 from ..files.input_files import is_inside
-from ..schema import Faults, cut, parse, read
-from .actuation.power import power_faults
-from .hydrodynamics.faults import body_faults, thruster_faults
+from ..schema import Diagnostics, cut, parse, read
+from .actuation.power import power_errors
+from .hydrodynamics.checks import body_errors, thruster_errors
 from .hydrodynamics.spec import (
     SIZES,
     BodyHydrodynamics,
@@ -69,29 +69,33 @@ class _Parts:
     joints: list[JointDrive] = field(default_factory=list)
     files: list[Path] = field(default_factory=list)
 
-    def add_body(self, body: BodyHydrodynamics, node: etree._Element, faults: Faults) -> None:
+    def add_body(
+        self, body: BodyHydrodynamics, node: etree._Element, diagnostics: Diagnostics
+    ) -> None:
         if any(body.link == known.link for known in self.bodies):
-            faults.add(node, f"two <body> for the link {body.link!r}; only one may be")
-        _check_name(node, "link", body.link, self.links, faults)
+            diagnostics.error(node, f"two <body> for the link {body.link!r}; only one may be")
+        _check_name(node, "link", body.link, self.links, diagnostics)
         body = _completed(body, node)
-        for message in body_faults(body):
-            faults.add(node, message)
+        for message in body_errors(body):
+            diagnostics.error(node, message)
         self.bodies.append(body)
 
-    def add_thruster(self, thruster: ThrusterSpec, node: etree._Element, faults: Faults) -> None:
+    def add_thruster(
+        self, thruster: ThrusterSpec, node: etree._Element, diagnostics: Diagnostics
+    ) -> None:
         if not thruster.name.strip():
-            faults.add(node, "a thruster has no name")
+            diagnostics.error(node, "a thruster has no name")
         if any(thruster.name == known.name for known in self.thrusters):
-            faults.add(node, f"two thrusters are called {thruster.name!r}")
-        _check_name(node, "link", thruster.link, self.links, faults)
-        for message in thruster_faults(thruster) or power_faults(thruster):
-            faults.add(node, message)
+            diagnostics.error(node, f"two thrusters are called {thruster.name!r}")
+        _check_name(node, "link", thruster.link, self.links, diagnostics)
+        for message in thruster_errors(thruster) or power_errors(thruster):
+            diagnostics.error(node, message)
         self.thrusters.append(thruster)
 
-    def add_joint(self, joint: JointDrive, node: etree._Element, faults: Faults) -> None:
+    def add_joint(self, joint: JointDrive, node: etree._Element, diagnostics: Diagnostics) -> None:
         if any(joint.name == known.name for known in self.joints):
-            faults.add(node, f"two <joint> for the joint {joint.name!r}; only one may be")
-        _check_name(node, "movable joint", joint.name, self.movable, faults)
+            diagnostics.error(node, f"two <joint> for the joint {joint.name!r}; only one may be")
+        _check_name(node, "movable joint", joint.name, self.movable, diagnostics)
         self.joints.append(joint)
 
 
@@ -106,12 +110,12 @@ def read_vehicle(
         joints: names of the joints that it can move; None to take any.
 
     Raises:
-        VehicleError: with every fault of the file.
+        VehicleError: with every error of the file.
     """
     path = Path(path)
-    faults = Faults(path)
-    vehicle = read_vehicle_into(path, links, faults, joints)
-    faults.check(VehicleError)
+    diagnostics = Diagnostics(path)
+    vehicle = read_vehicle_into(path, links, diagnostics, joints)
+    diagnostics.check(VehicleError)
     assert vehicle is not None
     return vehicle
 
@@ -119,17 +123,17 @@ def read_vehicle(
 def read_vehicle_into(
     path: Path,
     links: Iterable[str] | None,
-    faults: Faults,
+    diagnostics: Diagnostics,
     joints: Iterable[str] | None = None,
 ) -> VehicleHydrodynamics | None:
-    """Read a hydrodynamics file into ``faults``; None when it has some."""
+    """Read a hydrodynamics file into ``diagnostics``; None when it has some."""
     parts = _Parts(None if links is None else list(links), None if joints is None else list(joints))
-    head = _read_file(path, faults, parts, ())
-    if head is None or faults.any:
+    head = _read_file(path, diagnostics, parts, ())
+    if head is None or diagnostics.any:
         return None
     if head.name != path.stem:
-        faults.notice(
-            faults.node_of(head),
+        diagnostics.warning(
+            diagnostics.node_of(head),
             f"the set is called {cut(head.name)}; scenes find it by the name of its file, "
             f"{cut(path.stem)}",
         )
@@ -145,26 +149,28 @@ def read_vehicle_into(
 
 
 def _read_file(
-    path: Path, faults: Faults, parts: _Parts, above: tuple[Path, ...]
+    path: Path, diagnostics: Diagnostics, parts: _Parts, above: tuple[Path, ...]
 ) -> VehicleHydrodynamics | None:
     root = parse(path, error=VehicleError).root
     parts.files.append(path)
     if root.tag != "hydrodynamics":
-        faults.add(root, f"the root element is <{str(root.tag)[:60]}>; expected <hydrodynamics>")
+        diagnostics.error(
+            root, f"the root element is <{str(root.tag)[:60]}>; expected <hydrodynamics>"
+        )
         return None
-    head = read(VehicleHydrodynamics, root, faults)
+    head = read(VehicleHydrodynamics, root, diagnostics)
     if head is None:
         return None
     if not head.name.strip():
-        faults.add(root, "the set has no name")
+        diagnostics.error(root, "the set has no name")
     for body in head.bodies:
-        parts.add_body(body, _node_of(body, faults), faults)
+        parts.add_body(body, _node_of(body, diagnostics), diagnostics)
     for thruster in head.thrusters:
-        parts.add_thruster(thruster, _node_of(thruster, faults), faults)
+        parts.add_thruster(thruster, _node_of(thruster, diagnostics), diagnostics)
     for joint in head.joints:
-        parts.add_joint(joint, _node_of(joint, faults), faults)
+        parts.add_joint(joint, _node_of(joint, diagnostics), diagnostics)
     for name, node in zip(head.include, root.findall("include"), strict=False):
-        _include(name, path, node, faults, parts, above)
+        _include(name, path, node, diagnostics, parts, above)
     return head
 
 
@@ -172,54 +178,56 @@ def _include(
     name: str,
     path: Path,
     node: etree._Element,
-    faults: Faults,
+    diagnostics: Diagnostics,
     parts: _Parts,
     above: tuple[Path, ...],
 ) -> None:
     """Read another hydrodynamics file, beside the first or bundled, into ``parts``."""
-    inner = Faults(path)
+    inner = Diagnostics(path)
     try:
         other = next(
             (place / name for place in (path.parent, bundled_folder()) if (place / name).is_file()),
             path.parent / name,
         )
-        inner = Faults(other)
+        inner = Diagnostics(other)
         whole = other.resolve()
         if not is_inside(other, [*roots(beside=path), bundled_folder()]):
-            faults.add(node, f"<include> {cut(name)} is outside the folders of its file")
+            diagnostics.error(node, f"<include> {cut(name)} is outside the folders of its file")
             return
         if whole in (one.resolve() for one in (*above, path)):
-            faults.add(node, f"<include> {cut(name)} includes itself")
+            diagnostics.error(node, f"<include> {cut(name)} includes itself")
             return
         if whole in (one.resolve() for one in parts.files):
-            faults.add(node, f"<include> {cut(name)}: it is included already")
+            diagnostics.error(node, f"<include> {cut(name)}: it is included already")
             return
         _read_file(other, inner, parts, (*above, path))
     except (OSError, ValueError) as error:
-        faults.add(node, f"<include> {cut(name)}: {getattr(error, 'strerror', None) or error}")
+        diagnostics.error(
+            node, f"<include> {cut(name)}: {getattr(error, 'strerror', None) or error}"
+        )
         return
     except VehicleError as error:
-        for fault in error.faults:
-            faults.add(node, f"<include> {cut(name)}: {fault.message}")
+        for diagnostic in error.diagnostics:
+            diagnostics.error(node, f"<include> {cut(name)}: {diagnostic.message}")
         return
-    for fault in inner.all():
-        say = faults.add if fault.severity == "fault" else faults.notice
-        say(node, f"in {name}, line {fault.line}: {fault.message}")
+    for diagnostic in inner.all():
+        say = diagnostics.error if diagnostic.severity == "error" else diagnostics.warning
+        say(node, f"in {name}, line {diagnostic.line}: {diagnostic.message}")
 
 
 def _check_name(
-    node: etree._Element, what: str, name: str, known: list[str] | None, faults: Faults
+    node: etree._Element, what: str, name: str, known: list[str] | None, diagnostics: Diagnostics
 ) -> None:
     if known is not None and name not in known:
-        faults.add(
+        diagnostics.error(
             node,
             f"the robot has no {what} {name!r}."
             + choices(name, known, called=f"{what.split()[-1].capitalize()}s"),
         )
 
 
-def _node_of(spec: object, faults: Faults) -> etree._Element:
-    node = faults.node_of(spec)
+def _node_of(spec: object, diagnostics: Diagnostics) -> etree._Element:
+    node = diagnostics.node_of(spec)
     assert node is not None
     return node
 

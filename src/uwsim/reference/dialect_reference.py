@@ -26,8 +26,8 @@ What may stand in a scene file, made from the specs that read it by `scripts/doc
 stand in any order; what equals its default may be left out. Numbers may be `M_PI`, `M_PI_2`,
 `M_PI_4` and their negatives. Flags are 0 or 1. `u:` is the namespace `urn:uwsim:1`: a file that
 uses it carries no DOCTYPE, and what stands in it must say something: an empty element of `u:` that
-holds a value is a fault, where one of the original's is as good as none. [Old names](#old-names)
-that older UWSim files use are read, too, with a notice; `uwsim check FILE.xml` names them.
+holds a value is an error, where one of the original's is as good as none. [Old names](#old-names)
+that older UWSim files use are read, too, with a warning; `uwsim check FILE.xml` names them.
 What is marked as *read, not simulated yet* may stand in a file and does nothing.
 
 The grammar for editors is [uwsim-scene.rng](grammar/uwsim-scene.rng) (RELAX NG). It knows today's
@@ -42,8 +42,8 @@ stand in any order; what equals its default may be left out. Numbers may be `M_P
 `M_PI_4` and their negatives. `u:` is the namespace `urn:uwsim:1`: a file that uses it carries no
 DOCTYPE. What it all means: [measures](measures.md), [levels](levels.md). `uwsim check FILE.xml`
 holds a file against it, `--strict` also against the original's order. In a file with the original's
-DOCTYPE what stands behind a number (`2 s`) is passed over with a notice; a decimal comma is a
-fault.
+DOCTYPE what stands behind a number (`2 s`) is passed over with a warning; a decimal comma is a
+error.
 
 The grammar for editors is [uwsim-benchmark.rng](grammar/uwsim-benchmark.rng) (RELAX NG). It knows
 today's names only, and neither the limits of numbers nor the parts of a plugin.

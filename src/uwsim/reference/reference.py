@@ -14,7 +14,7 @@ HEAD = """\
 
 This page is what `uwsim --help` and `uwsim COMMAND --help` print; `scripts/docs` writes it.
 
-Exit status: 0 done; 2 wrong input, with one line on stderr for each fault; 3 the run failed,
+Exit status: 0 done; 2 wrong input, with one line on stderr for each error; 3 the run failed,
 partial results kept; 130 interrupted, what was finished kept.
 
 `uwsim --install-completion` once, and Tab completes commands, options, and the names of scenes,

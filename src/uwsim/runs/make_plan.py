@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..assets.bundled import benchmark_file, scene_file
 from ..errors import AllErrors, AssetNotFound, BadSetting
-from ..terminal import say_notices
+from ..terminal import print_warnings
 from .foreign_code import announce, refuse_code, refused
 from .option_values import (
     compatibility_of,
@@ -159,7 +159,7 @@ def say_warnings(plan: Plan) -> None:
     from ..simulation.checks.plausibility import warnings_of
 
     warn_of_stand_ins(plan.scene, plan.data_path)
-    say_notices(warnings_of(plan.scene, plan.data_path))
+    print_warnings(warnings_of(plan.scene, plan.data_path))
 
 
 def benchmark_of(path: Path, own: Sequence[Plugin], tables: Tables) -> BenchmarkSpec:

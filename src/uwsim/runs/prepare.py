@@ -86,6 +86,6 @@ def _bind_all(plan: Plan, simulation: Simulation) -> None:
     try:
         bind_all(plan, simulation)
     except UwsimError:
-        if faults := unknown_names(plan.benchmark, simulation.world):
-            raise BenchmarkError(faults) from None
+        if errors := unknown_names(plan.benchmark, simulation.world):
+            raise BenchmarkError(errors) from None
         raise

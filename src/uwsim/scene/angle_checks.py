@@ -11,7 +11,7 @@ from collections.abc import Hashable, Iterator, Sequence
 
 from lxml import etree
 
-from ..schema import Faults, fields_of
+from ..schema import Diagnostics, fields_of
 from ..schema.names import local
 
 MORE_THAN_A_TURN = 6.3
@@ -30,39 +30,41 @@ def degrees_for_radians(values: Sequence[float]) -> str:
     )
 
 
-def check_angles(spec: object, faults: Faults) -> None:
+def check_angles(spec: object, diagnostics: Diagnostics) -> None:
     """Ask about the angles of a spec and of all that stands in it.
 
     Args:
         spec: what a file says.
-        faults: where to ask; it remembers the elements of the specs.
+        diagnostics: where to ask; it remembers the elements of the specs.
     """
     kind: type = type(spec)
     for field, shown in _angles(kind):
         value = getattr(spec, field)
         said = degrees_for_radians(value if isinstance(value, tuple) else (value,))
         if said:
-            node = faults.node_of(spec)
+            node = diagnostics.node_of(spec)
             place = None if node is None else _child(node, shown)
-            faults.notice(place, f"<{shown}> is {said}")
+            diagnostics.warning(place, f"<{shown}> is {said}")
     for part in _parts(spec):
-        check_angles(part, faults)
+        check_angles(part, diagnostics)
 
 
-def remember_twins(spec: object, written: object, lines: Faults, faults: Faults) -> None:
+def remember_twins(
+    spec: object, written: object, lines: Diagnostics, diagnostics: Diagnostics
+) -> None:
     """Give a spec and its parts the elements of another one that was read from the same file.
 
     Args:
         spec: what was read earlier, and may have been changed by settings.
         written: what is read from its file now.
         lines: remembers the elements of ``written``.
-        faults: shall remember them for ``spec``.
+        diagnostics: shall remember them for ``spec``.
     """
     node = lines.node_of(written)
     if node is not None:
-        faults.remember(spec, node)
+        diagnostics.remember(spec, node)
     for part, twin in zip(_parts(spec), _parts(written), strict=False):
-        remember_twins(part, twin, lines, faults)
+        remember_twins(part, twin, lines, diagnostics)
 
 
 @functools.cache

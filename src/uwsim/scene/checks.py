@@ -1,6 +1,6 @@
 """Names in a scene that must lead somewhere: links, sensors, vehicles.
 
-A fault where the original, too, would stop or crash; a notice where it warns and goes on.
+An error where the original, too, would stop or crash; a warning where it warns and goes on.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from itertools import chain
 
 from ..devices.force_sensor import ForceSensorSpec
 from ..devices.lamp import MAX_LAMPS, LampSpec
-from ..schema import Faults
+from ..schema import Diagnostics
 from ..topics import InterfaceSpec, element_of
 from ..topics.interface import VehiclePublisherSpec
 from ..topics.simulated_device_ros import SimulatedDeviceROSSpec
@@ -26,13 +26,13 @@ SOLVERS = ("dantzig", "solveprojectedgauss", "sequentialimpulse")
 SHAPES = ("box", "sphere", "compound box", "compound cylinder", "trimesh", "compound trimesh")
 
 MAX_NAMED = 8
-"""Objects that one notice names."""
+"""Objects that one warning names."""
 
 
 def check_names(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
-    faults: Faults,
+    diagnostics: Diagnostics,
     stand_ins: Collection[int] = (),
 ) -> None:
     """Follow every name of a scene.
@@ -40,36 +40,43 @@ def check_names(
     Args:
         scene: the scene.
         robots: the robot of each vehicle that has one, by its number in the scene.
-        faults: where to say what leads nowhere; it remembers the elements of the specs.
+        diagnostics: where to say what leads nowhere; it remembers the elements of the specs.
         stand_ins: numbers of the vehicles whose robot stands for another: what theirs has is not
             known.
     """
     for index, vehicle in enumerate(scene.vehicles):
         if index in robots:
             is_its_own = index not in stand_ins
-            _check_links(vehicle, robots[index], scene, faults, is_its_own=is_its_own)
-            _check_joints(vehicle, robots[index], faults)
+            _check_links(vehicle, robots[index], scene, diagnostics, is_its_own=is_its_own)
+            _check_joints(vehicle, robots[index], diagnostics)
     known = _names(scene)
     for interface in _interfaces(scene):
-        _check_interface(interface, known, faults)
-    _check_sources(scene, faults)
+        _check_interface(interface, known, diagnostics)
+    _check_sources(scene, diagnostics)
     lamps = [lamp for vehicle in scene.vehicles if not vehicle.vr for lamp in vehicle.lamps]
     for lamp in lamps[MAX_LAMPS:]:
-        faults.add(faults.node_of(lamp), f"<u:lamp> {lamp.name!r}: more than {MAX_LAMPS} lamps")
+        diagnostics.error(
+            diagnostics.node_of(lamp), f"<u:lamp> {lamp.name!r}: more than {MAX_LAMPS} lamps"
+        )
     for thing in scene.objects:
-        _check_physics(thing, faults)
+        _check_physics(thing, diagnostics)
     if scene.is_dynamic:
-        _check_passable_objects(scene, faults)
-        _check_passable_vehicles(scene, robots, faults)
+        _check_passable_objects(scene, diagnostics)
+        _check_passable_vehicles(scene, robots, diagnostics)
     if scene.sim_params.physics_solver.lower() not in SOLVERS:
-        faults.notice(
-            faults.node_of(scene.sim_params),
+        diagnostics.warning(
+            diagnostics.node_of(scene.sim_params),
             f"<physicsSolver> is {scene.sim_params.physics_solver!r}; read as Dantzig",
         )
 
 
 def _check_links(
-    vehicle: VehicleSpec, robot: RobotSpec, scene: SceneSpec, faults: Faults, *, is_its_own: bool
+    vehicle: VehicleSpec,
+    robot: RobotSpec,
+    scene: SceneSpec,
+    diagnostics: Diagnostics,
+    *,
+    is_its_own: bool,
 ) -> None:
     links = {link.name: None for link in robot.links}
     for element, part in vehicle.parts():
@@ -77,25 +84,29 @@ def _check_links(
         if link is None:
             continue
         if link not in links:
-            is_fault = isinstance(part, ForceSensorSpec | LampSpec)
-            severity = "fault" if is_fault else "notice"
-            near = faults.near(link, links, severity)
+            is_error = isinstance(part, ForceSensorSpec | LampSpec)
+            severity = "error" if is_error else "warning"
+            near = diagnostics.near(link, links, severity)
             said = f"<{element}>: {link!r} is no link of {vehicle.file}.{near}"
-            if is_fault:
-                faults.add(faults.node_of(part), said)
+            if is_error:
+                diagnostics.error(diagnostics.node_of(part), said)
             else:
-                faults.notice(faults.node_of(part), f"{said} It is left out, as in the original")
+                diagnostics.warning(
+                    diagnostics.node_of(part), f"{said} It is left out, as in the original"
+                )
         elif isinstance(part, ForceSensorSpec) and scene.sim_params.enable_physics:
             mass = next(each.mass for each in robot.links if each.name == link)
             if mass <= 0 and is_its_own:
-                faults.add(faults.node_of(part), f"<{element}>: its link {link!r} has no mass")
+                diagnostics.error(
+                    diagnostics.node_of(part), f"<{element}>: its link {link!r} has no mass"
+                )
 
 
-def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, faults: Faults) -> None:
-    node = faults.node_of(vehicle)
+def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, diagnostics: Diagnostics) -> None:
+    node = diagnostics.node_of(vehicle)
     place = None if node is None else node.find("jointValues")
     if len(vehicle.joint_values) > len(robot.movable):
-        faults.notice(
+        diagnostics.warning(
             place,
             f"<jointValues> has {len(vehicle.joint_values)} values for {len(robot.movable)} "
             f"joints ({', '.join(joint.name for joint in robot.movable)}); the rest is not used",
@@ -106,7 +117,7 @@ def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, faults: Faults) -> Non
             said = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
             if joint.kind != "prismatic" and abs(value) > MORE_THAN_A_TURN:
                 said += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
-            faults.notice(place, said)
+            diagnostics.warning(place, said)
 
 
 def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
@@ -134,9 +145,9 @@ def _interfaces(scene: SceneSpec) -> Iterator[InterfaceSpec]:
 def _check_interface(
     interface: InterfaceSpec,
     known: Mapping[str, Mapping[str, None]],
-    faults: Faults,
+    diagnostics: Diagnostics,
 ) -> None:
-    node = faults.node_of(interface)
+    node = diagnostics.node_of(interface)
     element = element_of(interface)
     wanted = next(
         (
@@ -150,8 +161,8 @@ def _check_interface(
         return
     kinds = interface.sources
     if not any(wanted in known.get(kind, {}) for kind in kinds):
-        near = faults.near(wanted, chain(*(known.get(kind, {}) for kind in kinds)), "notice")
-        faults.notice(
+        near = diagnostics.near(wanted, chain(*(known.get(kind, {}) for kind in kinds)), "warning")
+        diagnostics.warning(
             node,
             f"<{element}>: no {_or(kinds)} is called {wanted!r}.{near} "
             "The interface is left out, as in the original",
@@ -161,10 +172,12 @@ def _check_interface(
         and interface.depth
         and wanted not in known.get("virtualRangeImage", {})
     ):
-        faults.add(node, f"<{element}>: <depth> 1 wants a virtualRangeImage; {wanted!r} is none")
+        diagnostics.error(
+            node, f"<{element}>: <depth> 1 wants a virtualRangeImage; {wanted!r} is none"
+        )
 
 
-def _check_sources(scene: SceneSpec, faults: Faults) -> None:
+def _check_sources(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     """Of several interfaces on one camera the original keeps the last."""
     cameras = [
         interface
@@ -174,24 +187,24 @@ def _check_sources(scene: SceneSpec, faults: Faults) -> None:
     last_of = {interface.camera_name: interface for interface in cameras}
     for name in _repeated(interface.camera_name for interface in cameras):
         last = last_of[name]
-        faults.notice(
-            faults.node_of(last),
+        diagnostics.warning(
+            diagnostics.node_of(last),
             f"camera {name!r} has several interfaces; the original serves this last one only",
         )
     for name in _repeated(vehicle.name for vehicle in scene.vehicles):
-        faults.notice(None, f"several vehicles are called {name!r}; searches find the first")
-    _check_shared_names(scene, faults)
+        diagnostics.warning(None, f"several vehicles are called {name!r}; searches find the first")
+    _check_shared_names(scene, diagnostics)
 
 
-def _check_shared_names(scene: SceneSpec, faults: Faults) -> None:
+def _check_shared_names(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     """Name the objects that a search never finds, and topics on which two interfaces speak."""
     first: dict[str, str] = {vehicle.name: "a vehicle" for vehicle in scene.vehicles}
     shared: set[str] = set()
     for thing in scene.objects:
         if thing.name in first and thing.name not in shared:
             shared.add(thing.name)
-            faults.notice(
-                faults.node_of(thing),
+            diagnostics.warning(
+                diagnostics.node_of(thing),
                 f"the object {thing.name!r} is called as {first[thing.name]} before it; searches "
                 "find the first",
             )
@@ -202,24 +215,24 @@ def _check_shared_names(scene: SceneSpec, faults: Faults) -> None:
             continue
         topic = interface.topic.strip("/")
         if topic in said:
-            faults.notice(
-                faults.node_of(interface),
+            diagnostics.warning(
+                diagnostics.node_of(interface),
                 f"the topic {interface.topic!r} carries {interface.vehicle_name!r} and "
                 f"{said[topic]!r}: who reads it gets both",
             )
         said.setdefault(topic, interface.vehicle_name)
 
 
-def _check_physics(thing: ObjectSpec, faults: Faults) -> None:
+def _check_physics(thing: ObjectSpec, diagnostics: Diagnostics) -> None:
     if thing.physics is not None and thing.physics.collision_shape_type not in SHAPES:
         said = thing.physics.collision_shape_type
-        faults.notice(
-            faults.node_of(thing.physics),
+        diagnostics.warning(
+            diagnostics.node_of(thing.physics),
             f"<collisionShapeType> is {said[:60]!r}; read as box; known: {', '.join(SHAPES)}",
         )
 
 
-def _check_passable_objects(scene: SceneSpec, faults: Faults) -> None:
+def _check_passable_objects(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     """Name the objects that simulated vehicles pass through, unless the file says so itself."""
     things = [
         thing
@@ -228,13 +241,13 @@ def _check_passable_objects(scene: SceneSpec, faults: Faults) -> None:
     ]
     if not things:
         return
-    nodes = [faults.node_of(thing) for thing in things]
+    nodes = [diagnostics.node_of(thing) for thing in things]
     named = [
         f"{thing.name!r} (line {getattr(node, 'sourceline', '?')})"
         for thing, node in zip(things[:MAX_NAMED], nodes, strict=False)
     ]
     more = f" and {len(things) - MAX_NAMED} more" if len(things) > MAX_NAMED else ""
-    faults.notice(
+    diagnostics.warning(
         nodes[0],
         f"simulated vehicles pass through what has no <physics>: {', '.join(named)}{more}; "
         "<u:solid>1</u:solid> in the object makes it solid, <u:solid>0</u:solid> says that it is "
@@ -243,7 +256,7 @@ def _check_passable_objects(scene: SceneSpec, faults: Faults) -> None:
 
 
 def _check_passable_vehicles(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Faults
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], diagnostics: Diagnostics
 ) -> None:
     """Name the vehicles that simulated ones pass through, and those without any shape."""
     for index, vehicle in enumerate(scene.vehicles):
@@ -256,8 +269,8 @@ def _check_passable_vehicles(
             why = "it passes through everything: no link has a <collision> or a <visual>"
         else:
             continue
-        faults.notice(
-            faults.node_of(vehicle),
+        diagnostics.warning(
+            diagnostics.node_of(vehicle),
             f"vehicle {vehicle.name!r}: {why}; if that is meant: <u:accept>passable</u:accept>",
         )
 

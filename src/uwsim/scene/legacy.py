@@ -1,7 +1,7 @@
 """Old names that real scene files contain, written anew before they are read.
 
 What UWSim called otherwise in its first years, or had and dropped, becomes what it is called
-today, with a notice; so the specs know only one dialect.
+today, with a warning; so the specs know only one dialect.
 """
 
 from __future__ import annotations
@@ -10,41 +10,41 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from ..schema import NAMESPACE, Faults, number
+from ..schema import NAMESPACE, Diagnostics, number
 
 U = f"{{{NAMESPACE}}}"
 BEAM_RANGE = "10"
 """Of the multibeams in the original's scenes; those of March 2013 had none [m]."""
 
-Rule = Callable[[etree._Element, etree._Element, Faults], None]
+Rule = Callable[[etree._Element, etree._Element, Diagnostics], None]
 
 
-def upgrade(root: etree._Element, faults: Faults) -> None:
-    """Rewrite every old element below ``root`` in place; a notice each."""
+def upgrade(root: etree._Element, diagnostics: Diagnostics) -> None:
+    """Rewrite every old element below ``root`` in place; a warning each."""
     for node in list(root.iter("*")):
         parent = node.getparent()
         if parent is None:
             continue
         rule = RULES.get((str(parent.tag), str(node.tag))) or ANYWHERE.get(str(node.tag))
         if rule is not None:
-            rule(node, parent, faults)
+            rule(node, parent, diagnostics)
 
 
 def _drop(why: str) -> Rule:
-    def rule(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
-        faults.notice(node, f"<{node.tag}> in <{parent.tag}> {why}; ignored")
+    def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
+        diagnostics.warning(node, f"<{node.tag}> in <{parent.tag}> {why}; ignored")
         _remove(node)
 
     return rule
 
 
-def _visualize(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+def _visualize(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
     """``<visualize>`` of an odometry input is a ``<showTrajectory>`` of its vehicle."""
     style = _text(node)
     vehicle = _text(parent.find("vehicleName"))
     root = parent.getroottree().getroot()
     _remove(node)
-    faults.notice(node, f"<visualize> is an old way to write <showTrajectory> of {vehicle!r}")
+    diagnostics.warning(node, f"<visualize> is an old way to write <showTrajectory> of {vehicle!r}")
     if style not in ("1", "2", "3", "4") or not vehicle:
         return
     params = root.find("simParams")
@@ -55,18 +55,18 @@ def _visualize(node: etree._Element, parent: etree._Element, faults: Faults) -> 
     _new(trajectory, "lineStyle", style, line=node.sourceline)
 
 
-def _numpixels(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+def _numpixels(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
     """``<numpixels>`` beams over ``<fieldOfView>`` degrees become first, last and step."""
     wide = parent.find("fieldOfView")
     beams, angle = number(_text(node)), number(_text(wide))
     if wide is None or beams is None or angle is None or beams < 2:
-        faults.add(node, "<numpixels> needs two beams or more and a <fieldOfView> [deg]")
+        diagnostics.error(node, "<numpixels> needs two beams or more and a <fieldOfView> [deg]")
         return
     said = "<numpixels> and <fieldOfView> are read as initAngle, finalAngle, angleIncr"
     if parent.find("range") is None:
         said += f"; there is no <range>: {BEAM_RANGE} m, as in the original's scenes"
         _new(parent, "range", BEAM_RANGE, line=node.sourceline)
-    faults.notice(node, said)
+    diagnostics.warning(node, said)
     for name, value in (
         ("initAngle", -angle / 2),
         ("finalAngle", angle / 2),
@@ -80,9 +80,9 @@ def _numpixels(node: etree._Element, parent: etree._Element, faults: Faults) -> 
 def _factor(kind: str) -> Rule:
     """An axis whose factor is 0 is locked: its limits are equal."""
 
-    def rule(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+    def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
         locked = [number(_text(node.find(axis))) == 0 for axis in "xyz"]
-        faults.notice(node, f"<{node.tag}> is read as min{kind}Limit and max{kind}Limit")
+        diagnostics.warning(node, f"<{node.tag}> is read as min{kind}Limit and max{kind}Limit")
         for name, free in ((f"min{kind}Limit", "1"), (f"max{kind}Limit", "0")):
             if parent.find(name) is None:
                 limit = _new(parent, name, line=node.sourceline)
@@ -93,9 +93,9 @@ def _factor(kind: str) -> Rule:
     return rule
 
 
-def _current(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+def _current(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
     """``<current>`` of the benchmarks of 2013: today's ``currentForceUpdater``, at one level."""
-    faults.notice(
+    diagnostics.warning(
         node, "<current> is read as <u:current> <u:uwsimSinusoid>, its <forceModule> as <u:speed>"
     )
     current = _new(parent, f"{U}current", line=node.sourceline)
@@ -116,7 +116,7 @@ def _wrapper(kept: str = "") -> Rule:
     the echoes stay in it.
     """
 
-    def rule(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+    def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
         is_first = parent.find(str(node.tag)) is node
         moved = [
             child
@@ -125,7 +125,7 @@ def _wrapper(kept: str = "") -> Rule:
         ]
         if moved:
             names = ", ".join(dict.fromkeys(f"<{child.tag}>" for child in moved))
-            faults.notice(node, f"{names} in <{node.tag}>: read as in <{parent.tag}>")
+            diagnostics.warning(node, f"{names} in <{node.tag}>: read as in <{parent.tag}>")
         for place, child in enumerate(moved, start=parent.index(node) + 1):
             parent.insert(place, child)
         is_empty = not any(isinstance(child.tag, str) for child in node)
@@ -143,16 +143,16 @@ def _stays(child: etree._Element, kept: str) -> bool:
 
 
 def _rename(new: str) -> Rule:
-    def rule(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
-        faults.notice(node, f"<{node.tag}> is an old name of <{new}>")
+    def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
+        diagnostics.warning(node, f"<{node.tag}> is an old name of <{new}>")
         node.tag = new
 
     return rule
 
 
-def _comms_device(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+def _comms_device(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
     """``<CommsDevice>`` is a ``<CustomCommsDevice>`` with other names."""
-    faults.notice(node, "<CommsDevice> is an old name of <CustomCommsDevice>")
+    diagnostics.warning(node, "<CommsDevice> is an old name of <CustomCommsDevice>")
     node.tag = "CustomCommsDevice"
     for old, new in (("name", "dccommsId"), ("trTime", "intrinsicDelay")):
         child = node.find(old)
@@ -165,21 +165,21 @@ def _comms_device(node: etree._Element, parent: etree._Element, faults: Faults) 
     for child in list(node):
         rule = RULES.get(("CustomCommsDevice", str(child.tag)))
         if rule is not None:
-            rule(child, node, faults)
+            rule(child, node, diagnostics)
 
 
-def _max_bit_rate(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
-    faults.notice(node, "<maxBitRate> is an old name of <bitrate>")
+def _max_bit_rate(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
+    diagnostics.warning(node, "<maxBitRate> is an old name of <bitrate>")
     if parent.find("bitrate") is None:
         node.tag = "bitrate"
     else:
         _remove(node)
 
 
-def _packet_errors(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+def _packet_errors(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
     """``<minPktErrRatio>`` and ``<pktErrRatioIncPerMeter>`` become an error expression."""
     least, more = parent.find("minPktErrRatio"), parent.find("pktErrRatioIncPerMeter")
-    faults.notice(node, f"<{node.tag}> is read as <rateErrorModel>")
+    diagnostics.warning(node, f"<{node.tag}> is read as <rateErrorModel>")
     if parent.find("rateErrorModel") is None:
         model = _new(parent, "rateErrorModel", line=node.sourceline)
         _new(model, "errorUnit", "packet", line=node.sourceline)
@@ -189,10 +189,10 @@ def _packet_errors(node: etree._Element, parent: etree._Element, faults: Faults)
     _remove(more)
 
 
-def _mac_protocol(node: etree._Element, parent: etree._Element, faults: Faults) -> None:
+def _mac_protocol(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
     """``<macProtocol>`` once was its name alone."""
     if len(node) == 0 and (name := _text(node)):
-        faults.notice(node, f"<macProtocol> {name} is read as <macProtocol> <name>")
+        diagnostics.warning(node, f"<macProtocol> {name} is read as <macProtocol> <name>")
         node.text = None
         _new(node, "name", name, line=node.sourceline)
 

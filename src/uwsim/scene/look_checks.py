@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
-from ..schema import Faults, uses_extensions
+from ..schema import Diagnostics, uses_extensions
 from ..sensors.sensor import Looking, Mounted
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
@@ -18,13 +18,15 @@ STEEP = 0.5
 """What looks higher looks up: sine of the angle above the horizon."""
 
 
-def check_looks(scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Faults) -> None:
+def check_looks(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], diagnostics: Diagnostics
+) -> None:
     """Say where the cameras of a scene look.
 
     Args:
         scene: the scene.
         robots: the robot of each vehicle that has one, by its number in the scene.
-        faults: where to say it; it remembers the elements of the specs.
+        diagnostics: where to say it; it remembers the elements of the specs.
     """
     for index, robot in robots.items():
         vehicle = scene.vehicles[index]
@@ -32,16 +34,20 @@ def check_looks(scene: SceneSpec, robots: Mapping[int, RobotSpec], faults: Fault
         for spec in looking(vehicle):
             if spec.look_at is not None and any(spec.orientation):
                 said = "its <orientation> is not used: <u:lookAt> says where it looks"
-                faults.notice(faults.node_of(spec), f"{_called(spec)}: {said}")
+                diagnostics.warning(diagnostics.node_of(spec), f"{_called(spec)}: {said}")
             is_camera = isinstance(spec, VirtualCameraSpec | VirtualRangeImageSpec)
             if is_camera and robot.link(spec.relative_to) is not None:
-                faults.notice(faults.node_of(spec), f"{_called(spec)} {_looks(spec, stand)}")
+                diagnostics.warning(
+                    diagnostics.node_of(spec), f"{_called(spec)} {_looks(spec, stand)}"
+                )
         if not uses_extensions(scene):
-            _check_age(stand, faults)
+            _check_age(stand, diagnostics)
     cameras = [spec.name for vehicle in scene.vehicles for spec in vehicle.virtual_cameras]
     for name, count in Counter(cameras).items():
         if count > 1:
-            faults.notice(None, f"{count} cameras are called {name!r}; searches find the first")
+            diagnostics.warning(
+                None, f"{count} cameras are called {name!r}; searches find the first"
+            )
 
 
 def looking(vehicle: VehicleSpec) -> Iterator[Looking]:
@@ -66,7 +72,7 @@ def _called(spec: Mounted) -> str:
     return repr(str(getattr(spec, "name", "")))
 
 
-def _check_age(stand: Stand, faults: Faults) -> None:
+def _check_age(stand: Stand, diagnostics: Diagnostics) -> None:
     """Until July 2014 sensors hung on visual frames: those on turned ones may now look up."""
     turned: list[Looking] = []
     n_right = 0
@@ -81,8 +87,8 @@ def _check_age(stand: Stand, faults: Faults) -> None:
         n_right += was_up and not is_up
     if len(turned) > n_right:
         names = ", ".join(_called(spec) for spec in turned[:5])
-        faults.notice(
-            faults.node_of(turned[0]),
+        diagnostics.warning(
+            diagnostics.node_of(turned[0]),
             f"looking up from links whose visual frames are turned: {names}. Before July 2014 "
             "sensors hung on visual frames; if this scene is that old, use --compat visual-frames",
         )

@@ -1,4 +1,4 @@
-"""A scene file becomes a `SceneSpec`, or every fault it has."""
+"""A scene file becomes a `SceneSpec`, or every error it has."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
 
-from ..errors import AssetError, Fault, SceneError
-from ..schema import Document, Faults, check_head, parse, read
+from ..errors import AssetError, Diagnostic, SceneError
+from ..schema import Diagnostics, Document, check_head, parse, read
 from .angle_checks import check_angles, remember_twins
 from .checks import check_names
 from .legacy import upgrade
@@ -50,34 +50,34 @@ def read_scene(path: Path | str) -> SceneSpec:
     """Read a scene file.
 
     Raises:
-        SceneError: with every fault of the file.
+        SceneError: with every error of the file.
     """
     path = Path(path)
-    faults = Faults(path)
-    scene = read_document(parse(path, error=SceneError), faults)
-    faults.check(SceneError)
+    diagnostics = Diagnostics(path)
+    scene = read_document(parse(path, error=SceneError), diagnostics)
+    diagnostics.check(SceneError)
     assert scene is not None
     return scene
 
 
-def read_document(document: Document, faults: Faults) -> SceneSpec | None:
-    """Read a scene that is already parsed; None when its faults leave nothing to build on."""
-    check_head(document, ROOT, faults)
+def read_document(document: Document, diagnostics: Diagnostics) -> SceneSpec | None:
+    """Read a scene that is already parsed; None when its errors leave nothing to build on."""
+    check_head(document, ROOT, diagnostics)
     if document.root.tag != ROOT:
         return None
-    upgrade(document.root, faults)
-    if faults.strict:
+    upgrade(document.root, diagnostics)
+    if diagnostics.strict:
         for node in document.root.iter("ProfilingSonar", "ProfilingSonarROS"):
-            faults.add(node, f"<{node.tag}> is not in the original grammar")
+            diagnostics.error(node, f"<{node.tag}> is not in the original grammar")
     scene = read(
         SceneSpec,
         document.root,
-        faults,
+        diagnostics,
         given={"path": str(document.path), "is_original": document.has_doctype},
     )
     if scene is not None:
-        check_sizes(scene, faults)
-        check_variations(scene, faults)
+        check_sizes(scene, diagnostics)
+        check_variations(scene, diagnostics)
     return scene
 
 
@@ -86,77 +86,79 @@ def check_scene(
     *,
     strict: bool = False,
     library: Library | None = None,
-    further: Callable[[SceneSpec], list[Fault]] | None = None,
+    further: Callable[[SceneSpec], list[Diagnostic]] | None = None,
     settled: Callable[[SceneSpec], SceneSpec] | None = None,
-) -> list[Fault]:
+) -> list[Diagnostic]:
     """Everything wrong or worth knowing about a scene file and the robots it names.
 
     Args:
         path: the scene file.
         strict: also hold it against the order of the original grammar.
         library: finds robots and models; without it they are not looked at.
-        further: finds what only other rooms can know, in a scene without faults.
+        further: finds what only other rooms can know, in a scene without errors.
         settled: puts what stands on the floor there, as far as that can be done.
     """
-    faults = Faults(path, strict=strict)
+    diagnostics = Diagnostics(path, strict=strict)
     try:
         document = parse(path, error=SceneError)
     except SceneError as error:
-        return list(error.faults)
-    scene = read_document(document, faults)
-    others: list[Fault] = []
+        return list(error.diagnostics)
+    scene = read_document(document, diagnostics)
+    others: list[Diagnostic] = []
     if scene is not None:
-        robots, others = _robots(scene, document, library, faults)
+        robots, others = _robots(scene, document, library, diagnostics)
         stand_ins = [
             index
             for index in robots
             if library and library.find(scene.vehicles[index].file, document.path) is None
         ]
-        check_names(scene, robots, faults, stand_ins)
-        check_looks(scene if settled is None else settled(scene), robots, faults)
-        check_angles(scene, faults)
+        check_names(scene, robots, diagnostics, stand_ins)
+        check_looks(scene if settled is None else settled(scene), robots, diagnostics)
+        check_angles(scene, diagnostics)
         if library is not None:
-            _check_models(scene, document, library, faults)
-        not_simulated(document.root, faults)
-        if further is not None and not faults.any:
+            _check_models(scene, document, library, diagnostics)
+        not_simulated(document.root, diagnostics)
+        if further is not None and not diagnostics.any:
             others += further(scene)
-    return [*faults.all(), *others]
+    return [*diagnostics.all(), *others]
 
 
-def angle_notices(scene: SceneSpec) -> list[Fault]:
+def angle_warnings(scene: SceneSpec) -> list[Diagnostic]:
     """Ask about the angles of a scene as it is set now, at the lines of its file."""
-    faults = Faults(scene.path or "the scene")
+    diagnostics = Diagnostics(scene.path or "the scene")
     if scene.path:
         with suppress(SceneError):
-            lines = Faults(scene.path)
+            lines = Diagnostics(scene.path)
             written = read_document(parse(Path(scene.path), error=SceneError), lines)
-            remember_twins(scene, written, lines, faults)
-    check_angles(scene, faults)
-    return faults.all()
+            remember_twins(scene, written, lines, diagnostics)
+    check_angles(scene, diagnostics)
+    return diagnostics.all()
 
 
-def check_robot(path: Path, *, library: Library | None = None) -> list[Fault]:
+def check_robot(path: Path, *, library: Library | None = None) -> list[Diagnostic]:
     """Everything wrong or worth knowing about a robot file."""
-    faults = Faults(path)
+    diagnostics = Diagnostics(path)
     try:
-        robot = read_robot(path, faults)
+        robot = read_robot(path, diagnostics)
     except SceneError as error:
-        return list(error.faults)
+        return list(error.diagnostics)
     if robot is not None and library is not None:
         for name in itertools.islice(dict.fromkeys(_meshes(robot)), MAX_FILES):
             if why := library.unreadable(name, path):
-                faults.add(None, why)
+                diagnostics.error(None, why)
             elif not library.has_model(name, path):
-                faults.notice(None, f"there is no model {name!r}, nor a stand-in: a labelled box")
-    return faults.all()
+                diagnostics.warning(
+                    None, f"there is no model {name!r}, nor a stand-in: a labelled box"
+                )
+    return diagnostics.all()
 
 
 def _robots(
-    scene: SceneSpec, document: Document, library: Library | None, faults: Faults
-) -> tuple[dict[int, RobotSpec], list[Fault]]:
+    scene: SceneSpec, document: Document, library: Library | None, diagnostics: Diagnostics
+) -> tuple[dict[int, RobotSpec], list[Diagnostic]]:
     """The robot of each vehicle by its number, and what is to be said about their files."""
     robots: dict[int, RobotSpec] = {}
-    said: list[Fault] = []
+    said: list[Diagnostic] = []
     if library is None:
         return robots, said
     by_file: dict[str, RobotSpec | None] = {}
@@ -166,19 +168,19 @@ def _robots(
             try:
                 path = library.find_robot(vehicle.file, document.path)
             except AssetError as error:
-                faults.add(faults.node_of(vehicle), str(error))
+                diagnostics.error(diagnostics.node_of(vehicle), str(error))
                 continue
             if path is None:
                 searched = library.searched(document.path)
-                faults.add(
-                    faults.node_of(vehicle),
+                diagnostics.error(
+                    diagnostics.node_of(vehicle),
                     f"robot file {vehicle.file!r} is nowhere, and no bundled robot is called so; "
                     f"searched: {searched}",
                 )
                 continue
             if library.find(vehicle.file, document.path) is None:
                 what = f"robot file {vehicle.file!r} is nowhere; the bundled {path.name} is used"
-                faults.notice(faults.node_of(vehicle), what)
+                diagnostics.warning(diagnostics.node_of(vehicle), what)
             said += check_robot(path, library=library)
             with suppress(SceneError):
                 by_file[vehicle.file] = read_urdf(path)
@@ -187,7 +189,9 @@ def _robots(
     return robots, said
 
 
-def _check_models(scene: SceneSpec, document: Document, library: Library, faults: Faults) -> None:
+def _check_models(
+    scene: SceneSpec, document: Document, library: Library, diagnostics: Diagnostics
+) -> None:
     """Say which models of objects are nowhere, or cannot be read."""
     first: dict[str, ObjectSpec] = {}
     for thing in scene.objects:
@@ -196,9 +200,9 @@ def _check_models(scene: SceneSpec, document: Document, library: Library, faults
             first.setdefault(thing.physics.collision_shape, thing)
     for name, thing in itertools.islice(first.items(), MAX_FILES):
         if why := library.unreadable(name, document.path):
-            faults.add(faults.node_of(thing), why)
+            diagnostics.error(diagnostics.node_of(thing), why)
         elif not library.has_model(name, document.path):
-            _lost(f"model {name!r}", thing, document, library, faults)
+            _lost(f"model {name!r}", thing, document, library, diagnostics)
 
 
 def _meshes(robot: RobotSpec) -> Iterator[str]:
@@ -208,12 +212,14 @@ def _meshes(robot: RobotSpec) -> Iterator[str]:
                 yield shape.file
 
 
-def _lost(what: str, spec: object, document: Document, library: Library, faults: Faults) -> None:
-    """A file that is nowhere: a fault, but in a file of the original's a notice.
+def _lost(
+    what: str, spec: object, document: Document, library: Library, diagnostics: Diagnostics
+) -> None:
+    """A file that is nowhere: an error, but in a file of the original's a warning.
 
     The archive with the original's models is no longer to be had, so that a scene with the
-    original's DOCTYPE is not at fault for naming what lay in it.
+    original's DOCTYPE is not at error for naming what lay in it.
     """
-    say = faults.notice if document.has_doctype else faults.add
+    say = diagnostics.warning if document.has_doctype else diagnostics.error
     searched = library.searched(document.path)
-    say(faults.node_of(spec), f"{what} is nowhere and has no stand-in; searched: {searched}")
+    say(diagnostics.node_of(spec), f"{what} is nowhere and has no stand-in; searched: {searched}")

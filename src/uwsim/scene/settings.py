@@ -244,15 +244,17 @@ def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> A
             etree.SubElement(listed, field.xml.item).text = word
     else:
         etree.SubElement(node, field.tag).text = text
-    faults = schema.Faults("")
+    diagnostics = schema.Diagnostics("")
     given = {
         each.name: getattr(spec, each.name)
         for each in dataclasses.fields(spec)
         if each.init and each.name != field.name
     }
-    changed = schema.read(type(spec), node, faults, given=given)
-    if changed is None or faults.all():
-        raise BadSetting("; ".join(fault.message for fault in faults.all()) or "no value.")
+    changed = schema.read(type(spec), node, diagnostics, given=given)
+    if changed is None or diagnostics.all():
+        raise BadSetting(
+            "; ".join(diagnostic.message for diagnostic in diagnostics.all()) or "no value."
+        )
     return changed
 
 

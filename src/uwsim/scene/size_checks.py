@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..schema import Faults
+from ..schema import Diagnostics
 from ..sensors.multibeam_sensor import MultibeamSensorSpec
 from ..sensors.profiling_sonar import ProfilingSonarSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
@@ -21,30 +21,30 @@ MAX_BEAMS = 100_000
 ImageSpec = VirtualCameraSpec | VirtualRangeImageSpec | SimParamsSpec
 
 
-def check_sizes(scene: SceneSpec, faults: Faults) -> None:
+def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     """Say which cameras, windows and fans of beams are too large."""
     n_all = 0
     for image in (scene.sim_params, *_cameras(scene)):
         n = image.resw * image.resh
         if n > MAX_PIXELS:
-            faults.add(
-                faults.node_of(image),
+            diagnostics.error(
+                diagnostics.node_of(image),
                 f"an image of {image.resw} x {image.resh} pixels; at most "
                 f"{MAX_PIXELS / 1e6:.0f} million are drawn",
             )
             continue
         n_all += n
         if n_all > MAX_PIXELS_IN_ALL:
-            faults.add(
-                faults.node_of(image),
+            diagnostics.error(
+                diagnostics.node_of(image),
                 f"with this one, the images of the scene have {n_all / 1e6:.0f} million pixels; "
                 f"at most {MAX_PIXELS_IN_ALL / 1e6:.0f} are drawn",
             )
             break
     for fan in _fans(scene):
         if abs(fan.final_angle - fan.init_angle) >= MAX_BEAMS * fan.angle_incr:
-            faults.add(
-                faults.node_of(fan),
+            diagnostics.error(
+                diagnostics.node_of(fan),
                 f"from {fan.init_angle:g} to {fan.final_angle:g} degrees in steps of "
                 f"{fan.angle_incr:g} are more than {MAX_BEAMS} beams",
             )

@@ -1,11 +1,11 @@
-"""What a scene may say that uwsim reads and does not act on yet: a notice for each kind."""
+"""What a scene may say that uwsim reads and does not act on yet: a warning for each kind."""
 
 from __future__ import annotations
 
 from lxml import etree
 
 from ..devices import DEVICES
-from ..schema import NAMESPACE, Faults
+from ..schema import NAMESPACE, Diagnostics
 from ..sensors import SENSORS
 from ..topics import INTERFACES, InterfaceSpec
 
@@ -80,7 +80,7 @@ def limit_of(parent: str, name: str) -> str:
     return READ_ONLY if (parent, name) in UNSUPPORTED else ""
 
 
-def not_simulated(root: etree._Element, faults: Faults) -> None:
+def not_simulated(root: etree._Element, diagnostics: Diagnostics) -> None:
     """Name every kind of thing that is read and not simulated yet, with its lines."""
     lines: dict[str, list[int]] = {}
     is_dynamic = root.find(f"vehicle/{{{NAMESPACE}}}dynamics") is not None
@@ -103,7 +103,7 @@ def not_simulated(root: etree._Element, faults: Faults) -> None:
         shown = sorted(set(where))
         listed = ", ".join(map(str, shown[:8])) + (", ..." if len(shown) > 8 else "")
         many = "line" if len(shown) == 1 else "lines"
-        faults.notice(shown[0], f"{READ_ONLY}: {kind} ({many} {listed})")
+        diagnostics.warning(shown[0], f"{READ_ONLY}: {kind} ({many} {listed})")
 
 
 def _line(node: etree._Element) -> int:

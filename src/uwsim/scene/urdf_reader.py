@@ -1,4 +1,4 @@
-"""A robot file (URDF) becomes a `RobotSpec`, or every fault it has.
+"""A robot file (URDF) becomes a `RobotSpec`, or every error it has.
 
 UWSim's rules: the tree is walked depth first, children in the alphabetical order of their joints'
 names, and the movable joints in that order are the joint vector; limits hold for continuous joints
@@ -22,7 +22,7 @@ from typing import cast
 from lxml import etree
 
 from ..errors import SceneError
-from ..schema import FARTHEST, Faults, number, parse
+from ..schema import FARTHEST, Diagnostics, number, parse
 from .angle_checks import MORE_THAN_A_TURN, degrees_for_radians
 from .urdf import (
     ZERO,
@@ -48,41 +48,41 @@ def read_urdf(path: Path | str) -> RobotSpec:
     """Read a robot file.
 
     Raises:
-        SceneError: with every fault of the file.
+        SceneError: with every error of the file.
     """
     path = Path(path)
-    faults = Faults(path)
-    robot = read_robot(path, faults)
-    faults.check(SceneError)
+    diagnostics = Diagnostics(path)
+    robot = read_robot(path, diagnostics)
+    diagnostics.check(SceneError)
     assert robot is not None
     return robot
 
 
-def read_robot(path: Path, faults: Faults) -> RobotSpec | None:
-    """Read a robot file into ``faults``; None when there is no tree to build."""
+def read_robot(path: Path, diagnostics: Diagnostics) -> RobotSpec | None:
+    """Read a robot file into ``diagnostics``; None when there is no tree to build."""
     root = parse(path, error=SceneError).root
     if root.tag != "robot":
-        faults.add(root, f"the root element is <{str(root.tag)[:60]}>; expected <robot>")
+        diagnostics.error(root, f"the root element is <{str(root.tag)[:60]}>; expected <robot>")
         return None
-    materials = _materials(root, faults)
+    materials = _materials(root, diagnostics)
     links: dict[str, LinkSpec] = {}
     for node in root.findall("link"):
-        if _unique(node, links, "link", faults):
-            links[_name(node)] = _link(node, materials, faults)
+        if _unique(node, links, "link", diagnostics):
+            links[_name(node)] = _link(node, materials, diagnostics)
     joints: dict[str, JointSpec] = {}
     for node in root.findall("joint"):
-        if _unique(node, joints, "joint", faults):
-            joint = _joint(node, links, faults)
+        if _unique(node, joints, "joint", diagnostics):
+            joint = _joint(node, links, diagnostics)
             if joint is not None:
                 joints[joint.name] = joint
-                faults.remember(joint, node)
-    joints = {name: _with_leader(joint, joints, faults) for name, joint in joints.items()}
-    _check_mimics(joints, faults)
+                diagnostics.remember(joint, node)
+    joints = {name: _with_leader(joint, joints, diagnostics) for name, joint in joints.items()}
+    _check_mimics(joints, diagnostics)
     if not links:
-        faults.add(root, "the robot has no <link>")
-    if faults.any:
+        diagnostics.error(root, "the robot has no <link>")
+    if diagnostics.any:
         return None
-    return _tree(root, path, links, joints, faults)
+    return _tree(root, path, links, joints, diagnostics)
 
 
 def _tree(
@@ -90,15 +90,15 @@ def _tree(
     path: Path,
     links: dict[str, LinkSpec],
     joints: dict[str, JointSpec],
-    faults: Faults,
+    diagnostics: Diagnostics,
 ) -> RobotSpec | None:
     """Put links and joints into UWSim's order."""
     children: dict[str, list[JointSpec]] = {}
     hung: dict[str, JointSpec] = {}
     for joint in sorted(joints.values(), key=lambda joint: joint.name):
         if joint.child in hung:
-            faults.add(
-                faults.node_of(joint),
+            diagnostics.error(
+                diagnostics.node_of(joint),
                 f"link {joint.child!r} hangs on two joints, {hung[joint.child].name!r} and "
                 f"{joint.name!r}",
             )
@@ -107,7 +107,7 @@ def _tree(
     roots = [name for name in links if name not in hung]
     if len(roots) != 1:
         what = f"{len(roots)} links hang on none: {', '.join(roots[:5])}" if roots else "a loop"
-        faults.add(root, f"the joints are no tree with one root; found {what}")
+        diagnostics.error(root, f"the joints are no tree with one root; found {what}")
         return None
     ordered: list[JointSpec] = []
     depths = {roots[0]: 0}
@@ -117,15 +117,17 @@ def _tree(
         ordered.append(joint)
         depths[joint.child] = depths[joint.parent] + 1
         if depths[joint.child] > MAX_CHAIN:
-            faults.add(
-                faults.node_of(joint),
+            diagnostics.error(
+                diagnostics.node_of(joint),
                 f"joint {joint.name!r} ends a chain of more than {MAX_CHAIN} joints",
             )
             return None
         waiting += reversed(children.get(joint.child, []))
     if len(ordered) < len(joints):
         lost = sorted(set(joints) - {joint.name for joint in ordered})
-        faults.add(faults.node_of(joints[lost[0]]), f"joint {lost[0]!r} is part of a loop")
+        diagnostics.error(
+            diagnostics.node_of(joints[lost[0]]), f"joint {lost[0]!r} is part of a loop"
+        )
         return None
     return RobotSpec(
         name=_name(root),
@@ -136,24 +138,24 @@ def _tree(
     )
 
 
-def _link(node: etree._Element, materials: dict[str, Colour], faults: Faults) -> LinkSpec:
+def _link(node: etree._Element, materials: dict[str, Colour], diagnostics: Diagnostics) -> LinkSpec:
     inertial = node.find("inertial")
     mass, centre, turn = 0.0, ZERO, ZERO
     inertia = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if inertial is not None:
-        centre, turn = _origin(inertial, faults)
+        centre, turn = _origin(inertial, diagnostics)
         if (weight := inertial.find("mass")) is not None:
-            mass = _size(weight, "value", faults, 0.0)
+            mass = _size(weight, "value", diagnostics, 0.0)
         if (tensor := inertial.find("inertia")) is not None:
             xx, yy, zz, xy, xz, yz = (
-                _number(tensor, f"i{axes}", faults, 0.0)
+                _number(tensor, f"i{axes}", diagnostics, 0.0)
                 for axes in ("xx", "yy", "zz", "xy", "xz", "yz")
             )
             inertia = (xx, yy, zz, xy, xz, yz)
     return LinkSpec(
         name=_name(node),
-        visuals=_shapes(node.findall("visual"), materials, faults),
-        collisions=_shapes(node.findall("collision"), materials, faults),
+        visuals=_shapes(node.findall("visual"), materials, diagnostics),
+        collisions=_shapes(node.findall("collision"), materials, diagnostics),
         mass=mass,
         centre_of_mass=centre,
         inertia_rpy=turn,
@@ -161,11 +163,11 @@ def _link(node: etree._Element, materials: dict[str, Colour], faults: Faults) ->
     )
 
 
-def _materials(root: etree._Element, faults: Faults) -> dict[str, Colour]:
+def _materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, Colour]:
     """The colours that have names: those of the robot, then those that visuals define."""
     found: dict[str, Colour] = {}
-    quiet = Faults(faults.file)  # what is wrong with a visual's is said with the visual
-    for path, told in (("material", faults), ("link/visual/material", quiet)):
+    quiet = Diagnostics(diagnostics.file)  # what is wrong with a visual's is said with the visual
+    for path, told in (("material", diagnostics), ("link/visual/material", quiet)):
         for node in root.findall(path):
             colour = _colour(node, told)
             if colour is not None and _name(node):
@@ -174,42 +176,46 @@ def _materials(root: etree._Element, faults: Faults) -> dict[str, Colour]:
 
 
 def _shapes(
-    nodes: list[etree._Element], materials: dict[str, Colour], faults: Faults
+    nodes: list[etree._Element], materials: dict[str, Colour], diagnostics: Diagnostics
 ) -> tuple[VisualSpec, ...]:
-    shapes = (_shape(node, materials, faults) for node in nodes)
+    shapes = (_shape(node, materials, diagnostics) for node in nodes)
     return tuple(shape for shape in shapes if shape is not None)
 
 
-def _shape(node: etree._Element, materials: dict[str, Colour], faults: Faults) -> VisualSpec | None:
-    position, rpy = _origin(node, faults)
+def _shape(
+    node: etree._Element, materials: dict[str, Colour], diagnostics: Diagnostics
+) -> VisualSpec | None:
+    position, rpy = _origin(node, diagnostics)
     geometry = node.find("geometry")
     shape = None if geometry is None else next(_elements(geometry), None)
     if shape is None:
-        faults.add(node, f"<{node.tag}> lacks a <geometry> with a mesh, box, cylinder or sphere")
+        diagnostics.error(
+            node, f"<{node.tag}> lacks a <geometry> with a mesh, box, cylinder or sphere"
+        )
         return None
     colour = None
     if (material := node.find("material")) is not None:
-        colour = _colour(material, faults) or materials.get(_name(material))
+        colour = _colour(material, diagnostics) or materials.get(_name(material))
     kind = shape.tag
     file, size, scale = "", (1.0, 1.0, 1.0), (1.0, 1.0, 1.0)
     if kind == "mesh":
         file = (shape.get("filename") or "").strip()
         if not file:
-            faults.add(shape, "<mesh> lacks the attribute filename")
-        scale = _triple(shape, "scale", faults, scale)
+            diagnostics.error(shape, "<mesh> lacks the attribute filename")
+        scale = _triple(shape, "scale", diagnostics, scale)
     elif kind == "box":
-        size = _triple(shape, "size", faults, None)
+        size = _triple(shape, "size", diagnostics, None)
         if min(size) < 0:
             said = shape.get("size", "")
-            faults.add(shape, f"size of <box> is {said[:60]!r}; expected numbers >= 0")
+            diagnostics.error(shape, f"size of <box> is {said[:60]!r}; expected numbers >= 0")
     elif kind in ("cylinder", "sphere"):
-        wide = 2 * _size(shape, "radius", faults, None)
-        tall = _size(shape, "length", faults, None) if kind == "cylinder" else wide
+        wide = 2 * _size(shape, "radius", diagnostics, None)
+        tall = _size(shape, "length", diagnostics, None) if kind == "cylinder" else wide
         size = (wide, wide, tall)
     else:
         kinds = ("mesh", "box", "cylinder", "sphere")
         said = str(kind)
-        faults.unknown(shape, f"<{said[:60]}> is not a geometry", said, kinds)
+        diagnostics.unknown(shape, f"<{said[:60]}> is not a geometry", said, kinds)
         return None
     return VisualSpec(
         kind=cast(ShapeKind, kind),
@@ -222,10 +228,12 @@ def _shape(node: etree._Element, materials: dict[str, Colour], faults: Faults) -
     )
 
 
-def _joint(node: etree._Element, links: dict[str, LinkSpec], faults: Faults) -> JointSpec | None:
+def _joint(
+    node: etree._Element, links: dict[str, LinkSpec], diagnostics: Diagnostics
+) -> JointSpec | None:
     name, said = _name(node), (node.get("type") or "").strip()
     if said not in (*MOVABLE, *STIFF, "fixed"):
-        faults.unknown(
+        diagnostics.unknown(
             node,
             f"joint {name!r} has the type {said[:60]!r}; expected one of "
             f"{', '.join((*MOVABLE, 'fixed', *STIFF))}",
@@ -234,20 +242,20 @@ def _joint(node: etree._Element, links: dict[str, LinkSpec], faults: Faults) -> 
         )
         return None
     if said in STIFF:
-        faults.notice(node, f"joint {name!r} is {said}; held fixed, as in the original")
-    parent, child = (_end(node, end, links, faults) for end in ("parent", "child"))
+        diagnostics.warning(node, f"joint {name!r} is {said}; held fixed, as in the original")
+    parent, child = (_end(node, end, links, diagnostics) for end in ("parent", "child"))
     if parent is None or child is None:
         return None
-    position, rpy = _origin(node, faults)
+    position, rpy = _origin(node, diagnostics)
     kind: JointKind = "fixed"
     axis, lower, upper = (1.0, 0.0, 0.0), 0.0, 0.0
     if said in MOVABLE:
         kind = said  # type: ignore[assignment]  # one of MOVABLE
-        lower, upper = _limits(node, said, faults)
+        lower, upper = _limits(node, said, diagnostics)
         if (axis_node := node.find("axis")) is not None:
-            axis = _triple(axis_node, "xyz", faults, axis)
+            axis = _triple(axis_node, "xyz", diagnostics, axis)
         if not any(axis):
-            faults.notice(node, f"joint {name!r} has the axis 0 0 0; held fixed")
+            diagnostics.warning(node, f"joint {name!r} has the axis 0 0 0; held fixed")
             kind = "fixed"
     return JointSpec(
         name=name,
@@ -259,29 +267,31 @@ def _joint(node: etree._Element, links: dict[str, LinkSpec], faults: Faults) -> 
         axis=axis,
         lower=lower,
         upper=upper,
-        effort=_most(node, "effort", faults),
-        velocity=_most(node, "velocity", faults),
-        mimic=_mimic(node, faults) if said in MOVABLE else None,
+        effort=_most(node, "effort", diagnostics),
+        velocity=_most(node, "velocity", diagnostics),
+        mimic=_mimic(node, diagnostics) if said in MOVABLE else None,
     )
 
 
-def _limits(node: etree._Element, kind: str, faults: Faults) -> tuple[float, float]:
+def _limits(node: etree._Element, kind: str, diagnostics: Diagnostics) -> tuple[float, float]:
     limit = node.find("limit")
     if limit is None:
         if kind != "continuous" and node.find("mimic") is None:
-            faults.notice(node, f"joint {_name(node)!r} is {kind} without <limit>; -pi to pi")
+            diagnostics.warning(node, f"joint {_name(node)!r} is {kind} without <limit>; -pi to pi")
         return -math.pi, math.pi
-    lower, upper = (_number(limit, end, faults, 0.0) for end in ("lower", "upper"))
+    lower, upper = (_number(limit, end, diagnostics, 0.0) for end in ("lower", "upper"))
     if kind == "revolute" and _are_degrees(lower, upper):
-        faults.notice(
+        diagnostics.warning(
             limit,
             f"joint {_name(node)!r} turns from {lower:g} to {upper:g} rad; as degrees that would "
             f"be {math.radians(lower):.5g} to {math.radians(upper):.5g}",
         )
     if lower > upper:
-        faults.notice(limit, f"joint {_name(node)!r}: lower {lower:g} is above upper {upper:g}")
+        diagnostics.warning(
+            limit, f"joint {_name(node)!r}: lower {lower:g} is above upper {upper:g}"
+        )
     elif "lower" not in limit.attrib and "upper" not in limit.attrib:
-        faults.notice(
+        diagnostics.warning(
             limit, f"joint {_name(node)!r} has a <limit> without lower and upper: it is held at 0"
         )
     return lower, upper
@@ -292,41 +302,43 @@ def _are_degrees(lower: float, upper: float) -> bool:
     return MORE_THAN_A_TURN < max(abs(lower), abs(upper)) <= 360.0 and not (lower % 1 or upper % 1)
 
 
-def _most(node: etree._Element, what: str, faults: Faults) -> float:
+def _most(node: etree._Element, what: str, diagnostics: Diagnostics) -> float:
     """An effort or speed of a ``<limit>``; none, or 0 as many files have it, is no limit."""
     limit = node.find("limit")
-    most = 0.0 if limit is None else _number(limit, what, faults, 0.0)
+    most = 0.0 if limit is None else _number(limit, what, diagnostics, 0.0)
     return most if most > 0.0 else math.inf
 
 
-def _mimic(node: etree._Element, faults: Faults) -> MimicSpec | None:
+def _mimic(node: etree._Element, diagnostics: Diagnostics) -> MimicSpec | None:
     mimic = node.find("mimic")
     if mimic is None:
         return None
     return MimicSpec(
         joint=(mimic.get("joint") or "").strip(),
-        multiplier=_number(mimic, "multiplier", faults, 1.0),
-        offset=_number(mimic, "offset", faults, 0.0),
+        multiplier=_number(mimic, "multiplier", diagnostics, 1.0),
+        offset=_number(mimic, "offset", diagnostics, 0.0),
     )
 
 
-def _with_leader(joint: JointSpec, joints: dict[str, JointSpec], faults: Faults) -> JointSpec:
+def _with_leader(
+    joint: JointSpec, joints: dict[str, JointSpec], diagnostics: Diagnostics
+) -> JointSpec:
     """Return the joint; one that mimics nobody is free."""
     if joint.mimic is None or joint.mimic.joint in joints:
         return joint
-    node, source = faults.node_of(joint), joint.mimic.joint
-    faults.notice(
+    node, source = diagnostics.node_of(joint), joint.mimic.joint
+    diagnostics.warning(
         node,
         f"joint {joint.name!r} mimics {source[:60]!r}, which is no joint"
-        f".{faults.near(source, joints, 'notice')} It moves by itself",
+        f".{diagnostics.near(source, joints, 'warning')} It moves by itself",
     )
     free = dataclasses.replace(joint, mimic=None)
     if node is not None:
-        faults.remember(free, node)
+        diagnostics.remember(free, node)
     return free
 
 
-def _check_mimics(joints: dict[str, JointSpec], faults: Faults) -> None:
+def _check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None:
     """Say which joints mimic each other in a loop; every joint is visited once."""
     seen: set[str] = set()
     for name in joints:
@@ -340,55 +352,60 @@ def _check_mimics(joints: dict[str, JointSpec], faults: Faults) -> None:
         for i, member in enumerate(loop):
             turned = (*loop[i:], *loop[:i], member)[:100]
             said = " mimics ".join(repr(each) for each in turned)
-            faults.add(faults.node_of(joints[member]), f"joint {said[:200]}: a loop")
+            diagnostics.error(diagnostics.node_of(joints[member]), f"joint {said[:200]}: a loop")
 
 
-def _end(node: etree._Element, end: str, links: dict[str, LinkSpec], faults: Faults) -> str | None:
+def _end(
+    node: etree._Element, end: str, links: dict[str, LinkSpec], diagnostics: Diagnostics
+) -> str | None:
     child = node.find(end)
     link = "" if child is None else (child.get("link") or "").strip()
     if link in links:
         return link
     if not link:
-        faults.add(node, f'joint {_name(node)!r} lacks <{end} link="...">')
+        diagnostics.error(node, f'joint {_name(node)!r} lacks <{end} link="...">')
     else:
-        faults.add(
+        diagnostics.error(
             node,
-            f"joint {_name(node)!r}: its {end} {link[:60]!r} is no link.{faults.near(link, links)}",
+            f"joint {_name(node)!r}: its {end} {link[:60]!r} is no link."
+            f"{diagnostics.near(link, links)}",
         )
     return None
 
 
-def _origin(node: etree._Element, faults: Faults) -> tuple[Triple, Triple]:
+def _origin(node: etree._Element, diagnostics: Diagnostics) -> tuple[Triple, Triple]:
     origin = node.find("origin")
     if origin is None:
         return ZERO, ZERO
-    rpy = _triple(origin, "rpy", faults, ZERO)
+    rpy = _triple(origin, "rpy", diagnostics, ZERO)
     if said := degrees_for_radians(rpy):
-        faults.notice(origin, f"rpy of <origin> is {said}")
-    return _triple(origin, "xyz", faults, ZERO), rpy
+        diagnostics.warning(origin, f"rpy of <origin> is {said}")
+    return _triple(origin, "xyz", diagnostics, ZERO), rpy
 
 
-def _colour(node: etree._Element, faults: Faults) -> Colour | None:
+def _colour(node: etree._Element, diagnostics: Diagnostics) -> Colour | None:
     colour = node.find("color")
     if colour is None:
         return None
-    values = _numbers(colour, "rgba", 4, faults)
+    values = _numbers(colour, "rgba", 4, diagnostics)
     if values is None:
         return None
     red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in values)
     if [red, green, blue, opacity] != values:
         said = colour.get("rgba", "")
-        faults.notice(colour, f"rgba of <color> is {said[:60]!r}; held within 0 to 1")
+        diagnostics.warning(colour, f"rgba of <color> is {said[:60]!r}; held within 0 to 1")
     return red, green, blue, opacity
 
 
-def _triple(node: etree._Element, attribute: str, faults: Faults, default: Triple | None) -> Triple:
+def _triple(
+    node: etree._Element, attribute: str, diagnostics: Diagnostics, default: Triple | None
+) -> Triple:
     if attribute not in node.attrib and default is not None:
         return default
-    values = _numbers(node, attribute, 3, faults)
+    values = _numbers(node, attribute, 3, diagnostics)
     if values is not None and not max(map(abs, values)) <= FARTHEST:
         said = node.get(attribute, "")
-        faults.add(
+        diagnostics.error(
             node,
             f"{attribute} of <{node.tag}> is {said[:60]!r}; expected numbers up to {FARTHEST:g}",
         )
@@ -396,31 +413,35 @@ def _triple(node: etree._Element, attribute: str, faults: Faults, default: Tripl
     return ZERO if values is None else (values[0], values[1], values[2])
 
 
-def _size(node: etree._Element, attribute: str, faults: Faults, default: float | None) -> float:
+def _size(
+    node: etree._Element, attribute: str, diagnostics: Diagnostics, default: float | None
+) -> float:
     """A length or mass: not below 0."""
-    value = _number(node, attribute, faults, default)
+    value = _number(node, attribute, diagnostics, default)
     if not 0 <= value <= FARTHEST:
         said = node.get(attribute, "")
-        faults.add(
+        diagnostics.error(
             node, f"{attribute} of <{node.tag}> is {said[:60]!r}; expected 0 to {FARTHEST:g}"
         )
         return 0.0
     return value
 
 
-def _number(node: etree._Element, attribute: str, faults: Faults, default: float | None) -> float:
+def _number(
+    node: etree._Element, attribute: str, diagnostics: Diagnostics, default: float | None
+) -> float:
     if attribute not in node.attrib and default is not None:
         return default
-    values = _numbers(node, attribute, 1, faults)
+    values = _numbers(node, attribute, 1, diagnostics)
     return 0.0 if values is None else values[0]
 
 
 def _numbers(
-    node: etree._Element, attribute: str, count: int, faults: Faults
+    node: etree._Element, attribute: str, count: int, diagnostics: Diagnostics
 ) -> list[float] | None:
     text = node.get(attribute)
     if text is None:
-        faults.add(node, f"<{node.tag}> lacks the attribute {attribute}")
+        diagnostics.error(node, f"<{node.tag}> lacks the attribute {attribute}")
         return None
     words = text.split() if len(text) < 1000 else [text]
     values = [number(word) for word in words if not word.lstrip("-").startswith("M_")]
@@ -429,19 +450,19 @@ def _numbers(
     hint = "; expand the file with xacro first" if "${" in text else ""
     what = "a number" if count == 1 else f"{count} numbers"
     shown = text if len(text) <= 60 else text[:57] + "..."
-    faults.add(node, f"{attribute} of <{node.tag}> is {shown!r}; expected {what}{hint}")
+    diagnostics.error(node, f"{attribute} of <{node.tag}> is {shown!r}; expected {what}{hint}")
     return None
 
 
 def _unique(
     node: etree._Element, known: dict[str, LinkSpec] | dict[str, JointSpec], what: str,
-    faults: Faults,
+    diagnostics: Diagnostics,
 ) -> bool:  # fmt: skip
     name = _name(node)
     if not name:
-        faults.add(node, f"a <{what}> lacks the attribute name")
+        diagnostics.error(node, f"a <{what}> lacks the attribute name")
     elif name in known:
-        faults.add(node, f"two {what}s are called {name!r}")
+        diagnostics.error(node, f"two {what}s are called {name!r}")
     return bool(name) and name not in known
 
 

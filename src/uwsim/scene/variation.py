@@ -29,7 +29,7 @@ from typing import Any, TypeVar, cast
 
 from ..errors import BadSetting
 from ..rng import stream
-from ..schema import NAMESPACE, Faults, element
+from ..schema import NAMESPACE, Diagnostics, element
 from .settings import Place, locate, overlaps
 
 T = TypeVar("T")
@@ -59,7 +59,7 @@ class VariationSpec(abc.ABC):
     def quantile(self, share: float) -> float:
         """Return the value below which ``share`` (0..1) of the distribution lies."""
 
-    def fault(self) -> str | None:
+    def diagnostic(self) -> str | None:
         """What is wrong with the distribution as a whole."""
         low, high = self.bounds
         return None if low < high else f"<u:low> {low:g} is not below <u:high> {high:g}"
@@ -127,9 +127,9 @@ class NormalSpec(VariationSpec):
         low, high = self.bounds
         return min(max(value, low), high)
 
-    def fault(self) -> str | None:
+    def diagnostic(self) -> str | None:
         """Bounds in the wrong order, or where nothing is ever drawn."""
-        if wrong := super().fault():
+        if wrong := super().diagnostic():
             return wrong
         low, high = map(self._score, self.bounds)
         if low > 2.0 * BOUNDS or high < -2.0 * BOUNDS:
@@ -195,7 +195,7 @@ def varied(spec: T, seed: int, *, find: Find = locate) -> T:
 
 def check_variations(
     spec: Any,
-    faults: Faults,
+    diagnostics: Diagnostics,
     *,
     find: Find = locate,
     also: Callable[[Any], None] = lambda changed: None,
@@ -204,13 +204,13 @@ def check_variations(
 
     Args:
         spec: a scene, or a benchmark.
-        faults: where to say it.
+        diagnostics: where to say it.
         find: where a path leads in it.
         also: raises BadSetting at what is wrong with the whole when a value is at its bound.
     """
     places: list[Place] = []
     for variation in spec.vary:
-        node = faults.node_of(variation)
+        node = diagnostics.node_of(variation)
         try:
             place = find(spec, variation.path)
             for changed in _at_its_bounds(place, variation):
@@ -218,7 +218,7 @@ def check_variations(
             if twin := next((each for each in places if overlaps(each, place)), None):
                 raise BadSetting(f"{twin.path} varies already.")
         except BadSetting as error:
-            faults.add(node, f"<u:path> {variation.path}: {error}".rstrip("."))
+            diagnostics.error(node, f"<u:path> {variation.path}: {error}".rstrip("."))
         else:
             places.append(place)
 
@@ -229,7 +229,7 @@ def _at_its_bounds(place: Place, variation: VariationSpec) -> list[Any]:
         raise BadSetting(f"<{place.field.shown}> is a value; nothing stands in it.")
     if not place.is_number:
         raise BadSetting(f"it is {place.kind}; only a number can vary.")
-    if wrong := variation.fault():
+    if wrong := variation.diagnostic():
         raise BadSetting(wrong + ".")
     found = []
     for bound in variation.bounds:

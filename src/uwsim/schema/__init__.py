@@ -1,4 +1,4 @@
-r"""How a spec stands in XML: safe parsing, reading and writing of dataclasses, every fault at once.
+r"""How a spec stands in XML: safe parsing, reading and writing of dataclasses, every error at once.
 
 .. code-block:: xml
 
@@ -13,8 +13,8 @@ annotation                 in the file
 =========================  ====================================================================
 ``str``                    text, trimmed
 ``float``                  a number up to 1e9, or ``M_PI``, ``-M_PI_2`` ...; never NaN
-``int``                    a whole number; ``320.5`` is read as 320 with a notice, as atoi did
-``bool``                   0 or 1 (attributes: true or false); else the default, with a notice
+``int``                    a whole number; ``320.5`` is read as 320 with a warning, as atoi did
+``bool``                   0 or 1 (attributes: true or false); else the default, with a warning
 ``Literal["a", "b"]``      one of these words
 ``tuple[float, x3]``       three elements, ``parts="xyz"`` (or ``rpy``, ``rgb``)
 a dataclass                an element that is filled from its own fields
@@ -26,12 +26,12 @@ a dataclass                an element that is filled from its own fields
 
 Elements stand in any order. Names without a namespace are the original's and nothing else;
 extensions live in ``urn:uwsim:1``. A DTD is never loaded, an entity never expanded, the network
-never asked. `Faults` in strict mode also holds a file against the order of the fields.
+never asked. `Diagnostics` in strict mode also holds a file against the order of the fields.
 """
 
 from .declaration import REQUIRED, Limits, Original, element
+from .diagnostics import MAX_DIAGNOSTICS, Diagnostics
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
-from .faults import MAX_FAULTS, Faults
 from .grammar import (
     FARTHEST,
     LARGEST,
@@ -52,13 +52,13 @@ __all__ = [
     "LARGEST",
     "MAX_BYTES",
     "MAX_DEPTH",
-    "MAX_FAULTS",
+    "MAX_DIAGNOSTICS",
     "MAX_NODES",
     "NAMESPACE",
     "REQUIRED",
     "TOKENS",
+    "Diagnostics",
     "Document",
-    "Faults",
     "Field",
     "Limits",
     "Numbers",

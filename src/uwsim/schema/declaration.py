@@ -13,11 +13,11 @@ class Original:
     """How the original reads an element, where that is more than its name and type."""
 
     aliases: tuple[str, ...] = ()
-    """Old names, read with a notice."""
+    """Old names, read with a warning."""
     required: bool = False
     """Its DTD wants the element although it has a default."""
     lenient: bool = False
-    """Junk behind a number is a notice, not a fault (the original uses atof)."""
+    """Junk behind a number is a warning, not an error (the original uses atof)."""
     invalid: bool | None = None
     """What a flag that is neither 0 nor 1 is read as; the default when None."""
 

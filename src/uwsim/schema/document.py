@@ -11,7 +11,7 @@ from lxml import etree
 
 from ..errors import AssetError, FileError
 from ..files.input_files import read_bytes
-from .faults import Faults
+from .diagnostics import Diagnostics
 from .names import NAMESPACE, shown_tag
 
 MAX_BYTES = 16 * 2**20
@@ -52,9 +52,9 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
     Raises:
         FileError: (or the ``error`` asked for) it cannot be read or is not well-formed.
     """
-    faults = Faults(path)
-    data = _bytes(path, faults)
-    faults.check(error)
+    diagnostics = Diagnostics(path)
+    data = _bytes(path, diagnostics)
+    diagnostics.check(error)
     parser = etree.XMLParser(
         resolve_entities=False,
         no_network=True,
@@ -72,12 +72,12 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
         for entry in parser.error_log:
             said.setdefault(entry.line, _said(entry, data))
         for line, message in list(said.items())[:10]:
-            faults.add(line, f"not well-formed XML: {message}")
-        if not faults.any:
-            faults.add(problem.lineno, f"not well-formed XML: {str(problem)[:200]}")
+            diagnostics.error(line, f"not well-formed XML: {message}")
+        if not diagnostics.any:
+            diagnostics.error(problem.lineno, f"not well-formed XML: {str(problem)[:200]}")
     except (ValueError, LookupError) as problem:
-        faults.add(None, f"not well-formed XML: {str(problem)[:200]}")
-    faults.check(error)
+        diagnostics.error(None, f"not well-formed XML: {str(problem)[:200]}")
+    diagnostics.check(error)
     assert root is not None
     return Document(path, root, root.getroottree().docinfo.internalDTD is not None)
 
@@ -105,18 +105,18 @@ def _not_there(path: Path) -> str:
     return "is not a regular file" if path.exists() else "there is no such file"
 
 
-def _bytes(path: Path, faults: Faults) -> bytes:
-    """The bytes of a file that may be handed to the parser, or faults."""
+def _bytes(path: Path, diagnostics: Diagnostics) -> bytes:
+    """The bytes of a file that may be handed to the parser, or errors."""
     try:
         if not path.is_file():
-            faults.add(None, _not_there(path))
+            diagnostics.error(None, _not_there(path))
             return b""
         data = read_bytes(path, at_most=MAX_BYTES)
     except AssetError:
-        faults.add(None, f"larger than {MAX_BYTES // 2**20} MB; no scene or benchmark is")
+        diagnostics.error(None, f"larger than {MAX_BYTES // 2**20} MB; no scene or benchmark is")
         return b""
     except (OSError, ValueError) as problem:
-        faults.add(None, f"cannot be read: {getattr(problem, 'strerror', None) or problem}")
+        diagnostics.error(None, f"cannot be read: {getattr(problem, 'strerror', None) or problem}")
         return b""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", errors="replace").encode("utf-8")
@@ -125,28 +125,32 @@ def _bytes(path: Path, faults: Faults) -> bytes:
     if declared and not _ENCODINGS.fullmatch(declared[1].decode("ascii")):
         name = declared[1].decode("ascii")
         if name.lower() != "utf-16":
-            faults.add(1, f"the encoding {name!r} is not read; write the file as UTF-8")
+            diagnostics.error(1, f"the encoding {name!r} is not read; write the file as UTF-8")
     if declared and _NICKNAME.fullmatch(declared[1].decode("ascii")):  # unknown to the parser
         data = data[: declared.start(1)] + b"ISO-8859-1" + data[declared.end(1) :]
     if b"\0" in data:
-        faults.add(None, "holds zero bytes; not a text file in UTF-8")
+        diagnostics.error(None, "holds zero bytes; not a text file in UTF-8")
     if declaration := _DECLARATION.search(data):
         line = data.count(b"\n", 0, declaration.start()) + 1
         word = declaration[1].decode("ascii")
-        faults.add(line, f"<!{word}> declarations are not read; a DOCTYPE may only name the DTD")
+        diagnostics.error(
+            line, f"<!{word}> declarations are not read; a DOCTYPE may only name the DTD"
+        )
     for mark, what in ((b"<", "elements"), (b"=", "attributes"), (b"&", "references")):
         if data.count(mark) > 2 * MAX_NODES:
-            faults.add(None, f"has more than {MAX_NODES} {what}; no scene or benchmark has")
+            diagnostics.error(None, f"has more than {MAX_NODES} {what}; no scene or benchmark has")
     return data
 
 
-def check_head(document: Document, root: str, faults: Faults) -> None:
+def check_head(document: Document, root: str, diagnostics: Diagnostics) -> None:
     """Check the name of the root, and that a file with extensions carries no DOCTYPE."""
     tag = document.root.tag
     if tag != root:
-        faults.add(document.root, f"the root element is {shown_tag(str(tag))}; expected <{root}>")
+        diagnostics.error(
+            document.root, f"the root element is {shown_tag(str(tag))}; expected <{root}>"
+        )
     if document.has_doctype and (use := _first_extension(document.root)) is not None:
-        faults.add(
+        diagnostics.error(
             use,
             f"uses {NAMESPACE} and names a DOCTYPE; drop the DOCTYPE, so that the original "
             "refuses the file instead of playing something else",

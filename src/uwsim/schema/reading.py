@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from lxml import etree
 
-from .faults import Faults
+from .diagnostics import Diagnostics
 from .grammar import Field, fields_of
 from .names import advice, cut, local, shown, shown_attribute
 from .values import BAD, BLANKS, Bad, scalar
@@ -21,29 +21,29 @@ T = TypeVar("T")
 def read(
     cls: type[T],
     node: etree._Element,
-    faults: Faults,
+    diagnostics: Diagnostics,
     *,
     given: Mapping[str, object] | None = None,
 ) -> T | None:
-    """Fill a spec from an element; every fault goes into ``faults``.
+    """Fill a spec from an element; every error goes into ``diagnostics``.
 
     Args:
         cls: a dataclass.
         node: the element.
-        faults: where to say what is wrong.
+        diagnostics: where to say what is wrong.
         given: fields that the caller has read by hand; their elements are not looked at.
 
     Returns:
-        The spec, with defaults where optional values were faulty; None when it cannot be made.
+        The spec, with defaults where optional values were invalid; None when it cannot be made.
     """
     table = fields_of(cls)
     values: dict[str, Any] = dict(given or {})
-    found = _children(cls, node, faults)
-    _read_attributes(table, node, values, faults)
+    found = _children(cls, node, diagnostics)
+    _read_attributes(table, node, values, diagnostics)
     for field in table:
         if field.name in values or field.xml.attribute:
             continue
-        value = _read_field(field, node, found.get(field.name, []), faults)
+        value = _read_field(field, node, found.get(field.name, []), diagnostics)
         if value is not BAD:
             values[field.name] = value
     for field in table:
@@ -52,45 +52,45 @@ def read(
                 return None
             values[field.name] = field.default
     spec = cls(**values)
-    faults.remember(spec, node)
+    diagnostics.remember(spec, node)
     return spec
 
 
 def read_choice(
     table: Mapping[str, type[T]],
     node: etree._Element,
-    faults: Faults,
+    diagnostics: Diagnostics,
     *,
-    read_one: Callable[[type[T], etree._Element, Faults], T | None] = read,
+    read_one: Callable[[type[T], etree._Element, Diagnostics], T | None] = read,
 ) -> tuple[T, ...]:
     """Read the children of an element, each by the spec that the table has under its name."""
     read_specs = []
     order = {tag: index for index, tag in enumerate(table)}
     last: tuple[int, str] = (-1, "")
-    _refuse_text(node, faults)
+    _refuse_text(node, diagnostics)
     for attribute in node.attrib:
-        _unknown_attribute(node, str(attribute), (), faults)
-    for child in _elements(node, faults):
+        _unknown_attribute(node, str(attribute), (), diagnostics)
+    for child in _elements(node, diagnostics):
         tag = str(child.tag)
         if tag not in table:
-            _unknown_element(child, node, table, faults)
+            _unknown_element(child, node, table, diagnostics)
             continue
         if not tag.startswith("{"):  # of extensions the original says nothing
-            if faults.strict and order[tag] < last[0]:
-                _misplaced(child, last[1], faults)
+            if diagnostics.strict and order[tag] < last[0]:
+                _misplaced(child, last[1], diagnostics)
             last = max(last, (order[tag], tag))
-        if (spec := read_one(table[tag], child, faults)) is not None:
+        if (spec := read_one(table[tag], child, diagnostics)) is not None:
             read_specs.append(spec)
     return tuple(read_specs)
 
 
-def text_of(node: etree._Element, faults: Faults) -> str:
+def text_of(node: etree._Element, diagnostics: Diagnostics) -> str:
     """The text of a leaf, trimmed; of several pieces split by comments the last that says some."""
     said = ""
     for piece in (node.text, *(child.tail for child in node)):
         said = (piece or "").strip(BLANKS) or said
-    for child in _elements(node, faults):
-        faults.add(child, f"{shown(child)} inside {shown(node)}, where only text may stand")
+    for child in _elements(node, diagnostics):
+        diagnostics.error(child, f"{shown(child)} inside {shown(node)}, where only text may stand")
     return said
 
 
@@ -108,30 +108,32 @@ def _by_tag(
     return new, old
 
 
-def _children(cls: type, node: etree._Element, faults: Faults) -> dict[str, list[etree._Element]]:
-    """The child elements by field; unknown, repeated and misplaced ones are faults."""
+def _children(
+    cls: type, node: etree._Element, diagnostics: Diagnostics
+) -> dict[str, list[etree._Element]]:
+    """The child elements by field; unknown, repeated and misplaced ones are errors."""
     if any(field.xml.text for field in fields_of(cls)):
         return {}
     by_tag, old = _by_tag(cls)
     found: dict[str, list[etree._Element]] = {}
     last: tuple[int, str] = (-1, "")
-    _refuse_text(node, faults)
-    for child in _elements(node, faults):
+    _refuse_text(node, diagnostics)
+    for child in _elements(node, diagnostics):
         tag = str(child.tag)
         entry = by_tag.get(tag) or old.get(tag)
         if entry is None:
-            _unknown_element(child, node, by_tag, faults)
+            _unknown_element(child, node, by_tag, diagnostics)
             continue
         index, field = entry
         if tag not in by_tag:
-            faults.notice(child, f"{shown(child)} is an old name of <{field.shown}>")
-        if faults.strict and index < last[0] and not field.xml.namespaced:
-            _misplaced(child, last[1], faults)
+            diagnostics.warning(child, f"{shown(child)} is an old name of <{field.shown}>")
+        if diagnostics.strict and index < last[0] and not field.xml.namespaced:
+            _misplaced(child, last[1], diagnostics)
         if not field.xml.namespaced:
             last = max(last, (index, field.shown))
         here = found.setdefault(field.name, [])
         if here and not (field.repeated and field.kind != "choice" and _repeats(field)):
-            faults.add(
+            diagnostics.error(
                 child,
                 f"{shown(child)} stands twice in {shown(node)} (first in line "
                 f"{here[0].sourceline}); only one may",
@@ -147,31 +149,33 @@ def _repeats(field: Field) -> bool:
 
 
 def _read_attributes(
-    table: tuple[Field, ...], node: etree._Element, values: dict[str, Any], faults: Faults
+    table: tuple[Field, ...], node: etree._Element, values: dict[str, Any], diagnostics: Diagnostics
 ) -> None:
     known = {field.tag: field for field in table if field.xml.attribute}
     for name in node.attrib:
         if name not in known:
-            _unknown_attribute(node, str(name), known, faults)
+            _unknown_attribute(node, str(name), known, diagnostics)
     for field in known.values():
         text = node.get(field.tag)
         if field.name in values:
             continue
         if text is None:
             if field.default is MISSING:
-                faults.add(node, f"{shown(node)} lacks the attribute {field.shown}")
+                diagnostics.error(node, f"{shown(node)} lacks the attribute {field.shown}")
             continue
-        value = scalar(field, text.strip(BLANKS), node, faults, f"{field.shown}= of {shown(node)}")
+        value = scalar(
+            field, text.strip(BLANKS), node, diagnostics, f"{field.shown}= of {shown(node)}"
+        )
         if value is not BAD:
             values[field.name] = value
 
 
 def _read_field(
-    field: Field, parent: etree._Element, nodes: list[etree._Element], faults: Faults
+    field: Field, parent: etree._Element, nodes: list[etree._Element], diagnostics: Diagnostics
 ) -> Any:
-    """The value of a field that is not an attribute; BAD when it is absent or faulty."""
+    """The value of a field that is not an attribute; BAD when it is absent or invalid."""
     if field.xml.text:
-        return _leaf(field, parent, faults)
+        return _leaf(field, parent, diagnostics)
     if not nodes:
         if (
             field.default is MISSING
@@ -179,104 +183,108 @@ def _read_field(
             and field.kind != "manual"
             and _repeats(field)
         ):
-            faults.add(parent, f"{shown(parent)} lacks <{field.shown}>: at least one must stand")
-        elif field.default is MISSING or (faults.strict and field.xml.original.required):
-            faults.add(parent, f"{shown(parent)} lacks <{field.shown}>: {_purpose(field)}")
+            diagnostics.error(
+                parent, f"{shown(parent)} lacks <{field.shown}>: at least one must stand"
+            )
+        elif field.default is MISSING or (diagnostics.strict and field.xml.original.required):
+            diagnostics.error(parent, f"{shown(parent)} lacks <{field.shown}>: {_purpose(field)}")
         return BAD
     if field.kind == "choice":
-        return read_choice(field.type, nodes[0], faults)
+        return read_choice(field.type, nodes[0], diagnostics)
     if field.repeated and field.kind == "list":
-        return tuple(_read_list(field, node, faults) for node in nodes)
+        return tuple(_read_list(field, node, diagnostics) for node in nodes)
     if field.repeated and field.xml.item:
-        return _read_list(field, nodes[0], faults)
+        return _read_list(field, nodes[0], diagnostics)
     if field.repeated:
-        many = [_read_one(field, node, faults) for node in nodes]
+        many = [_read_one(field, node, diagnostics) for node in nodes]
         return tuple(value for value in many if value is not BAD)
-    return _read_one(field, nodes[0], faults)
+    return _read_one(field, nodes[0], diagnostics)
 
 
-def _read_one(field: Field, node: etree._Element, faults: Faults) -> Any:
+def _read_one(field: Field, node: etree._Element, diagnostics: Diagnostics) -> Any:
     if field.kind == "spec":
-        spec = read(field.type, node, faults)
+        spec = read(field.type, node, diagnostics)
         return BAD if spec is None else spec
     for name in node.attrib:
-        _unknown_attribute(node, str(name), (), faults)
+        _unknown_attribute(node, str(name), (), diagnostics)
     if field.kind == "triple":
-        return _read_triple(field, node, faults)
-    return _leaf(field, node, faults)
+        return _read_triple(field, node, diagnostics)
+    return _leaf(field, node, diagnostics)
 
 
-def _leaf(field: Field, node: etree._Element, faults: Faults) -> Any:
-    text = text_of(node, faults)
+def _leaf(field: Field, node: etree._Element, diagnostics: Diagnostics) -> Any:
+    text = text_of(node, diagnostics)
     if not text:
         # An empty element keeps its default in the original, which has no extensions.
         if field.default is MISSING or field.xml.namespaced:
-            faults.add(node, f"{shown(node)} is empty; expected {field.expected}")
+            diagnostics.error(node, f"{shown(node)} is empty; expected {field.expected}")
         return BAD
-    return scalar(field, text, node, faults, shown(node))
+    return scalar(field, text, node, diagnostics, shown(node))
 
 
-def _read_triple(field: Field, node: etree._Element, faults: Faults) -> Any:
+def _read_triple(field: Field, node: etree._Element, diagnostics: Diagnostics) -> Any:
     values: dict[str, float] = {}
     seen: set[str] = set()
-    if field.words and not any(True for _ in _elements(node, faults)):
-        return _leaf(dataclasses.replace(field, kind="word", type=field.words), node, faults)
-    _refuse_text(node, faults)
-    for child in _elements(node, faults):
+    if field.words and not any(True for _ in _elements(node, diagnostics)):
+        return _leaf(dataclasses.replace(field, kind="word", type=field.words), node, diagnostics)
+    _refuse_text(node, diagnostics)
+    for child in _elements(node, diagnostics):
         tag = str(child.tag)
         if tag not in tuple(field.xml.parts):
-            _unknown_element(child, node, tuple(field.xml.parts), faults)
+            _unknown_element(child, node, tuple(field.xml.parts), diagnostics)
         elif tag in seen:
-            faults.add(child, f"<{tag}> stands twice in {shown(node)}; only one may")
+            diagnostics.error(child, f"<{tag}> stands twice in {shown(node)}; only one may")
         else:
             seen.add(tag)
-            text = text_of(child, faults)
+            text = text_of(child, diagnostics)
             named = f"<{tag}> of {shown(node)}"
-            value = scalar(field, text, child, faults, named) if text else 0.0
+            value = scalar(field, text, child, diagnostics, named) if text else 0.0
             if not isinstance(value, Bad):
                 values[tag] = value
     if lacking := [f"<{part}>" for part in field.xml.parts if part not in seen]:
-        faults.add(node, f"{shown(node)} lacks {', '.join(lacking)}")
+        diagnostics.error(node, f"{shown(node)} lacks {', '.join(lacking)}")
     if len(values) < len(field.xml.parts):
         return BAD
     return tuple(values[part] for part in field.xml.parts)
 
 
-def _read_list(field: Field, node: etree._Element, faults: Faults) -> tuple[Any, ...]:
+def _read_list(field: Field, node: etree._Element, diagnostics: Diagnostics) -> tuple[Any, ...]:
     values = []
     assert field.xml.item is not None
-    _refuse_text(node, faults)
+    _refuse_text(node, diagnostics)
     kind, type_ = ("float", float) if field.kind == "list" else (field.kind, field.type)
     entry = dataclasses.replace(field, kind=kind, type=type_, default=MISSING)
-    for child in _elements(node, faults):
+    for child in _elements(node, diagnostics):
         if child.tag != field.xml.item:
-            _unknown_element(child, node, (field.xml.item,), faults)
-        elif (value := _read_one(entry, child, faults)) is not BAD:
+            _unknown_element(child, node, (field.xml.item,), diagnostics)
+        elif (value := _read_one(entry, child, diagnostics)) is not BAD:
             values.append(value)
     return tuple(values)
 
 
-def _elements(node: etree._Element, faults: Faults) -> Iterator[etree._Element]:
-    """The child elements; comments and instructions are skipped, entities are faults."""
+def _elements(node: etree._Element, diagnostics: Diagnostics) -> Iterator[etree._Element]:
+    """The child elements; comments and instructions are skipped, entities are errors."""
     for child in node:
         if isinstance(child.tag, str):
             yield child
         elif isinstance(child, etree._Entity):
-            faults.add(node, f"{cut(child.text or '')} in {shown(node)}: entities are not read")
+            diagnostics.error(
+                node, f"{cut(child.text or '')} in {shown(node)}: entities are not read"
+            )
 
 
-def _refuse_text(node: etree._Element, faults: Faults) -> None:
+def _refuse_text(node: etree._Element, diagnostics: Diagnostics) -> None:
     for piece in (node.text, *(child.tail for child in node)):
         if stray := (piece or "").strip(BLANKS):
-            faults.add(node, f"stray text {cut(stray)} in {shown(node)}")
+            diagnostics.error(node, f"stray text {cut(stray)} in {shown(node)}")
             return
 
 
 def _unknown_element(
-    child: etree._Element, parent: etree._Element, known: Iterable[str], faults: Faults
+    child: etree._Element, parent: etree._Element, known: Iterable[str], diagnostics: Diagnostics
 ) -> None:
     names = [local(name) for name in known]
-    faults.unknown(
+    diagnostics.unknown(
         child,
         f"{shown(child)} is not an element of {shown(parent)}{advice(str(child.tag))}",
         local(str(child.tag)),
@@ -285,15 +293,17 @@ def _unknown_element(
 
 
 def _unknown_attribute(
-    node: etree._Element, name: str, known: Iterable[str], faults: Faults
+    node: etree._Element, name: str, known: Iterable[str], diagnostics: Diagnostics
 ) -> None:
     names = [local(each) for each in known]
     said = shown_attribute(name)
-    faults.unknown(node, f"{said} is not an attribute of {shown(node)}", local(name), names)
+    diagnostics.unknown(node, f"{said} is not an attribute of {shown(node)}", local(name), names)
 
 
-def _misplaced(child: etree._Element, after: str, faults: Faults) -> None:
-    faults.add(child, f"{shown(child)} stands behind <{after}>; the original wants it before")
+def _misplaced(child: etree._Element, after: str, diagnostics: Diagnostics) -> None:
+    diagnostics.error(
+        child, f"{shown(child)} stands behind <{after}>; the original wants it before"
+    )
 
 
 def _purpose(field: Field) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from lxml import etree
 
 from ..errors import did_you_mean
-from .faults import Faults
+from .diagnostics import Diagnostics
 from .grammar import LARGEST, Field
 from .names import cut
 
@@ -38,28 +38,32 @@ class Bad:
 BAD = Bad()
 
 
-def scalar(field: Field, text: str, node: etree._Element, faults: Faults, shown: str) -> Any:
+def scalar(
+    field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, shown: str
+) -> Any:
     """A scalar from its text."""
     value: Any = BAD
     if field.kind == "numbers":
-        return numbers(field, text, node, faults, shown)
+        return numbers(field, text, node, diagnostics, shown)
     if field.kind == "str":
         value = text
     elif field.kind in ("float", "triple"):
         value = number(text)
-        is_lenient = (field.xml.original.lenient or faults.lenient) and not _COMMA.fullmatch(text)
+        is_lenient = (field.xml.original.lenient or diagnostics.lenient) and not _COMMA.fullmatch(
+            text
+        )
         if value is None and is_lenient and (leading := _NUMBER.match(text)):
             value = number(leading[0])
             if value is not None:
                 said = f"{shown} is {cut(text)}; read as {value:g}, as the original does"
-                faults.notice(node, said)
+                diagnostics.warning(node, said)
         value = BAD if value is None else value
     elif field.kind == "int":
         leading = _LEADING_INT.match(text)
         if leading and len(leading[0]) < 12 and abs(int(leading[0])) < 2**31:
             value = int(leading[0])
             if leading[0] != text:
-                faults.notice(
+                diagnostics.warning(
                     node, f"{shown} is {cut(text)}; read as {value}, as the original does"
                 )
     elif field.kind == "bool":
@@ -68,7 +72,7 @@ def scalar(field: Field, text: str, node: etree._Element, faults: Faults, shown:
             value = {"false": False, "true": True}.get(text, BAD)
         if value is BAD and not field.xml.attribute and not field.xml.namespaced:
             value = field.default if (invalid := field.xml.original.invalid) is None else invalid
-            faults.notice(
+            diagnostics.warning(
                 node,
                 f"{shown} is {cut(text)}; expected 0 or 1; read as {value:d}, as the original does",
             )
@@ -77,17 +81,21 @@ def scalar(field: Field, text: str, node: etree._Element, faults: Faults, shown:
     if value is not BAD and field.kind in ("float", "int", "triple") and not field.allows(value):
         value = BAD
     if field.kind in ("float", "triple") and value is not BAD and abs(value) > LARGEST:
-        faults.add(node, f"{shown} is {cut(text)}; no quantity is beyond {LARGEST:g}")
+        diagnostics.error(node, f"{shown} is {cut(text)}; no quantity is beyond {LARGEST:g}")
         return BAD
     if value is BAD:
         near = did_you_mean(text, field.type) if field.kind == "word" and len(text) < 80 else ""
         if field.kind in ("float", "triple") and len(text) < 80 and _COMMA.fullmatch(text):
             near = f" Did you mean {text.replace(',', '.')}?"
-        faults.add(node, f"{shown} is {cut(text)}; expected {field.expected}.{near}".rstrip("."))
+        diagnostics.error(
+            node, f"{shown} is {cut(text)}; expected {field.expected}.{near}".rstrip(".")
+        )
     return value
 
 
-def numbers(field: Field, text: str, node: etree._Element, faults: Faults, shown: str) -> Any:
+def numbers(
+    field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, shown: str
+) -> Any:
     """Several numbers from their text, separated by blanks; commas may stand between them."""
     words = text.replace(",", " ").split()
     values = [number(word) for word in words]
@@ -106,7 +114,7 @@ def numbers(field: Field, text: str, node: etree._Element, faults: Faults, shown
         said = f"has {len(words)} numbers; expected {field.type}"
     else:
         return tuple(values)
-    faults.add(node, f"{shown} {said}")
+    diagnostics.error(node, f"{shown} {said}")
     return BAD
 
 

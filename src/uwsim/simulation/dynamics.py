@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Literal
 
 from ..currents import Place, PythonFunctionSpec
-from ..errors import Fault, SceneError, UnknownName, UwsimError, did_you_mean
+from ..errors import Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import MIN_MASS
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
 from ..physics.vehicle_file import VehicleError, read_vehicle_into
@@ -21,16 +21,16 @@ from ..rng import stream
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.vehicle import VehicleSpec
-from ..schema import NAMESPACE, Faults
+from ..schema import NAMESPACE, Diagnostics
 from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec
 from .bodies import find_file
 from .checks.scene_lines import SceneLines
 
-Severity = Literal["fault", "notice"]
+Severity = Literal["error", "warning"]
 U = f"{{{NAMESPACE}}}"
 MAX_NAMED = 8
-"""Links that one notice names."""
+"""Links that one warning names."""
 MIN_LIFT = 0.1
 """What other water must add to the buoyancy of a vehicle to be told [N]."""
 LIGHTEST = 100.0
@@ -43,11 +43,11 @@ def read_dynamics(
     """Read the hydrodynamics of every vehicle that has ``u:dynamics``, by its number.
 
     Raises:
-        SceneError: a name leads nowhere or a file is wrong; with every fault.
+        SceneError: a name leads nowhere or a file is wrong; with every error.
     """
     search = Search(scene, robots, data_path)
-    if faults := [fault for fault in search.found if fault.severity == "fault"]:
-        raise SceneError(faults)
+    if diagnostics := [diagnostic for diagnostic in search.found if diagnostic.severity == "error"]:
+        raise SceneError(diagnostics)
     return search.dynamics
 
 
@@ -71,7 +71,7 @@ class Search:
     ) -> None:
         self.dynamics: dict[int, VehicleHydrodynamics] = {}
         """Of each vehicle that is simulated, by its number."""
-        self.found: list[Fault] = []
+        self.found: list[Diagnostic] = []
         """All that is wrong or worth knowing."""
         self._scene, self._data_path = scene, data_path
         self._lines = SceneLines(scene)
@@ -90,14 +90,14 @@ class Search:
         joints = [joint.name for joint in robot.joints if joint.moves]
         try:
             path = find_vehicle(name, beside)
-            faults = Faults(path)
-            dynamics = read_vehicle_into(path, links, faults, joints)
+            diagnostics = Diagnostics(path)
+            dynamics = read_vehicle_into(path, links, diagnostics, joints)
         except VehicleError as error:
-            self.found += error.faults
+            self.found += error.diagnostics
         except UnknownName as error:
             self._say(str(error), "vehicle", index, f"{U}dynamics", 0)
         else:
-            self.found += faults.all()
+            self.found += diagnostics.all()
             if dynamics is not None:
                 self.dynamics[index] = dynamics
                 self._weigh(index, name, robot)
@@ -134,7 +134,7 @@ class Search:
                 f"{len(names)} links of the vehicle {vehicle!r} have no mass and are given "
                 f"{1e3 * MIN_MASS:g} g each ({shown}); a <mass> in its URDF or its set says more",
                 *("vehicle", index, f"{U}dynamics", 0),
-                severity="notice",
+                severity="warning",
             )
 
     def _settle_density(self) -> None:
@@ -167,7 +167,7 @@ class Search:
                 f"trimmed in {before.density:.6g}: it is {abs(lift):.3g} N "
                 f"{'lighter' if lift > 0.0 else 'heavier'} here than there",
                 *("vehicle", index, f"{U}dynamics", 0),
-                severity="notice",
+                severity="warning",
             )
 
     def _refuse_scale(self, index: int, vehicle: VehicleSpec) -> None:
@@ -259,10 +259,10 @@ class Search:
         index: int,
         child: str,
         number: int,
-        severity: Severity = "fault",
+        severity: Severity = "error",
     ) -> None:
-        """Keep a fault of the ``number``th ``child`` of the ``index``th ``parent``."""
-        found = self._lines.fault(message, parent, index, child, number, severity=severity)
+        """Keep an error of the ``number``th ``child`` of the ``index``th ``parent``."""
+        found = self._lines.diagnostic(message, parent, index, child, number, severity=severity)
         self.found.append(found)
 
 

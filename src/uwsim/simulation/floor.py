@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import Fault, SceneError
+from ..errors import Diagnostic, SceneError
 from ..geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
 from ..linear import length, product
 from ..physics.compile import object_body
@@ -48,24 +48,26 @@ def set_on_floor(
     if not scene.stands_on_floor:
         return scene
     floor = Floor(scene, robots, data_path)
-    faults: list[Fault] = []
+    diagnostics: list[Diagnostic] = []
     vehicles, objects = list(scene.vehicles), list(scene.objects)
     for i, vehicle in enumerate(vehicles):
         if vehicle.on_floor is not None and i in robots:
             placed = floor.pose_of_vehicle(i, vehicle, vehicle.on_floor)
             if placed is None:
-                faults.append(floor.nothing_under("vehicle", i, vehicle.name, vehicle.position))
+                diagnostics.append(
+                    floor.nothing_under("vehicle", i, vehicle.name, vehicle.position)
+                )
             else:
                 vehicles[i] = _moved_vehicle(vehicle, placed)
     for i, thing in enumerate(objects):
         if thing.on_floor is not None:
             placed = floor.pose_of_object(i, thing, thing.on_floor)
             if placed is None:
-                faults.append(floor.nothing_under("object", i, thing.name, thing.position))
+                diagnostics.append(floor.nothing_under("object", i, thing.name, thing.position))
             else:
                 objects[i] = _moved_object(thing, placed)
-    if faults:
-        raise SceneError(faults)
+    if diagnostics:
+        raise SceneError(diagnostics)
     return replace(scene, vehicles=tuple(vehicles), objects=tuple(objects))
 
 
@@ -154,11 +156,11 @@ class Floor:
 
     def nothing_under(
         self, element: str, index: int, name: str, position: tuple[float, float, float]
-    ) -> Fault:
+    ) -> Diagnostic:
         """Say that there is no ground."""
         x, y, _ = position
         have = "no ground in this scene" if not len(self.ground) else "none there"
-        return self._lines.fault(
+        return self._lines.diagnostic(
             f"<u:onFloor>: no ground under the {element} {name!r} at x {x:g}, y {y:g} of the "
             f"file's frame; there is {have}: an object called 'terrain', or one with <u:solid> 1",
             element,

@@ -12,11 +12,11 @@ import numpy.typing as npt
 
 from ..bus import Bus
 from ..devices.device import DeviceSpec
-from ..errors import Fault, UnknownName
+from ..errors import Diagnostic, UnknownName
 from ..geometry import Intrinsics, Pose
 from ..physics.engine import Engine
 from ..rng import stream
-from ..scene.reader import angle_notices
+from ..scene.reader import angle_warnings
 from ..scene.spec import Integrator, SceneSpec, with_integrator
 from ..scene.variation import varied
 from ..sensors.sensor import BindsSensor, Sensor
@@ -116,11 +116,11 @@ class SceneWorld:
         return sensors
 
     @cached_property
-    def warnings(self) -> tuple[Fault, ...]:
+    def warnings(self) -> tuple[Diagnostic, ...]:
         """What of the scene seems not to be meant, with the lines of the file."""
         scene = self._as_written
         doubts = doubts_about(scene, self.robots, self._dynamics, self._data_path)
-        return (*angle_notices(scene), *doubts)
+        return (*angle_warnings(scene), *doubts)
 
     @property
     def bus(self) -> Bus:

@@ -211,7 +211,7 @@ def _short(digest: str) -> str:
 
 
 class _Run:
-    """What ``run`` of a result says, with faults for what it does not."""
+    """What ``run`` of a result says, with errors for what it does not."""
 
     def __init__(self, run: Mapping[str, object]) -> None:
         self._run = run
@@ -221,30 +221,30 @@ class _Run:
         value = self._run.get(name)
         if isinstance(value, str):
             return value
-        raise self._fault(name)
+        raise self._error(name)
 
     def number(self, name: str) -> int:
         """A whole number."""
         value = self._run.get(name)
         if isinstance(value, int) and value >= 0:
             return value
-        raise self._fault(name)
+        raise self._error(name)
 
     def names(self, name: str) -> tuple[str, ...]:
         """A list of words."""
         value = self._run.get(name, ())
         if isinstance(value, tuple):
             return tuple(map(str, value))
-        raise self._fault(name)
+        raise self._error(name)
 
     def pairs(self, name: str) -> list[tuple[str, Any]]:
         """A list of pairs."""
         value = self._run.get(name, ())
         if isinstance(value, tuple) and all(isinstance(p, tuple) and len(p) == 2 for p in value):
             return [(str(first), second) for first, second in value]
-        raise self._fault(name)
+        raise self._error(name)
 
-    def _fault(self, name: str) -> ResultError:
+    def _error(self, name: str) -> ResultError:
         return ResultError(
             f'The result cannot be replayed: "run" has {self._run.get(name)!r} for {name}.'
         )

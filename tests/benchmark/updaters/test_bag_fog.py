@@ -271,7 +271,7 @@ def test_check_and_bench_say_what_is_wrong_before_anything_is_simulated(
     assert not (tmp_path / "out").exists()
 
 
-def test_the_same_name_in_a_sound_file_is_no_fault(
+def test_the_same_name_in_a_sound_file_is_no_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write_bag(tmp_path, "mcap", images())

@@ -126,14 +126,14 @@ LENGTH = 'u:unit="attenuationLength"'
         ('u:unit="m"', 10, 1, -1, 1, 6, "expected one of 'density', 'attenuationLength'"),
     ],
 )  # fmt: skip
-def test_what_leads_nowhere_is_a_fault_with_its_line_and_advice(
+def test_what_leads_nowhere_is_an_error_with_its_line_and_advice(
     tmp_path: Path, unit: str, first: float, last: float, step: float, interval: float,
     line: int, said: str,
 ) -> None:  # fmt: skip
     file = tmp_path / "b.xml"
     values = {"first": first, "last": last, "step": step, "interval": interval}
     file.write_text(BENCHMARK.format(unit=unit, **values))
-    found = [(fault.line, fault.message) for fault in check_benchmark(file)]
+    found = [(diagnostic.line, diagnostic.message) for diagnostic in check_benchmark(file)]
     assert any(line == where and said in message for where, message in found), found
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from uwsim.physics.actuation.power import power_table
 from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
-from uwsim.physics.hydrodynamics import ThrusterSpec, VehicleHydrodynamics, vehicle_faults
+from uwsim.physics.hydrodynamics import ThrusterSpec, VehicleHydrodynamics, vehicle_errors
 from uwsim.physics.hydrodynamics.spec import JointDrive
 from uwsim.physics.vehicle_file import VehicleError, read_vehicle
 from uwsim.physics.vehicle_sets import vehicle_sets
@@ -31,12 +31,12 @@ def thruster(**given: object) -> ThrusterSpec:
     return ThrusterSpec(name="t", link="base_link", forward=(0.0, 40.0), **given)  # type: ignore[arg-type]
 
 
-def faults_of(folder: Path, *, thruster: str = "", joint: str = "") -> list[str]:
+def diagnostics_of(folder: Path, *, thruster: str = "", joint: str = "") -> list[str]:
     file = folder / "mine.xml"
     file.write_text(FILE.format(thruster=thruster, joint=joint))
     with pytest.raises(VehicleError) as caught:
         read_vehicle(file, ["base_link"], ["elbow", "wrist"])
-    return [fault.message for fault in caught.value.faults]
+    return [diagnostic.message for diagnostic in caught.value.diagnostics]
 
 
 def test_a_propeller_at_rest_gives_the_water_of_its_disc_the_speed_of_momentum_theory() -> None:
@@ -129,8 +129,8 @@ def test_a_file_says_what_its_actuators_draw(tmp_path: Path) -> None:
 def test_a_power_that_no_thruster_can_draw_is_refused(
     tmp_path: Path, given: str, said: str
 ) -> None:
-    faults = faults_of(tmp_path, thruster=given)
-    assert any(said in fault for fault in faults), faults
+    diagnostics = diagnostics_of(tmp_path, thruster=given)
+    assert any(said in diagnostic for diagnostic in diagnostics), diagnostics
 
 
 @pytest.mark.parametrize(
@@ -145,12 +145,12 @@ def test_a_power_that_no_thruster_can_draw_is_refused(
     ],
 )  # fmt: skip
 def test_a_drive_that_no_joint_can_have_is_refused(tmp_path: Path, given: str, said: str) -> None:
-    faults = faults_of(tmp_path, joint=given)
-    assert len(faults) == 1
-    assert said in faults[0]
+    diagnostics = diagnostics_of(tmp_path, joint=given)
+    assert len(diagnostics) == 1
+    assert said in diagnostics[0]
 
 
-def test_faults_of_drives_made_in_python_are_said_too() -> None:
+def test_errors_of_drives_made_in_python_are_said_too() -> None:
     vehicle = VehicleHydrodynamics(
         name="v",
         source="",
@@ -158,7 +158,7 @@ def test_faults_of_drives_made_in_python_are_said_too() -> None:
         thrusters=(thruster(efficiency=0.0),),
         joints=(JointDrive(name="a", efficiency=2.0), JointDrive(name="a", copper_loss=-1.0)),
     )
-    assert vehicle_faults(vehicle, ["base_link"]) == [
+    assert vehicle_errors(vehicle, ["base_link"]) == [
         "two entries for the joint 'a'; only one may be",
         "thruster 't': efficiency is 0; expected a number > 0 and <= 1.41 [1]",
         "joint 'a': efficiency is 2; expected a number > 0 and <= 1 [1]",

@@ -7,7 +7,7 @@ import pytest
 
 from tests.physics.water_models import free_body
 from uwsim.physics.hydrodynamics import BadHydrodynamics, BodyHydrodynamics
-from uwsim.physics.hydrodynamics.faults import body_faults
+from uwsim.physics.hydrodynamics.checks import body_errors
 from uwsim.physics.hydrodynamics.passivity import Kind, bearable_share, driving_motion
 from uwsim.rng import stream
 
@@ -76,7 +76,7 @@ def test_couplings_of_all_six_axes_are_found_as_a_blind_search_finds_them(kind: 
 def test_a_damping_that_drives_the_body_is_refused_with_the_motion(name: str) -> None:
     numbers = tuple(coupled([[8.0, 30.0], [30.0, 0.5]]).ravel().tolist())
     body = BodyHydrodynamics(link="hull", volume=0.02, **{name: numbers})  # type: ignore[arg-type]
-    (said,) = body_faults(body)
+    (said,) = body_errors(body)
     assert said.startswith(
         f"link 'hull': {name.replace('_', ' ')} drives the body: at the velocity 0 "
     )
@@ -87,5 +87,5 @@ def test_a_damping_that_drives_the_body_is_refused_with_the_motion(name: str) ->
 
 def test_drag_of_an_axis_without_any_of_its_own_says_none() -> None:
     numbers = tuple(coupled([[0.0, 0.1], [0.0, 0.5]]).ravel().tolist())
-    (said,) = body_faults(BodyHydrodynamics(link="hull", linear_damping=numbers))
+    (said,) = body_errors(BodyHydrodynamics(link="hull", linear_damping=numbers))
     assert said.endswith("entries beside this diagonal 0 where that is 0")

@@ -82,7 +82,7 @@ def test_there_is_no_other_file() -> None:
 
 
 @pytest.mark.parametrize("file", sorted(FILES.glob("*.xml")), ids=lambda file: file.stem)
-def test_a_file_stands_in_the_originals_order_and_has_no_fault(file: Path) -> None:
+def test_a_file_stands_in_the_originals_order_and_has_no_error(file: Path) -> None:
     assert main(["check", "--strict", str(file)]) == 0
 
 

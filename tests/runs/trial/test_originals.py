@@ -84,11 +84,11 @@ def scene_for(benchmark: Path, spec: BenchmarkSpec) -> Path:
         except UwsimError as error:
             said.append(f"{path}: {error}")
             continue
-        faults = unknown_names(spec, simulation.world)
+        errors = unknown_names(spec, simulation.world)
         simulation.close()
-        if not faults:
+        if not errors:
             return path
-        said += [f"{path.name}: {fault}" for fault in faults]
+        said += [f"{path.name}: {error}" for error in errors]
     pytest.fail("no scene has all names:\n" + "\n".join(said))
 
 

@@ -78,9 +78,9 @@ def test_what_decides_the_levels_cannot_be_set_or_vary(tmp_path: Path) -> None:
     ):
         file = tmp_path / "b.xml"
         file.write_text(text.replace("currentForceUpdater.timeOffset", path))
-        [fault] = [each for each in check_benchmark(file) if each.severity == "fault"]
-        assert said in fault.message
-        assert "<u:uniform>" in file.read_text().split("\n")[(fault.line or 0) - 1]
+        [diagnostic] = [each for each in check_benchmark(file) if each.severity == "error"]
+        assert said in diagnostic.message
+        assert "<u:uniform>" in file.read_text().split("\n")[(diagnostic.line or 0) - 1]
 
 
 def test_a_nested_updater_is_found_by_its_element(tmp_path: Path) -> None:

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from uwsim.cli.app import main
-from uwsim.cli.check import faults_of
-from uwsim.errors import Fault
+from uwsim.cli.check import diagnostics_of
+from uwsim.errors import Diagnostic
 from uwsim.scene.doubts import DOUBTS, VehicleDoubt
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf import LinkSpec, RobotSpec
@@ -87,15 +87,17 @@ def written(folder: Path, *, robot: str = ROBOT, water: str = WATER, scene: str 
     return folder / "scene.xml"
 
 
-def asked(path: Path) -> list[Fault]:
+def asked(path: Path) -> list[Diagnostic]:
     """What `check` asks about; the same as the simulation knows."""
-    found = [fault for fault in faults_of(path) if "<u:accept>" in fault.message]
+    found = [
+        diagnostic for diagnostic in diagnostics_of(path) if "<u:accept>" in diagnostic.message
+    ]
     assert warnings_of(read_scene(path), ()) == found
     return found
 
 
 def test_nothing_is_asked_about_a_sound_vehicle(tmp_path: Path) -> None:
-    assert faults_of(written(tmp_path)) == []
+    assert diagnostics_of(written(tmp_path)) == []
 
 
 WRONG = {
@@ -238,16 +240,20 @@ def test_a_mistake_is_warned_of_until_it_is_accepted(mistake: str, tmp_path: Pat
     assert right in texts[kind]
     texts[kind] = texts[kind].replace(right, wrong)
     found = asked(written(tmp_path, **texts))
-    about = [fault for fault in found if fault.message.endswith(f"<u:accept>{doubt}</u:accept>")]
+    about = [
+        diagnostic
+        for diagnostic in found
+        if diagnostic.message.endswith(f"<u:accept>{doubt}</u:accept>")
+    ]
     assert len(about) == 1
     assert about[0].message.startswith("the vehicle 'rov': ")
     assert said in about[0].message
-    assert about[0].severity == "notice"
+    assert about[0].severity == "warning"
     lines = texts["scene"].splitlines()
     place = {"size": "<file>", "start": "<position>"}.get(doubt, "<u:dynamics>")
     assert about[0].line is not None
     assert place in lines[about[0].line - 1]
-    others = {re.search(r"accept>(\w+)<", fault.message)[1] for fault in found}  # type: ignore[index]
+    others = {re.search(r"accept>(\w+)<", diagnostic.message)[1] for diagnostic in found}  # type: ignore[index]
     texts["scene"] = texts["scene"].replace(
         "</u:dynamics>",
         "</u:dynamics>" + "".join(f" <u:accept>{other}</u:accept>" for other in others),
@@ -271,8 +277,8 @@ def test_a_light_link_without_inertia_is_not_asked_about(tmp_path: Path) -> None
 def test_info_shows_what_is_asked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = written(tmp_path, water=WATER.replace("0.0201", "0.03"))
     assert main(["info", str(path), "--json"]) == 0
-    (notice,) = json.loads(capsys.readouterr().out)["notices"]
-    assert "it rises with 98.1 N" in notice
+    (warning,) = json.loads(capsys.readouterr().out)["warnings"]
+    assert "it rises with 98.1 N" in warning
 
 
 def test_where_a_camera_looks_is_said_of_the_vehicle_on_the_floor(tmp_path: Path) -> None:
@@ -280,15 +286,15 @@ def test_where_a_camera_looks_is_said_of_the_vehicle_on_the_floor(tmp_path: Path
     <virtualCamera> <name>eye</name> <relativeTo>base_link</relativeTo>
       <u:lookAt> <x>0</x> <y>0</y> <z>4</z> </u:lookAt> </virtualCamera>"""
     scene = SCENE.replace("<u:dynamics>rov</u:dynamics>", camera)
-    (fault,) = faults_of(written(tmp_path, scene=scene))
-    assert fault.message.startswith("'eye' looks up; ")
+    (diagnostic,) = diagnostics_of(written(tmp_path, scene=scene))
+    assert diagnostic.message.startswith("'eye' looks up; ")
 
 
 def test_a_loose_object_that_begins_in_the_floor_is_asked_about(tmp_path: Path) -> None:
     scene = SCENE.replace("<z>4.7</z>", "<z>4.9</z>")
-    (fault,) = asked(written(tmp_path, scene=scene))
-    assert "the object 'box': it begins 0.1 m deep in 'terrain'" in fault.message
-    assert fault.line == 11
+    (diagnostic,) = asked(written(tmp_path, scene=scene))
+    assert "the object 'box': it begins 0.1 m deep in 'terrain'" in diagnostic.message
+    assert diagnostic.line == 11
     accepted = scene.replace("</physics>", "</physics> <u:accept>start</u:accept>")
     assert asked(written(tmp_path, scene=accepted)) == []
     on_floor = scene.replace("</physics>", "</physics> <u:onFloor/>")
@@ -298,7 +304,7 @@ def test_a_loose_object_that_begins_in_the_floor_is_asked_about(tmp_path: Path) 
 def test_a_kinematic_vehicle_is_asked_about_its_size_and_the_floor_only(tmp_path: Path) -> None:
     scene = SCENE.replace("    <u:dynamics>rov</u:dynamics>\n", "").replace("<z>3</z>", "<z>8</z>")
     robot = ROBOT.replace('size="0.5 0.4 0.3"', 'size="1500 400 300"')
-    said = [fault.message for fault in asked(written(tmp_path, robot=robot, scene=scene))]
+    said = [diagnostic.message for diagnostic in asked(written(tmp_path, robot=robot, scene=scene))]
     assert ["it is 1500 m long" in said[0], "under the surface of 'terrain'" in said[1]] == [
         True
     ] * 2

@@ -76,7 +76,7 @@ class ControlSpec(MeasureSpec):
         """Whether an error is judged, too."""
         return self.target is not None or self.error_topic is not None
 
-    def faults(self) -> Sequence[str]:
+    def errors(self) -> Sequence[str]:
         """Elements that do not go together."""
         found = []
         if self.topic is None and not self.has_error:

@@ -60,7 +60,7 @@ class EuclideanNormSpec(MeasureSpec):
     """When ``publishOn`` is called: ``always`` when the measure starts, as the original does, or
     ``once``, until it was called for the first time (``u:autoInit``)."""
 
-    def faults(self) -> Sequence[str]:
+    def errors(self) -> Sequence[str]:
         """A face is the true one of a camera's image only; ``once`` needs a service to call."""
         found = []
         if self.truth == "face" and self.ground_truth.camera is None:

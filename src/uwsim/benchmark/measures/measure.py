@@ -34,7 +34,7 @@ class MeasureSpec(abc.ABC):
     )
     """Which statistic of a signal is its value (``u:value``)."""
 
-    def faults(self) -> Sequence[str]:
+    def errors(self) -> Sequence[str]:
         """What is wrong about elements that are right one by one."""
         return ()
 

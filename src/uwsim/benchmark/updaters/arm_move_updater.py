@@ -50,7 +50,7 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
             raise BadSetting(f"The arm has {count} positions; at most {MAX_LEVELS}.")
         return tuple(float(i) for i in range(count))
 
-    def faults(self) -> Iterator[str]:
+    def errors(self) -> Iterator[str]:
         """Say that arm positions have different lengths."""
         if len({len(joints) for joints in self.arm_position}) > 1:
             yield "every <armPosition> must have as many <joint> as the first"

@@ -79,7 +79,7 @@ class FogSweepSpec(SweepSpec):
             raise endless(initial, final, step)
         return tuple(initial + i * step for i in range(math.floor(span + 1e-9) + 1))
 
-    def faults(self) -> Iterator[str]:
+    def errors(self) -> Iterator[str]:
         """Say that a sweep leads nowhere."""
         initial, final, step = self.initial_value, self.final_value, self.step
         if self.quantity == DENSITY:
@@ -88,7 +88,7 @@ class FogSweepSpec(SweepSpec):
                     f"<step> is '{step:g}'; expected a number > 0 [1/m]: fog density runs upward. "
                     'A sweep of lengths may run downward: u:unit="attenuationLength" [m]'
                 )
-            yield from super().faults()
+            yield from super().errors()
             return
         for tag, value in (("initialValue", initial), ("finalValue", final)):
             if value <= 0.0:

@@ -33,7 +33,7 @@ class SweepSpec(SceneUpdaterSpec):
         """Return the value of each level."""
         return sweep(self.initial_value, self.final_value, self.step, single=self.is_single)
 
-    def faults(self) -> Iterator[str]:
+    def errors(self) -> Iterator[str]:
         """Say that a sweep ends before it begins."""
         if self.final_value < self.initial_value:
             yield (

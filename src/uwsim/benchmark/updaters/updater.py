@@ -53,7 +53,7 @@ class SceneUpdaterSpec(abc.ABC):
         """Return the files and folders that it reads, by the names that the file has for them."""
         return {}
 
-    def faults(self) -> Iterable[str]:
+    def errors(self) -> Iterable[str]:
         """Say what is wrong with it as a whole; ``<step> ...`` is put on that child's line."""
         return ()
 

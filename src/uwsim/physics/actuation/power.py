@@ -61,9 +61,9 @@ def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array
     return table
 
 
-def power_faults(thruster: ThrusterSpec) -> list[str]:
+def power_errors(thruster: ThrusterSpec) -> list[str]:
     """Say where the power that a file gives would be below 0."""
-    faults = []
+    errors = []
     for name, curve, forward in (
         ("power", thruster.power, True),
         ("powerBackward", thruster.power_backward, False),
@@ -74,11 +74,11 @@ def power_faults(thruster: ThrusterSpec) -> list[str]:
         powers = _polynomial(curve, thrusts)
         worst = int(np.argmin(powers))
         if powers[worst] < -1e-9:
-            faults.append(
+            errors.append(
                 f"thruster {thruster.name!r}: {name} is {powers[worst]:.3g} W at "
                 f"{thrusts[worst]:.3g} N; expected none below 0"
             )
-    return faults
+    return errors
 
 
 def _greatest(thruster: ThrusterSpec, *, forward: bool) -> float:

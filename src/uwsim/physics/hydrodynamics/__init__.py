@@ -6,7 +6,7 @@ compiles a kernel when it is imported: who simulates nothing does not wait for i
 
 from __future__ import annotations
 
-from .faults import vehicle_faults
+from .checks import vehicle_errors
 from .spec import (
     BadHydrodynamics,
     BodyHydrodynamics,
@@ -21,5 +21,5 @@ __all__ = [
     "ThrusterSpec",
     "VehicleHydrodynamics",
     "prepare",
-    "vehicle_faults",
+    "vehicle_errors",
 ]

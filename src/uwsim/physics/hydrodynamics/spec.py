@@ -1,4 +1,4 @@
-"""A vehicle in water, in numbers: what its hydrodynamics file says; `faults` checks them.
+"""A vehicle in water, in numbers: what its hydrodynamics file says; `checks` checks them.
 
 Every 6x6 matrix is in the literature's order (surge, sway, heave, roll, pitch, yaw) in the axes of
 the body (link) it belongs to, about its reference point. Forces oppose motion with positive
@@ -41,11 +41,11 @@ BEST_EFFICIENCY = 1.41
 
 
 class BadHydrodynamics(UwsimError):
-    """Coefficients that no body in water can have; carries every fault."""
+    """Coefficients that no body in water can have; carries every error."""
 
-    def __init__(self, faults: Sequence[str]) -> None:
-        self.faults = tuple(faults)
-        super().__init__("\n".join(faults))
+    def __init__(self, errors: Sequence[str]) -> None:
+        self.errors = tuple(errors)
+        super().__init__("\n".join(errors))
 
 
 @dataclass(frozen=True, kw_only=True)

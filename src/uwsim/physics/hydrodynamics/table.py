@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ...linear import length
 from . import columns as c
-from .faults import body_faults, density_faults, thruster_faults
+from .checks import body_errors, density_errors, thruster_errors
 from .spec import BadHydrodynamics, BodyHydrodynamics, ThrusterSpec, matrix
 
 _SHAPES = {
@@ -43,7 +43,7 @@ def prepare(
         density: of the water [kg/m3].
 
     Raises:
-        BadHydrodynamics: with every fault.
+        BadHydrodynamics: with every error.
     """
     propellers = thrusters or {}
     _check(spec, bodies, propellers, density)
@@ -112,16 +112,16 @@ def _check(
     thrusters: Mapping[str, tuple[str, ThrusterSpec]],
     density: float,
 ) -> None:
-    faults = density_faults(density)
-    faults += [fault for body in bodies.values() for fault in body_faults(body)]
-    faults += [fault for _, one in thrusters.values() for fault in thruster_faults(one)]
+    errors = density_errors(density)
+    errors += [error for body in bodies.values() for error in body_errors(body)]
+    errors += [error for _, one in thrusters.values() for error in thruster_errors(one)]
     for name in (*bodies, *(link for link, _ in thrusters.values())):
         if name == "world" or spec.body(name) is None:
-            faults.append(f"the model has no body {name!r} that the water could act on")
+            errors.append(f"the model has no body {name!r} that the water could act on")
     if spec.option.density or spec.option.viscosity:
-        faults.append("option density and viscosity must be 0: MuJoCo's own fluid is not used")
-    if faults:
-        raise BadHydrodynamics(faults)
+        errors.append("option density and viscosity must be 0: MuJoCo's own fluid is not used")
+    if errors:
+        raise BadHydrodynamics(errors)
 
 
 def _prepare_body(node: mujoco.MjsBody, body: BodyHydrodynamics, density: float) -> None:

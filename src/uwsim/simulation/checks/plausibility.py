@@ -1,6 +1,6 @@
 """What of a scene seems not to be meant, each with its line and how to say that it is.
 
-`uwsim check` says it, and `uwsim bench` and `uwsim render` before anything moves. All are notices:
+`uwsim check` says it, and `uwsim bench` and `uwsim render` before anything moves. All are warnings:
 no run is refused for them. `uwsim.scene.doubts` has their names.
 """
 
@@ -11,10 +11,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Literal
 
-from ...errors import Fault, UwsimError
+from ...errors import Diagnostic, UwsimError
 from ...physics.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.doubts import VehicleDoubt, unless_meant
-from ...scene.reader import angle_notices
+from ...scene.reader import angle_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf import RobotSpec
 from ..bodies import read_robots
@@ -36,7 +36,7 @@ def doubts_about(
     robots: Mapping[int, RobotSpec],
     dynamics: Mapping[int, VehicleHydrodynamics],
     data_path: tuple[Path, ...] = (),
-) -> list[Fault]:
+) -> list[Diagnostic]:
     """Say everything about a scene that seems not to be meant.
 
     Args:
@@ -53,20 +53,20 @@ def doubts_about(
         for doubt, child, said in _of_vehicle(scene, index, robots, dynamics, data_path):
             if said and doubt not in vehicle.accepts:
                 message = f"the vehicle {vehicle.name!r}: {said}. {unless_meant(doubt)}"
-                found.append(lines.fault(message, "vehicle", index, child, severity="notice"))
+                found.append(lines.diagnostic(message, "vehicle", index, child, severity="warning"))
     for kind, index, said in _of_starts(scene, vehicles, robots, data_path):
         name = (scene.vehicles if kind == "vehicle" else scene.objects)[index].name
         if said:
             message = f"the {kind} {name!r}: {said}. {unless_meant('start')}"
-            found.append(lines.fault(message, kind, index, "position", severity="notice"))
+            found.append(lines.diagnostic(message, kind, index, "position", severity="warning"))
     return found
 
 
-def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Fault]:
+def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnostic]:
     """The same of a scene that nobody has opened yet, and what is asked about its angles."""
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(scene, robots, data_path)
-    return [*angle_notices(scene), *doubts_about(scene, robots, dynamics, data_path)]
+    return [*angle_warnings(scene), *doubts_about(scene, robots, dynamics, data_path)]
 
 
 def _of_vehicle(

@@ -6,7 +6,7 @@ from collections.abc import Collection
 from contextlib import suppress
 from pathlib import Path
 
-from ...errors import Fault, SceneError, UwsimError
+from ...errors import Diagnostic, SceneError, UwsimError
 from ...scene.spec import SceneSpec
 from ...scene.urdf import RobotSpec
 from ...scene.urdf_reader import read_urdf
@@ -18,7 +18,7 @@ from .plausibility import doubts_about
 from .scene_lines import SceneLines
 
 
-def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Fault]:
+def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Diagnostic]:
     """Hold what of a scene is simulated against everything that is known about it.
 
     Args:
@@ -31,12 +31,12 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
             robots[index] = read_urdf(find_robot(vehicle.file, scene.path, data_path))
     search = Search(scene, robots, data_path, is_thorough=True)
     found = search.found
-    if not any(fault.severity == "fault" for fault in found):
+    if not any(diagnostic.severity == "error" for diagnostic in found):
         found += doubts_about(scene, robots, search.dynamics, data_path)
     try:
         set_on_floor(scene, robots, data_path)
     except SceneError as error:
-        found += error.faults
+        found += error.diagnostics
     except UwsimError:  # said where robots and models are checked
         pass
     return found + _untouchable(scene, search.dynamics, data_path)
@@ -44,12 +44,12 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
 
 def _untouchable(
     scene: SceneSpec, dynamics: Collection[int], data_path: tuple[Path, ...]
-) -> list[Fault]:
+) -> list[Diagnostic]:
     """Say of which objects the engine can make no shape that is touched."""
     lines, found = SceneLines(scene), []
     for index, physics in simulated_solids(scene, dynamics).items():
         try:
             collision_shapes(scene, {}, (), {index: physics}, data_path)
         except UwsimError as error:
-            found.append(lines.fault(str(error).removesuffix("."), "object", index, "physics"))
+            found.append(lines.diagnostic(str(error).removesuffix("."), "object", index, "physics"))
     return found

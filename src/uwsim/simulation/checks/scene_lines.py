@@ -8,10 +8,10 @@ from typing import Literal
 
 from lxml import etree
 
-from ...errors import Fault, FileError
+from ...errors import Diagnostic, FileError
 from ...scene.legacy import upgrade
 from ...scene.spec import SceneSpec
-from ...schema import NAMESPACE, Faults, parse
+from ...schema import NAMESPACE, Diagnostics, parse
 
 
 class SceneLines:
@@ -21,7 +21,7 @@ class SceneLines:
         self._path = scene.path
         self._root: etree._Element | None = None
 
-    def fault(
+    def diagnostic(
         self,
         message: str,
         parent: str,
@@ -29,10 +29,10 @@ class SceneLines:
         child: str,
         number: int = 0,
         *,
-        severity: Literal["fault", "notice"] = "fault",
-    ) -> Fault:
-        """Make a fault at the ``number``th ``child`` of the ``index``th ``parent``."""
-        return Fault(
+        severity: Literal["error", "warning"] = "error",
+    ) -> Diagnostic:
+        """Make an error at the ``number``th ``child`` of the ``index``th ``parent``."""
+        return Diagnostic(
             file=self._path or "the scene",
             line=self.line(parent, index, child, number),
             message=message,
@@ -51,7 +51,7 @@ class SceneLines:
         if self._root is None and self._path:
             with suppress(FileError):
                 document = parse(Path(self._path))
-                upgrade(document.root, Faults(document.path))
+                upgrade(document.root, Diagnostics(document.path))
                 self._root = document.root
         if self._root is None:
             return None

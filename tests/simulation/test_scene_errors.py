@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.simulation.simulated import SCENE
-from uwsim.cli.check import faults_of
+from uwsim.cli.check import diagnostics_of
 from uwsim.errors import SceneError
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
@@ -64,12 +64,14 @@ def test_a_name_that_leads_nowhere_is_said_with_its_line(way: str, tmp_path: Pat
     line = changed[: changed.index(new) + new.index("\n") + 1].count("\n") + 1
     path = tmp_path / "scene.xml"
     path.write_text(changed)
-    faults = [fault for fault in faults_of(path) if fault.severity == "fault"]
-    assert [(fault.file, fault.line) for fault in faults] == [(str(path), line)]
-    assert said in faults[0].message
+    diagnostics = [
+        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+    ]
+    assert [(diagnostic.file, diagnostic.line) for diagnostic in diagnostics] == [(str(path), line)]
+    assert said in diagnostics[0].message
     with pytest.raises(SceneError) as caught:
         Simulation(read_scene(path), is_blind=True)
-    assert caught.value.faults == tuple(faults)
+    assert caught.value.diagnostics == tuple(diagnostics)
 
 
 def test_a_side_file_that_is_wrong_is_said_with_its_own_lines(tmp_path: Path) -> None:
@@ -79,29 +81,40 @@ def test_a_side_file_that_is_wrong_is_said_with_its_own_lines(tmp_path: Path) ->
     )
     path = tmp_path / "scene.xml"
     path.write_text(TEXT.replace("g500_physical", "mine"))
-    faults = [str(fault) for fault in faults_of(path) if fault.severity == "fault"]
-    assert [fault.rpartition("mine.xml")[2][:3] for fault in faults] == [":2:", ":3:"]
-    assert "Did you mean 'base_link'?" in faults[0]
-    assert "Did you mean 'Elbow'?" in faults[1]
+    diagnostics = [
+        str(diagnostic) for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+    ]
+    assert [diagnostic.rpartition("mine.xml")[2][:3] for diagnostic in diagnostics] == [
+        ":2:",
+        ":3:",
+    ]
+    assert "Did you mean 'base_link'?" in diagnostics[0]
+    assert "Did you mean 'Elbow'?" in diagnostics[1]
 
 
-def test_a_set_that_is_not_named_as_its_file_is_a_notice(tmp_path: Path) -> None:
+def test_a_set_that_is_not_named_as_its_file_is_a_warning(tmp_path: Path) -> None:
     (tmp_path / "mine.xml").write_text(
         '<hydrodynamics name="other">\n<body link="base_link"> <mass>180</mass> '
         "<volume>0.18</volume> </body></hydrodynamics>"
     )
     path = tmp_path / "scene.xml"
     path.write_text(TEXT.replace("g500_physical", "mine"))
-    (said,) = [fault for fault in faults_of(path) if "the set is called" in fault.message]
-    assert (said.file, said.line, said.severity) == (str(tmp_path / "mine.xml"), 1, "notice")
+    (said,) = [
+        diagnostic
+        for diagnostic in diagnostics_of(path)
+        if "the set is called" in diagnostic.message
+    ]
+    assert (said.file, said.line, said.severity) == (str(tmp_path / "mine.xml"), 1, "warning")
     assert said.message.endswith("'other'; scenes find it by the name of its file, 'mine'")
 
 
-def test_dynamics_that_name_no_set_are_a_fault(tmp_path: Path) -> None:
+def test_dynamics_that_name_no_set_are_an_error(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(TEXT.replace("g500_physical", " "))
-    (fault,) = [str(fault) for fault in faults_of(path) if fault.severity == "fault"]
-    assert "<u:dynamics> is empty; expected text" in fault
+    (diagnostic,) = [
+        str(diagnostic) for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+    ]
+    assert "<u:dynamics> is empty; expected text" in diagnostic
 
 
 def test_all_are_said_at_once(tmp_path: Path) -> None:
@@ -110,7 +123,10 @@ def test_all_are_said_at_once(tmp_path: Path) -> None:
         changed = changed.replace(*WAYS[way][:2])
     path = tmp_path / "scene.xml"
     path.write_text(changed)
-    assert len([fault for fault in faults_of(path) if fault.severity == "fault"]) == 3
+    assert (
+        len([diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"])
+        == 3
+    )
 
 
 def test_a_field_is_read_by_a_check_but_the_users_function_only_looked_for(
@@ -126,18 +142,24 @@ def test_a_field_is_read_by_a_check_but_the_users_function_only_looked_for(
     both = f"<oceanState> <u:current> {function}\n{field} </u:current>"
     text = TEXT.replace("<oceanState>", both)
     path.write_text(text)
-    (fault,) = [fault for fault in faults_of(path) if fault.severity == "fault"]
-    assert "expected u and v" in fault.message
-    assert "u:field" in text.splitlines()[(fault.line or 0) - 1]
+    (diagnostic,) = [
+        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+    ]
+    assert "expected u and v" in diagnostic.message
+    assert "u:field" in text.splitlines()[(diagnostic.line or 0) - 1]
     path.write_text(text.replace(name, "nowhere"))
-    fault, _ = [fault for fault in faults_of(path) if fault.severity == "fault"]
-    assert "there is no module 'nowhere' on Python's path" in fault.message
-    assert "u:pythonFunction" in text.splitlines()[(fault.line or 0) - 1]
+    diagnostic, _ = [
+        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+    ]
+    assert "there is no module 'nowhere' on Python's path" in diagnostic.message
+    assert "u:pythonFunction" in text.splitlines()[(diagnostic.line or 0) - 1]
 
 
-def test_the_bundled_scenes_have_no_such_fault() -> None:
+def test_the_bundled_scenes_have_no_such_error() -> None:
     for path in sorted(SCENE.parent.glob("*scene.xml")):
-        assert [fault for fault in faults_of(path) if fault.severity == "fault"] == []
+        assert [
+            diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+        ] == []
 
 
 def test_a_mesh_of_too_many_faces_is_said_before_a_run_refuses_it(
@@ -156,5 +178,5 @@ def test_a_mesh_of_too_many_faces_is_said_before_a_run_refuses_it(
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.read_text().replace("</UWSimScene>", rock))
     line = scene.read_text().partition("<physics> <mass>0</mass>")[0].count("\n") + 1
-    [said] = [fault for fault in faults_of(scene) if fault.line == line]
+    [said] = [diagnostic for diagnostic in diagnostics_of(scene) if diagnostic.line == line]
     assert "'tent.obj' as a fixed trimesh would be 4 plates; at most 3" in said.message

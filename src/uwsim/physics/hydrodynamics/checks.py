@@ -36,75 +36,75 @@ LENGTHS = ("reference", "centre_of_buoyancy", "size", "centre_of_mass", "positio
 DRAG: dict[str, Kind] = {"linear_damping": "linear", "quadratic_damping": "quadratic"}
 
 
-def body_faults(body: BodyHydrodynamics) -> list[str]:
+def body_errors(body: BodyHydrodynamics) -> list[str]:
     """Everything that is wrong with the numbers of a body."""
     who = f"link {body.link!r}"
-    if faults := _no_numbers(who, body):
-        return faults
+    if errors := _no_numbers(who, body):
+        return errors
     for name in ("added_mass", *DRAG):
         numbers: Numbers = getattr(body, name)
         if len(numbers) not in (6, 36):
-            faults.append(f"{who}: {_words(name)} has {len(numbers)} numbers; expected 6 or 36")
+            errors.append(f"{who}: {_words(name)} has {len(numbers)} numbers; expected 6 or 36")
         elif name == "added_mass":
-            faults += _mass_faults(who, matrix(numbers))
+            errors += _mass_errors(who, matrix(numbers))
         else:
-            faults += _drag_faults(who, name, matrix(numbers))
+            errors += _drag_errors(who, name, matrix(numbers))
     if body.shape not in SIZES:
-        faults.append(
+        errors.append(
             f"{who}: shape is {body.shape!r}; expected one of {', '.join(SIZES)}."
             f"{did_you_mean(body.shape, SIZES)}"
         )
     elif body.size and len(body.size) != SIZES[body.shape]:
-        faults.append(
+        errors.append(
             f"{who}: a {body.shape} has {SIZES[body.shape]} "
             f"{'length' if SIZES[body.shape] == 1 else 'lengths'}; found {len(body.size)}"
         )
     elif not body.size and body.shape != "sphere":
-        faults.append(f"{who}: a {body.shape} needs its {SIZES[body.shape]} lengths (size) [m]")
+        errors.append(f"{who}: a {body.shape} needs its {SIZES[body.shape]} lengths (size) [m]")
     if body.inertia is not None:
-        faults += _inertia_faults(who, body.inertia)
-    return faults + _beyond_limits(who, body)
+        errors += _inertia_errors(who, body.inertia)
+    return errors + _beyond_limits(who, body)
 
 
-def thruster_faults(thruster: ThrusterSpec) -> list[str]:
+def thruster_errors(thruster: ThrusterSpec) -> list[str]:
     """Everything that is wrong with the numbers of a thruster."""
     who = f"thruster {thruster.name!r}"
-    if faults := _no_numbers(who, thruster):
-        return faults
+    if errors := _no_numbers(who, thruster):
+        return errors
     if not math.hypot(*thruster.direction) > 1e-9:
-        faults.append(f"{who}: direction is 0 0 0; expected a direction")
+        errors.append(f"{who}: direction is 0 0 0; expected a direction")
     for side in ("forward", "backward", "power", "power_backward"):
         curve = getattr(thruster, side)
         if curve is not None and not 1 <= len(curve) <= N_CURVE:
-            faults.append(
+            errors.append(
                 f"{who}: {_words(side)} has {len(curve)} coefficients; expected 1 to {N_CURVE}"
             )
     if thruster.power is None and thruster.power_backward is not None:
-        faults.append(f"{who}: power backward is given without power")
+        errors.append(f"{who}: power backward is given without power")
     if thruster.efficiency is not None and thruster.power is not None:
-        faults.append(f"{who}: <efficiency> and <power> both say what it draws; give one")
+        errors.append(f"{who}: <efficiency> and <power> both say what it draws; give one")
     for name in ("limits", "saturation"):
         ends = getattr(thruster, name)
         if ends is not None and not (ends[0] <= 0.0 <= ends[1] and ends[0] < ends[1]):
-            faults.append(
+            errors.append(
                 f"{who}: {name} are {_list(ends)}; expected least <= 0 <= greatest, not both 0"
             )
-    faults += _beyond_limits(who, thruster)
+    errors += _beyond_limits(who, thruster)
     if abs(thruster.torque) > 2.0 * thruster.radius > 0.0:
-        faults.append(
+        errors.append(
             f"{who}: torque is {thruster.torque:g} per thrust; expected at most the propeller's "
             f"diameter, {2.0 * thruster.radius:g} [m]"
         )
-    return faults or _thrust_faults(who, thruster)
+    return errors or _thrust_errors(who, thruster)
 
 
-def drive_faults(drive: JointDrive) -> list[str]:
+def drive_errors(drive: JointDrive) -> list[str]:
     """Everything that is wrong with the numbers of a joint's drive."""
     who = f"joint {drive.name!r}"
     return _no_numbers(who, drive) or _beyond_limits(who, drive)
 
 
-def density_faults(density: float) -> list[str]:
+def density_errors(density: float) -> list[str]:
     """Say what is wrong with the density of the water."""
     if LIQUIDS[0] <= density <= LIQUIDS[1]:
         return []
@@ -114,51 +114,51 @@ def density_faults(density: float) -> list[str]:
     ]
 
 
-def vehicle_faults(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[str]:
+def vehicle_errors(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[str]:
     """Everything that is wrong with a set, for a robot with these links."""
     known = list(links)
-    faults = []
+    errors = []
     links_named = [body.link for body in vehicle.bodies]
     for kind, names in (
         ("link", links_named),
         ("thruster", [thruster.name for thruster in vehicle.thrusters]),
         ("joint", [drive.name for drive in vehicle.joints]),
     ):
-        faults += [
+        errors += [
             f"two entries for the {kind} {name!r}; only one may be"
             for name in sorted({name for name in names if names.count(name) > 1})
         ]
     for body in vehicle.bodies:
-        faults += body_faults(body)
+        errors += body_errors(body)
     for thruster in vehicle.thrusters:
-        faults += thruster_faults(thruster)
+        errors += thruster_errors(thruster)
     for drive in vehicle.joints:
-        faults += drive_faults(drive)
+        errors += drive_errors(drive)
     places = [("", link) for link in links_named]
     places += [(f"thruster {one.name!r}: ", one.link) for one in vehicle.thrusters]
     for who, link in places:
         if link not in known:
-            faults.append(
+            errors.append(
                 f"{who}the robot has no link {link!r}.{choices(link, known, called='Links')}"
             )
-    return faults + density_faults(vehicle.density)
+    return errors + density_errors(vehicle.density)
 
 
 def _no_numbers(who: str, spec: BodyHydrodynamics | ThrusterSpec | JointDrive) -> list[str]:
     """Say what is not finite, and which lengths are beyond those of any vehicle."""
-    faults = []
+    errors = []
     for each in dataclasses.fields(spec):
         numbers = _numbers_of(spec, each.name)
         if not all(math.isfinite(number) for number in numbers):
-            faults.append(
+            errors.append(
                 f"{who}: {_words(each.name)} is {_list(numbers)}; expected finite numbers"
             )
         elif each.name in LENGTHS and any(abs(number) > LONGEST for number in numbers):
-            faults.append(
+            errors.append(
                 f"{who}: {_words(each.name)} is {_list(numbers)}; expected none beyond "
                 f"{LONGEST:g} (metres, not millimetres) [m]"
             )
-    return faults
+    return errors
 
 
 def _beyond_limits(who: str, spec: BodyHydrodynamics | ThrusterSpec | JointDrive) -> list[str]:
@@ -176,7 +176,7 @@ def _numbers_of(spec: BodyHydrodynamics | ThrusterSpec | JointDrive, field: str)
     return [one for one in values if isinstance(one, int | float)]
 
 
-def _mass_faults(who: str, added: Array) -> list[str]:
+def _mass_errors(who: str, added: Array) -> list[str]:
     scale = float(np.abs(added).max())
     skew = np.abs(added - added.T)
     if scale and skew.max() > 1e-6 * scale:
@@ -194,7 +194,7 @@ def _mass_faults(who: str, added: Array) -> list[str]:
     return []
 
 
-def _drag_faults(who: str, name: str, drag: Array) -> list[str]:
+def _drag_errors(who: str, name: str, drag: Array) -> list[str]:
     if min(np.diag(drag)) < 0.0:
         return [
             f"{who}: {_words(name)} has the diagonal {_list(np.diag(drag))}; "
@@ -213,14 +213,14 @@ def _drag_faults(who: str, name: str, drag: Array) -> list[str]:
     ]
 
 
-def _thrust_faults(who: str, thruster: ThrusterSpec) -> list[str]:
+def _thrust_errors(who: str, thruster: ThrusterSpec) -> list[str]:
     """Say where more command is less thrust, or none at all."""
     backward = thruster.forward if thruster.backward is None else thruster.backward
     sides = [
         ("forward", thruster.forward, thruster.limits[1], "0 at most"),
         ("backward", backward, -thruster.limits[0], "0 at least"),
     ]
-    faults = []
+    errors = []
     for side, curve, end, without in sides:
         if end == 0.0:
             continue
@@ -233,29 +233,29 @@ def _thrust_faults(who: str, thruster: ThrusterSpec) -> list[str]:
         thrusts = np.polynomial.polynomial.polyval(sizes, (0.0, *curve))  # (1001,) [N]
         before = np.maximum.accumulate(thrusts)
         if thrusts.max() > STRONGEST:
-            faults.append(
+            errors.append(
                 f"{who}: {side} gives {thrusts.max():.3g} N; expected at most {STRONGEST:g} N, "
                 "twice the thrust of the largest ships"
             )
         worst = int(np.argmax(before - thrusts))
         if not thrusts[-1] > 0.0:
-            faults.append(
+            errors.append(
                 f"{who}: {side} gives {thrusts[-1]:g} N at the limit {end:g}; expected more than 0 "
                 f"(a propeller that pushes the other way has another direction, one that does not "
                 f"run {side} the limit {without})"
             )
         elif before[worst] - thrusts[worst] > SAG * before[-1]:
             at = sizes[worst] + thruster.dead_zone
-            faults.append(
+            errors.append(
                 f"{who}: {side} falls from {before[worst]:.4g} N to {thrusts[worst]:.4g} N at the "
                 f"command {at:.3g}; expected thrust that grows with the command"
             )
         if thruster.backward is None and thruster.limits[0] == -thruster.limits[1]:
             break  # both sides are one
-    return faults
+    return errors
 
 
-def _inertia_faults(who: str, inertia: Numbers) -> list[str]:
+def _inertia_errors(who: str, inertia: Numbers) -> list[str]:
     if len(inertia) != 6:
         return [f"{who}: inertia has {len(inertia)} numbers; expected xx yy zz xy xz yz"]
     xx, yy, zz, xy, xz, yz = inertia

@@ -72,12 +72,12 @@ def said(capsys: pytest.CaptureFixture[str], file: Path) -> object:
         assert time.process_time() - began < AT_ONCE
         out = capsys.readouterr()
         assert out.err == ""
-        # a fault of the function is followed by the function, and a caret under what is wrong
+        # an error of the function is followed by the function, and a caret under what is wrong
         checked = [line for line in out.out.splitlines() if line.startswith(f"{file}")]
         shown = [line for line in out.out.splitlines() if line.startswith("  ")]
-        notices = {line for line in checked if line.endswith("(notice)")}
-        *faults, count = (line for line in checked if line not in notices)
-        assert re.fullmatch(r".*: (1 fault|\d+ faults)", count)
+        warnings = {line for line in checked if line.endswith("(warning)")}
+        *errors, count = (line for line in checked if line not in warnings)
+        assert re.fullmatch(r".*: (1 error|\d+ errors)", count)
         folder = file.with_suffix(".out")
         began = time.process_time()
         status = main(
@@ -86,10 +86,10 @@ def said(capsys: pytest.CaptureFixture[str], file: Path) -> object:
         assert time.process_time() - began < AT_ONCE
         out = capsys.readouterr()
         assert (status, out.out) == (2, "")
-        assert [line for line in out.err.splitlines() if line not in shown] == faults
+        assert [line for line in out.err.splitlines() if line not in shown] == errors
         assert all(line in out.err for line in shown)
         assert not folder.exists()
-        return [fault.removeprefix(f"{file}:") for fault in faults]
+        return [error.removeprefix(f"{file}:") for error in errors]
 
     return refused
 
@@ -103,7 +103,7 @@ CURRENT = (
     "<random>0</random><step>0.1</step>LENGTH<target>girona500</target></currentForceUpdater>"
 )
 CAMERA = "<camera>bowtech1</camera>"
-FAULTS = {
+ERRORS = {
     "an unknown measure": (
         changed("<euclideanNorm>", "<euclidianNorm>", "</euclideanNorm>", "</euclidianNorm>"),
         "<euclidianNorm>", "Did you mean euclideanNorm?",
@@ -226,12 +226,12 @@ FAULTS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", FAULTS)
-def test_one_fault_is_one_line_that_both_commands_say(said: object, name: str) -> None:
-    text, place, message = FAULTS[name]
-    [fault] = said(text)  # type: ignore[operator]
-    assert fault.startswith(f"{line_of(text, place)}: ")
-    assert message in fault
+@pytest.mark.parametrize("name", ERRORS)
+def test_one_error_is_one_line_that_both_commands_say(said: object, name: str) -> None:
+    text, place, message = ERRORS[name]
+    [error] = said(text)  # type: ignore[operator]
+    assert error.startswith(f"{line_of(text, place)}: ")
+    assert message in error
 
 
 def test_names_that_the_scene_does_not_have_are_said_all_at_once(said: object) -> None:
@@ -247,21 +247,21 @@ def test_names_that_the_scene_does_not_have_are_said_all_at_once(said: object) -
         f"<target>c</target>{GATE}</euclideanNorm>"
     )
     names = ["bx", "cam", "sub", "box2", "base", "box3", "frm", "f1", "t1"]
-    faults = said(text)  # type: ignore[operator]
-    assert [int(fault.partition(":")[0]) for fault in faults] == [
+    errors = said(text)  # type: ignore[operator]
+    assert [int(error.partition(":")[0]) for error in errors] == [
         line_of(text, f">{name}<") for name in names
     ]
-    assert all(f" is called {name!r}." in fault for name, fault in zip(names, faults, strict=True))
+    assert all(f" is called {name!r}." in error for name, error in zip(names, errors, strict=True))
 
 
 def test_a_name_that_is_wrong_in_two_places_is_said_for_each(said: object) -> None:
     text = BASE.replace("blackbox", "blakbox")
-    faults = said(text)  # type: ignore[operator]
+    errors = said(text)  # type: ignore[operator]
     lines = [line_of(text, "blakbox", n) for n in (1, 2)]
-    assert [int(fault.partition(":")[0]) for fault in faults] == lines
+    assert [int(error.partition(":")[0]) for error in errors] == lines
 
 
-def test_faults_of_benchmark_and_scene_are_said_together(
+def test_errors_of_benchmark_and_scene_are_said_together(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file, scene = tmp_path / "b.xml", tmp_path / "s.xml"
@@ -275,12 +275,12 @@ def test_faults_of_benchmark_and_scene_are_said_together(
         assert any(line.startswith(f"{scene}:2: <vehicel>") for line in both)
 
 
-def test_a_measure_with_a_fault_of_its_own_may_stand_in_the_function(said: object) -> None:
-    [fault] = said(changed("      <target> cornersTopic </target>\n", ""))  # type: ignore[operator]
-    assert "lacks <target>" in fault
+def test_a_measure_with_an_error_of_its_own_may_stand_in_the_function(said: object) -> None:
+    [error] = said(changed("      <target> cornersTopic </target>\n", ""))  # type: ignore[operator]
+    assert "lacks <target>" in error
 
 
-def test_an_updater_within_another_of_its_kind_is_a_notice(
+def test_an_updater_within_another_of_its_kind_is_a_warning(
     file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     inner = re.search("<sceneFogUpdater>.*</sceneFogUpdater>", BASE, flags=re.DOTALL)
@@ -295,7 +295,7 @@ def test_an_updater_within_another_of_its_kind_is_a_notice(
     )
 
 
-def test_levels_that_are_over_before_their_current_begins_are_a_notice(
+def test_levels_that_are_over_before_their_current_begins_are_a_warning(
     file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = (FILES / "vision-recursive.xml").read_text()
@@ -382,11 +382,11 @@ DAMAGED: dict[str, tuple[str | bytes, str]] = {
 @pytest.mark.parametrize("name", DAMAGED)
 def test_a_damaged_file_is_refused_at_once_in_clean_lines(said: object, name: str) -> None:
     text, message = DAMAGED[name]
-    faults = said(text)  # type: ignore[operator]
-    assert any(message in fault for fault in faults), faults
-    assert len(faults) <= 2
-    assert all(len(fault) < 400 for fault in faults)
-    assert not any("root:" in fault for fault in faults)  # of /etc/passwd
+    errors = said(text)  # type: ignore[operator]
+    assert any(message in error for error in errors), errors
+    assert len(errors) <= 2
+    assert all(len(error) < 400 for error in errors)
+    assert not any("root:" in error for error in errors)  # of /etc/passwd
 
 
 WHOLE: dict[str, str | bytes] = {

@@ -1,4 +1,4 @@
-"""How the command line says what went wrong: one clean line a fault, and an exit status."""
+"""How the command line says what went wrong: one clean line an error, and an exit status."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def exit_status(error: BaseException) -> int:
 
 
 def one_line(error: BaseException) -> str:
-    """Return what the reader is told; a wrong file has one line for each of its faults."""
+    """Return what the reader is told; a wrong file has one line for each of its errors."""
     if isinstance(error, KeyboardInterrupt | typer.Abort):
         return "uwsim: interrupted; what was finished is kept."
     if isinstance(error, SeveralErrors):

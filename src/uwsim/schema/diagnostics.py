@@ -1,0 +1,88 @@
+"""The errors and warnings of one file."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Literal, cast
+
+from lxml import etree
+
+from ..errors import Diagnostic, FileError, did_you_mean
+
+MAX_DIAGNOSTICS = 100
+"""Greatest number of errors, and of warnings, that are listed."""
+
+
+class Diagnostics:
+    """Errors and warnings of one file: `MAX_DIAGNOSTICS` of each in full, the others counted."""
+
+    def __init__(self, file: Path | str, *, strict: bool = False) -> None:
+        self.file = str(file)
+        self.strict = strict
+        self.lenient = False
+        """Whether junk behind a number is a warning, as where the original used atof."""
+        self._found: list[Diagnostic] = []
+        self._uncounted = {"error": 0, "warning": 0}
+        self._nodes: dict[int, tuple[object, etree._Element]] = {}
+
+    def error(self, node: etree._Element | int | None, message: str) -> None:
+        """Add an error at ``node`` (or at a line number)."""
+        self._append(node, message, "error")
+
+    def warning(self, node: etree._Element | int | None, message: str) -> None:
+        """Add a warning at ``node`` (or at a line number); the file stays valid."""
+        self._append(node, message, "warning")
+
+    def unknown(self, node: etree._Element, what: str, name: str, known: Iterable[str]) -> None:
+        """Say that ``name`` is not one of ``known``, with the nearest right one."""
+        self.error(node, f"{what}.{self.near(name, known)}")
+
+    def near(self, name: str, known: Iterable[str], severity: str = "error") -> str:
+        """Return " Did you mean x?", or nothing where nobody would read it."""
+        if len(name) > 80 or not self._has_room(severity):
+            return ""
+        return did_you_mean(name, itertools.islice(known, 1000)).replace("'", "")
+
+    def remember(self, spec: object, node: etree._Element) -> None:
+        """Keep the element a spec was read from, so that later checks can name its line."""
+        self._nodes[id(spec)] = (spec, node)
+
+    def node_of(self, spec: object) -> etree._Element | None:
+        """Return the element ``spec`` was read from."""
+        return self._nodes.get(id(spec), (None, None))[1]
+
+    @property
+    def any(self) -> bool:
+        """Whether the file is wrong (warnings do not count)."""
+        return any(diagnostic.severity == "error" for diagnostic in self._found)
+
+    def all(self) -> list[Diagnostic]:
+        """Everything found, in the order of the file."""
+        found = sorted(self._found, key=lambda diagnostic: diagnostic.line or 0)
+        for severity, count in self._uncounted.items():
+            if count:
+                message = f"and {count} more {severity}s"
+                found.append(_diagnostic(self.file, None, message, severity))
+        return found
+
+    def check(self, error: type[FileError] = FileError) -> None:
+        """Raise ``error`` with every error, if there is one."""
+        if self.any:
+            raise error([diagnostic for diagnostic in self.all() if diagnostic.severity == "error"])
+
+    def _has_room(self, severity: str) -> bool:
+        return sum(diagnostic.severity == severity for diagnostic in self._found) < MAX_DIAGNOSTICS
+
+    def _append(self, node: etree._Element | int | None, message: str, severity: str) -> None:
+        if self._uncounted[severity] or not self._has_room(severity):
+            self._uncounted[severity] += 1
+            return
+        line = cast(int | None, getattr(node, "sourceline", node))
+        self._found.append(_diagnostic(self.file, line, message, severity))
+
+
+def _diagnostic(file: str, line: int | None, message: str, severity: str) -> Diagnostic:
+    kind = cast(Literal["error", "warning"], severity)
+    return Diagnostic(file=file, line=line, message=message, severity=kind)
