@@ -6,6 +6,8 @@ a few metres' height. Nothing in it repeats, so that a tracker or a mosaic finds
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import cv2
 import numpy as np
 import numpy.typing as npt
@@ -36,6 +38,23 @@ BAND = 24
 """Rows that are painted at once."""
 
 Pixels = npt.NDArray[np.uint8]
+
+
+class Fields(NamedTuple):
+    """What the image is painted from, one value for each pixel."""
+
+    grain: Grey
+    broad: Grey
+    cobble: Grey
+    cobble_shade: Grey
+    rock: Grey
+    rock_shade: Grey
+    on_rock: Grey
+    shadow: Grey
+    crust: Grey
+    fronds: Grey
+    beds: Grey
+    exposure: Grey
 
 
 def stones(
@@ -97,37 +116,25 @@ def mosaic() -> Texture:
     on_rock = cv2.blur(chosen.astype(np.float32), (3, 3))
     small = cv2.resize(on_rock, (w // 4, h // 4), interpolation=cv2.INTER_AREA)
     shadow = cv2.resize(cv2.GaussianBlur(np.roll(small, (3, 3), (0, 1)), (0, 0), 2.0), (w, h))
-    fields: tuple[Grey, ...] = tuple(np.asarray(whole, dtype=np.float32) for whole in (
+    fields = Fields(*(np.asarray(whole, dtype=np.float32) for whole in (
         field("grain", 57, 5, 0.9), field("broad", 3, 6), cobble, cobble_shade,
         rock, rock_shade, on_rock, shadow, field("crust", 24, 6, 0.7),
         field("weed", 40, 5, 0.85), field("beds", 5, 4), _exposures(h, w),
-    ))  # fmt: skip
+    )))  # fmt: skip
     pixels = np.empty((h, w, 3), dtype=np.uint8)
     for top in range(0, h, BAND):
         # Band by band, so that the layers stay in the processor's cache; a row more each side.
         first, last = max(top - 1, 0), min(top + BAND + 1, h)
-        band = _painted(first, *(whole[first:last] for whole in fields))
+        band = _painted(first, Fields(*(whole[first:last] for whole in fields)))
         pixels[top : top + BAND] = band[top - first : top - first + BAND]
     _scatter_shells(pixels)
     return Texture(name=name, pixels=pixels, repeats=False)
 
 
-def _painted(
-    first: int,
-    grain: Grey,
-    broad: Grey,
-    cobble: Grey,
-    cobble_shade: Grey,
-    rock: Grey,
-    rock_shade: Grey,
-    on_rock: Grey,
-    shadow: Grey,
-    crust: Grey,
-    fronds: Grey,
-    beds: Grey,
-    exposure: Grey,
-) -> Pixels:
+def _painted(first: int, fields: Fields) -> Pixels:
     """Some rows of the image, of which the first has number ``first``, from their fields."""
+    grain, broad, cobble, cobble_shade, rock, rock_shade = fields[:6]
+    on_rock, shadow, crust, fronds, beds, exposure = fields[6:]
     h, w = grain.shape
     down = np.arange(first, first + h, dtype=np.float32)[:, None] * np.float32(0.123)
     right = np.arange(w, dtype=np.float32)[None, :] * np.float32(0.039)

@@ -1,0 +1,19 @@
+"""What compiled code reads of a template."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from .pyramid import Grey
+from .template import Runs
+
+
+class Patch(NamedTuple):
+    """What the loop reads of a `template.Template`."""
+
+    runs: Runs
+    values: Grey
+    slope_u: Grey
+    slope_v: Grey
+    mean: float
+    contrast: float
