@@ -28,12 +28,12 @@ def main() -> None:
         for number, row in enumerate(result["rows"]):
             cells = dict(zip(names, row, strict=True))
             if cells["total"] is None:
-                said = "nothing to measure"
+                message = "nothing to measure"
                 reasons = [m["why"] for m in result["missing"] if m["row"] == number]
-                said += ": " + reasons[0].split(":")[0].rsplit(" at ", 1)[0]
+                message += ": " + reasons[0].split(":")[0].rsplit(" at ", 1)[0]
             else:
-                said = f"total below {GOOD:g} px: {cells['total'] < GOOD}"
-            print(f"{algorithm}, fog {cells['fog']:.1f} 1/m: {cells['status']}; {said}")
+                message = f"total below {GOOD:g} px: {cells['total'] < GOOD}"
+            print(f"{algorithm}, fog {cells['fog']:.1f} 1/m: {cells['status']}; {message}")
 
 
 if __name__ == "__main__":

@@ -70,7 +70,7 @@ DAMAGES: dict[str, Callable[[bytes], bytes]] = {
 
 
 @pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
-def test_a_damaged_file_is_compiled_anew_and_that_is_said_once(
+def test_a_damaged_file_is_compiled_anew_and_that_is_reported_once(
     cache: Path, damage: Callable[[bytes], bytes], caplog: pytest.LogCaptureFixture
 ) -> None:
     assert fresh(cache).twice(1.5) == 3.0

@@ -24,7 +24,7 @@ READERS: list[Callable[[str], object]] = [
 
 
 @pytest.mark.parametrize("read", READERS, ids=lambda read: read.__name__)
-def test_a_file_that_is_nowhere_is_said_to_be_whether_named_by_text_or_path(
+def test_a_missing_file_is_reported_whether_named_by_text_or_path(
     read: Callable[..., object],
 ) -> None:
     said = []
@@ -43,7 +43,7 @@ def test_files_named_by_text_are_read() -> None:
     assert read_vehicle(str(find_vehicle("g500_physical"))).bodies
 
 
-def test_a_file_of_the_wrong_kind_is_told_its_kind() -> None:
+def test_a_file_of_the_wrong_kind_is_reported_with_its_kind() -> None:
     with pytest.raises(FileError, match="benchmark"):
         read_scene(str(benchmark_file("currents")))
     with pytest.raises(FileError, match="UWSimScene"):

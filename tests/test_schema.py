@@ -104,7 +104,7 @@ def test_strict_holds_a_file_against_the_order_of_the_fields(tmp_path: Path) -> 
     assert said == ["thing.xml:3: <name> stands behind <count>; the original wants it before"]
 
 
-def test_every_error_is_said_at_once_with_its_line(tmp_path: Path) -> None:
+def test_every_error_is_reported_at_once_with_its_line(tmp_path: Path) -> None:
     _, said = read_text(
         """<thing>
         <fogDensty>1</fogDensty>
@@ -310,7 +310,7 @@ def test_utf_16_and_a_byte_order_mark_are_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", [".", "nothing.xml", "x" * 300])
-def test_what_is_no_file_is_said_cleanly(name: str, tmp_path: Path) -> None:
+def test_what_is_no_file_is_reported_cleanly(name: str, tmp_path: Path) -> None:
     with pytest.raises(FileError):
         parse(tmp_path / name)
 

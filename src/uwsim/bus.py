@@ -257,12 +257,12 @@ class Bus:
 
     def unsaid(self, topic: str) -> str | None:
         """Say that nobody publishes on a topic, with the nearest that is; None where one does."""
-        told = [name for name, entry in self._topics.items() if entry.has_writers]
-        if _plain(topic) in told:
+        published = [name for name, entry in self._topics.items() if entry.has_writers]
+        if _plain(topic) in published:
             return None
-        near = did_you_mean(topic, told)
+        near = did_you_mean(topic, published)
         read = self._topics.get(_plain(topic))
-        alike = [name for name in told if read and self._topics[name].type is read.type]
+        alike = [name for name in published if read and self._topics[name].type is read.type]
         if not near and alike:
             near = f" Of its type there is {' and '.join(map(repr, alike[:3]))}."
         return f"nobody publishes it.{near}"

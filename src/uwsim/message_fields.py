@@ -65,9 +65,9 @@ def unfit(message: object, of: str = "") -> str | None:
         else:
             is_fit = isinstance(value, _FITTING[kind])
         if not is_fit:
-            said = " ".join(repr(getattr(message, name)).split())
-            said = said if len(said) <= 60 else said[:57] + "..."
-            return f"{of}{name} is {said}, expected {_WORDS[kind]}"
+            text = " ".join(repr(getattr(message, name)).split())
+            text = text if len(text) <= 60 else text[:57] + "..."
+            return f"{of}{name} is {text}, expected {_WORDS[kind]}"
         if wrong is not None:
             return wrong
     return None
@@ -135,21 +135,21 @@ def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
     assert isinstance(cls, type)
     found = []
     for field in dataclasses.fields(cls):
-        said = str(field.type)
-        if array := _ARRAY.fullmatch(said):
+        message = str(field.type)
+        if array := _ARRAY.fullmatch(message):
             found.append((field.name, "array", array[1]))
-        elif inner := _LIST.fullmatch(said):
+        elif inner := _LIST.fullmatch(message):
             found.append((field.name, "list", _message_type(cls, inner[1])))
-        elif said in _FITTING:
-            found.append((field.name, said, ""))
-        elif said.isidentifier():  # the name of another message
-            found.append((field.name, "message", _message_type(cls, said)))
+        elif message in _FITTING:
+            found.append((field.name, message, ""))
+        elif message.isidentifier():  # the name of another message
+            found.append((field.name, "message", _message_type(cls, message)))
     return tuple(found)
 
 
-def _message_type(cls: type, said: str) -> str:
+def _message_type(cls: type, message: str) -> str:
     """ROS's name of a message that a definition mentions; ``str`` stays."""
-    name = said.rpartition(".")[2]
+    name = message.rpartition(".")[2]
     found = getattr(sys.modules[cls.__module__], name, None)
     return str(getattr(found, "__msgtype__", name.replace("__", "/")))
 

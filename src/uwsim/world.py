@@ -165,7 +165,7 @@ class World(Protocol):
 
 
 class Stage(World, Protocol):
-    """What a scene updater sees: the world, and the knobs it may turn."""
+    """What a scene updater sees: the world, and the setters it may call."""
 
     @property
     def vehicles(self) -> tuple[str, ...]:

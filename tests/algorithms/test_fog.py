@@ -103,7 +103,7 @@ def test_until_it_is_lost_esm_is_within_five_pixels_and_its_error_grows() -> Non
 
 
 @pytest.mark.parametrize("name", ["esm", "ssd-esm"])
-def test_a_plane_that_moves_tells_trackers_from_frozen(name: str) -> None:
+def test_a_plane_that_moves_distinguishes_trackers_from_frozen(name: str) -> None:
     errors, _ = sweep(name)
     frozen, _ = sweep("frozen")
     few_levels = min(len(errors), 5)

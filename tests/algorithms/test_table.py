@@ -59,10 +59,10 @@ def test_parameters_can_be_checked_before_anything_runs() -> None:
     with pytest.raises(BadSetting, match="Did you mean 'levels'"):
         check_parameters(Esm, {"level": 2})
 
-    class Stranger:
+    class ThirdParty:
         def start(self, node: object) -> None: ...
 
-    check_parameters(Stranger, {"whatever": 1.0})
+    check_parameters(ThirdParty, {"whatever": 1.0})
 
 
 def test_every_algorithm_is_described_in_the_documentation() -> None:
@@ -73,15 +73,15 @@ def test_every_algorithm_is_described_in_the_documentation() -> None:
             assert f"`{parameter}`" in text
 
 
-def test_the_stranger_of_the_documentation_works(
+def test_the_third_party_algorithm_of_the_documentation_works(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     text = (DOCS / "your-own-algorithm.md").read_text()
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    (tmp_path / "brightest_stranger.py").write_text(blocks[0])
+    (tmp_path / "brightest_third_party.py").write_text(blocks[0])
     monkeypatch.syspath_prepend(tmp_path)
     node = FakeNode()
-    load_algorithm("brightest_stranger:Brightest")().start(node)
+    load_algorithm("brightest_third_party:Brightest")().start(node)
     pixels = np.zeros((240, 320, 3), np.uint8)
     node.show(pixels)
     assert node.calls == ["startBench"]

@@ -35,7 +35,7 @@ def test_bench_says_at_the_start_how_many_repeats_a_comparison_needs(
         (1, 5, "comparing this result with one other needs at least 6 repeats"),
     ],
 )  # fmt: skip
-def test_what_is_said_is_what_compare_will_find(n_results: int, repeats: int, said: str) -> None:
+def test_the_note_says_what_compare_will_find(n_results: int, repeats: int, said: str) -> None:
     assert said in (repeats_note(n_results, 3, repeats) or "")
 
 

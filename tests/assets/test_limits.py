@@ -1,4 +1,4 @@
-"""Mesh files of strangers: what they name stays in their folder, what they ask for is bounded."""
+"""Mesh files of third parties: files they name lie in their folder, sizes are limited."""
 
 from __future__ import annotations
 

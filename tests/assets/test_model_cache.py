@@ -75,7 +75,7 @@ DAMAGES = {
 
 
 @pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
-def test_a_damaged_file_is_made_anew_and_that_is_said_once(
+def test_a_damaged_file_is_made_anew_and_that_is_reported_once(
     cache: Path, damage: Callable[[bytes], bytes], caplog: pytest.LogCaptureFixture
 ) -> None:
     first = fresh("objects/hook")

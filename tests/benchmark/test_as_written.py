@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from uwsim.benchmark.reader import check_benchmark, read_benchmark
-from uwsim.benchmark.updaters import references
+from uwsim.benchmark.updaters import swept_parameters
 from uwsim.errors import BenchmarkError
 
 DOCTYPE = '<!DOCTYPE benchmark SYSTEM "benchmark.dtd">'
@@ -52,7 +52,7 @@ def test_numbers_are_read_as_far_as_they_go_as_the_original_reads_them(tmp_path:
     updater = read_benchmark(path).scene_updater
     assert len(updater.values()) == 3
     assert updater.seconds_per_level == 2.0
-    assert references(updater) == ("fog",)
+    assert swept_parameters(updater) == ("fog",)
     assert said(path) == [
         "<initialValue> is '0.0f'; read as 0, as the original does",
         "<interval> is '2 s'; read as 2, as the original does",
@@ -89,7 +89,7 @@ def test_letters_beyond_ascii_may_stand_in_the_encoding_that_is_named(
         ("t < 2 ? 1 : 0", "a '<' that begins no element; for 'less than' write &lt;"),
     ],
 )
-def test_a_sign_that_xml_keeps_for_itself_is_told_how_to_be_written(
+def test_a_sign_reserved_by_xml_is_reported_with_its_escape(
     tmp_path: Path, function: str, advice: str
 ) -> None:
     with pytest.raises(BenchmarkError, match="not well-formed XML") as caught:
@@ -104,7 +104,7 @@ def test_a_sign_that_xml_keeps_for_itself_is_told_how_to_be_written(
         ("http://www.w3.org/2001/XInclude", "nothing is included: write it here"),
     ],
 )
-def test_what_another_program_should_have_replaced_is_said(
+def test_what_another_program_should_have_replaced_is_reported(
     tmp_path: Path, space: str, advice: str
 ) -> None:
     path = written(tmp_path, more=f'<x:include xmlns:x="{space}" href="m.xml"/>', head="")

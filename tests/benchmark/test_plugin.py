@@ -272,7 +272,7 @@ def test_each_mistake_in_a_plugin_is_one_clean_error(tmp_path: Path, text: str, 
     assert len(found.splitlines()) == 1
 
 
-def test_a_file_that_is_not_there_or_no_file_is_said(tmp_path: Path) -> None:
+def test_a_file_that_is_not_there_or_no_file_is_reported(tmp_path: Path) -> None:
     assert "none.py: cannot be read: No such file or directory" in said(tmp_path / "none.py")
     assert "is not a regular file: not a plugin" in said(tmp_path)
     (tmp_path / "bytes.py").write_bytes(b"\xff\xfe\x00")
@@ -431,7 +431,7 @@ def test_parameters_that_no_result_can_hold_are_refused_before_the_first_level(
         ("{'sky': Path('sky.png')}", "MurkSpec.files gives 'sky.png' for 'sky'; expected the path"),
     ],
 )
-def test_files_of_an_updater_that_are_not_there_are_said_with_its_line(
+def test_files_of_an_updater_that_are_not_there_are_reported_with_its_line(
     folder: Path, gives: str, said: str
 ) -> None:
     bind = '    def bind(self, stage: Stage) -> "Murk":\n'

@@ -35,7 +35,7 @@ def line_of(text: str, word: str) -> int:
     return text.count("\n", 0, text.index(word)) + 1
 
 
-def test_arm_positions_that_the_arm_cannot_take_are_said(
+def test_arm_positions_that_the_arm_cannot_take_are_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     arm = ARM.replace("FIRST", joints(*[0] * 9)).replace("SECOND", joints(99, *[0] * 8))
@@ -54,7 +54,7 @@ def test_arm_positions_that_the_arm_cannot_take_are_said(
         ("<type>service</type><target>autoInit</target>", "which the algorithm serves"),
     ],
 )
-def test_a_start_that_never_comes_is_said(
+def test_a_start_that_never_comes_is_reported(
     start: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     tail = BASE.rindex("<startOn>")
@@ -64,7 +64,7 @@ def test_a_start_that_never_comes_is_said(
     assert [said for at, said in warnings(text, tmp_path, capsys) if at == line and words in said]
 
 
-def test_a_benchmark_that_measures_nothing_is_said(
+def test_a_benchmark_that_measures_nothing_is_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = re.sub("<measures>.*</measures>", "<measures/>", BASE, flags=re.DOTALL)

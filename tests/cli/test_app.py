@@ -137,7 +137,9 @@ def test_a_wrong_call_gets_one_line_and_exit_status_2(
     assert capsys.readouterr().err == said
 
 
-def test_who_leaves_something_out_is_told_where_to_look(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_argument_is_reported_with_where_to_look(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     assert main(["check"]) == 2
     said = "uwsim: Missing argument 'FILE.xml'; uwsim check -h shows what it takes.\n"
     assert capsys.readouterr().err == said
@@ -174,7 +176,7 @@ WHOLE = errors.Diagnostic(file="a.xml", line=None, message="too deep.")
         (errors.BadSetting("\x1b[2J"), "uwsim: \\x1b[2J\n", 2),
     ],
 )
-def test_an_error_is_said_in_clean_lines_and_earns_its_exit_status(
+def test_an_error_is_printed_in_clean_lines_with_its_exit_status(
     error: BaseException,
     said: str,
     status: int,
@@ -241,7 +243,7 @@ def test_what_the_system_refuses_while_a_run_is_on_is_a_failed_run() -> None:
         raise BrokenPipeError
 
 
-def test_a_reader_that_leaves_early_is_told_nothing() -> None:
+def test_a_reader_that_closes_the_pipe_early_causes_no_error() -> None:
     done = subprocess.run(
         ["bash", "-c", f"{sys.executable} -m uwsim.cli list | head -1"],
         capture_output=True,

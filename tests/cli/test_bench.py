@@ -65,7 +65,7 @@ def test_when_every_row_broke_all_is_written_and_the_run_has_failed(
     assert "ZeroDivisionError: no focus" in line
 
 
-def test_all_that_is_wrong_with_a_call_is_said_at_once_a_line_each(
+def test_all_that_is_wrong_with_a_call_is_reported_at_once_a_line_each(
     benchmark: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "out"
@@ -91,7 +91,7 @@ def test_all_that_is_wrong_with_a_call_is_said_at_once_a_line_each(
     assert sorted(os.listdir(out)) == ["notes.txt"]
 
 
-def test_what_names_a_benchmark_that_is_nowhere_is_said_with_the_rest(
+def test_what_names_a_benchmark_that_is_nowhere_is_reported_with_the_rest(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     call = ["bench", "visibilty", "--algorithm", "esmm", "--level", "fog", "--scene", "nowhere.xml"]
@@ -102,7 +102,7 @@ def test_what_names_a_benchmark_that_is_nowhere_is_said_with_the_rest(
     assert level == "uwsim: --level 'fog': expected NAME=VALUE."
 
 
-def test_options_that_cannot_be_read_are_said_all_at_once(
+def test_options_that_cannot_be_read_are_reported_all_at_once(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["bench", "visibility", "--seed", "one", "--repeat", "0"]) == 2

@@ -26,7 +26,7 @@ def test_a_file_without_errors_is_status_0(capsys: pytest.CaptureFixture[str]) -
     assert said.count(": no errors") == 2
 
 
-def test_errors_are_status_2_and_all_are_said(
+def test_errors_are_status_2_and_all_are_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "scene.xml"

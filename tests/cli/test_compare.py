@@ -45,7 +45,7 @@ def test_two_results_are_compared_into_a_directory(
 
 
 @pytest.mark.usefixtures("without_plots")
-def test_an_earlier_comparison_is_replaced_only_if_that_was_said(
+def test_an_earlier_comparison_is_replaced_only_with_overwrite(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["compare", *two, "--out", "out"]) == 0
@@ -106,7 +106,7 @@ def test_a_directory_of_several_algorithms_stands_for_all_of_them(
 
 
 @pytest.mark.usefixtures("without_plots")
-def test_results_of_one_algorithm_are_told_apart_by_their_directories(
+def test_results_of_one_algorithm_are_distinguished_by_their_directories(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     save(noisy("esm", 1.1, n=8, salt=9), Path("fast/esm.result"))

@@ -253,7 +253,7 @@ def test_all_mistakes_are_reported_at_once(
     assert sum(line.startswith("uwsim: ") for line in said.splitlines()) == 4
 
 
-def test_a_second_updater_must_be_told_where_to_stay(
+def test_a_second_updater_needs_a_chosen_value(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     call = ["envelope", "nested.xml", "--plugin", "own.py", "--over", "load"]

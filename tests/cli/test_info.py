@@ -16,7 +16,7 @@ def said(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
     return capsys.readouterr().out
 
 
-def test_a_scene_is_told_before_anything_is_written_for_it(
+def test_a_scene_is_reported_before_anything_is_written_for_it(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     text = said(capsys, "currents-scene")

@@ -45,7 +45,7 @@ def test_without_a_kind_everything_is_listed(capsys: pytest.CaptureFixture[str])
     assert {*KINDS, *MEASURES, *bundled("scenes"), *bundled("benchmarks")} <= set(words)
 
 
-def test_a_misspelt_kind_is_told_the_right_one(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_misspelt_kind_is_reported_with_the_right_one(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list", "sensor"]) == 2
     assert "Did you mean 'sensors'?" in capsys.readouterr().err
 

@@ -34,7 +34,7 @@ def call(*words: str | Path, capfd: pytest.CaptureFixture[str]) -> tuple[int, st
 
 
 @pytest.mark.parametrize("doctype", [DOCTYPE, ""])
-def test_a_bundled_robot_stands_for_a_lost_file_of_its_name_and_the_user_is_told(
+def test_a_bundled_robot_replaces_a_lost_file_of_its_name_and_that_is_reported(
     doctype: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     file = scene(tmp_path, LOST_BUT_OURS, doctype=doctype)
@@ -92,7 +92,9 @@ def test_a_mesh_of_a_type_that_cannot_be_read_here_is_an_error_in_check_too(
     assert "sudo apt-get install openscenegraph" in out
 
 
-def test_a_lost_collision_shape_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_lost_collision_shape_is_reported(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     thing = (
         "<object><name>box</name><file>objects/blackbox.osg</file><position><x>0</x><y>0</y>"
         "<z>0</z></position><orientation><r>0</r><p>0</p><y>0</y></orientation><physics>"

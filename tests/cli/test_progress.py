@@ -35,7 +35,7 @@ def test_what_was_done_before_is_no_part_of_the_speed() -> None:
     assert left.seconds == 7.0
 
 
-def test_nothing_is_said_before_a_second_piece() -> None:
+def test_nothing_is_reported_before_a_second_piece() -> None:
     left = TimeLeft(3)
     assert left.seconds is None
     left.piece(9.0)

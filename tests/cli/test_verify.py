@@ -194,7 +194,7 @@ def test_every_altered_value_in_the_head_of_a_unit_is_named(
     assert text.count("units/00001.jsonl: ") == 1
 
 
-def test_where_no_result_is_it_is_said_what_is_there_and_how_to_go_on(
+def test_where_no_result_is_the_error_says_what_is_there_and_how_to_go_on(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def said(*words: str) -> str:

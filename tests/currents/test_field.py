@@ -151,7 +151,7 @@ def test_netcdf_may_be_packed_and_steady(tmp_path: Path) -> None:
         ("x,u,v\n0,1,1\n0,1,1\n", "node t 0, x 0, y 0, z 0 stands twice"),
     ],
 )
-def test_what_is_wrong_with_a_table_is_said(text: str, said: str, tmp_path: Path) -> None:
+def test_what_is_wrong_with_a_table_is_reported(text: str, said: str, tmp_path: Path) -> None:
     path = tmp_path / "field.csv"
     path.write_text(text)
     with pytest.raises(AssetError, match=said):
@@ -169,7 +169,7 @@ def write_nc(path: Path, **variables: tuple[tuple[str, ...], list[float]]) -> Pa
     return path
 
 
-def test_what_is_wrong_with_a_netcdf_file_is_said(tmp_path: Path) -> None:
+def test_what_is_wrong_with_a_netcdf_file_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "a.nc"
     x = (("x",), [0.0, 1.0])
     with pytest.raises(AssetError, match="has x, u; expected u and v"):

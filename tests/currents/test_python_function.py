@@ -88,7 +88,7 @@ def test_its_acceleration_is_a_difference_also_at_time_0() -> None:
         ("broken", r"raised at \[0\.0, 0\.0, 0\.0\], 0 s: ZeroDivisionError: division by zero"),
     ],
 )
-def test_what_it_does_wrong_is_said(function: str, said: str) -> None:
+def test_what_it_does_wrong_is_reported(function: str, said: str) -> None:
     with pytest.raises(BadSetting, match=said):
         bound(function).velocity(np.zeros((1, 3)), 0.0)
 
@@ -144,6 +144,6 @@ def test_a_module_that_breaks_is_an_error(code: str, said: str, tmp_path: Path) 
 
 
 @pytest.mark.parametrize("function", [".x:f", "a..b:f", "a:", "a b:c", "a:b.c", "../x:f"])
-def test_what_names_no_function_is_said_without_running_anything(function: str) -> None:
+def test_what_names_no_function_is_reported_without_running_anything(function: str) -> None:
     with pytest.raises(BadSetting, match="expected 'module:function'"):
         PythonFunctionSpec(function=function).files(Place(stream=lambda name: stream(0, name)))

@@ -38,7 +38,7 @@ def vehicle_on(state: FakeState) -> SceneVehicle:
 
 
 @pytest.mark.parametrize("name", DEVICES)
-def test_a_device_without_bind_is_said_to_be_read_only(name: str) -> None:
+def test_a_device_without_bind_is_reported_as_read_only(name: str) -> None:
     spec = DEVICES[name]
     assert bool(limit_of("vehicle", name)) is not hasattr(spec, "bind")
     assert issubclass(spec, DeviceSpec) is hasattr(spec, "bind")

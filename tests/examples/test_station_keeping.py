@@ -110,7 +110,7 @@ def test_only_whole_periods_after_thirty_seconds_count() -> None:
         whole_periods(time[time < 59.0])
 
 
-def test_a_level_that_is_not_in_the_logs_is_said() -> None:
+def test_a_level_that_is_not_in_the_logs_is_reported() -> None:
     log = Log(measure="offset", header=("current [m/s]", "time [s]", "total", "x", "y"))
     result = Result(inputs={}, run={}, columns=(), rows=(), facts={"d": (2.2, "m")})
     names = ("centroid", "objectCentered", "offset")

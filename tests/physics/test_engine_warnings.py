@@ -38,7 +38,7 @@ def warned(memory: str) -> str:
     return why_untrue(data, 0.002, 0.002, names)
 
 
-def test_contacts_that_find_no_room_are_said(
+def test_contacts_that_find_no_room_are_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)

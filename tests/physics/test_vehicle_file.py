@@ -65,7 +65,7 @@ def test_a_short_file_is_read_with_defaults(tmp_path: Path) -> None:
     )
 
 
-def test_every_error_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> None:
+def test_every_error_of_a_file_is_reported_at_once_with_its_line(tmp_path: Path) -> None:
     text = """<hydrodynamics name="mine">
   <body link="base_lnk"> <addedMass>1 2 3</addedMass> </body>
   <body link="base_link"> <addedMass>-1 2 3 4 5 6</addedMass> <mss>3</mss> </body>
@@ -93,7 +93,9 @@ def test_every_error_of_a_file_is_said_at_once_with_its_line(tmp_path: Path) -> 
         assert message in said, f"{message}\n--\n{said}"
 
 
-def test_a_shape_that_is_none_is_said_once_and_its_lengths_are_not_counted(tmp_path: Path) -> None:
+def test_a_shape_that_is_none_is_reported_once_and_its_lengths_are_not_counted(
+    tmp_path: Path,
+) -> None:
     shape = "<shape>cone</shape> <size>0.5 0.4 0.3</size> </body>"
     (said,) = diagnostics_of(tmp_path, MINIMAL.replace("</body>", shape))
     assert "<shape> is 'cone'; expected one of" in said
@@ -138,7 +140,7 @@ def test_a_bundled_part_is_included_by_its_path_unless_one_lies_beside_the_file(
     assert len(read_vehicle(tmp_path / "mine.xml").bodies) == 1
 
 
-def test_an_unknown_set_is_told_of_those_beside_the_scene(tmp_path: Path) -> None:
+def test_an_unknown_set_is_reported_with_those_next_to_the_scene(tmp_path: Path) -> None:
     (tmp_path / "my_rov.xml").write_text(MINIMAL)
     (tmp_path / "scene.xml").write_text("<UWSimScene/>")
     with pytest.raises(UnknownName, match="Did you mean 'my_rov'") as wrong:
@@ -303,7 +305,7 @@ def test_a_body_made_in_python_with_a_number_that_is_none_is_refused(
         ("arm.xml</include><include>arm.xml", "2: <include> 'arm.xml': it is included already"),
     ],
 )
-def test_what_cannot_be_included_is_said_where_it_should_be(
+def test_what_cannot_be_included_is_reported_where_it_should_be(
     name: str, said: str, tmp_path: Path
 ) -> None:
     (tmp_path / "inner").mkdir()

@@ -55,7 +55,7 @@ def test_it_swims_in_a_scene_as_the_page_shows(said_by: Callable[[str], str]) ->
     assert said_by(blocks("python")[2]) in blocks("text")
 
 
-def test_a_topic_that_leads_nowhere_is_said_as_the_page_shows(
+def test_a_topic_that_leads_nowhere_is_reported_as_the_page_shows(
     said_by: Callable[[str], str],
 ) -> None:
     said = said_by(blocks("python")[2].replace('publisher("/twist"', 'publisher("/twst"'))
@@ -94,7 +94,7 @@ def test_a_vehicle_without_any_mass_is_an_error_of_its_scene(folder: Path) -> No
     ("volume", "severity"),
     [("1e9", "error"), ("20.1", "error"), ("0.2", "warning"), ("0.0001", "warning")],
 )
-def test_a_vehicle_far_from_floating_is_said(volume: str, severity: str, folder: Path) -> None:
+def test_a_vehicle_far_from_floating_is_reported(volume: str, severity: str, folder: Path) -> None:
     side_file = folder / "my_rov.xml"
     side_file.write_text(side_file.read_text().replace("0.0201", volume))
     (diagnostic,) = diagnostics_of(folder / "my_scene.xml")

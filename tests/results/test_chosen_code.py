@@ -36,7 +36,7 @@ def begun_elsewhere(directory: Path) -> Path:
     return directory
 
 
-def test_the_same_choice_is_said_nothing_about() -> None:
+def test_an_unchanged_choice_is_not_reported() -> None:
     here = json.loads(json.dumps(chosen_code()))
     assert set(here) == {"numpy", "OpenBLAS", "OpenCV", "numba"}
     assert all(here["OpenBLAS"])

@@ -107,7 +107,9 @@ def test_many_contradictions_are_counted(tmp_path: Path) -> None:
         checked(tmp_path)
 
 
-def test_what_cannot_be_checked_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_cannot_be_checked_is_reported(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     one, other = written(tmp_path / "esm"), written(tmp_path / "orb", "orb")
     assert remarks(read_entries([one, other])) == ()
     (one / "units" / "00000.jsonl").unlink()

@@ -113,7 +113,7 @@ def wide_and_failing(seeds: tuple[int, ...] = (1,)) -> Result:
 
 
 @pytest.mark.parametrize("width", [30, 60, 80, 100])
-def test_algorithm_error_is_said_whole_at_any_width(width: int) -> None:
+def test_algorithm_error_is_printed_whole_at_any_width(width: int) -> None:
     drawn = text(wide_and_failing(), width=width)
     assert drawn[2].endswith("algorithm error")
     assert "not shown for want of room: measure" in " ".join(drawn)

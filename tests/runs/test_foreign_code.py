@@ -94,7 +94,7 @@ def test_no_code_refuses_files_that_name_code(
     assert not (folder / "ran").exists()
 
 
-def test_an_algorithm_that_a_benchmark_names_is_told(
+def test_an_algorithm_that_a_benchmark_names_is_reported(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ["bench", "tracked.xml", "--scene", "visibility-scene", "--level", "nothing=1"]

@@ -25,7 +25,7 @@ ROBOT = """<robot name="rov"> <link name="base_link"/> <link name="arm"/>
 <limit lower="{}" upper="{}"/> </joint> </robot>"""
 
 
-def test_angles_beyond_a_turn_are_said_as_degrees_and_within_a_turn(tmp_path: Path) -> None:
+def test_angles_beyond_a_turn_are_reported_as_degrees_and_within_a_turn(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(SCENE)
     said = {diagnostic.line: diagnostic.message for diagnostic in check_scene(path)}

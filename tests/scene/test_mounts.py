@@ -205,7 +205,7 @@ OF_2013 = """<?xml version="1.0"?><!DOCTYPE UWSimScene SYSTEM "UWSimScene.dtd">
 
 
 @pytest.mark.parametrize(("pitch", "is_old"), [("0", True), ("3.14", False), ("1.57", False)])
-def test_a_scene_of_before_july_2014_is_told_the_switch_that_turns_its_cameras(
+def test_a_scene_of_before_july_2014_is_reported_with_the_switch_that_turns_its_cameras(
     pitch: str, is_old: bool, tmp_path: Path
 ) -> None:
     file = tmp_path / "scene.xml"

@@ -363,7 +363,7 @@ def test_a_current_of_2013_in_the_ocean_is_a_sinusoid(tmp_path: Path) -> None:
     assert "uwsimSinusoid" in said[0]
 
 
-def test_a_word_in_a_current_of_2013_is_told_at_its_line(tmp_path: Path) -> None:
+def test_a_word_in_a_current_of_2013_is_reported_at_its_line(tmp_path: Path) -> None:
     said = diagnostics(CURRENT_OF_2013.replace(" 0.1 ", "strong"), tmp_path)
     assert len(said) == 1
     assert "strong" in said[0]

@@ -138,7 +138,7 @@ def test_mimics_of_mimics_are_not_followed(tmp_path: Path) -> None:
     assert joint_positions(robot, (0.3,)) == pytest.approx({"1": 0.3, "2": 0.7, "3": 0.5})
 
 
-def test_a_joint_that_mimics_nobody_is_free_and_the_user_is_told(tmp_path: Path) -> None:
+def test_a_joint_that_mimics_nobody_is_free_and_that_is_reported(tmp_path: Path) -> None:
     file = tmp_path / "robot.urdf"
     inside = LINKS + joint("jaw_1") + joint("jaw_2", '<mimic joint="jaw1"/>', of="a c")
     file.write_text(f'<robot name="r">{inside}</robot>')
@@ -204,7 +204,7 @@ def test_what_other_programs_wrote_is_passed_over(tmp_path: Path) -> None:
     assert robot.root == "a"
 
 
-def test_every_error_of_a_robot_is_said_at_once(tmp_path: Path) -> None:
+def test_every_error_of_a_robot_is_reported_at_once(tmp_path: Path) -> None:
     said = refused(
         '<link name="arm"/><link name="arm"/>'
         '<link name="b"><visual><geometry><mesh/></geometry></visual></link>'

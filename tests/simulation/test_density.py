@@ -47,7 +47,7 @@ def test_temperature_and_salinity_give_a_density() -> None:
     assert densities(scene)["rexrov"] == pytest.approx(1027.67547, abs=1e-5)
 
 
-def test_added_mass_and_drag_are_those_of_the_water_and_the_lift_is_told() -> None:
+def test_added_mass_and_drag_are_those_of_the_water_and_the_lift_is_reported() -> None:
     scene = two(OceanStateSpec(density=1028.0))
     search = Search(scene, read_robots(scene, ()), ())
     girona, own = search.dynamics[0], Search(

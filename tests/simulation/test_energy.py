@@ -98,7 +98,7 @@ def test_a_constant_thrust_draws_its_power_times_time(vehicle: VehicleHydrodynam
     assert energy.value == pytest.approx(2.0 * power + 50.0 + energy.details["joints"])
 
 
-def test_energy_is_the_integral_of_the_thrusts_and_efforts_that_are_told(
+def test_energy_is_the_integral_of_the_published_thrusts_and_efforts(
     vehicle: VehicleHydrodynamics,
 ) -> None:
     simulation = make(INTERFACES)
@@ -171,7 +171,7 @@ def test_a_joint_held_against_gravity_draws_its_copper_loss_alone(
     assert energy.details["joint.Shoulder"] == pytest.approx(loss, rel=0.01)
 
 
-def test_a_joint_that_is_pushed_draws_for_the_effort_it_was_told(
+def test_a_joint_that_is_pushed_draws_for_the_commanded_effort(
     vehicle: VehicleHydrodynamics,
 ) -> None:
     simulation = make(INTERFACES)
@@ -216,7 +216,7 @@ def test_reading_what_is_drawn_changes_nothing() -> None:
     assert poses[0] == poses[1]
 
 
-def test_a_vehicle_that_is_not_simulated_has_no_actuators_and_a_stranger_is_named() -> None:
+def test_a_vehicle_that_is_not_simulated_has_no_actuators_and_an_unknown_one_is_named() -> None:
     simulation = make(change=lambda spec: replace(spec, dynamics=None))
     assert simulation.world.actuators(NAME) is None
     with pytest.raises(UnknownName, match="Did you mean 'girona500'"):

@@ -109,7 +109,7 @@ def test_the_ground_is_not_dropped_where_nobody_gave_it_physics() -> None:
     assert position(simulation, "blackbox")[2] == pytest.approx(FLOOR_DEPTH - HEIGHT / 2, abs=0.003)
 
 
-def test_a_vehicle_goes_as_it_is_told_and_pushes_what_is_in_its_way() -> None:
+def test_a_vehicle_moves_as_commanded_and_pushes_what_is_in_its_way() -> None:
     simulation = play(box(3.0, 3.5, 1.9, mass=15.0), gravity=(0.0, 0.0, 1e-9))
     measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
     measure.start()
@@ -133,7 +133,7 @@ def test_where_nothing_is_loose_a_vehicle_touches_all_the_same() -> None:
     assert {contact.other for contact in simulation.world.contacts("girona500")} == {"blackbox"}
 
 
-def test_an_arm_that_is_told_to_jump_pushes_and_stays_where_it_was_told() -> None:
+def test_an_arm_that_is_commanded_to_jump_pushes_and_stays_where_it_was_commanded() -> None:
     simulation = play(box(3.0, 3.5, 1.9, mass=15.0))
     before = [
         simulation.world.body(f"girona500/{link}").world_from_body for link in ("part2", "part3")

@@ -166,7 +166,7 @@ def test_where_nothing_has_physics_all_is_touched_and_the_ground_by_its_faces() 
     assert CollisionSpec(name="hits", target="wall").bind(open_water.world)
 
 
-def test_who_cannot_be_touched_is_told_why() -> None:
+def test_what_cannot_be_touched_is_reported_with_the_reason() -> None:
     both = scene(BLACKBOX, wall(4.0))
     assert both.world.contacts("girona500") == []
     with pytest.raises(UwsimError, match="it has no <physics>, nor <u:solid> 1; solid are: wall"):

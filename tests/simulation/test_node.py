@@ -95,7 +95,7 @@ def test_a_latency_that_is_no_time_is_refused(latency: float | str) -> None:
         make_node(Bus(), latency_s=latency)
 
 
-def test_topics_that_have_no_other_end_are_said_with_the_nearest_that_has() -> None:
+def test_topics_that_have_no_other_end_are_reported_with_the_nearest_that_has() -> None:
     bus = Bus()
     node = make_node(bus)
     bus.inbox("twist", String)
@@ -112,7 +112,7 @@ def test_topics_that_have_no_other_end_are_said_with_the_nearest_that_has() -> N
     assert node.unfed() == node.unconnected()[:1]
 
 
-def test_a_topic_like_none_that_there_is_is_said_with_those_of_its_type() -> None:
+def test_a_topic_unlike_all_others_is_reported_with_those_of_its_type() -> None:
     bus = Bus()
     node = make_node(bus)
     bus.publisher("/front", String)

@@ -57,7 +57,7 @@ WAYS = {
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_a_name_that_leads_nowhere_is_said_with_its_line(way: str, tmp_path: Path) -> None:
+def test_a_name_that_leads_nowhere_is_reported_with_its_line(way: str, tmp_path: Path) -> None:
     old, new, said = WAYS[way]
     assert TEXT.count(old) == 1
     changed = TEXT.replace(old, new)
@@ -74,7 +74,7 @@ def test_a_name_that_leads_nowhere_is_said_with_its_line(way: str, tmp_path: Pat
     assert caught.value.diagnostics == tuple(diagnostics)
 
 
-def test_a_side_file_that_is_wrong_is_said_with_its_own_lines(tmp_path: Path) -> None:
+def test_a_wrong_hydrodynamics_file_is_reported_with_its_own_lines(tmp_path: Path) -> None:
     (tmp_path / "mine.xml").write_text(
         '<hydrodynamics name="mine">\n<body link="base_lnk"> <mass>1</mass> </body>\n'
         '<joint name="Elbo"> <efficiency>0.5</efficiency> </joint>\n</hydrodynamics>'
@@ -117,7 +117,7 @@ def test_dynamics_that_name_no_set_are_an_error(tmp_path: Path) -> None:
     assert "<u:dynamics> is empty; expected text" in diagnostic
 
 
-def test_all_are_said_at_once(tmp_path: Path) -> None:
+def test_all_are_reported_at_once(tmp_path: Path) -> None:
     changed = TEXT
     for way in ("a thruster", "thruster commands for nobody", "a field that is not there"):
         changed = changed.replace(*WAYS[way][:2])
@@ -162,7 +162,7 @@ def test_the_bundled_scenes_have_no_such_error() -> None:
         ] == []
 
 
-def test_a_mesh_of_too_many_faces_is_said_before_a_run_refuses_it(
+def test_a_mesh_of_too_many_faces_is_reported_before_a_run_refuses_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("uwsim.physics.shapes.MAX_PIECES", 3)

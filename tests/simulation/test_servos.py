@@ -56,7 +56,9 @@ def test_an_arm_at_rest_stays_within_a_milliradian(timestep: float) -> None:
 
 
 @pytest.mark.parametrize("timestep", STEPS)
-def test_an_arm_goes_where_it_is_told_and_settles_within_a_milliradian(timestep: float) -> None:
+def test_an_arm_goes_where_it_is_commanded_and_settles_within_a_milliradian(
+    timestep: float,
+) -> None:
     simulation = make(timestep)
     wanted = [-0.5, 1.2, 0.5, 2.0, 0.3]
     command(simulation, position=wanted)

@@ -60,7 +60,7 @@ def test_terrain_that_is_no_solid_is_passed_through_and_stays_where_it_is() -> N
     )
 
 
-def test_scenery_that_is_said_to_be_solid_stops_a_vehicle() -> None:
+def test_scenery_that_is_declared_solid_stops_a_vehicle() -> None:
     through = dive(make(objects=(box_scenery(),)), 6.0)
     stopped = dive(make(objects=(box_scenery(is_solid=True),)), 6.0)
     assert through > 3.5

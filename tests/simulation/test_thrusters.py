@@ -184,7 +184,7 @@ def test_an_effort_lets_the_joint_go_as_far_as_its_stop(simulation: Simulation) 
     assert simulation.world.joints(NAME)[0] == pytest.approx(0.0, abs=0.03)
 
 
-def test_the_odometry_tells_pose_and_twist_over_ground(simulation: Simulation) -> None:
+def test_the_odometry_publishes_pose_and_twist_over_ground(simulation: Simulation) -> None:
     inbox = simulation.bus.inbox("/odometry", Odometry)
     set_current(simulation, (0.0, 0.1, 0.0))
     command(simulation, 0.2, 0.0)
@@ -197,7 +197,7 @@ def test_the_odometry_tells_pose_and_twist_over_ground(simulation: Simulation) -
     assert last.twist.twist.linear.x == pytest.approx(0.3, abs=0.01)
 
 
-def test_the_joints_are_told_with_velocities_and_efforts(simulation: Simulation) -> None:
+def test_the_joints_are_published_with_velocities_and_efforts(simulation: Simulation) -> None:
     inbox = simulation.bus.inbox("/joints", JointState)
     bend(simulation, ["Slew"], velocity=[-0.2])
     run(simulation, 3.0)

@@ -248,7 +248,7 @@ def said_of(folder: Path, *thrusters: str) -> list[str]:
     return [diagnostic.message for diagnostic in checked]
 
 
-def test_what_thrusters_cannot_give_is_said_at_the_start_and_by_check(tmp_path: Path) -> None:
+def test_what_thrusters_cannot_give_is_reported_at_the_start_and_by_check(tmp_path: Path) -> None:
     (said,) = said_of(tmp_path, STERN)
     assert said.startswith(
         "the vehicle 'torpedo': its thrusters (1) drive surge (-40 to 40 N); expected surge, sway, "
@@ -267,7 +267,7 @@ def test_what_thrusters_cannot_give_is_said_at_the_start_and_by_check(tmp_path: 
     assert Simulation(read_scene(tmp_path / "scene.xml")).world.warnings == ()
 
 
-def test_of_the_bundled_scene_nothing_is_said() -> None:
+def test_nothing_is_reported_of_the_bundled_scene() -> None:
     assert (
         Simulation(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).world.warnings == ()
     )

@@ -27,7 +27,7 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-sc
 
 
 @pytest.mark.parametrize("name", [name for name in INTERFACES if name != "SimulatedDeviceROS"])
-def test_what_has_no_bind_is_said_to_be_read_only(name: str) -> None:
+def test_what_has_no_bind_is_reported_as_read_only(name: str) -> None:
     spec = INTERFACES[name]
     assert bool(limit_of("rosInterfaces", name)) is not spec.is_simulated()
     assert bool(spec.carries()) is spec.is_simulated()

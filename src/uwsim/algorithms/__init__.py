@@ -1,4 +1,4 @@
-"""Algorithms under test: pure cores, each behind the door that a stranger's program uses."""
+"""Bundled algorithms under test: pure cores, wired to topics as a third-party program is."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def summary(algorithm: type[Algorithm]) -> str:
 
 
 def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS) -> type[Algorithm]:
-    """Find an algorithm by its name in ``table``, or a stranger's by ``module:Class``.
+    """Find an algorithm by its name in ``table``, or a third-party one by ``module:Class``.
 
     Raises:
         BadSetting: there is no such algorithm; says what there is.

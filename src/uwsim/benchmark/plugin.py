@@ -132,10 +132,10 @@ class Plugin:
             del sys.modules[name]
             if is_of_user(error):
                 raise
-            said = f"cannot be imported: {raised(error)}"
+            message = f"cannot be imported: {raised(error)}"
             if isinstance(error, ModuleNotFoundError):
-                said += " (a plugin is one file; what it imports must be installed)"
-            raise self.diagnostic(said, self.line_of(error)) from error
+                message += " (a plugin is one file; what it imports must be installed)"
+            raise self.diagnostic(message, self.line_of(error)) from error
         return module
 
     def diagnostic(self, message: str, line: int | None = None) -> PluginError:
@@ -177,8 +177,8 @@ def read_plugin(path: Path) -> Plugin:
     try:
         source = read_bytes(path, at_most=MAX_BYTES)
     except AssetError as error:
-        said = str(error).removeprefix(f"{path}: ").removesuffix(".")
-        raise Plugin(str(path), b"").diagnostic(f"{said}: not a plugin") from None
+        message = str(error).removeprefix(f"{path}: ").removesuffix(".")
+        raise Plugin(str(path), b"").diagnostic(f"{message}: not a plugin") from None
     except OSError as error:
         raise Plugin(str(path), b"").diagnostic(f"cannot be read: {error.strerror}") from None
     return _imported(str(path), source)
@@ -203,9 +203,9 @@ def with_plugins(bundled: Tables, plugins: Sequence[Plugin]) -> Tables:
             if name in tables[table]:
                 first = owners.get((table, name))
                 whose = f"is in {first.path}, too" if first else "is a name of uwsim"
-                said = f"{table}[{key!r}]: {name!r} {whose}; call it otherwise"
+                message = f"{table}[{key!r}]: {name!r} {whose}; call it otherwise"
                 diagnostics.append(
-                    Diagnostic(file=plugin.path, line=_line(value, plugin), message=said)
+                    Diagnostic(file=plugin.path, line=_line(value, plugin), message=message)
                 )
                 continue
             owners[table, name] = plugin
@@ -281,10 +281,10 @@ def _wrong_class(table: str, value: object, module: ModuleType) -> str | None:
 
 def _wrong_reference(value: type) -> str | None:
     """An updater names a column of the result."""
-    reference = getattr(value, "name", None)
-    if not isinstance(reference, str) or not WORD.fullmatch(reference):
-        said = "lacks name" if reference is None else f"has the name {reference!r}"
-        return f"{value.__name__} {said}: that of its column, letters and digits"
+    name = getattr(value, "name", None)
+    if not isinstance(name, str) or not WORD.fullmatch(name):
+        message = "lacks name" if name is None else f"has the name {name!r}"
+        return f"{value.__name__} {message}: that of its column, letters and digits"
     if not isinstance(value.unit, str):  # type: ignore[attr-defined]
         return f"{value.__name__} has the unit {value.unit!r}"  # type: ignore[attr-defined]
     return None
@@ -339,10 +339,10 @@ def attribute_errors_to(plugins: Sequence[Plugin], *, is_running: bool = False) 
             if line is None and isinstance(error, ContractViolation):
                 line = _line_of_answer(error, plugin)
             if line is not None:
-                said = raised(error)
+                message = raised(error)
                 if is_running:
-                    raise RunFailed(f"{plugin.path}:{line}: {said}") from error
-                raise plugin.diagnostic(said, line) from error
+                    raise RunFailed(f"{plugin.path}:{line}: {message}") from error
+                raise plugin.diagnostic(message, line) from error
         raise
 
 
@@ -365,11 +365,11 @@ def check_bound(
         for spec, kind in LIVE:
             if isinstance(part, spec) and not isinstance(live, kind):
                 gives = "None" if live is None else type(live).__name__
-                said = f"{type(part).__name__}.bind gives {gives}; expected a {kind.__name__}"
-                raise plugin.diagnostic(said, _line(type(part), plugin))
+                message = f"{type(part).__name__}.bind gives {gives}; expected a {kind.__name__}"
+                raise plugin.diagnostic(message, _line(type(part), plugin))
         if isinstance(live, Measure) and not isinstance(getattr(live, "unit", None), str):
-            said = f"{type(live).__name__} has no unit, such as unit = 'm/s'"
-            raise plugin.diagnostic(said, _line(type(live), plugin))
+            message = f"{type(live).__name__} has no unit, such as unit = 'm/s'"
+            raise plugin.diagnostic(message, _line(type(live), plugin))
         if isinstance(live, Measure | Trigger):
             live.close()
 

@@ -1,4 +1,4 @@
-"""What a stranger's part answers when it is asked, held against what it has promised.
+"""Checks of what a plugin's measures, triggers and updaters return against their contract.
 
 Annotations are not looked at when Python runs, and a result is only whole if names are text and
 samples fit their header; so what leaves a measure is checked where it is taken.
@@ -73,11 +73,11 @@ def sample_of(measure: Measure) -> Sequence[object]:
     """
     values: object = measure.log_values
     if not isinstance(values, tuple | list):
-        said = f"is {_shown(values)}; expected a tuple of numbers"
-        raise ContractViolation(measure, "log_values", said)
+        message = f"is {_shown(values)}; expected a tuple of numbers"
+        raise ContractViolation(measure, "log_values", message)
     if len(values) != len(measure.log_header):
-        said = f"has {len(values)} values; log_header has {len(measure.log_header)} names"
-        raise ContractViolation(measure, "log_values", said)
+        message = f"has {len(values)} values; log_header has {len(measure.log_header)} names"
+        raise ContractViolation(measure, "log_values", message)
     return values
 
 
@@ -89,12 +89,12 @@ def parameters_of(
     Raises:
         RunFailed: they are no dict of name -> number or text, which is what a result can hold.
     """
-    said: object = getattr(algorithm, "parameters", given)
+    returned: object = getattr(algorithm, "parameters", given)
     who = f"Algorithm {type(algorithm).__name__}: its attribute parameters"
-    if not isinstance(said, Mapping):
-        raise RunFailed(f"{who} is {_shown(said)}; expected a dict of name -> number or text.")
+    if not isinstance(returned, Mapping):
+        raise RunFailed(f"{who} is {_shown(returned)}; expected a dict of name -> number or text.")
     found: dict[str, float | int | str] = {}
-    for name, value in said.items():
+    for name, value in returned.items():
         number = float(value) if isinstance(value, Real) else None
         if not isinstance(name, str) or not (
             isinstance(value, str) or (number is not None and math.isfinite(number))
@@ -117,8 +117,8 @@ def files_of(updater: SceneUpdaterSpec, stage: Stage) -> Mapping[str, Path]:
         raise ContractViolation(updater, "files", f"gives {_shown(files)}; expected name -> path")
     for name, path in files.items():
         if not (isinstance(name, str) and isinstance(path, Path) and path.exists()):
-            said = f"gives {str(path)[:200]!r} for {name!r}; expected the path of a file"
-            raise ContractViolation(updater, "files", said)
+            message = f"gives {str(path)[:200]!r} for {name!r}; expected the path of a file"
+            raise ContractViolation(updater, "files", message)
     return files
 
 

@@ -63,7 +63,7 @@ from .updaters import (
     SceneUpdaterSpec,
     chain,
     interval,
-    references,
+    swept_parameters,
 )
 from .warnings import never_started, too_short
 
@@ -71,8 +71,8 @@ RESERVED = ("repeat", "seed", "total", "status", "ended_at")
 """Columns of a result that no measure may be called by."""
 MAX_NAME_LENGTH = 100
 """So many letters a measure may be called by."""
-ONE_KNOB = (CameraNoiseUpdaterSpec, SceneFogUpdaterSpec, SceneLightUpdaterSpec)
-"""Updaters of which two in a nest turn the same knob."""
+SETTERS = (CameraNoiseUpdaterSpec, SceneFogUpdaterSpec, SceneLightUpdaterSpec)
+"""Updaters that set one value of the scene: of two in a nest, only the inner one has an effect."""
 OF_A_PLUGIN = ", nor of a plugin that was given (--plugin FILE.py)"
 
 T = TypeVar("T")
@@ -270,9 +270,9 @@ class _Reader:
         cls = GROUND_TRUTHS.get(kind)
         if cls is None:
             near = did_you_mean(kind, GROUND_TRUTHS) if len(kind) < 80 else ""
-            said = f"type is {kind[:60]!r}" if kind else "<groundTruth> lacks the attribute type"
+            message = f"type is {kind[:60]!r}" if kind else "<groundTruth> lacks the attribute type"
             self.diagnostics.error(
-                node, f"{said}; expected one of {', '.join(GROUND_TRUTHS)}.{near}"
+                node, f"{message}; expected one of {', '.join(GROUND_TRUTHS)}.{near}"
             )
             return placeholder
         return read(cls, node, self.diagnostics) or placeholder
@@ -332,10 +332,10 @@ class _Reader:
                 return
 
     def warn_overridden(self, outermost: SceneUpdaterSpec) -> None:
-        """Say where an updater has no effect: another within it turns the same knob."""
+        """Say where an updater has no effect: another within it sets the same value."""
         around: list[SceneUpdaterSpec] = []
         for updater in chain(outermost):
-            if isinstance(updater, ONE_KNOB) and any(type(o) is type(updater) for o in around):
+            if isinstance(updater, SETTERS) and any(type(o) is type(updater) for o in around):
                 node = self.diagnostics.node_of(updater)
                 name = "" if node is None else _name(node)
                 self.diagnostics.warning(
@@ -366,7 +366,7 @@ class _Reader:
 
     def check_names(self, measures: list[MeasureSpec], updater: SceneUpdaterSpec | None) -> None:
         """Names of measures are names in the function and columns of the result."""
-        columns = () if updater is None else references(updater)
+        columns = () if updater is None else swept_parameters(updater)
         seen: dict[str, MeasureSpec] = {}
         for spec in measures:
             node = self.diagnostics.node_of(spec)
@@ -436,8 +436,10 @@ class _Reader:
 
     def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
         name = _name(node)
-        said = f"{shown_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
-        self.diagnostics.unknown(node, said + OF_A_PLUGIN * name.startswith(PREFIX), name, known)
+        message = (
+            f"{shown_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
+        )
+        self.diagnostics.unknown(node, message + OF_A_PLUGIN * name.startswith(PREFIX), name, known)
 
 
 def _name(node: etree._Element) -> str:

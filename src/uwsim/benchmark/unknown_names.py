@@ -32,13 +32,13 @@ def unknown_names(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic]:
     """
     root = parse(Path(benchmark.path)).root
     diagnostics = Diagnostics(benchmark.path)
-    said: set[tuple[int, str]] = set()
+    seen: set[tuple[int, str]] = set()
     for part, node in _places(benchmark, root):
         for error in _wrong(part, stage):
             place = _place(node, error.name)
             diagnostic = (int(str(place.sourceline)), str(error))
-            if diagnostic not in said:
-                said.add(diagnostic)
+            if diagnostic not in seen:
+                seen.add(diagnostic)
                 diagnostics.error(place, str(error))
     return diagnostics.all()
 

@@ -27,12 +27,12 @@ def never_started(
     start, place = spec.start_on, root.find("startOn")
     if isinstance(start, NeverSpec):
         yield place, "<startOn> is 'never': no level will ever begin"
-    told = [
+    answered = [
         each.ground_truth.publish_on
         for each in spec.measures
         if isinstance(each, EuclideanNormSpec)
     ]
-    if isinstance(start, ServiceSpec) and start.target in told:
+    if isinstance(start, ServiceSpec) and start.target in answered:
         yield (
             place,
             f"<startOn> waits for the service {start.target!r}, which the algorithm serves "
@@ -68,8 +68,8 @@ def too_short(
             yield _child(diagnostics.node_of(spec), "log"), f"<log> is {spec.log:g} s: {step}"
     rate = 0.0 if function is None else function.publish_rate
     if rate > 0.0 and _is_nothing(rate, timestep):
-        said = f"publishRate is {rate:g} s: {step}; 0 publishes at every step"
-        yield diagnostics.node_of(function), said
+        message = f"publishRate is {rate:g} s: {step}; 0 publishes at every step"
+        yield diagnostics.node_of(function), message
     if updater is not None:
         yield from _empty_level(diagnostics, updater, timestep, step)
 
@@ -123,6 +123,6 @@ def arm_warnings(
             for joint, value, at in zip(joints, given, place.iterfind("joint"), strict=False):
                 held = min(max(value, joint.lower), joint.upper)
                 if held != value:
-                    said = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
-                    diagnostics.warning(at, said)
+                    message = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
+                    diagnostics.warning(at, message)
     return diagnostics.all()

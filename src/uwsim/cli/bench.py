@@ -185,8 +185,8 @@ def run_and_finish(
     from ..runs.failed_algorithms import refuse_if_a_process_ended, refuse_if_all_broke
 
     for run in runs:
-        if said := save_beginning(command, run.out):
-            warn(OTHER_CODE.format(said))
+        if message := save_beginning(command, run.out):
+            warn(OTHER_CODE.format(message))
     with BackgroundProcess(load_reporter) as background:
         controls = [control_of(run) for run in runs if wants_control(run.plan)]
         if controls:

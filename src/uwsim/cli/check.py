@@ -144,11 +144,11 @@ def diagnostics_of(
         )
     if root == "hydrodynamics":
         return diagnostics_of_hydrodynamics_file(file)
-    said = (
+    message = (
         f"the root element is {shown_tag(root)}; expected <{ROOT}>, <benchmark>, <robot> or "
         "<hydrodynamics>"
     )
-    return [Diagnostic(file=str(file), line=int(str(node.sourceline)), message=said)]
+    return [Diagnostic(file=str(file), line=int(str(node.sourceline)), message=message)]
 
 
 def diagnostics_of_hydrodynamics_file(file: Path) -> list[Diagnostic]:
@@ -249,8 +249,8 @@ def unknown_names(
         simulation = Simulation(spec, data_path=data_path, is_blind=True, runs_code=False)
     except FileError:
         if scene is None:
-            said = f"the scene {str(wanted)!r} has errors: uwsim check {wanted}"
-            diagnostics.error(root_line(file), said)
+            message = f"the scene {str(wanted)!r} has errors: uwsim check {wanted}"
+            diagnostics.error(root_line(file), message)
     except UwsimError as error:
         diagnostics.error(root_line(file) if scene is None else None, str(error))
     else:

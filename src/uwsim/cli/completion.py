@@ -63,7 +63,7 @@ def _bundled(kind: str, incomplete: str) -> list[tuple[str, str]]:
 
 
 def _matching(names: Mapping[str, str], incomplete: str) -> list[tuple[str, str]]:
-    return [(name, said) for name, said in names.items() if name.startswith(incomplete)]
+    return [(name, message) for name, message in names.items() if name.startswith(incomplete)]
 
 
 def _files(incomplete: str, *endings: str) -> list[tuple[str, str]]:

@@ -238,8 +238,8 @@ def search_and_write(
     watch = Stopwatch()
     asked = request.asked(options.seeds, options.search.confidence)
     with running(), prepared(directory, resume=options.resume, overwrite=options.overwrite):
-        if said := save_beginning(command, directory):
-            warn(OTHER_CODE.format(said))
+        if message := save_beginning(command, directory):
+            warn(OTHER_CODE.format(message))
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
         most = most_runs(asked)
         with progress(title, most, of="runs", at_once=options.by.at_once) as on_run:

@@ -135,11 +135,11 @@ def _vehicle(vehicle: Fields) -> list[str]:
 
 
 def _below(surfaces: Sequence[Fields]) -> str:
-    said = [
+    messages = [
         f"{each['name']} {each['distance']:.4g} m down, at {_numbers(each['position'])} m"
         for each in surfaces
     ]
-    return "; ".join(said) or "nothing: there is no floor there"
+    return "; ".join(messages) or "nothing: there is no floor there"
 
 
 def _joint(joint: Fields) -> str:

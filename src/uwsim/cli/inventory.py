@@ -51,8 +51,10 @@ def inventory(
             {"path": each.path, "unit": each.unit, "drawn_from": each.drawn_from}
             for each in draw(scene, 0)
         ],
-        "not_simulated": [said.partition(": ")[2] for said in warnings if _is_unsimulated(said)],
-        "warnings": [said for said in warnings if not _is_unsimulated(said)],
+        "not_simulated": [
+            message.partition(": ")[2] for message in warnings if _is_unsimulated(message)
+        ],
+        "warnings": [message for message in warnings if not _is_unsimulated(message)],
     }
 
 
@@ -113,11 +115,11 @@ def _moves(scene: SceneSpec, spec: VehicleSpec) -> str:
         return f"simulated in water ({spec.dynamics})"
     if spec.sways:
         return "sways, kinematically"
-    told = any(
+    is_reported = any(
         getattr(interface, "vehicle_name", None) == spec.name and _listens(interface)
         for interface in scene.ros_interfaces
     )
-    return "kinematic: goes where messages put it" if told else "stands still"
+    return "kinematic: goes where messages put it" if is_reported else "stands still"
 
 
 def _joint(joint: JointSpec) -> Fields:

@@ -192,8 +192,8 @@ def module_of(spec: type) -> ModuleType:
 
 def without_title(line: str) -> str:
     """``Distance: how far a body went.`` becomes ``How far a body went.``."""
-    told = line.partition(": ")[2] or line
-    return told[:1].upper() + told[1:]
+    text = line.partition(": ")[2] or line
+    return text[:1].upper() + text[1:]
 
 
 def first_line(doc: str | None) -> str:

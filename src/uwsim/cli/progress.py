@@ -72,16 +72,16 @@ class TimeLeftColumn(ProgressColumn):
     def __init__(self, left: TimeLeft) -> None:
         super().__init__()
         self._left = left
-        self._said: tuple[float, float] | None = None
+        self._reported: tuple[float, float] | None = None
 
     def render(self, task: Task) -> Text:
         """Return it."""
         seconds, now = self._left.seconds, time.monotonic()
         if seconds is None:
             return Text("-:--:--", style="progress.remaining")
-        if self._said is None or self._said[0] != seconds:
-            self._said = seconds, now
-        rest = max(0, round(seconds - (now - self._said[1])))
+        if self._reported is None or self._reported[0] != seconds:
+            self._reported = seconds, now
+        rest = max(0, round(seconds - (now - self._reported[1])))
         text = f"{rest // 3600}:{rest // 60 % 60:02d}:{rest % 60:02d}"
         return Text(text, style="progress.remaining")
 
@@ -126,15 +126,15 @@ def plain_progress(
     title: str, done: int, total: int, of: str, left: TimeLeft
 ) -> Callable[[], None]:
     """Say now and then, on lines of their own, how far it is."""
-    said = time.monotonic()
+    reported = time.monotonic()
 
     def on_piece() -> None:
-        nonlocal done, said
+        nonlocal done, reported
         done += 1
         now = time.monotonic()
         left.piece(now)
-        if now - said >= SAY_EVERY and done < total:
-            said = now
+        if now - reported >= SAY_EVERY and done < total:
+            reported = now
             rest = "" if left.seconds is None else f", about {left.seconds:.0f} s left"
             print(f"{title}: {done} of {total} {of}{rest}", file=sys.stderr)
 

@@ -189,16 +189,16 @@ def tell(found: Verification, n_whole: int, others: Mapping[str, str]) -> list[s
     """Say what came out, the verdict last."""
     from ..verify.environment import blame
 
-    said = [str(difference) for difference in found.differences[:SHOWN]]
+    messages = [str(difference) for difference in found.differences[:SHOWN]]
     if len(found.differences) > SHOWN:
-        said.append(f"and {len(found.differences) - SHOWN} more differences")
-    said += [f"not compared: {what}" for what in found.not_compared]
+        messages.append(f"and {len(found.differences) - SHOWN} more differences")
+    messages += [f"not compared: {what}" for what in found.not_compared]
     n = len(found.units)
     which = f"{n} of {count(n_whole, 'unit')}" if n < n_whole else f"all of {count(n, 'unit')}"
     played = f"{which} replayed, {count(sum(len(trial.levels) for trial in found.units), 'level')}"
     if not found.differences:
-        return [*said, f"the same, byte for byte: {played}"]
-    return [*said, f"DIFFERS: {played}. {blame(found, others)}"]
+        return [*messages, f"the same, byte for byte: {played}"]
+    return [*messages, f"DIFFERS: {played}. {blame(found, others)}"]
 
 
 def count(number: int, what: str) -> str:

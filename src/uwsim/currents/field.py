@@ -151,8 +151,12 @@ def read_netcdf(path: Path, data: bytes) -> Grid:
                     tuple("t" if each == "time" else each for each in variable.dimensions),
                     np.ma.filled(np.ma.asarray(variable[:], dtype=np.float64), np.nan),
                 )
-                said = getattr(variable, "units", b"")
-                units[name] = said.decode("latin-1") if isinstance(said, bytes) else str(said)
+                units_text = getattr(variable, "units", b"")
+                units[name] = (
+                    units_text.decode("latin-1")
+                    if isinstance(units_text, bytes)
+                    else str(units_text)
+                )
     except (TypeError, ValueError, IndexError, KeyError) as error:
         raise AssetError(f"{path}: is not a NetCDF file that can be read ({error}).") from error
     _check_names(path, list(arrays))

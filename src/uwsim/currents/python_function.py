@@ -54,9 +54,9 @@ class PythonFunctionSpec(CurrentSpec):
             module = importlib.import_module(module_name)
         except ModuleNotFoundError as error:
             raise self._lost(error.name) from error
-        except (Exception, SystemExit) as error:  # whatever a stranger's module does
+        except (Exception, SystemExit) as error:  # whatever a third-party module raises
             raise BadSetting(
-                f"<u:function> is {self.function!r}; its module raised {_said(error)}"
+                f"<u:function> is {self.function!r}; its module raised {_returned(error)}"
             ) from error
         function = getattr(module, name, None)
         if not callable(function):
@@ -135,31 +135,31 @@ class PythonFunction(Current):
     def _ask(self, point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
         place = f"at {point.tolist()}, {time:g} s"
         try:
-            said = self._function(point, time, vehicle)
-        except (Exception, SystemExit) as error:  # a stranger's function fails on its own
+            returned = self._function(point, time, vehicle)
+        except (Exception, SystemExit) as error:  # errors of the third-party function
             raise BadSetting(
-                f"The current {self._name!r} raised {place}: {_said(error)}"
+                f"The current {self._name!r} raised {place}: {_returned(error)}"
             ) from error
         try:
-            x, y, z = (float(value) for value in said)
-        except Exception:  # a stranger's object may do anything when it is made a number
+            x, y, z = (float(value) for value in returned)
+        except Exception:  # a third-party object may raise anything in __float__
             x = y = z = math.nan
         if not (abs(x) <= FASTEST and abs(y) <= FASTEST and abs(z) <= FASTEST):
             raise BadSetting(
-                f"The current {self._name!r} returned {_shown(said)} {place}; "
+                f"The current {self._name!r} returned {_shown(returned)} {place}; "
                 f"expected three numbers from -{FASTEST:g} to {FASTEST:g} [m/s]."
             )
         return x, y, z
 
 
-def _said(error: BaseException) -> str:
+def _returned(error: BaseException) -> str:
     return f"{type(error).__name__}: {' '.join(str(error).split()):.200}"
 
 
-def _shown(said: object) -> str:
-    """What a stranger's function returned, in one short line."""
+def _shown(returned: object) -> str:
+    """Return what the third-party function returned, in one short line."""
     try:
-        text = " ".join(repr(said).split())
+        text = " ".join(repr(returned).split())
     except Exception:  # its own repr raises
-        text = f"a {type(said).__name__}"
+        text = f"a {type(returned).__name__}"
     return text if len(text) <= 80 else text[:77] + "..."

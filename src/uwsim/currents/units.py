@@ -40,17 +40,17 @@ EXPECTED = {
 }
 
 
-def unit(name: str, said: str) -> tuple[float, bool]:
+def unit(name: str, text: str) -> tuple[float, bool]:
     """Return what one of a variable's units is in SI units, and whether it counts from a date.
 
     Args:
         name: of the variable: ``t``, ``x``, ``y``, ``z``, ``u``, ``v`` or ``w``.
-        said: its attribute ``units``; empty for SI units.
+        text: its attribute ``units``; empty for SI units.
 
     Raises:
         ValueError: it is another unit; says which are expected.
     """
-    words = said.strip().lower()
+    words = text.strip().lower()
     kind = "time" if name == "t" else "speed" if name in ("u", "v", "w") else "length"
     plain, since, _ = words.partition(" since ")
     if not words:
@@ -64,5 +64,5 @@ def unit(name: str, said: str) -> tuple[float, bool]:
         length, time = LENGTHS.get(parts[1]), TIMES.get(parts[2] or parts[3])
         factor = None if length is None or time is None else length / time
     if factor is None:
-        raise ValueError(f"{name} is in {cut(said.strip())}; expected {EXPECTED[kind]}")
+        raise ValueError(f"{name} is in {cut(text.strip())}; expected {EXPECTED[kind]}")
     return factor, bool(since)

@@ -32,13 +32,13 @@ class Asked:
     """What was searched for."""
 
     over: str
-    """The reference that grew."""
+    """The swept parameter that grew."""
     unit: str
     """Its unit; ``1`` for none."""
     until: str
     """The criterion."""
     fixed: Mapping[str, float]
-    """The references that stayed, and where."""
+    """The swept parameters that stayed, and where."""
     where: Range
     """The range."""
     seeds: tuple[int, ...]
@@ -118,27 +118,29 @@ class Envelope:
         if self.n_broken_at_once == n:
             return f"{asked.over}: broken already at {start} ({self._share(n, 'break')} there)"
         if median.value is None:
-            told = f"{n - self.n_unbroken} of {n} seeds break up to {stop}"
+            summary = f"{n - self.n_unbroken} of {n} seeds break up to {stop}"
             if self.n_broken_at_once:
-                told += f", {self.n_broken_at_once} of them already at {start}"
-            return f"{asked.over}: {told}{self._limits(unit)}"
+                summary += f", {self.n_broken_at_once} of them already at {start}"
+            return f"{asked.over}: {summary}{self._limits(unit)}"
         return f"{asked.over} {self._number(median.value)}{unit}{self._limits(unit)}"
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What a reader must know before using the number."""
-        said = []
+        messages = []
         asked, fold = self.asked, self.found.fold
         if fold is not None:
-            said.append(
+            messages.append(
                 f"not monotone: at {asked.over} {self._number(fold.broken)} "
                 f"{fold.n_broken} of {fold.n} seeds break, at {self._number(fold.holds)} "
                 f"{fold.n_holding} of {fold.n} hold again; the first breaking point was searched"
             )
         failed = reasons(e.judgement for e in self.evaluations).get("algorithm error", 0)
         if failed:
-            said.append(f"{failed} runs ended with an algorithm error: a bug rather than a limit?")
-        return tuple(said)
+            messages.append(
+                f"{failed} runs ended with an algorithm error: a bug rather than a limit?"
+            )
+        return tuple(messages)
 
     def plain(self) -> dict[str, object]:
         """Return everything as it is stored."""

@@ -49,7 +49,7 @@ class Evaluations:
     Args:
         run: where they are kept; its plan is one of `plan_for`.
         at: the levels of all updaters, outermost first; that of ``over`` is replaced.
-        over: the reference that is searched over.
+        over: the swept parameter that is searched over.
         criterion: what counts as broken.
     """
 

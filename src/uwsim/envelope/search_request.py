@@ -22,7 +22,7 @@ class SearchRequest:
     """What is searched for."""
 
     over: str
-    """The reference that grows."""
+    """The swept parameter that grows."""
     spec: SceneUpdaterSpec
     """Its updater."""
     criterion: Criterion
@@ -30,7 +30,7 @@ class SearchRequest:
     where: Range
     """From where to where, and how finely."""
     at: Level
-    """Where the other references stay."""
+    """Where the other swept parameters stay."""
 
     def asked(self, seeds: tuple[int, ...], confidence: float) -> Asked:
         """Return the same as the envelope stores it."""
@@ -38,7 +38,7 @@ class SearchRequest:
 
         return Asked(
             over=self.over,
-            unit=self.spec.reference_unit,
+            unit=self.spec.parameter_unit,
             until=self.criterion.text,
             fixed={name: value for name, value in self.at.values if name != self.over},
             where=self.where,
@@ -59,10 +59,10 @@ def search_request(
 
     Args:
         plan: what is played.
-        over: the reference that grows.
+        over: the swept parameter that grows.
         until: the criterion.
         ends: near end, far end and tolerance, as far as they were given.
-        chosen: where other references stay.
+        chosen: where other swept parameters stay.
         wrong: keeps what is wrong.
     """
     from . import parse_criterion
@@ -90,9 +90,9 @@ def updater_of(plan: Plan, over: str) -> SceneUpdaterSpec:
     Raises:
         BadSetting: the benchmark does not sweep it, or there is nothing between its values.
     """
-    from ..benchmark.updaters import chain, references
+    from ..benchmark.updaters import chain, swept_parameters
 
-    names = references(plan.benchmark.scene_updater)
+    names = swept_parameters(plan.benchmark.scene_updater)
     if over not in names:
         swept = ", ".join(name for name in names if name != "none") or "nothing"
         raise BadSetting(
@@ -160,14 +160,14 @@ def round_down(width: float) -> float:
 
 
 def fixed_levels(plan: Plan, over: str, chosen: list[tuple[str, float]]) -> Level:
-    """Return where every reference stands but the one that is searched over.
+    """Return the value of every swept parameter but the one that is searched over.
 
     Raises:
-        BadSetting: a reference is not in the sweep, or has several values and none was chosen.
+        BadSetting: a parameter is not in the sweep, or has several values and none was chosen.
     """
-    from ..benchmark.updaters import Level, chain, references
+    from ..benchmark.updaters import Level, chain, swept_parameters
 
-    names = references(plan.benchmark.scene_updater)
+    names = swept_parameters(plan.benchmark.scene_updater)
     for name, _ in chosen:
         if name == over:
             raise BadSetting(f"--level {name}: that is what is searched over.")

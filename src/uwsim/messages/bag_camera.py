@@ -203,8 +203,8 @@ class Recording:
             raise self._unreadable(error) from error
 
     def _unreadable(self, error: Exception) -> AssetError:
-        said = " ".join(str(error).split())[:200] or type(error).__name__
-        return AssetError(f"{self._name} cannot be read as a recording: {said}")
+        message = " ".join(str(error).split())[:200] or type(error).__name__
+        return AssetError(f"{self._name} cannot be read as a recording: {message}")
 
 
 def _check_folder(bag: Path) -> None:

@@ -234,11 +234,11 @@ def _node_of(spec: object, diagnostics: Diagnostics) -> etree._Element:
 
 def _completed(body: BodyHydrodynamics, node: etree._Element) -> BodyHydrodynamics:
     """The body, with the drag law that its numbers ask for where the file has none."""
-    said = {name: (node.findtext(name) or "").strip() for name in ("dragLaw", "shape")}
+    text = {name: (node.findtext(name) or "").strip() for name in ("dragLaw", "shape")}
     first = body.quadratic_damping[:3]
     is_isotropic = len(body.quadratic_damping) == 6 and len(set(first)) == 1 and first[0] > 0.0
-    if is_isotropic and not said["dragLaw"]:
+    if is_isotropic and not text["dragLaw"]:
         body = dataclasses.replace(body, drag_law="speed")
-    if said["shape"] and said["shape"] not in SIZES:  # reported; how many lengths is unknown
+    if text["shape"] and text["shape"] not in SIZES:  # reported; how many lengths is unknown
         body = dataclasses.replace(body, size=())
     return body

@@ -50,15 +50,15 @@ def other_code(recorded: object) -> str:
     """
     if not isinstance(recorded, Mapping):
         return ""
-    said = []
+    messages = []
     for library, here in chosen_code().items():
         there = recorded.get(library)
         if not isinstance(there, list) or there == here:
             continue
         before = names_text([name for name in there if name not in here])
         now = names_text([name for name in here if name not in there])
-        said.append(f"{library} {before} there, {now} here")
-    return "; ".join(said)
+        messages.append(f"{library} {before} there, {now} here")
+    return "; ".join(messages)
 
 
 def names_text(names: Sequence[object]) -> str:

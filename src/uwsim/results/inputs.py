@@ -38,17 +38,19 @@ def files_by_role(inputs: Mapping[str, object]) -> Iterator[tuple[str, str, str]
 def differing(before: Mapping[str, object], now: Mapping[str, object]) -> list[str]:
     """Say which inputs differ, a line each; nothing where all are the same."""
     then, today = ({(r, n): d for r, n, d in files_by_role(each)} for each in (before, now))
-    said = []
+    messages = []
     for role, name in dict.fromkeys([*then, *today]):
         old, new = then.get((role, name)), today.get((role, name))
         file = name if role == ASSETS else f"{role} {name}"
         if old is None:
-            said.append(f"{file} was not used then")
+            messages.append(f"{file} was not used then")
         elif new is None:
-            said.append(f"{file} is not used any more")
+            messages.append(f"{file} is not used any more")
         elif old != new:
-            said.append(f"{file} is another file now ({short(old)} then, {short(new)} now)")
-    return said if len(said) <= NAMED else [*said[:NAMED], f"{len(said) - NAMED} more"]
+            messages.append(f"{file} is another file now ({short(old)} then, {short(new)} now)")
+    return (
+        messages if len(messages) <= NAMED else [*messages[:NAMED], f"{len(messages) - NAMED} more"]
+    )
 
 
 def short(digest: object) -> str:

@@ -29,8 +29,8 @@ def instead_of_a_result(path: Path) -> str:
     names = sorted(file.parent.name for file in path.glob(f"*/{RESULT}"))
     command = resuming(path)
     if names and not (command and names == [CONTROL]):  # the control may be over long before
-        said = f"holds {len(names)} results ({', '.join(names)}); name one, as {path / names[0]}"
-        return said if len(names) > 1 else f"no result here, but in {path / names[0]}"
+        message = f"holds {len(names)} results ({', '.join(names)}); name one, as {path / names[0]}"
+        return message if len(names) > 1 else f"no result here, but in {path / names[0]}"
     if command:
         what = "yet: its run"
         if command.startswith("uwsim envelope "):

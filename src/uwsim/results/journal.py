@@ -177,8 +177,8 @@ class Journal:
     def _why_not(self) -> str:
         """Say what may be the reason that a row differs."""
         codes = codes_of(load_provenance(self._path.parents[1]))
-        if said := [text for code in codes if (text := other_code(code))]:
-            return f"libraries have chosen other code for the processor ({'; '.join(said)})."
+        if messages := [text for code in codes if (text := other_code(code))]:
+            return f"libraries have chosen other code for the processor ({'; '.join(messages)})."
         return "was it made with other versions, or does the algorithm have chance of its own?"
 
     def _publish(self) -> None:
@@ -187,17 +187,17 @@ class Journal:
 
 def _other_run(found: Record, head: Record) -> str:
     """Say what of a head is not that of this run."""
-    said = differing(_part(found, "inputs"), _part(head, "inputs"))
+    messages = differing(_part(found, "inputs"), _part(head, "inputs"))
     before, now = (
         {**_part(each, "run"), **{k: v for k, v in each.items() if k not in ("inputs", "run")}}
         for each in (found, head)
     )
-    said += [
+    messages += [
         f"{name} is {now.get(name)!r} now, was {before.get(name)!r}"
         for name in dict.fromkeys([*before, *now])
         if before.get(name) != now.get(name)
     ]
-    return "; ".join(line[:MAX_LINE_LENGTH] for line in said[:MAX_LINES])
+    return "; ".join(line[:MAX_LINE_LENGTH] for line in messages[:MAX_LINES])
 
 
 def _part(head: Record, name: str) -> Record:

@@ -49,12 +49,12 @@ def check_rows(result: Result, directory: Path) -> str | None:
     """
     if not (directory / FOLDER).is_dir():
         return f"rows are not checked: there is no {FOLDER}/ beside them" if result.rows else None
-    said, without = _compare(result, read_journals(directory))
-    if said:
-        more = f"; and {len(said) - SHOWN} more" if len(said) > SHOWN else ""
+    message, without = _compare(result, read_journals(directory))
+    if message:
+        more = f"; and {len(message) - SHOWN} more" if len(message) > SHOWN else ""
         raise ResultError(
             f"{directory / 'result.json'}: not what its units have stored: "
-            f"{'; '.join(said[:SHOWN])}{more}. uwsim verify says what else differs; "
+            f"{'; '.join(message[:SHOWN])}{more}. uwsim verify says what else differs; "
             "uwsim bench --resume writes it anew."
         )
     if without:
@@ -65,23 +65,23 @@ def check_rows(result: Result, directory: Path) -> str | None:
 
 def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
     """Return what contradicts the journals, and how many rows they do not have."""
-    told = _n_ended(result)
+    n_ended = _n_ended(result)
     keys = tuple(_keys(result))
-    said, without = [], 0
+    messages, without = [], 0
     for row, key in enumerate(keys):
         record = journals.rows.get(key)
         if record is not None:
             counts_time = len(journals.rows) == len(result.rows)
-            said += [f"row {row}, {what}" for what in _apart(result, row, record, counts_time)]
-        elif journals.n_ended >= told:
-            said.append(f"row {row}: {FOLDER}/ has no such level")
+            messages += [f"row {row}, {what}" for what in _apart(result, row, record, counts_time)]
+        elif journals.n_ended >= n_ended:
+            messages.append(f"row {row}: {FOLDER}/ has no such level")
         else:
             without += 1
-    if journals.n_ended == told:
+    if journals.n_ended == n_ended:
         there = set(keys)
         for seed, *level in (key for key in journals.ended if key not in there):
-            said.append(f"it has no row of seed {seed}, level {', '.join(map(str, level))}")
-    return said, without
+            messages.append(f"it has no row of seed {seed}, level {', '.join(map(str, level))}")
+    return messages, without
 
 
 def read_journals(directory: Path) -> Journals:

@@ -13,7 +13,7 @@ class LevelInterval:
     """One column at one level, over all repeats."""
 
     level: tuple[float, ...]
-    """The updaters' references, outermost first."""
+    """The swept parameters, outermost first."""
     interval: Interval
     """Over the repeats that have a value: what is missing is counted, never guessed."""
     n_missing: int
@@ -27,7 +27,7 @@ class LevelRate:
     """How often one level ended ``ok``, over all repeats."""
 
     level: tuple[float, ...]
-    """The updaters' references, outermost first."""
+    """The swept parameters, outermost first."""
     seeds: tuple[int | None, ...]
     """The seed of every repeat, in the order played; None where the result does not say."""
     success: Rate | None

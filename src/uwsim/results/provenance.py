@@ -44,11 +44,11 @@ def save_beginning(command: Sequence[str], directory: Path) -> str:
     if not before:
         save_provenance({"command": list(command), **machine()}, directory)
         return ""
-    said = other_code(before.get("code"))
-    if said:
+    change = other_code(before.get("code"))
+    if change:
         codes = {BEFORE: [*codes_of(before)[1:], before["code"]]}
         save_provenance({**before, **machine(), **codes}, directory)
-    return said
+    return change
 
 
 def codes_of(provenance: Mapping[str, object]) -> list[object]:

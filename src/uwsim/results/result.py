@@ -233,8 +233,8 @@ def _check_notes(result: Result) -> None:
         whole = isinstance(stream.sha256, str) and isinstance(stream.frames, int)
         _expect(whole, f"image_streams[{i}] has no hash or no number of frames")
         fits = isinstance(stream.level, tuple) and len(stream.level) == n_levels
-        said = f"image_streams[{i}] is of the level {stream.level!r}; expected {n_levels} values"
-        _expect(stream.level is None or fits, said)
+        message = f"image_streams[{i}] is of the level {stream.level!r}; expected {n_levels} values"
+        _expect(stream.level is None or fits, message)
     for i, variation in enumerate(result.variations):
         at = f"variations[{i}]"
         texts = (variation.path, variation.unit, variation.drawn_from)

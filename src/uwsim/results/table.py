@@ -42,7 +42,7 @@ class Line:
     """One level, as text."""
 
     level: tuple[float, ...]
-    """The updaters' references."""
+    """The swept parameters."""
     cells: tuple[str, ...]
     """Level, measures, total, ended_at; ``-`` where there is nothing."""
     status: str

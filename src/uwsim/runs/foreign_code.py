@@ -36,8 +36,10 @@ def announce(code: str, file: str) -> None:
         place = located(code.partition(":")[0])
     except (ModuleNotFoundError, ValueError):
         return  # which is said where it is imported
-    said = f"uwsim: {file} runs Python code: {code} in {place or 'Python'} (--no-code refuses it)"
-    print(printable(said), file=sys.stderr)
+    message = (
+        f"uwsim: {file} runs Python code: {code} in {place or 'Python'} (--no-code refuses it)"
+    )
+    print(printable(message), file=sys.stderr)
 
 
 def _codes(scene: SceneSpec) -> list[str]:

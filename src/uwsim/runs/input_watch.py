@@ -36,11 +36,11 @@ class Watch:
 
     def check(self) -> None:
         """Do nothing, or raise RunFailed, which names what was changed."""
-        said = [why for file in self._files if (why := self._why_not(file))]
-        if said:
-            more = [f"{len(said) - NAMED} more"] if len(said) > NAMED else []
+        messages = [why for file in self._files if (why := self._why_not(file))]
+        if messages:
+            more = [f"{len(messages) - NAMED} more"] if len(messages) > NAMED else []
             raise RunFailed(
-                f"While the run was going on {'; '.join([*said[:NAMED], *more])}. "
+                f"While the run was going on {'; '.join([*messages[:NAMED], *more])}. "
                 "Finished rows are kept; with the files as they were go on with --resume."
             )
 

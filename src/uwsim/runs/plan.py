@@ -74,7 +74,7 @@ class Plan:
     repeats: int = 1
     """Number of repeats; they use seeds ``seed ... seed + repeats - 1``."""
     chosen: tuple[tuple[str, float], ...] = ()
-    """``--level``: only levels whose reference has one of these values."""
+    """``--level``: only levels whose swept parameter has one of these values."""
     compatibility: frozenset[str] = frozenset()
     """The compatibility quirks that are on."""
     timestep: float = TIMESTEP
@@ -109,7 +109,7 @@ class Plan:
         """Return the levels to play.
 
         Raises:
-            BadSetting: ``--level`` names no reference, or a value the sweep does not have.
+            BadSetting: ``--level`` names no swept parameter, or a value the sweep does not have.
         """
         return chosen_levels(levels_of(self.benchmark.scene_updater), self.chosen)
 
@@ -133,10 +133,10 @@ class Plan:
 def chosen_levels(
     levels: Sequence[Level], chosen: Sequence[tuple[str, float]]
 ) -> tuple[Level, ...]:
-    """Return those of the levels whose references have one of the values chosen for them.
+    """Return those of the levels whose swept parameters have one of the values chosen for them.
 
     Raises:
-        BadSetting: a name is no reference, or a value is not in the sweep.
+        BadSetting: a name is no swept parameter, or a value is not in the sweep.
     """
     kept = tuple(levels)
     for name in dict.fromkeys(name for name, _ in chosen):

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import __version__
-from ..benchmark.updaters import chain, references
+from ..benchmark.updaters import chain, swept_parameters
 from ..files.file_names import file_names
 from ..files.input_files import InputFile
 from ..results import journal
@@ -238,8 +238,8 @@ def _columns(plan: Plan, records: list[journal.Record]) -> list[Column]:
     updater = plan.benchmark.scene_updater
     columns = [Column(name=name, kind="run") for name in ("repeat", "seed") if plan.repeats > 1]
     columns += [
-        Column(name=name, kind="level", unit=_unit(spec.reference_unit))
-        for name, spec in zip(references(updater), chain(updater), strict=True)
+        Column(name=name, kind="level", unit=_unit(spec.parameter_unit))
+        for name, spec in zip(swept_parameters(updater), chain(updater), strict=True)
     ]
     measures = _units(records, "measures")
     details = _units(records, "details")

@@ -180,8 +180,8 @@ def data_text(log: Log, spec: MeasureSpec) -> str:
     """Return the text of ``benchmark-<name>.data``; ``repeat`` and ``seed`` lead as in the CSV."""
     time = log.header.index(TIME)
     led = [name for name in log.header[:time] if name in ("repeat", "seed")]
-    reference = log.header[len(led)].partition(" ")[0]
-    outermost = LEVEL_NAMES.get(reference, reference)
+    parameter = log.header[len(led)].partition(" ")[0]
+    outermost = LEVEL_NAMES.get(parameter, parameter)
     names = detail_names(spec, len(log.header) - time - 1)
     lines = ["".join(f"{field}\t" for field in (*led, outermost, *names))]
     for sample in log.samples:

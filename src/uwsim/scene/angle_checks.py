@@ -40,11 +40,11 @@ def check_angles(spec: object, diagnostics: Diagnostics) -> None:
     kind: type = type(spec)
     for field, shown in _angles(kind):
         value = getattr(spec, field)
-        said = degrees_for_radians(value if isinstance(value, tuple) else (value,))
-        if said:
+        message = degrees_for_radians(value if isinstance(value, tuple) else (value,))
+        if message:
             node = diagnostics.node_of(spec)
             place = None if node is None else _child(node, shown)
-            diagnostics.warning(place, f"<{shown}> is {said}")
+            diagnostics.warning(place, f"<{shown}> is {message}")
     for part in _parts(spec):
         check_angles(part, diagnostics)
 

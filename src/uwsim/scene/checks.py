@@ -87,12 +87,12 @@ def _check_links(
             is_error = isinstance(part, ForceSensorSpec | LampSpec)
             severity = "error" if is_error else "warning"
             near = diagnostics.near(link, links, severity)
-            said = f"<{element}>: {link!r} is no link of {vehicle.file}.{near}"
+            message = f"<{element}>: {link!r} is no link of {vehicle.file}.{near}"
             if is_error:
-                diagnostics.error(diagnostics.node_of(part), said)
+                diagnostics.error(diagnostics.node_of(part), message)
             else:
                 diagnostics.warning(
-                    diagnostics.node_of(part), f"{said} It is left out, as in the original"
+                    diagnostics.node_of(part), f"{message} It is left out, as in the original"
                 )
         elif isinstance(part, ForceSensorSpec) and scene.sim_params.enable_physics:
             mass = next(each.mass for each in robot.links if each.name == link)
@@ -114,10 +114,10 @@ def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, diagnostics: Diagnosti
     for joint, value in zip(robot.movable, vehicle.joint_values, strict=False):
         held = min(max(value, joint.lower), joint.upper)
         if held != value:
-            said = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
+            message = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
             if joint.kind != "prismatic" and abs(value) > MORE_THAN_A_TURN:
-                said += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
-            diagnostics.warning(place, said)
+                message += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
+            diagnostics.warning(place, message)
 
 
 def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
@@ -209,26 +209,26 @@ def _check_shared_names(scene: SceneSpec, diagnostics: Diagnostics) -> None:
                 "find the first",
             )
         first.setdefault(thing.name, "an object")
-    said: dict[str, str] = {}
+    writers: dict[str, str] = {}
     for interface in scene.ros_interfaces:
         if not isinstance(interface, VehiclePublisherSpec):
             continue
         topic = interface.topic.strip("/")
-        if topic in said:
+        if topic in writers:
             diagnostics.warning(
                 diagnostics.node_of(interface),
                 f"the topic {interface.topic!r} carries {interface.vehicle_name!r} and "
-                f"{said[topic]!r}: who reads it gets both",
+                f"{writers[topic]!r}: who reads it gets both",
             )
-        said.setdefault(topic, interface.vehicle_name)
+        writers.setdefault(topic, interface.vehicle_name)
 
 
 def _check_physics(thing: ObjectSpec, diagnostics: Diagnostics) -> None:
     if thing.physics is not None and thing.physics.collision_shape_type not in SHAPES:
-        said = thing.physics.collision_shape_type
+        message = thing.physics.collision_shape_type
         diagnostics.warning(
             diagnostics.node_of(thing.physics),
-            f"<collisionShapeType> is {said[:60]!r}; read as box; known: {', '.join(SHAPES)}",
+            f"<collisionShapeType> is {message[:60]!r}; read as box; known: {', '.join(SHAPES)}",
         )
 
 

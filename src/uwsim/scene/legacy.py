@@ -62,11 +62,11 @@ def _numpixels(node: etree._Element, parent: etree._Element, diagnostics: Diagno
     if wide is None or beams is None or angle is None or beams < 2:
         diagnostics.error(node, "<numpixels> needs two beams or more and a <fieldOfView> [deg]")
         return
-    said = "<numpixels> and <fieldOfView> are read as initAngle, finalAngle, angleIncr"
+    message = "<numpixels> and <fieldOfView> are read as initAngle, finalAngle, angleIncr"
     if parent.find("range") is None:
-        said += f"; there is no <range>: {BEAM_RANGE} m, as in the original's scenes"
+        message += f"; there is no <range>: {BEAM_RANGE} m, as in the original's scenes"
         _new(parent, "range", BEAM_RANGE, line=node.sourceline)
-    diagnostics.warning(node, said)
+    diagnostics.warning(node, message)
     for name, value in (
         ("initAngle", -angle / 2),
         ("finalAngle", angle / 2),

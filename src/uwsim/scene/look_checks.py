@@ -33,8 +33,8 @@ def check_looks(
         stand = Stand(vehicle, robot, scene.world_from_localized)
         for spec in looking(vehicle):
             if spec.look_at is not None and any(spec.orientation):
-                said = "its <orientation> is not used: <u:lookAt> says where it looks"
-                diagnostics.warning(diagnostics.node_of(spec), f"{_called(spec)}: {said}")
+                message = "its <orientation> is not used: <u:lookAt> says where it looks"
+                diagnostics.warning(diagnostics.node_of(spec), f"{_called(spec)}: {message}")
             is_camera = isinstance(spec, VirtualCameraSpec | VirtualRangeImageSpec)
             if is_camera and robot.link(spec.relative_to) is not None:
                 diagnostics.warning(

@@ -158,9 +158,9 @@ def _robots(
 ) -> tuple[dict[int, RobotSpec], list[Diagnostic]]:
     """The robot of each vehicle by its number, and what is to be said about their files."""
     robots: dict[int, RobotSpec] = {}
-    said: list[Diagnostic] = []
+    found: list[Diagnostic] = []
     if library is None:
-        return robots, said
+        return robots, found
     by_file: dict[str, RobotSpec | None] = {}
     for index, vehicle in enumerate(scene.vehicles):
         if vehicle.file not in by_file and len(by_file) < MAX_FILES:
@@ -181,12 +181,12 @@ def _robots(
             if library.find(vehicle.file, document.path) is None:
                 what = f"robot file {vehicle.file!r} is nowhere; the bundled {path.name} is used"
                 diagnostics.warning(diagnostics.node_of(vehicle), what)
-            said += check_robot(path, library=library)
+            found += check_robot(path, library=library)
             with suppress(SceneError):
                 by_file[vehicle.file] = read_urdf(path)
         if (robot := by_file.get(vehicle.file)) is not None:
             robots[index] = robot
-    return robots, said
+    return robots, found
 
 
 def _check_models(

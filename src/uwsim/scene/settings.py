@@ -200,8 +200,10 @@ def _index(entries: Sequence[Any], fits: Sequence[bool], name: str, chosen: str 
         raise BadSetting(str(UnknownName(f"<{name}>", chosen, names)))
     if len(found) != 1:
         shown = [each or str(number) for number, each in enumerate(names, start=1)]
-        said = f"choose one: {', '.join(f'{name}[{each}]' for each in shown)}" if found else "none"
-        raise BadSetting(f"the file has {len(found)} <{name}>; {said}.")
+        message = (
+            f"choose one: {', '.join(f'{name}[{each}]' for each in shown)}" if found else "none"
+        )
+        raise BadSetting(f"the file has {len(found)} <{name}>; {message}.")
     return found[0]
 
 

@@ -167,9 +167,9 @@ def _materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, Colo
     """The colours that have names: those of the robot, then those that visuals define."""
     found: dict[str, Colour] = {}
     quiet = Diagnostics(diagnostics.file)  # what is wrong with a visual's is said with the visual
-    for path, told in (("material", diagnostics), ("link/visual/material", quiet)):
+    for path, sink in (("material", diagnostics), ("link/visual/material", quiet)):
         for node in root.findall(path):
-            colour = _colour(node, told)
+            colour = _colour(node, sink)
             if colour is not None and _name(node):
                 found.setdefault(_name(node), colour)
     return found
@@ -206,16 +206,16 @@ def _shape(
     elif kind == "box":
         size = _triple(shape, "size", diagnostics, None)
         if min(size) < 0:
-            said = shape.get("size", "")
-            diagnostics.error(shape, f"size of <box> is {said[:60]!r}; expected numbers >= 0")
+            given = shape.get("size", "")
+            diagnostics.error(shape, f"size of <box> is {given[:60]!r}; expected numbers >= 0")
     elif kind in ("cylinder", "sphere"):
         wide = 2 * _size(shape, "radius", diagnostics, None)
         tall = _size(shape, "length", diagnostics, None) if kind == "cylinder" else wide
         size = (wide, wide, tall)
     else:
         kinds = ("mesh", "box", "cylinder", "sphere")
-        said = str(kind)
-        diagnostics.unknown(shape, f"<{said[:60]}> is not a geometry", said, kinds)
+        given = str(kind)
+        diagnostics.unknown(shape, f"<{given[:60]}> is not a geometry", given, kinds)
         return None
     return VisualSpec(
         kind=cast(ShapeKind, kind),
@@ -231,27 +231,27 @@ def _shape(
 def _joint(
     node: etree._Element, links: dict[str, LinkSpec], diagnostics: Diagnostics
 ) -> JointSpec | None:
-    name, said = _name(node), (node.get("type") or "").strip()
-    if said not in (*MOVABLE, *STIFF, "fixed"):
+    name, given = _name(node), (node.get("type") or "").strip()
+    if given not in (*MOVABLE, *STIFF, "fixed"):
         diagnostics.unknown(
             node,
-            f"joint {name!r} has the type {said[:60]!r}; expected one of "
+            f"joint {name!r} has the type {given[:60]!r}; expected one of "
             f"{', '.join((*MOVABLE, 'fixed', *STIFF))}",
-            said,
+            given,
             (*MOVABLE, "fixed", *STIFF),
         )
         return None
-    if said in STIFF:
-        diagnostics.warning(node, f"joint {name!r} is {said}; held fixed, as in the original")
+    if given in STIFF:
+        diagnostics.warning(node, f"joint {name!r} is {given}; held fixed, as in the original")
     parent, child = (_end(node, end, links, diagnostics) for end in ("parent", "child"))
     if parent is None or child is None:
         return None
     position, rpy = _origin(node, diagnostics)
     kind: JointKind = "fixed"
     axis, lower, upper = (1.0, 0.0, 0.0), 0.0, 0.0
-    if said in MOVABLE:
-        kind = said  # type: ignore[assignment]  # one of MOVABLE
-        lower, upper = _limits(node, said, diagnostics)
+    if given in MOVABLE:
+        kind = given  # type: ignore[assignment]  # one of MOVABLE
+        lower, upper = _limits(node, given, diagnostics)
         if (axis_node := node.find("axis")) is not None:
             axis = _triple(axis_node, "xyz", diagnostics, axis)
         if not any(axis):
@@ -269,7 +269,7 @@ def _joint(
         upper=upper,
         effort=_most(node, "effort", diagnostics),
         velocity=_most(node, "velocity", diagnostics),
-        mimic=_mimic(node, diagnostics) if said in MOVABLE else None,
+        mimic=_mimic(node, diagnostics) if given in MOVABLE else None,
     )
 
 
@@ -351,8 +351,8 @@ def _check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> Non
         loop = list(path)[path[name] :] if name in path else []
         for i, member in enumerate(loop):
             turned = (*loop[i:], *loop[:i], member)[:100]
-            said = " mimics ".join(repr(each) for each in turned)
-            diagnostics.error(diagnostics.node_of(joints[member]), f"joint {said[:200]}: a loop")
+            message = " mimics ".join(repr(each) for each in turned)
+            diagnostics.error(diagnostics.node_of(joints[member]), f"joint {message[:200]}: a loop")
 
 
 def _end(
@@ -378,8 +378,8 @@ def _origin(node: etree._Element, diagnostics: Diagnostics) -> tuple[Triple, Tri
     if origin is None:
         return ZERO, ZERO
     rpy = _triple(origin, "rpy", diagnostics, ZERO)
-    if said := degrees_for_radians(rpy):
-        diagnostics.warning(origin, f"rpy of <origin> is {said}")
+    if message := degrees_for_radians(rpy):
+        diagnostics.warning(origin, f"rpy of <origin> is {message}")
     return _triple(origin, "xyz", diagnostics, ZERO), rpy
 
 
@@ -392,8 +392,8 @@ def _colour(node: etree._Element, diagnostics: Diagnostics) -> Colour | None:
         return None
     red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in values)
     if [red, green, blue, opacity] != values:
-        said = colour.get("rgba", "")
-        diagnostics.warning(colour, f"rgba of <color> is {said[:60]!r}; held within 0 to 1")
+        given = colour.get("rgba", "")
+        diagnostics.warning(colour, f"rgba of <color> is {given[:60]!r}; held within 0 to 1")
     return red, green, blue, opacity
 
 
@@ -404,10 +404,10 @@ def _triple(
         return default
     values = _numbers(node, attribute, 3, diagnostics)
     if values is not None and not max(map(abs, values)) <= FARTHEST:
-        said = node.get(attribute, "")
+        given = node.get(attribute, "")
         diagnostics.error(
             node,
-            f"{attribute} of <{node.tag}> is {said[:60]!r}; expected numbers up to {FARTHEST:g}",
+            f"{attribute} of <{node.tag}> is {given[:60]!r}; expected numbers up to {FARTHEST:g}",
         )
         return ZERO
     return ZERO if values is None else (values[0], values[1], values[2])
@@ -419,9 +419,9 @@ def _size(
     """A length or mass: not below 0."""
     value = _number(node, attribute, diagnostics, default)
     if not 0 <= value <= FARTHEST:
-        said = node.get(attribute, "")
+        given = node.get(attribute, "")
         diagnostics.error(
-            node, f"{attribute} of <{node.tag}> is {said[:60]!r}; expected 0 to {FARTHEST:g}"
+            node, f"{attribute} of <{node.tag}> is {given[:60]!r}; expected 0 to {FARTHEST:g}"
         )
         return 0.0
     return value

@@ -68,10 +68,10 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as problem:
-        said: dict[int, str] = {}  # of several in a line the others follow from the first
+        messages: dict[int, str] = {}  # of several in a line the others follow from the first
         for entry in parser.error_log:
-            said.setdefault(entry.line, _said(entry, data))
-        for line, message in list(said.items())[:10]:
+            messages.setdefault(entry.line, _message(entry, data))
+        for line, message in list(messages.items())[:10]:
             diagnostics.error(line, f"not well-formed XML: {message}")
         if not diagnostics.any:
             diagnostics.error(problem.lineno, f"not well-formed XML: {str(problem)[:200]}")
@@ -82,7 +82,7 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
     return Document(path, root, root.getroottree().docinfo.internalDTD is not None)
 
 
-def _said(entry: etree._LogEntry, data: bytes) -> str:
+def _message(entry: etree._LogEntry, data: bytes) -> str:
     """What the parser found wrong, in whole words."""
     text = data.rstrip()
     if (

@@ -88,16 +88,16 @@ class Field:
     def expected(self) -> str:
         """What should have stood there, in words."""
         if self.kind == "word":
-            said = "one of " + ", ".join(repr(word) for word in self.type)
+            text = "one of " + ", ".join(repr(word) for word in self.type)
             parts = " ".join(f"<{part}>" for part in self.xml.parts)
-            return f"{said}, or {parts}" if self.words else said
+            return f"{text}, or {parts}" if self.words else text
         if self.kind == "bool":
             return "true or false" if self.xml.attribute else "0 or 1"
         words = {"int": "a whole number", "numbers": "numbers"}
         words |= dict.fromkeys(("float", "triple"), "a number")
         limits = [f"{sign} {limit:g}" for sign, limit, _ in self._limits()]
-        said = " ".join([words.get(self.kind, "text"), *([" and ".join(limits)] if limits else [])])
-        return f"{said} [{self.unit}]" if self.unit else said
+        text = " ".join([words.get(self.kind, "text"), *([" and ".join(limits)] if limits else [])])
+        return f"{text} [{self.unit}]" if self.unit else text
 
     def allows(self, value: float) -> bool:
         """Whether a number is within the limits."""

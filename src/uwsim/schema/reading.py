@@ -86,12 +86,12 @@ def read_choice(
 
 def text_of(node: etree._Element, diagnostics: Diagnostics) -> str:
     """The text of a leaf, trimmed; of several pieces split by comments the last that says some."""
-    said = ""
+    message = ""
     for piece in (node.text, *(child.tail for child in node)):
-        said = (piece or "").strip(BLANKS) or said
+        message = (piece or "").strip(BLANKS) or message
     for child in _elements(node, diagnostics):
         diagnostics.error(child, f"{shown(child)} inside {shown(node)}, where only text may stand")
-    return said
+    return message
 
 
 @functools.cache
@@ -296,8 +296,8 @@ def _unknown_attribute(
     node: etree._Element, name: str, known: Iterable[str], diagnostics: Diagnostics
 ) -> None:
     names = [local(each) for each in known]
-    said = shown_attribute(name)
-    diagnostics.unknown(node, f"{said} is not an attribute of {shown(node)}", local(name), names)
+    message = shown_attribute(name)
+    diagnostics.unknown(node, f"{message} is not an attribute of {shown(node)}", local(name), names)
 
 
 def _misplaced(child: etree._Element, after: str, diagnostics: Diagnostics) -> None:
@@ -308,5 +308,5 @@ def _misplaced(child: etree._Element, after: str, diagnostics: Diagnostics) -> N
 
 def _purpose(field: Field) -> str:
     """What a missing element would say: the first sentence of its documentation."""
-    said = field.doc.split(". ")[0].replace("\n", " ").replace("``", "`").rstrip(".")
-    return said[:1].lower() + said[1:] or field.expected
+    message = field.doc.split(". ")[0].replace("\n", " ").replace("``", "`").rstrip(".")
+    return message[:1].lower() + message[1:] or field.expected

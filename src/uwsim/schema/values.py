@@ -55,8 +55,8 @@ def scalar(
         if value is None and is_lenient and (leading := _NUMBER.match(text)):
             value = number(leading[0])
             if value is not None:
-                said = f"{shown} is {cut(text)}; read as {value:g}, as the original does"
-                diagnostics.warning(node, said)
+                message = f"{shown} is {cut(text)}; read as {value:g}, as the original does"
+                diagnostics.warning(node, message)
         value = BAD if value is None else value
     elif field.kind == "int":
         leading = _LEADING_INT.match(text)
@@ -105,16 +105,16 @@ def numbers(
         if value is None or not field.allows(value)
     ]  # fmt: skip
     if len(words) > MAX_NUMBERS:
-        said = f"holds {len(words)} numbers; expected {MAX_NUMBERS} at most"
+        message = f"holds {len(words)} numbers; expected {MAX_NUMBERS} at most"
     elif wrong or not words:
-        said = f"holds {cut(wrong[0] if wrong else text)}; expected {field.expected}"
+        message = f"holds {cut(wrong[0] if wrong else text)}; expected {field.expected}"
     elif beyond:
-        said = f"holds {cut(beyond[0])}; no quantity is beyond {LARGEST:g}"
+        message = f"holds {cut(beyond[0])}; no quantity is beyond {LARGEST:g}"
     elif field.type and len(words) != field.type:
-        said = f"has {len(words)} numbers; expected {field.type}"
+        message = f"has {len(words)} numbers; expected {field.type}"
     else:
         return tuple(values)
-    diagnostics.error(node, f"{shown} {said}")
+    diagnostics.error(node, f"{shown} {message}")
     return BAD
 
 

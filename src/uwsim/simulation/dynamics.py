@@ -110,7 +110,7 @@ class Search:
         given = {body.link: body.mass for body in dynamics.bodies}
         mass = sum(given.get(link.name) or link.mass for link in robot.links)
         displaced = dynamics.density * sum(body.volume for body in dynamics.bodies)
-        said = (
+        message = (
             f"the vehicle {vehicle!r} has {mass:g} kg and displaces {displaced:g} kg of water; "
             f"expected nearly the same (<mass> in kg and <volume> in m3 of the set {name!r})"
         )
@@ -121,7 +121,7 @@ class Search:
                 *place,
             )
         elif displaced > LIGHTEST * mass:
-            self._say(f"{said}; {LIGHTEST:g} times the mass is lighter than any foam", *place)
+            self._say(f"{message}; {LIGHTEST:g} times the mass is lighter than any foam", *place)
 
     def _name_massless(self, index: int, robot: RobotSpec) -> None:
         """Say which links weigh what the engine needs, because no file says what they weigh."""
@@ -142,11 +142,11 @@ class Search:
         density = self._scene.ocean_state.water_density
         given = {index: one.density for index, one in self.dynamics.items()}
         if density is None and len(set(given.values())) > 1:
-            said = " and ".join(
+            message = " and ".join(
                 f"{self._scene.vehicles[i].name!r} {value:g}" for i, value in given.items()
             )
             self._say(
-                f"the sets of the vehicles are for water of different density ({said} kg/m3); "
+                f"the sets of the vehicles are for water of different density ({message} kg/m3); "
                 "expected <u:density> in <oceanState>, which says what the water has",
                 *("vehicle", max(given), f"{U}dynamics", 0),
             )

@@ -33,7 +33,7 @@ def latency_of(parameters: Mapping[str, float | str]) -> float:
 
 
 def what_broke(error: BaseException, algorithm: type) -> str:
-    """Say what a stranger's program raised, and at which line of its file.
+    """Describe what a third-party program raised, with the line of its file.
 
     The file is the algorithm's, without its folders: results are the same wherever it lies. Where
     the error did not pass through it, the file is the one that raised.
@@ -44,13 +44,13 @@ def what_broke(error: BaseException, algorithm: type) -> str:
     own = getattr(sys.modules.get(algorithm.__module__), "__file__", None)
     through = [frame for frame in frames if frame.filename == own] or frames
     place = f"{Path(through[-1].filename).name}:{through[-1].lineno}: " if through else ""
-    return f"{place}{type(error).__name__}: {_said(error)}"
+    return f"{place}{type(error).__name__}: {_text(error)}"
 
 
-def _said(error: BaseException) -> str:
+def _text(error: BaseException) -> str:
     try:
         return str(error)
-    except BaseException as odd:  # a stranger's error may not even be shown
+    except BaseException as odd:  # even str() of a third-party error may raise
         if is_of_user(odd):
             raise
         return "its text cannot be shown"
@@ -97,7 +97,7 @@ class InProcessNode:
         self._thread = threading.get_ident()
         self._is_open = True
         self._heard: dict[str, Callable[[], str | None]] = {}
-        self._said: dict[str, Callable[[], str | None]] = {}
+        self._published: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
         self._random = random
         self._parameters = dict(parameters)
@@ -156,7 +156,7 @@ class InProcessNode:
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``; delayed by the parameter ``latency_s``."""
         self._check(topic)
-        self._said[f"it publishes on {topic!r}, but "] = lambda: self._bus.unheard(topic)
+        self._published[f"it publishes on {topic!r}, but "] = lambda: self._bus.unheard(topic)
         give = self._bus.publisher(topic, type, delay_steps=self._delay_steps)
 
         def publish(message: M) -> None:
@@ -174,15 +174,15 @@ class InProcessNode:
 
     def unconnected(self) -> list[str]:
         """A sentence for each of its topics that has no other end at present."""
-        return self._ends({**self._heard, **self._said})
+        return self._ends({**self._heard, **self._published})
 
     def unfed(self) -> list[str]:
         """A sentence for each topic that it subscribes to and nobody publishes at present."""
         return self._ends(self._heard)
 
     def _ends(self, topics: Mapping[str, Callable[[], str | None]]) -> list[str]:
-        found = {said: missing() for said, missing in topics.items()}
-        return [f"{self.name}: {said}{why}" for said, why in found.items() if why is not None]
+        found = {message: missing() for message, missing in topics.items()}
+        return [f"{self.name}: {message}{why}" for message, why in found.items() if why is not None]
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service; ``type`` is the class of its request."""
@@ -233,7 +233,7 @@ class InProcessNode:
             return None
 
     def _broken_by(self, error: BaseException) -> None:
-        """Keep what a stranger's program raised; called where it is handled."""
+        """Keep what a third-party program raised; called in its except clause."""
         if is_of_user(error):
             raise error
         self.error = what_broke(error, self._algorithm)
@@ -251,6 +251,6 @@ class InProcessNode:
         if topic is not None and self._bus.is_withheld(topic):
             self._break_rule(f"topic {topic!r} is for observers of the run")
 
-    def _break_rule(self, said: str) -> NoReturn:
-        self.error = self.error or f"NotAllowed: {said}"
-        raise NotAllowed(said)
+    def _break_rule(self, message: str) -> NoReturn:
+        self.error = self.error or f"NotAllowed: {message}"
+        raise NotAllowed(message)

@@ -41,13 +41,13 @@ def apart(stored: Any, again: Any) -> Iterator[tuple[tuple[str | int, ...], str,
 
 def of_row(stored: Record, again: Record) -> list[str]:
     """Say what differs in a level's record, a line a column and a line a log."""
-    said: dict[str, str] = {}
+    messages: dict[str, str] = {}
     for path, before, after in apart(stored, again):
         name = _name(path, stored, again)
         if name is not None:
             group = " ".join(map(str, path[:2])) if path[0] == "logs" else name
-            said.setdefault(group, f"{name}: stored {before}, replayed {after}")
-    return list(said.values())
+            messages.setdefault(group, f"{name}: stored {before}, replayed {after}")
+    return list(messages.values())
 
 
 def _name(path: tuple[str | int, ...], stored: Record, again: Record) -> str | None:
@@ -84,7 +84,7 @@ def _time(record: Record, name: str | int, sample: int) -> str:
 
 def of_end(stored: Record, again: Record) -> list[str]:
     """Say what differs in the end of a unit: images, constants, parameters; not its trace."""
-    said: dict[str, str] = {}
+    messages: dict[str, str] = {}
     for path, before, after in apart(_without_checkpoints(stored), _without_checkpoints(again)):
         name = " ".join(map(str, path[:2]))
         if path[0] == "streams" and isinstance(path[-1], int):
@@ -94,8 +94,8 @@ def of_end(stored: Record, again: Record) -> list[str]:
             name = f"images on {topic}"
             if path[-1] == 1:
                 before, after = f"{before} frames", f"{after} frames"
-        said.setdefault(name, f"{name}: stored {before}, replayed {after}")
-    return list(said.values())
+        messages.setdefault(name, f"{name}: stored {before}, replayed {after}")
+    return list(messages.values())
 
 
 def _without_checkpoints(end: Record) -> Record:
@@ -106,7 +106,7 @@ def _without_checkpoints(end: Record) -> Record:
 class Motion:
     """What the fingerprints of a unit say."""
 
-    said: str | None
+    message: str | None
     """Where two runs part, in words; None if they do not."""
     parts: tuple[str, ...] = ()
     """What differs first."""
@@ -119,20 +119,22 @@ def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> Motion:
     ends = [record.end or {} for record in (stored, again)]
     one, other = (Checkpoints.of(end.get("trace")) for end in ends)
     if one is None or other is None:
-        return Motion(said=None, is_known=False)
+        return Motion(message=None, is_known=False)
     found = divergence(one, other)
     if found is None:
-        told = [[row.get("fingerprint") for row in each.rows] for each in (stored, again)]
-        differs = [n for n, pair in enumerate(zip(*told, strict=False)) if pair[0] != pair[1]]
+        fingerprints = [[row.get("fingerprint") for row in each.rows] for each in (stored, again)]
+        differs = [
+            n for n, pair in enumerate(zip(*fingerprints, strict=False)) if pair[0] != pair[1]
+        ]
         if not differs:
-            return Motion(said=None)
-        return Motion(said=f"the fingerprint of its level {differs[0]} differs, no mark does")
+            return Motion(message=None)
+        return Motion(message=f"the fingerprint of its level {differs[0]} differs, no mark does")
     span = (
         f"the same up to step {found.after} ({found.after * timestep:g} s), "
         f"no more at step {found.until} ({found.until * timestep:g} s)"
     )
     what = f"; first differs: {', '.join(found.parts)}" if found.parts else ""
-    return Motion(said=f"motion and images are {span}{what}", parts=found.parts)
+    return Motion(message=f"motion and images are {span}{what}", parts=found.parts)
 
 
 def of_text(stored: str, again: str) -> str | None:

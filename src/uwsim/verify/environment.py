@@ -43,14 +43,14 @@ def made_otherwise(stored: Result, directory: Path, run: Mapping[str, object]) -
     for name in ("system", "python", *(["cpu"] if "code" not in recorded else [])):
         if name in recorded:
             pairs[name] = (recorded[name], here[name])
-    said = {
+    messages = {
         name: f"{MEANS[name]}: made with {before}, replayed with {now}; {PROMISES[name]}"
         for name, (before, now) in pairs.items()
         if before != now
     }
     if codes := [text for code in codes_of(recorded) if (text := other_code(code))]:
-        said["code"] = f"{MEANS['code']}: {'; '.join(codes)}; {PROMISES['code']}"
-    return said
+        messages["code"] = f"{MEANS['code']}: {'; '.join(codes)}; {PROMISES['code']}"
+    return messages
 
 
 def blame(found: Verification, others: Mapping[str, str]) -> str:

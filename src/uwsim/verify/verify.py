@@ -160,8 +160,8 @@ def _check_files(found: Verification, directory: Path, result: Result, run: Run)
             found.not_compared.append(f"{path.name}: is not there")
         else:
             text = there.read_text(encoding="utf-8", errors="replace")
-            if said := differences.of_text(text, path.read_text(encoding="utf-8")):
-                found.add(path.name, f"{said} by units/")
+            if difference := differences.of_text(text, path.read_text(encoding="utf-8")):
+                found.add(path.name, f"{difference} by units/")
 
 
 def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
@@ -184,9 +184,9 @@ def _head(result: Result, replayed: journal.Record) -> journal.Record:
 
     The parameters of a head are those given; result.json says those that the algorithm ran with.
     """
-    said = json.loads(json.dumps(result.run))
+    stored = json.loads(json.dumps(result.run))
     run = {
-        key: said.get(key) if key != "parameters" else now for key, now in replayed["run"].items()
+        key: stored.get(key) if key != "parameters" else now for key, now in replayed["run"].items()
     }
     return {**replayed, "inputs": json.loads(json.dumps(result.inputs)), "run": run}
 
@@ -233,19 +233,19 @@ def _check_unit(found: Verification, directory: Path, again: Run, trial: Trial) 
     before = len(found.differences)
     for n, level in enumerate(trial.levels):
         rows = [each.rows[n] if n < len(each.rows) else {} for each in (stored, played)]
-        for said in differences.of_row(*rows):
-            found.add(f"{name}, level {level}", said)
-    for said in differences.of_end(stored.end or {}, played.end or {}):
-        found.add(name, said)
+        for message in differences.of_row(*rows):
+            found.add(f"{name}, level {level}", message)
+    for message in differences.of_end(stored.end or {}, played.end or {}):
+        found.add(name, message)
     motion = differences.of_checkpoints(stored, played, again.plan.timestep)
-    if len(found.differences) > before or motion.said is not None:
+    if len(found.differences) > before or motion.message is not None:
         found.is_replayed = False
     if not motion.is_known:
         found.not_compared.append(f"{name}: has no fingerprints of motion")
-    elif motion.said is not None:
+    elif motion.message is not None:
         found.is_steady = False
         found.parts += [part for part in motion.parts if part not in found.parts]
-        found.differences.insert(before, Difference(where=name, what=motion.said))
+        found.differences.insert(before, Difference(where=name, what=motion.message))
 
 
 def _check_rows(found: Verification, result: Result, again: Run) -> None:

@@ -65,7 +65,7 @@ def test_rows_are_paired_by_seed_and_level_and_lost_ones_are_counted_not_guessed
     assert (foggy.success.first_only, foggy.success.second_only) == (1, 1)
 
 
-def test_only_seeds_and_levels_of_both_are_compared_and_the_rest_is_said() -> None:
+def test_only_seeds_and_levels_of_both_are_compared_and_the_rest_is_reported() -> None:
     first = made("esm", {0.0: [1.0] * 4, 0.5: [1.0] * 4})
     second = made("ic", {0.5: [2.0] * 4, 1.0: [2.0] * 4}, seed=2)
     comparison = compared(first, second)
@@ -270,7 +270,7 @@ def test_few_pairs_that_a_step_of_holm_can_reach_are_tested() -> None:
     assert (clear.value.verdict, few.value.verdict) == ("first", "first")
 
 
-def test_a_narrow_interval_is_told_with_the_digits_that_show_it() -> None:
+def test_a_narrow_interval_is_printed_with_the_digits_that_show_it() -> None:
     assert told_apart(44.58, 44.62) == ("44.58", "44.62")
     assert told_apart(0.2, 0.4) == ("0.2", "0.4")
     assert told_apart(44.6, 44.6) == ("44.6", "44.6")
@@ -429,7 +429,7 @@ def test_against_a_baseline_only_that_is_compared_and_it_stands_first() -> None:
     assert [entry.name for entry in comparison.entries] == ["b", "a", "c"]
 
 
-def test_it_is_said_whether_both_saw_the_same_images() -> None:
+def test_it_is_reported_whether_both_saw_the_same_images() -> None:
     a, b = visibility("a", seeds=(1, 2)), visibility("b", seeds=(1, 2))
     streams = (replace(b.image_streams[0], sha256="d5" * 32), b.image_streams[1])
     assert "the same images, byte for byte (2 streams)" in said(compared(a, b))

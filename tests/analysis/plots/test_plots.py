@@ -200,7 +200,7 @@ def test_a_comparison_shows_the_predicted_loss_of_those_that_have_one() -> None:
     assert "predicted" not in words(figure)  # one line would be wrong for one of them
 
 
-def test_the_same_algorithm_twice_is_told_apart_by_its_seed() -> None:
+def test_the_same_algorithm_twice_is_distinguished_by_its_seed() -> None:
     second = replace(visibility(), run={**visibility().run, "seed": 2})
     assert "esm, seed 2 (lost at 1.2)" in words(compare_plot([visibility(), second], "corners"))
 

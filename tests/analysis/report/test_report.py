@@ -191,7 +191,7 @@ def test_losses_over_repeats_are_given_from_first_to_last(tmp_path: Path) -> Non
     assert "exact 95 % interval" in page.text
 
 
-def test_an_image_that_is_gone_or_broken_is_said_and_does_not_stop_the_report(
+def test_an_image_that_is_gone_or_broken_is_reported_and_does_not_stop_the_report(
     tmp_path: Path,
 ) -> None:
     result = with_image(visibility(), tmp_path, 0, 1)
@@ -319,7 +319,7 @@ def test_every_class_of_ending_is_counted_also_those_that_never_came(tmp_path: P
     }
 
 
-def test_reasons_that_differ_in_numbers_alone_are_told_once_and_counted(tmp_path: Path) -> None:
+def test_reasons_that_differ_in_numbers_alone_are_reported_once_and_counted(tmp_path: Path) -> None:
     base = visibility()
     notes = [
         Missing(row=row, column="total", why=f"tracker lost at {row}.5 s: ZNCC 0.{row} on 5 frames")
@@ -331,7 +331,7 @@ def test_reasons_that_differ_in_numbers_alone_are_told_once_and_counted(tmp_path
     assert "1 × no estimate for 1.5 s" in text
 
 
-def test_a_long_reason_is_not_told_in_every_line_again(tmp_path: Path) -> None:
+def test_a_long_reason_is_not_repeated_in_every_line(tmp_path: Path) -> None:
     base = visibility()
     long = "tracker raised: " + "a very long message of a library " * 5
     notes = [Missing(row=row, column="total", why=f"{long}{row}") for row in (24, 25)]
@@ -431,7 +431,7 @@ def test_cards_have_three_digits_and_nothing_is_zero(tmp_path: Path) -> None:
     assert "36.4 to −2083 px" in text
 
 
-def test_the_prediction_is_told_only_where_fog_is_swept(tmp_path: Path) -> None:
+def test_the_prediction_is_given_only_where_fog_is_swept(tmp_path: Path) -> None:
     base = visibility()
     current = (Column(name="current", kind="level", unit="m/s"), *base.columns[1:])
     text = page_of(replace(base, columns=current), tmp_path).text
@@ -440,7 +440,7 @@ def test_the_prediction_is_told_only_where_fog_is_swept(tmp_path: Path) -> None:
     assert "loss predicted at f*" in page_of(base, tmp_path).text
 
 
-def test_without_pixels_nothing_is_said_of_their_floor(tmp_path: Path) -> None:
+def test_without_pixels_their_floor_is_not_reported(tmp_path: Path) -> None:
     base = visibility()
     columns = tuple(replace(c, unit="m") if c.unit == "px" else c for c in base.columns)
     assert "floor of the ground truth" not in page_of(replace(base, columns=columns), tmp_path).text

@@ -137,7 +137,7 @@ def test_every_type_of_command_has_its_axes_and_units(
     assert control.detail_units["variation"] == unit
 
 
-def test_units_of_what_is_squared_and_integrated_are_said() -> None:
+def test_units_of_what_is_squared_and_integrated_are_reported() -> None:
     world = FakeWorld(timestep=DT)
     world.bus.publisher("u", Twist)
     units = bound(world, topic="u", axes="vx vy").detail_units

@@ -92,7 +92,7 @@ def test_parts_add_up_to_the_whole() -> None:
     assert details["thrusters"] == pytest.approx(sum(each), rel=1e-12)
 
 
-def test_a_battery_tells_what_is_left_and_runs_empty() -> None:
+def test_a_battery_reports_its_charge_and_runs_empty() -> None:
     actuators = rov()
     energy, world = bound(actuators, battery=BatterySpec(capacity=0.5, unit="Wh"))  # 1800 J
     actuators.draws[0] = 100.0
@@ -112,7 +112,7 @@ def test_a_capacity_may_be_in_joules_or_watt_hours() -> None:
     assert BatterySpec(capacity=2.0).joules == 2.0
 
 
-def test_units_are_said_for_what_is_no_energy() -> None:
+def test_units_are_reported_for_what_is_no_energy() -> None:
     energy, _ = bound(rov())
     assert energy.unit == "J"
     assert energy.detail_units == {"mean_power": "W", "peak_power": "W", "charge": "1"}

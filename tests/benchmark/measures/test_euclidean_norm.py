@@ -271,7 +271,7 @@ def test_the_truth_is_that_of_the_step_at_which_the_estimate_arrives() -> None:
     assert norm.value == pytest.approx(2.0 * 0.1 * 257.34083, rel=1e-5)  # four corners, each as far
 
 
-def test_a_target_behind_the_camera_has_no_truth_and_that_is_said() -> None:
+def test_a_target_behind_the_camera_has_no_truth_and_that_is_reported() -> None:
     world, body = seen_box()
     norm = corners_spec("autoInit").bind(world)
     body.move(0.0, 0.0, 3.0)

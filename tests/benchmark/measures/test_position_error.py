@@ -112,7 +112,7 @@ def test_the_original_measures_in_the_world_and_takes_the_topic_to_be_in_it() ->
     assert told.value == pytest.approx(4.0)
 
 
-def test_the_original_starts_at_100_and_is_minus_1_until_it_is_told_where() -> None:
+def test_the_original_starts_at_100_and_is_minus_1_until_it_receives_the_target() -> None:
     for quirks, values in (
         (frozenset[str](), [None, None, None, 3.0]),
         (frozenset({"position-start"}), [100.0, 100.0, -1.0, 3.0]),

@@ -70,7 +70,7 @@ def test_a_service_trigger_of_the_next_level_has_not_been_called() -> None:
     assert not ServiceSpec(target="stopTask").bind(world).is_on()
 
 
-def test_a_topic_trigger_is_what_the_last_message_said() -> None:
+def test_a_topic_trigger_has_the_state_of_the_last_message() -> None:
     world = FakeWorld()
     publish = world.bus.publisher("ready", Bool)
     trigger = TopicSpec(target=" /ready").bind(world)

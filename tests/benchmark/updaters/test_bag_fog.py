@@ -325,7 +325,7 @@ def test_an_independent_level_begins_with_the_first_image(tmp_path: Path) -> Non
         assert all(np.array_equal(pixels, sample_pixels(0)) for pixels in prelude)
 
 
-def test_the_result_tells_how_many_images_it_showed_and_their_hash(tmp_path: Path) -> None:
+def test_the_result_has_the_number_of_images_published_and_their_hash(tmp_path: Path) -> None:
     plan = a_plan(tmp_path)
     (unit,) = plan.units()
     ends = [next(x for x in execute(plan, unit) if isinstance(x, TrialEnd)) for _ in range(2)]

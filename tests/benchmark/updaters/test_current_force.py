@@ -170,7 +170,7 @@ def forces(spec: CurrentForceUpdaterSpec, **other: object) -> list[WrenchStamped
     return inbox.take()
 
 
-def test_as_a_force_it_is_said_100_times_a_second_and_moves_no_water() -> None:
+def test_as_a_force_it_is_published_100_times_a_second_and_moves_no_water() -> None:
     said = forces(tracking(publish_as_force=True))
     assert len(said) == 3000
     assert {message.header.frame_id for message in said} == {"Currents"}

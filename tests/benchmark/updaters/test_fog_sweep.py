@@ -18,7 +18,7 @@ from uwsim.benchmark.updaters import (
     levels,
     n_levels,
     ramp_level,
-    references,
+    swept_parameters,
 )
 from uwsim.bus import Node
 from uwsim.cli import main
@@ -73,7 +73,7 @@ def test_it_runs_upward_too_and_one_level_is_enough() -> None:
 
 def test_a_density_is_still_counted_as_the_original_counts() -> None:
     spec = SceneFogUpdaterSpec(initial_value=0.0, final_value=1.3, step=0.05, interval=2.0)
-    assert (n_levels(spec), references(spec), spec.reference_unit) == (27, ("fog",), "1/m")
+    assert (n_levels(spec), swept_parameters(spec), spec.parameter_unit) == (27, ("fog",), "1/m")
     assert spec.density(0.3) == 0.3
 
 

@@ -34,7 +34,7 @@ from uwsim.benchmark.updaters import (
     levels,
     n_levels,
     ramp_level,
-    references,
+    swept_parameters,
 )
 from uwsim.bus import Node
 from uwsim.messages import Image, pixels_of
@@ -111,7 +111,7 @@ def triples() -> list[tuple[str, ...]]:
     return found
 
 
-class Knobs:
+class Values:
     """Reads what a level has set."""
 
     def __init__(self, world: FakeWorld) -> None:
@@ -119,7 +119,7 @@ class Knobs:
         self._seen: list[np.ndarray] = []
         world.bus.subscribe(IMAGE, Image, lambda said: self._seen.append(pixels_of(said)))
 
-    def stands_at(self, element: str, value: float) -> bool:
+    def has(self, element: str, value: float) -> bool:
         """Tell whether the scene is as this value of this updater wants it."""
         world = self._world
         if element == "armMoveUpdater":
@@ -157,7 +157,7 @@ def test_three_deep_every_value_stands_at_every_level_and_restarts(
     assert [tuple(value for _, value in level.values) for level in played] == expected
     world = FakeWorld(vehicles=(VEHICLE,), timestep=0.01)
     updaters = bind_updaters(spec, world)
-    knobs = Knobs(world)
+    values = Values(world)
     ramp_level(updaters, initial_level(spec))
     before: Level | None = None
     for level in played:
@@ -165,7 +165,7 @@ def test_three_deep_every_value_stands_at_every_level_and_restarts(
         before = level
         world.advance(2)
         for element, (_, value) in zip(elements, level.values, strict=True):
-            assert knobs.stands_at(element, value), (str(level), element)
+            assert values.has(element, value), (str(level), element)
     for updater in updaters:
         updater.close()
 
@@ -191,7 +191,7 @@ def test_the_deepest_interval_counts_and_none_may_stand_at_the_bottom() -> None:
         RepeatSpec(iterations=2, interval=3.0), replace(ARM, interval=7.0), current(interval=5.0)
     )
     assert interval(spec) == 5.0
-    assert references(spec) == ("iteration", "armPosition", "current")
+    assert swept_parameters(spec) == ("iteration", "armPosition", "current")
     assert n_levels(nested(RepeatSpec(iterations=2, interval=3.0), ARM, NoneSpec())) == 6
 
 

@@ -22,8 +22,8 @@ from uwsim.benchmark.updaters import (
     interval,
     levels,
     n_levels,
-    references,
     sweep,
+    swept_parameters,
 )
 from uwsim.errors import BadSetting, UnknownName
 
@@ -98,7 +98,7 @@ def test_none_is_one_level_called_1_that_lasts_until_stop_on() -> None:
 def test_repeat_counts_its_iterations_from_0() -> None:
     spec = RepeatSpec(iterations=3, interval=60.0)
     assert spec.values() == (0.0, 1.0, 2.0)
-    assert references(spec) == ("iteration",)
+    assert swept_parameters(spec) == ("iteration",)
 
 
 def test_nested_updaters_give_all_pairs_and_the_inner_one_steps_first() -> None:
@@ -107,7 +107,7 @@ def test_nested_updaters_give_all_pairs_and_the_inner_one_steps_first() -> None:
     assert [(a, b) for (_, a), (_, b) in pairs] == [
         (0.0, 0.0), (0.0, 0.1), (0.0, 0.2), (0.3, 0.0), (0.3, 0.1), (0.3, 0.2),
     ]  # fmt: skip
-    assert references(spec) == ("light", "fog")
+    assert swept_parameters(spec) == ("light", "fog")
 
 
 def test_the_deepest_updater_decides_how_long_a_level_lasts() -> None:
@@ -118,12 +118,12 @@ def test_the_deepest_updater_decides_how_long_a_level_lasts() -> None:
 def test_none_nested_in_another_updater_changes_nothing() -> None:
     spec = fog(0.0, 0.2, 0.1, child=NoneSpec())
     assert interval(spec) == 2.0
-    assert references(spec) == ("fog",)
+    assert swept_parameters(spec) == ("fog",)
 
 
 def test_two_updaters_of_one_kind_have_two_columns() -> None:
     spec = RepeatSpec(iterations=2, interval=1.0, child=RepeatSpec(iterations=2, interval=1.0))
-    assert references(spec) == ("iteration", "iteration_2")
+    assert swept_parameters(spec) == ("iteration", "iteration_2")
 
 
 def test_an_arm_takes_its_positions_with_evenly_spaced_ones_between() -> None:
@@ -136,7 +136,7 @@ def test_an_arm_takes_its_positions_with_evenly_spaced_ones_between() -> None:
     ]
 
 
-def test_applying_a_level_turns_every_knob() -> None:
+def test_applying_a_level_calls_every_setter() -> None:
     world = FakeWorld(vehicles=("g500",))
     spec = ArmMoveUpdaterSpec(
         arm_position=((0.0, 0.5), (1.0, 0.7)), step=0, interval=1.0, target="g500",

@@ -150,7 +150,7 @@ def test_a_drive_that_no_joint_can_have_is_refused(tmp_path: Path, given: str, s
     assert said in diagnostics[0]
 
 
-def test_errors_of_drives_made_in_python_are_said_too() -> None:
+def test_errors_of_drives_made_in_python_are_reported_too() -> None:
     vehicle = VehicleHydrodynamics(
         name="v",
         source="",

@@ -77,7 +77,7 @@ def test_a_worker_that_is_killed_leaves_the_same_bytes(benchmark: Path, tmp_path
 
 
 @pytest.mark.slow
-def test_what_kills_every_worker_is_said_in_its_row_and_tried_again_when_resumed(
+def test_what_kills_every_worker_is_reported_in_its_row_and_tried_again_when_resumed(
     benchmark: Path, tmp_path: Path
 ) -> None:
     deadly = bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))
@@ -204,7 +204,7 @@ def test_an_algorithm_that_changes_the_working_directory_takes_no_result_with_it
     assert Path.cwd() == tmp_path
 
 
-def test_every_level_is_told_once(tmp_path: Path) -> None:
+def test_every_level_is_reported_once(tmp_path: Path) -> None:
     told: list[None] = []
     queue = JobQueue(jobs(tmp_path, 3), lambda: told.append(None))
     job = queue.take()
@@ -237,7 +237,7 @@ def test_a_unit_that_is_gone_when_all_are_played_is_missed_and_played_with_resum
     assert fingerprint(out) == fingerprint(whole)
 
 
-def test_an_error_that_cannot_travel_is_told_all_the_same() -> None:
+def test_an_error_that_cannot_be_pickled_is_reported_all_the_same() -> None:
     class Odd(Exception):
         def __reduce__(self) -> str:
             raise TypeError("not me")

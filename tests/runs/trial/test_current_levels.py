@@ -107,18 +107,22 @@ def told(
     return found
 
 
-def test_the_tracker_is_told_at_once_that_the_vehicle_was_put_back(tmp_path: Path) -> None:
+def test_the_tracker_gets_the_target_at_once_when_the_vehicle_is_put_back(tmp_path: Path) -> None:
     first, second = told(tmp_path)
     assert (first[0], second[0]) == (0.0, pytest.approx(3.0))
     assert second[1] == pytest.approx(first[1])
 
 
-def test_after_a_settling_time_the_tracker_is_told_when_measuring_begins(tmp_path: Path) -> None:
+def test_after_a_settling_time_the_tracker_gets_the_target_when_measuring_begins(
+    tmp_path: Path,
+) -> None:
     times = [time for time, _ in told(tmp_path, settling='u:settlingTime="1"')]
     assert times == pytest.approx([1.0, 5.0])
 
 
-def test_a_file_may_ask_that_the_tracker_is_told_in_the_first_level_only(tmp_path: Path) -> None:
+def test_a_file_may_ask_that_the_tracker_gets_the_target_in_the_first_level_only(
+    tmp_path: Path,
+) -> None:
     assert [time for time, _ in told(tmp_path, 'u:autoInit="once"')] == [0.0]
 
 

@@ -234,7 +234,7 @@ def test_one_error_is_one_line_that_both_commands_say(said: object, name: str) -
     assert message in error
 
 
-def test_names_that_the_scene_does_not_have_are_said_all_at_once(said: object) -> None:
+def test_names_that_the_scene_does_not_have_are_reported_all_at_once(said: object) -> None:
     text = with_measure(
         "<objectCenteredOnCam><name>o</name>\n<target>bx</target>\n<camera>cam</camera>\n"
         "<startOn><type>onMove</type>\n<target>sub</target></startOn>\n"
@@ -254,14 +254,14 @@ def test_names_that_the_scene_does_not_have_are_said_all_at_once(said: object) -
     assert all(f" is called {name!r}." in error for name, error in zip(names, errors, strict=True))
 
 
-def test_a_name_that_is_wrong_in_two_places_is_said_for_each(said: object) -> None:
+def test_a_name_that_is_wrong_in_two_places_is_reported_for_each(said: object) -> None:
     text = BASE.replace("blackbox", "blakbox")
     errors = said(text)  # type: ignore[operator]
     lines = [line_of(text, "blakbox", n) for n in (1, 2)]
     assert [int(error.partition(":")[0]) for error in errors] == lines
 
 
-def test_errors_of_benchmark_and_scene_are_said_together(
+def test_errors_of_benchmark_and_scene_are_reported_together(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file, scene = tmp_path / "b.xml", tmp_path / "s.xml"

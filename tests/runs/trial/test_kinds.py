@@ -140,7 +140,7 @@ def test_vision_has_27_rows_of_what_the_numbers_are_off(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_vision_auto_tells_who_asks_where_the_target_is(tmp_path: Path) -> None:
+def test_vision_auto_answers_with_the_target(tmp_path: Path) -> None:
     played = play(tmp_path, "vision-auto", "--set", "algorithm.error=1.0", interval=0.2)
     result = played.result
     assert result.numbers("fog") == pytest.approx([0.05 * i for i in range(41)])

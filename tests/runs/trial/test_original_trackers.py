@@ -59,7 +59,7 @@ def test_a_sweep_of_currents_loses_no_level_that_is_not_lost_alone(
     assert len(lost(alone)) < 5
 
 
-def test_a_tracker_is_told_the_constant_corners_of_a_file(tmp_path: Path) -> None:
+def test_a_tracker_gets_the_constant_corners_of_a_file(tmp_path: Path) -> None:
     out = tmp_path / "out"
     words = ["--scene", "visibility-scene", "--algorithm", "esm", "--out", str(out)]
     chosen = ["--level", "fog=0", "--level", "fog=0.05"]

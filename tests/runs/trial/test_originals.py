@@ -20,7 +20,7 @@ from uwsim.benchmark.updaters import (
     CurrentForceUpdaterSpec,
     SceneUpdaterSpec,
     chain,
-    references,
+    swept_parameters,
 )
 from uwsim.cli import main
 from uwsim.compatibility import compatibility
@@ -111,7 +111,7 @@ def plan_of(file: Path, scene: SceneSpec, compatibility: frozenset[str]) -> Plan
     updater = shortened(spec.scene_updater, SHORT + STILL_WATER * has_current)
     chosen = [
         (name, value)
-        for name, each in zip(references(updater), chain(updater), strict=True)
+        for name, each in zip(swept_parameters(updater), chain(updater), strict=True)
         for value in each.values()[:2]
     ]
     twists = [each for each in scene.ros_interfaces if isinstance(each, ROSTwistToPATSpec)]
@@ -189,7 +189,7 @@ def test_an_original_is_played_by_the_public_command(file: Path, tmp_path: Path)
         pytest.skip("it lasts until somebody stops it, at most 600 s")
     chosen = []
     for name, updater in zip(
-        references(spec.scene_updater), chain(spec.scene_updater), strict=True
+        swept_parameters(spec.scene_updater), chain(spec.scene_updater), strict=True
     ):
         chosen += ["--level", f"{name}={updater.values()[0]!r}"]
     out = tmp_path / "out"

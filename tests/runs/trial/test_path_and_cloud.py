@@ -86,7 +86,9 @@ class IsLost(Guides):
         node.publisher("algorithmStatus", String)(String(data="lost: in the dark"))
 
 
-def test_what_an_algorithm_said_when_it_started_holds_for_every_level(tmp_path: Path) -> None:
+def test_the_status_an_algorithm_published_at_its_start_holds_for_every_level(
+    tmp_path: Path,
+) -> None:
     plan = make_plan(
         tmp_path, Guides, TWICE, measures=MEASURES, function="<function>path</function>",
         scene=scene(),

@@ -176,7 +176,7 @@ def test_an_error_of_a_library_is_put_on_the_line_of_the_algorithm_that_called_i
     assert re.match(r"decoder\.py:\d+: JSONDecodeError: ", said)
 
 
-def test_an_algorithm_that_says_it_failed_is_believed(benchmark: Path, tmp_path: Path) -> None:
+def test_an_algorithm_that_reports_its_failure_has_failed(benchmark: Path, tmp_path: Path) -> None:
     result = run(benchmark, tmp_path / "a", algorithm="tests.failing:Fails")
     assert result.values("status")[0] == "algorithm error"
     assert "no template" in str(result.why(0, "corners"))

@@ -281,7 +281,7 @@ def test_info_shows_what_is_asked(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert "it rises with 98.1 N" in warning
 
 
-def test_where_a_camera_looks_is_said_of_the_vehicle_on_the_floor(tmp_path: Path) -> None:
+def test_where_a_camera_looks_is_reported_of_the_vehicle_on_the_floor(tmp_path: Path) -> None:
     camera = """<u:dynamics>rov</u:dynamics> <u:onFloor/>
     <virtualCamera> <name>eye</name> <relativeTo>base_link</relativeTo>
       <u:lookAt> <x>0</x> <y>0</y> <z>4</z> </u:lookAt> </virtualCamera>"""

@@ -58,18 +58,18 @@ class Law(Protocol):
         """
 
 
-def speeds_of(said: object, law: str) -> Array:
+def speeds_of(returned: object, law: str) -> Array:
     """Return the speeds (2,) [m/s] that a law said, as an array or any two numbers.
 
     Raises:
         ValueError: they are no two finite numbers.
     """
     try:
-        speeds = np.asarray(said, dtype=np.float64)
+        speeds = np.asarray(returned, dtype=np.float64)
     except (TypeError, ValueError):
         speeds = np.empty(0)
     if speeds.shape != (2,) or not np.isfinite(speeds).all():
-        shown = " ".join(repr(said).split())[:60]
+        shown = " ".join(repr(returned).split())[:60]
         raise ValueError(f"the law {law} returned {shown}; expected two finite speeds [m/s]")
     return speeds
 

@@ -81,12 +81,12 @@ def shared_column(entries: Sequence[Entry], name: str | None) -> Column:
     columns = [entry.result.columns[entry.result.index(name)] for entry in entries]
     if columns[0].kind not in ("score", "measure", "detail", "time"):
         raise ResultError(f"--measure {name}: is a {columns[0].kind}, not something measured.")
-    for what, said in (
+    for what, values in (
         ("sweep different levels", [_labels(entry.result.of_kind("level")) for entry in entries]),
         (f"have {name} in different units", [column.unit or "no unit" for column in columns]),
     ):
-        if len(set(said)) > 1:
-            raise ResultError(f"These results {what}: {_who(entries, said)}.")
+        if len(set(values)) > 1:
+            raise ResultError(f"These results {what}: {_who(entries, values)}.")
     return replace(columns[0], unit=unit_of(first, columns[0]) or None)
 
 
@@ -94,9 +94,9 @@ def differences(entries: Sequence[Entry]) -> tuple[str, ...]:
     """Say what keeps results from being of one experiment; nothing where they are."""
     found = []
     for what, value in _EXPERIMENT.items():
-        said = [value(entry.result) for entry in entries]
-        if len(set(said)) > 1:
-            found.append(f"{what}: {_who(entries, said)}")
+        values = [value(entry.result) for entry in entries]
+        if len(set(values)) > 1:
+            found.append(f"{what}: {_who(entries, values)}")
     found += _few(_said_of_files(entries, "assets", "asset"), "assets")
     found += [line for line in _said_of_files(entries, "plugins", "plugin") if "absent" not in line]
     return tuple(found)
@@ -106,9 +106,9 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
     """Say what does not forbid a comparison and is worth knowing."""
     found = []
     for what in ("version", "physics", "renderer", "numpy"):
-        said = [str(entry.result.run.get(what, "unknown")) for entry in entries]
-        if len(set(said)) > 1 and not (what == "renderer" and "none" in said):
-            found.append(f"played with different versions, {what}: {_who(entries, said)}")
+        values = [str(entry.result.run.get(what, "unknown")) for entry in entries]
+        if len(set(values)) > 1 and not (what == "renderer" and "none" in values):
+            found.append(f"played with different versions, {what}: {_who(entries, values)}")
     for entry in entries:
         units = entry.result.run.get("units")
         if isinstance(units, tuple) and len(units) == 2 and units[0] != units[1]:
@@ -182,9 +182,9 @@ def _said_of_files(entries: Sequence[Entry], role: str, what: str) -> list[str]:
     ]
     found = []
     for name in dict.fromkeys(name for table in tables for name in table):
-        said = [short(table[name]) if name in table else "absent" for table in tables]
-        if len(set(said)) > 1:
-            found.append(f"{what} {name}: {_who(entries, said)}")
+        values = [short(table[name]) if name in table else "absent" for table in tables]
+        if len(set(values)) > 1:
+            found.append(f"{what} {name}: {_who(entries, values)}")
     return found
 
 
@@ -195,11 +195,11 @@ def _few(found: list[str], what: str) -> list[str]:
 # ---------------------------------------------------------------------------- how it is said
 
 
-def _who(entries: Sequence[Entry], said: Sequence[str]) -> str:
+def _who(entries: Sequence[Entry], values: Sequence[str]) -> str:
     """``0.002 s in a.result, 0.001 s in b.result and c.result``."""
     parts = []
-    for value in dict.fromkeys(said):
-        sources = [e.source for e, other in zip(entries, said, strict=True) if other == value]
+    for value in dict.fromkeys(values):
+        sources = [e.source for e, other in zip(entries, values, strict=True) if other == value]
         parts.append(f"{value} in {' and '.join(sources)}")
     return ", ".join(parts)
 

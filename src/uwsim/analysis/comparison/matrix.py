@@ -87,7 +87,7 @@ class Matrix:
     def legend(self) -> str:
         """Say what the symbols that occur mean: ``+ the row is better; ? no difference ...``."""
         found = {cell.standing for row in self.rows for cell in row.cells}
-        return "; ".join(f"{SYMBOLS[s]} {said}" for s, said in MEANINGS.items() if s in found)
+        return "; ".join(f"{SYMBOLS[s]} {message}" for s, message in MEANINGS.items() if s in found)
 
 
 def matrix(comparison: Comparison) -> Matrix:

@@ -87,7 +87,7 @@ class AtLevel:
     """Both at one level, over the seeds."""
 
     level: Level
-    """The updaters' references, outermost first."""
+    """The swept parameters, outermost first."""
     seeds: tuple[int, ...]
     """Of the pairs."""
     n_only_first: int

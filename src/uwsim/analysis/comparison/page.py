@@ -94,7 +94,7 @@ def _many(n: int, word: str) -> str:
 
 def _card(versus: Versus, unit: str | None) -> dict[str, str]:
     d = versus.overall.value
-    said = {
+    texts = {
         "first": f"{versus.first.name} better",
         "second": f"{versus.second.name} better",
         "equal": "equal",
@@ -104,7 +104,7 @@ def _card(versus: Versus, unit: str | None) -> dict[str, str]:
     }.get(d.verdict, "no difference shown")
     return {
         "label": f"{versus.second.name} against {versus.first.name}, the sweep as a whole",
-        "value": said,
+        "value": texts,
         "note": _spread(d.difference, unit),
     }
 

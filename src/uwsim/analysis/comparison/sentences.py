@@ -319,8 +319,8 @@ def _loser(versus: Versus, d: Difference) -> Entry:
 
 def _open(d: Difference) -> str:
     """Say why no side is named."""
-    said = too_few(d) if d.verdict == "too few" else "no difference is shown"
-    return said[0].lower() + said[1:]
+    message = too_few(d) if d.verdict == "too few" else "no difference is shown"
+    return message[0].lower() + message[1:]
 
 
 def _span(numbers: Sequence[int]) -> str:

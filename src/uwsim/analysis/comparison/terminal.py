@@ -51,7 +51,7 @@ class Line:
     """One level of one pair of results, as text."""
 
     level: tuple[str, ...]
-    """The updaters' references."""
+    """The swept parameters."""
     n: str
     """Pairs with a value from both."""
     first: str

@@ -36,7 +36,7 @@ LEVEL_WORDS = {
     "none": "",
     "visibilityRange": "visibility range",
 }
-"""What a level's reference is called on an axis."""
+"""Swept parameter -> its label on an axis."""
 
 STYLE: Any = {
     "font.family": "DejaVu Sans",

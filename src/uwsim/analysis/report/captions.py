@@ -42,28 +42,28 @@ def marks(result: Result, *, has_control: bool) -> str:
     n_repeats = len(set(repeats_of(result)))
     columns = result.of_kind("score", "measure")
     curves = curves_of(result, columns[0].name) if columns else []
-    said = ["Points: one value a level."]
+    messages = ["Points: one value a level."]
     if n_repeats > 1:
-        said = [
+        messages = [
             f"Points: means over {n_repeats} repeats ({seeds_text(result)}).",
             "Bands: 95 % intervals of that mean (smoothed bootstrap-t over the repeats).",
             "Hollow points: levels at which not every repeat has a value.",
         ]
     if any(curve.losses for curve in curves):
         over = ", over the repeats from the first to the last" if n_repeats > 1 else ""
-        said.append(
+        messages.append(
             f"Solid vertical line: first level that did not end ok{over}."
             if len(curves) == 1
             else "Cross: last value before the first level that did not end ok."
         )
     if result.fact("f_star") is not None and is_fog_swept(result):
-        said.append("Dotted: f*, where a tracker that compares by ZNCC should lose the patch.")
+        messages.append("Dotted: f*, where a tracker that compares by ZNCC should lose the patch.")
     if has_control:
-        said.append(
+        messages.append(
             "Dashed: the control frozen, which never looks at an image; "
             "where it lies far above, the legend names its values."
         )
-    return " ".join(said)
+    return " ".join(messages)
 
 
 def seeds_text(result: Result) -> str:

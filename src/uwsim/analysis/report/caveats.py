@@ -27,12 +27,12 @@ def floor(result: Result) -> str | None:
     in_pixels = [column.name for column in result.of_kind("measure") if column.unit == "px"]
     if all(f"{name}.visible" in names for name in in_pixels):  # of a body itself: no estimate
         return None
-    said = []
+    messages = []
     for name in result.facts:
         fact = result.fact(name) if name.startswith(FLOOR) else None
         if fact is not None:
-            said.append(f"{name.removeprefix(FLOOR)} {fact[0]:.3g} {fact[1]}")
-    return ", ".join(said)
+            messages.append(f"{name.removeprefix(FLOOR)} {fact[0]:.3g} {fact[1]}")
+    return ", ".join(messages)
 
 
 def is_static(result: Result) -> bool:

@@ -59,19 +59,21 @@ def title(result: Result) -> str:
 
 def remarks(result: Result, unchecked: str | None = None) -> list[str]:
     """Say what a reader must know first: what is unfinished, left out, changed, not checked."""
-    run, said = result.run, []
+    run, message = result.run, []
     units = run.get("units")
     if isinstance(units, tuple) and len(units) == 2 and units[0] != units[1]:
-        said.append(f"Not finished: {units[0]} of {units[1]} parts are played. --resume goes on.")
+        message.append(
+            f"Not finished: {units[0]} of {units[1]} parts are played. --resume goes on."
+        )
     if unchecked is not None:
-        said.append(f"{unchecked[0].upper()}{unchecked[1:]}.")
+        message.append(f"{unchecked[0].upper()}{unchecked[1:]}.")
     if chosen := pairs_of(run.get("levels")):
-        said.append(f"Only these levels of the sweep were played: {', '.join(chosen)}.")
+        message.append(f"Only these levels of the sweep were played: {', '.join(chosen)}.")
     if settings := pairs_of(run.get("settings")):
-        said.append(f"Changed for this run: {', '.join(settings)}.")
+        message.append(f"Changed for this run: {', '.join(settings)}.")
     if names := _words(run.get("compatibility")):
-        said.append(f"Compatibility quirks: {', '.join(names)}.")
-    return said + [f"{note}." for note in _words(run.get("notes"))]
+        message.append(f"Compatibility quirks: {', '.join(names)}.")
+    return message + [f"{note}." for note in _words(run.get("notes"))]
 
 
 def pairs_of(value: object) -> list[str]:

@@ -215,11 +215,11 @@ def _values(result: Result) -> list[str]:
     for column in result.of_kind("measure"):
         if statistic := statistic_of(result, column.name):
             by_statistic.setdefault(statistic, []).append(column.name)
-    said = [f"{', '.join(names)}: {statistic}" for statistic, names in by_statistic.items()]
-    said += [f"total = {c.expression}" for c in result.of_kind("score") if c.expression]
+    messages = [f"{', '.join(names)}: {statistic}" for statistic, names in by_statistic.items()]
+    messages += [f"total = {c.expression}" for c in result.of_kind("score") if c.expression]
     if result.of_kind("time"):
-        said.append("ended_at: running time when the level ended, summed over the levels")
-    return said
+        messages.append("ended_at: running time when the level ended, summed over the levels")
+    return messages
 
 
 def _n_curves(result: Result) -> int:

@@ -69,8 +69,8 @@ def read_meshes(
     except PermissionError:
         raise
     except (Exception, RecursionError) as error:  # trimesh raises whatever its parsers raise
-        said = str(error).strip().splitlines()
-        why = said[0][:200] if said else ""
+        messages = str(error).strip().splitlines()
+        why = messages[0][:200] if messages else ""
         if path.suffix.lower() == ".obj" and (place := wrong_line(path.read_bytes())):
             raise AssetError(f"{path}:{place}.") from error
         raise AssetError(

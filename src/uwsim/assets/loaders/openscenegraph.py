@@ -66,5 +66,7 @@ def _run(command: list[str], path: Path, folder: Path) -> None:
     except OSError as error:
         raise AssetError(f"{path}: osgconv could not be run ({error.strerror}).") from error
     if done.returncode != 0:
-        said = done.stderr.decode(errors="replace").strip().splitlines()
-        raise AssetError(f"{path}: osgconv cannot read it{': ' + said[-1] if said else '.'}")
+        messages = done.stderr.decode(errors="replace").strip().splitlines()
+        raise AssetError(
+            f"{path}: osgconv cannot read it{': ' + messages[-1] if messages else '.'}"
+        )

@@ -98,7 +98,7 @@ class PositionError(Measure):
         """Take a sample, once it is known where the body should be."""
         self._was_updated = True
         if self._goal is None:
-            self._goal = self._told()
+            self._goal = self._received()
         if self._goal is not None:
             error = (self._position() - self._goal).tolist()
             self._signal.add(math.hypot(*error), error)
@@ -147,7 +147,7 @@ class PositionError(Measure):
         w, x, y, z = (self._localized_from_world @ self._body.world_from_body).quaternion.tolist()
         return (x, y, z, w)
 
-    def _told(self) -> Array | None:
+    def _received(self) -> Array | None:
         messages = self._inbox.take() if self._inbox is not None else []
         if not messages:
             return None

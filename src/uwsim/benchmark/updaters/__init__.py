@@ -15,7 +15,7 @@ from .none import NoneSpec, NoneUpdater
 from .repeat import Repeat, RepeatSpec
 from .scene_fog_updater import SceneFogUpdaterSpec
 from .scene_light_updater import SceneLightUpdaterSpec
-from .sweep import Knob, SweepSpec, sweep
+from .sweep import Setter, SweepSpec, sweep
 from .updater import (
     MAX_LEVELS,
     Level,
@@ -31,9 +31,9 @@ from .updater import (
     levels,
     n_levels,
     ramp_level,
-    references,
     settling_time,
     steps,
+    swept_parameters,
 )
 
 UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
@@ -59,7 +59,6 @@ __all__ = [
     "CameraNoiseUpdaterSpec",
     "CurrentForceUpdater",
     "CurrentForceUpdaterSpec",
-    "Knob",
     "Level",
     "NoneSpec",
     "NoneUpdater",
@@ -69,6 +68,7 @@ __all__ = [
     "SceneLightUpdaterSpec",
     "SceneUpdater",
     "SceneUpdaterSpec",
+    "Setter",
     "SphericalSpec",
     "SweepSpec",
     "apply_level",
@@ -81,8 +81,8 @@ __all__ = [
     "levels",
     "n_levels",
     "ramp_level",
-    "references",
     "settling_time",
     "steps",
     "sweep",
+    "swept_parameters",
 ]

@@ -15,7 +15,7 @@ from typing import ClassVar
 
 from ...schema import Original, element
 from ...world import Stage
-from .sweep import Knob, SweepSpec
+from .sweep import Setter, SweepSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +29,6 @@ class CameraNoiseUpdaterSpec(SweepSpec):
     final_value: float = element(original=Original(aliases=("finalNoise",)), minimum=0.0)
     """Noise that is not exceeded."""
 
-    def bind(self, stage: Stage) -> Knob:
+    def bind(self, stage: Stage) -> Setter:
         """Take hold of every colour camera."""
-        return Knob(stage.set_camera_noise)
+        return Setter(stage.set_camera_noise)

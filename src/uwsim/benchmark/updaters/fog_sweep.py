@@ -56,12 +56,12 @@ class FogSweepSpec(SweepSpec):
     fallen to 1/e, ``attenuationLength``, or to 2 %, ``visibilityRange``."""
 
     @property
-    def reference(self) -> str:
+    def parameter(self) -> str:
         """``fog``, or the name of the length."""
         return self.name if self.quantity == DENSITY else self.quantity
 
     @property
-    def reference_unit(self) -> str:
+    def parameter_unit(self) -> str:
         """1/m, or m."""
         return self.unit if self.quantity == DENSITY else "m"
 

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 
 from ...world import Stage
 from .fog_sweep import FogSweepSpec
-from .sweep import Knob
+from .sweep import Setter
 
 
 @dataclass(frozen=True, kw_only=True)
 class SceneFogUpdaterSpec(FogSweepSpec):
     """A ``<sceneFogUpdater>`` element."""
 
-    def bind(self, stage: Stage) -> Knob:
+    def bind(self, stage: Stage) -> Setter:
         """Take hold of the fog of the sea and of every camera."""
-        return Knob(lambda value: stage.set_fog(self.density(value)))
+        return Setter(lambda value: stage.set_fog(self.density(value)))

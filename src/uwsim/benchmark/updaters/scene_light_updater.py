@@ -15,7 +15,7 @@ from typing import ClassVar
 
 from ...schema import Original, element
 from ...world import Stage
-from .sweep import Knob, SweepSpec
+from .sweep import Setter, SweepSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +29,6 @@ class SceneLightUpdaterSpec(SweepSpec):
     final_value: float = element(original=Original(aliases=("finalLight",)), minimum=0.0)
     """Light rate that is not exceeded."""
 
-    def bind(self, stage: Stage) -> Knob:
+    def bind(self, stage: Stage) -> Setter:
         """Take hold of the light of the scene."""
-        return Knob(stage.set_light_rate)
+        return Setter(stage.set_light_rate)

@@ -47,15 +47,15 @@ class SweepSpec(SceneUpdaterSpec):
         return self.interval
 
 
-class Knob(SceneUpdater):
-    """Turns one knob of the scene to the value of the level."""
+class Setter(SceneUpdater):
+    """Sets one value of the scene to that of the level."""
 
-    def __init__(self, turn: Callable[[float], None]) -> None:
-        self._turn = turn
+    def __init__(self, setter: Callable[[float], None]) -> None:
+        self._set = setter
 
     def apply(self, value: float) -> None:
-        """Turn it to ``value``."""
-        self._turn(value)
+        """Call the setter with ``value``."""
+        self._set(value)
 
 
 def sweep(initial: float, final: float, step: float, *, single: bool = False) -> tuple[float, ...]:

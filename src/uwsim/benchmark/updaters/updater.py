@@ -21,7 +21,7 @@ class Level:
     """One level of a sweep: what stands at which value, the outermost updater first."""
 
     values: tuple[tuple[str, float], ...]
-    """(reference, value) of each updater, such as ``(("current", 0.1), ("fog", 0.05))``."""
+    """(parameter, value) of each updater, such as ``(("current", 0.1), ("fog", 0.05))``."""
 
     def __str__(self) -> str:
         return ", ".join(f"{name}={value:g}" for name, value in self.values)
@@ -32,7 +32,7 @@ class SceneUpdaterSpec(abc.ABC):
     """What ``<sceneUpdater>`` holds: how the scene changes from level to level."""
 
     name: ClassVar[str]
-    """Its reference: the name of its column in the result."""
+    """Its parameter: the name of its column in the result."""
     unit: ClassVar[str] = "1"
     """Unit of its values."""
     child: SceneUpdaterSpec | None = element("sceneUpdater", default=None)
@@ -58,12 +58,12 @@ class SceneUpdaterSpec(abc.ABC):
         return ()
 
     @property
-    def reference(self) -> str:
+    def parameter(self) -> str:
         """The name of its column: `name`, unless the file asks for another quantity."""
         return self.name
 
     @property
-    def reference_unit(self) -> str:
+    def parameter_unit(self) -> str:
         """The unit of that column."""
         return self.unit
 
@@ -124,11 +124,11 @@ def chain(spec: SceneUpdaterSpec) -> tuple[SceneUpdaterSpec, ...]:
     return tuple(found)
 
 
-def references(spec: SceneUpdaterSpec) -> tuple[str, ...]:
+def swept_parameters(spec: SceneUpdaterSpec) -> tuple[str, ...]:
     """Return the column name of each updater, outermost first; a second ``fog`` is ``fog_2``."""
     names: list[str] = []
     for updater in chain(spec):
-        name = updater.reference
+        name = updater.parameter
         n_before = sum(other.split("_")[0] == name for other in names)
         names.append(name if n_before == 0 else f"{name}_{n_before + 1}")
     return tuple(names)
@@ -146,7 +146,7 @@ def levels(spec: SceneUpdaterSpec) -> list[Level]:
     """Return all levels in the order of playing: the deepest updater steps first."""
     if n_levels(spec) > MAX_LEVELS:
         raise BadSetting(f"The scene updater has {n_levels(spec)} levels; at most {MAX_LEVELS}.")
-    names = references(spec)
+    names = swept_parameters(spec)
     products = itertools.product(*(updater.values() for updater in chain(spec)))
     return [Level(tuple(zip(names, values, strict=True))) for values in products]
 
@@ -154,7 +154,7 @@ def levels(spec: SceneUpdaterSpec) -> list[Level]:
 def initial_level(spec: SceneUpdaterSpec) -> Level:
     """Return the level at which every updater stands at its initial value."""
     values = (updater.initial for updater in chain(spec))
-    return Level(tuple(zip(references(spec), values, strict=True)))
+    return Level(tuple(zip(swept_parameters(spec), values, strict=True)))
 
 
 def blend(spec: SceneUpdaterSpec, level: Level, fraction: float) -> Level:

@@ -239,9 +239,9 @@ def _miss_what_is_gone(runs: Sequence[Run], queue: JobQueue) -> None:
     for run in runs:
         for trial in run.unfinished()[:1]:
             name = path_of(run.out, trial.index)
-            said = "was played, but is not whole there any more. Go on with --resume."
+            message = "was played, but is not whole there any more. Go on with --resume."
             job = Job(run, trial)
-            queue.failed(job, RunFailed(f"{name}: {job} {said}"))
+            queue.failed(job, RunFailed(f"{name}: {job} {message}"))
 
 
 def run_all(

@@ -161,8 +161,8 @@ class RayExecutor:
             raise KeyboardInterrupt from None
         except Exception as error:  # of many kinds
             where = "a cluster here" if self._address is None else f"{ADDRESS}={self._address}"
-            said = " ".join(str(error).split())
-            raise RunFailed(f"--workers ray: {where} cannot be used ({said[:300]}).") from error
+            message = " ".join(str(error).split())
+            raise RunFailed(f"--workers ray: {where} cannot be used ({message[:300]}).") from error
 
 
 def address() -> str | None:

@@ -56,17 +56,17 @@ class StatusMonitor:
             return
         for message in self._inbox.take():
             state, _, why = message.data.partition(":")
-            said = legible(f"{self._node.name} {state.strip()} at {time:g} s: {why.strip()}")
+            text = legible(f"{self._node.name} {state.strip()} at {time:g} s: {why.strip()}")
             if state.strip() == "lost":
-                self._is_lost = self._is_lost or said
-                self._was_lost = self._was_lost or said
+                self._is_lost = self._is_lost or text
+                self._was_lost = self._was_lost or text
             elif state.strip() == "tracking":
                 self._is_lost = None
             elif state.strip() == "failed" and self.failed is None:
-                self.failed = said
+                self.failed = text
         if self._node.error is not None and self.failed is None:
-            said = f"{self._node.name} {self._node.how} at {time:g} s: {self._node.error}"
-            self.failed = legible(said)
+            text = f"{self._node.name} {self._node.how} at {time:g} s: {self._node.error}"
+            self.failed = legible(text)
 
     def status(
         self, measures: Sequence[TriggeredMeasure], *, overran: float | None, ended: str | None

@@ -56,7 +56,7 @@ class Row:
     """What one level leaves behind."""
 
     values: tuple[tuple[str, float], ...]
-    """The level: updaters' references and values, outermost first."""
+    """The level: swept parameters and values, outermost first."""
     measures: dict[str, tuple[float | None, str]]
     """Measure -> value and unit."""
     details: dict[str, tuple[float | None, str]]
@@ -229,9 +229,9 @@ class _Execution:
             if is_of_user(error):
                 raise
             plan = self._plan
-            said = legible(what_broke(error, plan.algorithm))
+            message = legible(what_broke(error, plan.algorithm))
             raise RunFailed(
-                f"Algorithm {plan.algorithm_name!r} cannot say its parameters: {said}"
+                f"Algorithm {plan.algorithm_name!r} cannot say its parameters: {message}"
             ) from error
 
     def close(self) -> None:
@@ -387,7 +387,9 @@ class _Execution:
                 if reason is not None:
                     missing[f"{name}.{detail}"] = reason
             if not blank:
-                missing |= {f"{name}.{detail}": said for detail, said in measure.reasons.items()}
+                missing |= {
+                    f"{name}.{detail}": message for detail, message in measure.reasons.items()
+                }
         score = self._expression.score(values)
         total, reason = finite(score.value if status == "ok" else None)
         if total is None:

@@ -50,14 +50,14 @@ def doubts_about(
     found = []
     for index in vehicles:
         vehicle = scene.vehicles[index]
-        for doubt, child, said in _of_vehicle(scene, index, robots, dynamics, data_path):
-            if said and doubt not in vehicle.accepts:
-                message = f"the vehicle {vehicle.name!r}: {said}. {unless_meant(doubt)}"
+        for doubt, child, text in _of_vehicle(scene, index, robots, dynamics, data_path):
+            if text and doubt not in vehicle.accepts:
+                message = f"the vehicle {vehicle.name!r}: {text}. {unless_meant(doubt)}"
                 found.append(lines.diagnostic(message, "vehicle", index, child, severity="warning"))
-    for kind, index, said in _of_starts(scene, vehicles, robots, data_path):
+    for kind, index, text in _of_starts(scene, vehicles, robots, data_path):
         name = (scene.vehicles if kind == "vehicle" else scene.objects)[index].name
-        if said:
-            message = f"the {kind} {name!r}: {said}. {unless_meant('start')}"
+        if text:
+            message = f"the {kind} {name!r}: {text}. {unless_meant('start')}"
             found.append(lines.diagnostic(message, kind, index, "position", severity="warning"))
     return found
 

@@ -60,24 +60,24 @@ def limits_said(found: Allocation) -> str:
         return "it has no thrusters: it drifts"
     missing = [axis for axis in WANTED if axis not in found.axes]
     short = [axis for axis in found.axes if found.reach(axis) != found.full_reach(axis)]
-    said = []
+    messages = []
     if missing:
         reached = [_reach(found, axis) for axis in found.axes]
-        said.append(
+        messages.append(
             f"its thrusters ({found.wrenches.shape[1]}) drive {', '.join(reached) or 'nothing'}; "
             "expected surge, sway, heave and yaw. "
             f"Not held: {', '.join(HELD_BY[axis] for axis in missing)}"
         )
-        said += [_together(found, axis) for axis in missing if _is_coupled(found, axis)]
+        messages += [_together(found, axis) for axis in missing if _is_coupled(found, axis)]
     if HEAVE in missing and PITCH in found.axes:
-        said.append("depth is held by pitching while it moves ahead")
+        messages.append("depth is held by pitching while it moves ahead")
     for axis in short:
         there, full = max(found.reach(axis)), max(found.full_reach(axis))
-        said.append(
+        messages.append(
             f"{AXES[axis]} is asked for up to {there:.3g} N of {full:.3g} N, beyond which the hull "
             f"would lean by more than {np.degrees(LEAN):.0f} degrees"
         )
-    return "; ".join(said)
+    return "; ".join(messages)
 
 
 def _reach(found: Allocation, axis: int) -> str:

@@ -101,21 +101,21 @@ def candidate_of(
 def buoyancy_said(one: Candidate) -> str:
     """Hold what a vehicle weighs against what it displaces, and that against its shape."""
     mass, displaced = one.balance.mass, one.balance.displaced
-    said = []
+    messages = []
     if abs(displaced - mass) > UNEVEN * max(displaced, mass):
         way = "sinks" if mass > displaced else "rises"
-        said.append(
+        messages.append(
             f"it has {mass:.6g} kg and displaces {displaced:.6g} kg of water: it {way} with "
             f"{abs(one.balance.buoyancy):.3g} N; expected nearly the same (<mass> in kg and "
             f"<volume> in m3 of the set {one.dynamics.name!r})"
         )
     volume = displaced / one.dynamics.density
     if one.hull is not None and not HOLLOW * one.hull.volume <= volume <= ROOM * one.hull.volume:
-        said.append(
+        messages.append(
             f"it displaces {volume:.3g} m3 and the boxes around its links hold "
             f"{one.hull.volume:.3g} m3; expected {HOLLOW:g} to {ROOM:g} times that"
         )
-    return "; ".join(said)
+    return "; ".join(messages)
 
 
 def balance_said(one: Candidate) -> str:
@@ -172,7 +172,7 @@ def strength_said(one: Candidate) -> str:
 
 def inertia_said(one: Candidate) -> str:
     """Say which links turn otherwise than a body of their mass and size."""
-    said = []
+    messages = []
     for link, mass, body in _links(one):
         box = None if one.hull is None else one.hull.links.get(link.name)
         if mass <= 0.0 or box is None:
@@ -186,17 +186,17 @@ def inertia_said(one: Candidate) -> str:
         if least <= math.sqrt(used / mass) <= greatest and min(moments) >= 0.0:
             continue
         usual = mass / 12.0 * float(edges[1] ** 2 + edges[2] ** 2)  # the greatest of its box
-        said.append(
+        messages.append(
             f"its link {link.name!r} has {mass:.4g} kg and the inertia {_list(moments)}"
             + ("" if is_said else f" (it is simulated with {MIN_INERTIA:g})")
             + f"; a box of its size, {_list(box.extent)} m, has {usual:.2g} kg m2 at most"
         )
-    return "; ".join(said[:3])
+    return "; ".join(messages[:3])
 
 
 def drag_said(one: Candidate) -> str:
     """Say which links are too light for their drag."""
-    said = []
+    messages = []
     moving = {joint.child for joint in one.robot.joints if joint.moves} | {one.robot.root}
     for link, mass, body in _links(one):
         if body is None or link.name not in moving:
@@ -207,13 +207,13 @@ def drag_said(one: Candidate) -> str:
         added = np.diag(matrix(body.added_mass))[:3]
         steps = float((TIMESTEP * drag / np.maximum(mass + added, 1e-9)).max())
         if mass <= 0.0:
-            said.append(f"its link {link.name!r} has drag and no mass")
+            messages.append(f"its link {link.name!r} has drag and no mass")
         elif steps > 1.0 and body.implicitness < 1.0:
-            said.append(
+            messages.append(
                 f"its link {link.name!r} has {mass:.3g} kg and a drag of {drag.max():.3g} N at 1 "
                 "m/s, which stops it within a step; expected <implicitness> 1, or less drag"
             )
-    return "; ".join(said[:3])
+    return "; ".join(messages[:3])
 
 
 def _links(one: Candidate) -> Iterator[tuple[LinkSpec, float, BodyHydrodynamics | None]]:
