@@ -18,7 +18,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from statistics import median
 
-LARGEST_LOAD = 1.5
+MAX_LOAD = 1.5
 
 
 def main(measure: Callable[[], Mapping[str, object]]) -> None:
@@ -30,9 +30,9 @@ def main(measure: Callable[[], Mapping[str, object]]) -> None:
     parser.add_argument("--out", type=Path, help="write the JSON here too")
     arguments = parser.parse_args()
     before = os.getloadavg()[0]
-    if before > LARGEST_LOAD and not arguments.anyway:
+    if before > MAX_LOAD and not arguments.anyway:
         print(
-            f"The load is {before:.2f}, above {LARGEST_LOAD}: figures would be worth nothing. "
+            f"The load is {before:.2f}, above {MAX_LOAD}: figures would be worth nothing. "
             "Wait, or measure all the same with --anyway.",
             file=sys.stderr,
         )

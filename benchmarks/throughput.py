@@ -63,7 +63,7 @@ def wall_s(benchmark: Path, out: str, workers: int, threads: str | None) -> floa
 def begin_and_end(scene: SceneSpec, pool: RendererPool | None) -> None:
     """Do what every unit does once: make the scene live, draw with noise and without, close."""
     simulation = Simulation(scene, pool=pool)
-    simulation.open()
+    simulation.start()
     camera = simulation.world.camera(CAMERA)
     camera.capture()
     simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics, fog=0.0)

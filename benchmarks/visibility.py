@@ -29,7 +29,7 @@ first = vehicle.virtual_cameras[0]
 both = (first, dataclasses.replace(first, name="second"))
 vehicle = dataclasses.replace(vehicle, virtual_cameras=both)
 simulation = Simulation(dataclasses.replace(scene, vehicles=(vehicle,)))
-simulation.open()
+simulation.start()
 for _ in range(500):
     simulation.advance()
     simulation.world.camera(first.name).capture()

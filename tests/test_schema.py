@@ -233,7 +233,7 @@ def test_every_finite_float_is_read_as_it_was_written(value: float) -> None:
 
 
 TEXT = st.text(st.characters(min_codepoint=33, max_codepoint=0x2FFF, categories=["L", "P", "N"]))
-NUMBERS = st.floats(-schema.LARGEST, schema.LARGEST)
+NUMBERS = st.floats(-schema.MAX_NUMBER, schema.MAX_NUMBER)
 NAMES = TEXT.filter(bool)
 SPECS = st.builds(
     ThingSpec,

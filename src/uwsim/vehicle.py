@@ -7,7 +7,7 @@ from typing import Protocol
 
 from .geometry import Array, Pose
 
-LARGEST = 1e6
+MAX_COMMAND = 1e6
 """A number of a command is taken as at most this: no vehicle gets there [m, m/s, rad/s, N, N m]."""
 
 

@@ -211,7 +211,7 @@ def test_chains_and_diamonds_of_nodes_are_read(inside: Path) -> None:
 def test_instances_are_counted_before_they_are_made(
     inside: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(by_trimesh, "LARGEST_MODEL", 30)
+    monkeypatch.setattr(by_trimesh, "MAX_TRIANGLES", 30)
     nodes = [{"mesh": 0}] * 31
     tree = gltf(nodes=nodes, scenes=[{"nodes": list(range(31))}])
     with pytest.raises(AssetError, match="31 triangles; at most 30 are read"):
@@ -222,7 +222,7 @@ def test_instances_are_counted_before_they_are_made(
 def test_text_is_bounded_before_it_is_read(
     inside: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(by_trimesh, "LARGEST_TEXT", 1000)
+    monkeypatch.setattr(by_trimesh, "MAX_TEXT_BYTES", 1000)
     start = "ply\nformat ascii 1.0\n" if suffix == ".ply" else "solid x\n"
     (inside / f"x{suffix}").write_text(start + "v 0 0 0\n" * 200)
     with pytest.raises(AssetError, match=r"is text of more than 0 MiB; write it as"):

@@ -3,7 +3,7 @@ import re
 
 import pytest
 
-from uwsim.files.file_names import LONGEST, file_name, file_names
+from uwsim.files.file_names import MAX_NAME_LENGTH, file_name, file_names
 
 FIT = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
 
@@ -46,7 +46,7 @@ def test_different_names_are_different_files_also_where_case_does_not_count(
 ) -> None:
     found = file_names(names)
     assert len({file.casefold() for file in found.values()}) == len(names)
-    assert all(FIT.fullmatch(file) and len(file) <= LONGEST for file in found.values())
+    assert all(FIT.fullmatch(file) and len(file) <= MAX_NAME_LENGTH for file in found.values())
     assert file_names(names[::-1]) == found
 
 

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from uwsim.physics.world_tree import DEEPEST, rebuild_world_tree
+from uwsim.physics.world_tree import MAX_DEPTH, rebuild_world_tree
 
 
 def plates(n: int, seed: int) -> tuple[mujoco.MjModel, mujoco.MjModel]:
@@ -70,4 +70,4 @@ def test_a_row_of_ever_larger_shapes_is_not_too_deep_for_the_engine() -> None:
         spec.worldbody.add_geom(size=[1.1**i * 1e-3, 0, 0], pos=[1.1**i * 1e-2, 0, 0])
     model = spec.compile()
     rebuild_world_tree(model)
-    assert model.bvh_depth.max() <= DEEPEST + 8
+    assert model.bvh_depth.max() <= MAX_DEPTH + 8

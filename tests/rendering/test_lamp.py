@@ -9,7 +9,7 @@ import pytest
 
 from tests.rendering.rendering_models import ball, placed, plate
 from uwsim.geometry import Intrinsics, Pose
-from uwsim.rendering.lamp import LARGEST_HALF_ANGLE, Lamp
+from uwsim.rendering.lamp import MAX_HALF_ANGLE, Lamp
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water, apply_water
 
@@ -153,7 +153,7 @@ def test_range_and_ids_do_not_depend_on_lamps(renderer: Renderer) -> None:
     "wrong",
     [
         {"half_angle": 0.0},
-        {"half_angle": LARGEST_HALF_ANGLE + 0.01},
+        {"half_angle": MAX_HALF_ANGLE + 0.01},
         {"softness": 1.1},
         {"intensity": -1.0},
     ],

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from uwsim.errors import ResultError, UnknownName
-from uwsim.results.result import MOST, Column, ImageStream, Missing, Result, SavedImage
+from uwsim.results.result import MAX_VALUE, Column, ImageStream, Missing, Result, SavedImage
 from uwsim.results.result_file import dumps, load, loads, save
 
 COLUMNS = (
@@ -65,7 +65,7 @@ def test_the_text_is_that_of_the_design_with_one_row_a_line() -> None:
     assert list(json.loads(text)) == [*keys, "image_streams", "pictures"]
 
 
-@given(st.floats(min_value=-MOST, max_value=MOST))
+@given(st.floats(min_value=-MAX_VALUE, max_value=MAX_VALUE))
 def test_every_float_of_a_row_survives_the_file_to_the_last_bit(value: float) -> None:
     result = make(rows=((0.0, value, 0.0, 0.0, "ok", 2.0),), missing=(), images=())
     back = loads(dumps(result)).rows[0][1]

@@ -33,7 +33,7 @@ def make(
         replace(scene, vehicles=(vehicle,), objects=objects, ros_interfaces=interfaces),
         data_path=data_path,
     )
-    simulation.open()
+    simulation.start()
     return simulation
 
 

@@ -52,5 +52,5 @@ def scene_of(vehicle: VehicleSpec, **given: object) -> SceneSpec:
 
 def begin(scene: SceneSpec, **given: object) -> Simulation:
     simulation = Simulation(scene, **given)  # type: ignore[arg-type]
-    simulation.open()
+    simulation.start()
     return simulation

@@ -39,7 +39,7 @@ def simulation() -> Simulation:
         ROSOdomToPATSpec(topic="/odometry", vehicle_name="girona500"),
     )
     simulation = Simulation(replace(scene, objects=(), ros_interfaces=interfaces))
-    simulation.open()
+    simulation.start()
     return simulation
 
 

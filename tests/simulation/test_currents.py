@@ -15,7 +15,7 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-sc
 @pytest.fixture
 def simulation() -> Simulation:
     simulation = Simulation(replace(read_scene(SCENE), objects=(), ros_interfaces=()))
-    simulation.open()
+    simulation.start()
     return simulation
 
 

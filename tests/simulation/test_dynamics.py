@@ -25,7 +25,7 @@ def make(velocity_loop: str = "water") -> Simulation:
     simulation = Simulation(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=scene.ros_interfaces[1:])
     )
-    simulation.open()
+    simulation.start()
     return simulation
 
 
@@ -198,7 +198,7 @@ def test_water_is_asked_only_where_it_acts() -> None:
     scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], virtual_cameras=())
     simulation = Simulation(replace(scene, vehicles=(vehicle,)), is_blind=True)
-    simulation.open()
+    simulation.start()
     asked = Asked()
     simulation.world.set_current(asked)
     simulation.advance()

@@ -156,7 +156,7 @@ def test_what_is_loose_stays_where_it_was_set(tmp_path: Path) -> None:
         0.95, 0.1, physics=PhysicsSpec(mass=30.0), on_floor=OnFloorSpec(align_to_slope=True)
     )
     simulation = opened(ground(file), stands, frame=UP, rov=True)
-    simulation.open()
+    simulation.start()
     before = simulation.world.body("thing").world_from_body.position
     run(simulation, 3.0)
     after = simulation.world.body("thing").world_from_body.position
@@ -248,7 +248,7 @@ def test_a_vehicle_begins_with_its_lowest_link_on_the_floor(align: bool, tmp_pat
     simulation = Simulation(
         replace(scene, vehicles=(vehicle,), objects=(terrain,)), data_path=(tmp_path,)
     )
-    simulation.open()
+    simulation.start()
     start: Pose = simulation.world.body("girona500").world_from_body
     simulation.advance()
     touched = simulation.world.contacts("girona500")

@@ -55,7 +55,7 @@ class Grasp:
             replace(scene, vehicles=(vehicle,), objects=(box, stand), ros_interfaces=interfaces),
             timestep=timestep,
         )
-        self.simulation.open()
+        self.simulation.start()
         self.go_up(0.0)
         run(self.simulation, 1.0)
 

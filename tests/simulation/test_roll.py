@@ -30,7 +30,7 @@ def rolls(kp: float, seconds: float) -> np.ndarray:
         found.append(np.degrees(np.arctan2(base.rotation[2, 1], base.rotation[2, 2])))
 
     simulation.world.every(10.0, steer)
-    simulation.open()
+    simulation.start()
     for _ in range(round(seconds / simulation.timestep)):
         simulation.advance()
     return np.array(found)

@@ -23,7 +23,7 @@ def make(timestep: float = 0.002) -> Simulation:
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=(TWIST, ARM)),
         timestep=timestep,
     )
-    simulation.open()
+    simulation.start()
     return simulation
 
 

@@ -85,7 +85,7 @@ def test_two_simulated_vehicles_meet_in_open_water() -> None:
     simulation = Simulation(
         replace(scene, vehicles=(one, other), objects=(), ros_interfaces=(TWIST,))
     )
-    simulation.open()
+    simulation.start()
     twist = TWIST.topic
     from tests.simulation.simulated import vector
 

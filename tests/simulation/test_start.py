@@ -47,7 +47,7 @@ def check_joints(scene: SceneSpec, n_steps: int = 0) -> None:
         inboxes = [
             simulation.bus.inbox(STATES.format(i), JointState) for i in range(len(scene.vehicles))
         ]
-        simulation.open()
+        simulation.start()
         for _ in range(n_steps):
             simulation.advance()
         for index, vehicle in enumerate(scene.vehicles):
@@ -84,7 +84,7 @@ def test_beside_a_simulated_vehicle_the_joints_of_a_kinematic_one_stay() -> None
     simulated = scene.vehicles[0]
     plain = replace(simulated, name="other", position=(6.0, 1.5, 2.0), dynamics=None)
     with begun(replace(scene, vehicles=(simulated, plain))) as simulation:
-        simulation.open()
+        simulation.start()
         before = simulation.world.body("other/part4_jaw1").world_from_body
         for _ in range(500):
             simulation.advance()

@@ -85,7 +85,7 @@ def drive(simulation: Simulation, surge: float, seconds: float) -> np.ndarray:
     """Depth and lean of each second, (n, 2) [m, deg]."""
     zero = Vector3(x=0.0, y=0.0, z=0.0)
     twist = Twist(linear=Vector3(x=surge, y=0.0, z=0.0), angular=zero)
-    simulation.open()
+    simulation.start()
     simulation.bus.publisher("/twist", TwistStamped)(TwistStamped(header=header(0.0), twist=twist))
     seen = []
     localized_from_world = simulation.world.world_from_localized.inverse()

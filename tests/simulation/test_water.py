@@ -156,7 +156,7 @@ def test_what_floats_goes_where_the_water_goes(
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.format(current=write(tmp_path), dynamics=dynamics))
     simulation = Simulation(replace(read_scene(scene), ros_interfaces=()))
-    simulation.open()
+    simulation.start()
     localized_from_world = simulation.world.world_from_localized.inverse()
     dt, travelled, places = simulation.timestep, np.zeros(3), [START]
     for step in range(round(8.0 / dt)):

@@ -58,7 +58,7 @@ def bluerov(current: Current) -> Simulation:
     simulation = Simulation(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=()), is_blind=True
     )
-    simulation.open()
+    simulation.start()
     simulation.world.set_current(current)
     simulation.world.state.autopilot(0).push(np.zeros(3), np.zeros(3))  # adrift
     return simulation

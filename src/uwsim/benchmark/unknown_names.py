@@ -17,7 +17,7 @@ from .spec import BenchmarkSpec
 from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec
 
-MOST = 10
+MAX_NAMES = 10
 """Wrong names of one element that are said."""
 
 Part = MeasureSpec | TriggerSpec | SceneUpdaterSpec
@@ -82,7 +82,7 @@ def _place(node: etree._Element, name: str) -> etree._Element:
 def _wrong(part: Part, stage: Stage) -> Iterator[UwsimError]:
     """What keeps a part from being bound: one error for each of its names that nothing has."""
     spec: Any = part
-    for n in range(MOST):
+    for n in range(MAX_NAMES):
         try:
             live = spec.bind(stage)
         except UnknownName as error:

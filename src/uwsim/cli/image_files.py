@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..rendering.renderer import RenderedImage
 
 MILLIMETRES = 1000.0
-DEEPEST = 65535
+MAX_DEPTH_MM = 65535
 """Largest value of a 16-bit depth image [mm]; what is farther has this value, nothing has 0."""
 
 
@@ -31,7 +31,7 @@ def save_depth(out: Path, image: RenderedImage) -> list[Path]:
     exact = beside(out, "-depth.npy")
     np.save(exact, metres)
     return [
-        save(beside(out, "-depth.png"), np.minimum(rounded, DEEPEST).astype(np.uint16)),
+        save(beside(out, "-depth.png"), np.minimum(rounded, MAX_DEPTH_MM).astype(np.uint16)),
         exact,
     ]
 

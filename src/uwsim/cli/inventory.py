@@ -173,7 +173,7 @@ def _camera(scene: SceneSpec, vehicle: VehicleSpec, camera: VirtualCameraSpec) -
 def _object(scene: SceneSpec, thing: ObjectSpec) -> Fields:
     solid = scene.solid_objects.get(scene.objects.index(thing))
     kind = "seen only" if solid is None else "loose" if solid.is_loose else "solid, fixed"
-    if kind == "loose" and not (scene.things_fall or any(v.dynamics for v in scene.vehicles)):
+    if kind == "loose" and not (scene.has_uwsim_physics or any(v.dynamics for v in scene.vehicles)):
         kind = "solid, fixed"
     return {
         "name": thing.name,

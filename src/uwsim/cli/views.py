@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 Named = Literal["orbit", "top", "viewer"]
 NAMED: tuple[Named, ...] = ("orbit", "top", "viewer")
-LARGEST = 16384
+MAX_SIDE = 16384
 """Edge of an image [px]."""
 FOG = "oceanState.fog"
 """Begins the ``--set`` that ask for fog."""
@@ -166,8 +166,8 @@ def _point(option: str, text: str) -> Array:
 def _size(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d{1,6})[xX](\d{1,6})", text.strip())
     edges = (int(match[1]), int(match[2])) if match else (0, 0)
-    if not all(1 <= edge <= LARGEST for edge in edges):
+    if not all(1 <= edge <= MAX_SIDE for edge in edges):
         raise BadSetting(
-            f"--size is {text!r}; expected WxH [px], as in 800x600, {LARGEST} at most."
+            f"--size is {text!r}; expected WxH [px], as in 800x600, {MAX_SIDE} at most."
         )
     return edges

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .constant import Constant, ConstantSpec
-from .current import FASTEST, Current, CurrentSpec, Place
+from .current import MAX_SPEED, Current, CurrentSpec, Place
 from .delayed import LateCurrent
 from .field import Field, FieldSpec, Grid, read_grid
 from .gauss_markov import GaussMarkov, GaussMarkovSpec
@@ -37,7 +37,7 @@ CURRENTS: dict[str, type[CurrentSpec]] = {
 
 __all__ = [
     "CURRENTS",
-    "FASTEST",
+    "MAX_SPEED",
     "MIN_PERIOD",
     "Constant",
     "ConstantSpec",

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..schema import element
-from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
+from .current import MAX_SPEED, Array, Current, CurrentSpec, Place, everywhere
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,7 +21,7 @@ class ConstantSpec(CurrentSpec):
     """A ``<u:constant>``: the same velocity everywhere and always."""
 
     velocity: tuple[float, float, float] = element(
-        namespaced=True, minimum=-FASTEST, maximum=FASTEST
+        namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
     """Of the water, in L [m/s]."""
 

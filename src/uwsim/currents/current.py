@@ -14,7 +14,7 @@ from ..geometry import Pose
 from ..linear import product
 
 Array = npt.NDArray[np.float64]
-FASTEST = 100.0
+MAX_SPEED = 100.0
 """No water that a file or a function speaks of moves faster: turbidity currents and tsunamis reach
 some 30 m/s. What is faster is taken for a mistake, mostly of units [m/s]."""
 DIFFERENCE = 1e-3

@@ -27,14 +27,14 @@ import numpy.typing as npt
 
 from ..errors import AssetError
 from ..files.input_files import read_bytes
-from ..schema import LARGEST, element, number
-from .current import FASTEST, Array, Current, CurrentSpec, Place
+from ..schema import MAX_NUMBER, element, number
+from .current import MAX_SPEED, Array, Current, CurrentSpec, Place
 from .units import unit
 
 Ints = npt.NDArray[np.int64]
 AXES = ("t", "x", "y", "z")
 COMPONENTS = ("u", "v", "w")
-LARGEST_FILES = {".csv": 64 * 2**20, ".nc": 256 * 2**20, ".cdf": 256 * 2**20}
+MAX_FILE_BYTES = {".csv": 64 * 2**20, ".nc": 256 * 2**20, ".cdf": 256 * 2**20}
 """Largest files [bytes]: a table takes ten times as much memory as it is long."""
 
 
@@ -89,7 +89,9 @@ def read_grid(path: Path, *, name: str = "") -> Grid:
     if reader is None:
         raise AssetError(f"{path}: a field is a .csv or a .nc file, not {path.suffix!r}.")
     try:
-        return reader(path, read_bytes(path, name=name, at_most=LARGEST_FILES[path.suffix.lower()]))
+        return reader(
+            path, read_bytes(path, name=name, at_most=MAX_FILE_BYTES[path.suffix.lower()])
+        )
     except OSError as error:
         raise AssetError(f"{path}: {error.strerror or error}.") from error
     except csv.Error as error:
@@ -199,13 +201,13 @@ def _axis(path: Path, name: str, dimensions: tuple[str, ...], values: Array) -> 
             f"{path}: {name} is over ({', '.join(dimensions)}); expected a coordinate over itself."
         )
     if (
-        not (np.abs(values) <= LARGEST).all()
+        not (np.abs(values) <= MAX_NUMBER).all()
         or not (np.diff(values) > 0.0).all()
         or len(values) == 0
     ):
         raise AssetError(
             f"{path}: the values of {name} neither increase nor decrease all along, or are beyond "
-            f"{LARGEST:g}."
+            f"{MAX_NUMBER:g}."
         )
     return values
 
@@ -225,14 +227,14 @@ def _component(
             f"{path}: {n_missing} of {values.size} values of {name} are missing; "
             "expected a number at every node (0 on land)."
         )
-    if np.abs(values).max(initial=0.0) > FASTEST:
+    if np.abs(values).max(initial=0.0) > MAX_SPEED:
         worst = np.unravel_index(int(np.argmax(np.abs(values))), values.shape)
         where = ", ".join(
             f"{axis} {axes[axis][i]:g}" for axis, i in zip(dimensions, worst, strict=True)
         )
         raise AssetError(
             f"{path}: {name} is {values[worst]:g} at {where}; "
-            f"expected numbers from -{FASTEST:g} to {FASTEST:g} [m/s]."
+            f"expected numbers from -{MAX_SPEED:g} to {MAX_SPEED:g} [m/s]."
         )
     order = [dimensions.index(axis) for axis in AXES if axis in dimensions]
     absent = [i for i, axis in enumerate(AXES) if axis not in dimensions]
@@ -274,7 +276,7 @@ def _number(name: str, cell: str, where: str) -> float:
     value = number(cell.strip())
     if value is None:
         raise AssetError(f"{where}: {cell.strip()[:40]!r}; expected a number.")
-    most = FASTEST if name in COMPONENTS else LARGEST
+    most = MAX_SPEED if name in COMPONENTS else MAX_NUMBER
     if abs(value) > most:
         unit = " [m/s]" if name in COMPONENTS else ""
         raise AssetError(

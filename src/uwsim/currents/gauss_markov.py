@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..schema import element
-from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
+from .current import MAX_SPEED, Array, Current, CurrentSpec, Place, everywhere
 from .random_table import Draws
 
 Triple = tuple[float, float, float]
@@ -29,10 +29,10 @@ class GaussMarkovSpec(CurrentSpec):
     """A ``<u:gaussMarkov>``: a first-order Gauss-Markov process about a mean."""
 
     mean: Triple = element(
-        namespaced=True, default=(0.0, 0.0, 0.0), minimum=-FASTEST, maximum=FASTEST
+        namespaced=True, default=(0.0, 0.0, 0.0), minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
     """What the velocity returns to, in L [m/s]."""
-    deviation: Triple = element(namespaced=True, minimum=0.0, maximum=FASTEST)
+    deviation: Triple = element(namespaced=True, minimum=0.0, maximum=MAX_SPEED)
     """Standard deviation of the velocity along each axis of L [m/s]."""
     mu: float = element(namespaced=True, above=0)
     """How fast it returns; 1/mu is the correlation time [1/s]."""

@@ -35,7 +35,7 @@ import numpy as np
 from ..elementwise import log, power
 from ..errors import BadSetting
 from ..schema import element
-from .current import FASTEST, Array, Current, CurrentSpec, Place
+from .current import MAX_SPEED, Array, Current, CurrentSpec, Place
 
 Triple = tuple[float, float, float]
 KARMAN = 0.41
@@ -46,7 +46,7 @@ KARMAN = 0.41
 class PowerProfileSpec(CurrentSpec):
     """A ``<u:powerProfile>``: speed grows with a power of the height above ground."""
 
-    velocity: Triple = element(namespaced=True, minimum=-FASTEST, maximum=FASTEST)
+    velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """Of the water at the surface, in L [m/s]."""
     depth: float = element(namespaced=True, above=0)
     """Of the ground below the still surface [m]."""
@@ -62,7 +62,7 @@ class PowerProfileSpec(CurrentSpec):
 class LogProfileSpec(CurrentSpec):
     """A ``<u:logProfile>``: speed grows with the logarithm of the height above ground."""
 
-    velocity: Triple = element(namespaced=True, minimum=-FASTEST, maximum=FASTEST)
+    velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """Of the water at the surface, in L [m/s]."""
     depth: float = element(namespaced=True, above=0)
     """Of the ground below the still surface [m]."""
@@ -94,7 +94,7 @@ class LayerSpec:
 
     depth: float = element(namespaced=True)
     """Below the still surface [m]."""
-    velocity: Triple = element(namespaced=True, minimum=-FASTEST, maximum=FASTEST)
+    velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """Of the water there, in L [m/s]."""
 
 

@@ -26,7 +26,7 @@ from ..errors import BadSetting, did_you_mean
 from ..files.modules import located
 from ..files.python_sources import sources_of
 from ..schema import element
-from .current import FASTEST, Array, Current, CurrentSpec, Place
+from .current import MAX_SPEED, Array, Current, CurrentSpec, Place
 
 Function = Callable[[Array, float, str], Sequence[float]]
 
@@ -124,7 +124,7 @@ class PythonFunction(Current):
 
         Raises:
             BadSetting: the function raised, or returned something else than three numbers up to
-                `FASTEST`.
+                `MAX_SPEED`.
         """
         names = vehicles if len(vehicles) else [""] * len(points)
         velocities = np.empty((len(points), 3))
@@ -144,10 +144,10 @@ class PythonFunction(Current):
             x, y, z = (float(value) for value in returned)
         except Exception:  # a third-party object may raise anything in __float__
             x = y = z = math.nan
-        if not (abs(x) <= FASTEST and abs(y) <= FASTEST and abs(z) <= FASTEST):
+        if not (abs(x) <= MAX_SPEED and abs(y) <= MAX_SPEED and abs(z) <= MAX_SPEED):
             raise BadSetting(
                 f"The current {self._name!r} returned {_shown(returned)} {place}; "
-                f"expected three numbers from -{FASTEST:g} to {FASTEST:g} [m/s]."
+                f"expected three numbers from -{MAX_SPEED:g} to {MAX_SPEED:g} [m/s]."
             )
         return x, y, z
 

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..schema import element
-from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
+from .current import MAX_SPEED, Array, Current, CurrentSpec, Place, everywhere
 
 DEGREES_PER_HOUR = {"M2": 28.9841042, "S2": 30.0, "K1": 15.0410686, "O1": 13.9430356}
 """Speed of each constituent (Doodson): periods of 12.4206, 12, 23.9345 and 25.8193 h."""
@@ -33,9 +33,9 @@ class ConstituentSpec:
 
     name: Literal["M2", "S2", "K1", "O1"] = element(namespaced=True)
     """Which: principal lunar, principal solar, lunisolar diurnal or lunar diurnal."""
-    semi_major: float = element(namespaced=True, minimum=0, maximum=FASTEST)
+    semi_major: float = element(namespaced=True, minimum=0, maximum=MAX_SPEED)
     """Highest speed [m/s]."""
-    semi_minor: float = element(namespaced=True, default=0.0, minimum=-FASTEST, maximum=FASTEST)
+    semi_minor: float = element(namespaced=True, default=0.0, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """Lowest speed; below 0 the velocity turns from y of L to x, else from x to y [m/s]."""
     inclination: float = element(namespaced=True, default=0.0)
     """Of the highest speed, from x of L towards y [rad]."""

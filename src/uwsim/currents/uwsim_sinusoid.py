@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..schema import element
-from .current import FASTEST, Array, Current, CurrentSpec, Place, everywhere
+from .current import MAX_SPEED, Array, Current, CurrentSpec, Place, everywhere
 from .random_table import Draws
 
 Vector = tuple[float, float, float]
@@ -35,10 +35,10 @@ class UwsimSinusoidSpec(CurrentSpec):
     A level of a ``<currentForceUpdater>`` is one.
     """
 
-    speed: float = element(namespaced=True, minimum=-FASTEST, maximum=FASTEST)
+    speed: float = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """Mean speed [m/s]."""
     speed_variation: float = element(
-        namespaced=True, default=0.0, minimum=-FASTEST, maximum=FASTEST
+        namespaced=True, default=0.0, minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
     """Amplitude of its swelling [m/s]."""
     speed_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)

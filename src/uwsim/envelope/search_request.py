@@ -116,7 +116,7 @@ def range_of(
     Raises:
         BadSetting: it is empty, too fine, or reaches where the updater cannot go.
     """
-    from ..schema import LARGEST
+    from ..schema import MAX_NUMBER
     from . import Range
 
     values = spec.values()
@@ -125,8 +125,8 @@ def range_of(
     for option, value in ends.items():
         if not math.isfinite(value):
             raise BadSetting(f"{option} is {value}; expected a number.")
-        if abs(value) > LARGEST:
-            raise BadSetting(f"{option} is {value:g}; no quantity is beyond {LARGEST:g}.")
+        if abs(value) > MAX_NUMBER:
+            raise BadSetting(f"{option} is {value:g}; no quantity is beyond {MAX_NUMBER:g}.")
         if limit := beyond(spec, value):
             raise BadSetting(f"{option} {value:g}: {over} must be {limit}.")
     near, far = ends.values()

@@ -11,7 +11,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable
 
-LONGEST = 80
+MAX_NAME_LENGTH = 80
 """So many letters of a name stand in that of a file."""
 RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 """Names that no file on Windows may have."""
@@ -36,7 +36,7 @@ def file_names(names: Iterable[str], *, taken: Iterable[str] = ()) -> dict[str, 
     alike = {
         name
         for name, plain in wanted.items()
-        if len(name) > LONGEST or seen[plain.casefold()] > 1 or plain.casefold() in others
+        if len(name) > MAX_NAME_LENGTH or seen[plain.casefold()] > 1 or plain.casefold() in others
     }
     for digits in DIGESTS:
         found = {
@@ -54,11 +54,11 @@ def file_name(name: str) -> str:
 
 
 def _plain(name: str) -> str:
-    plain = re.sub(r"[^A-Za-z0-9_.-]", "_", name.replace(":", "."))[:LONGEST]
+    plain = re.sub(r"[^A-Za-z0-9_.-]", "_", name.replace(":", "."))[:MAX_NAME_LENGTH]
     plain = plain.lstrip(".-").rstrip(".") or "_"
-    return f"_{plain}"[:LONGEST] if RESERVED.fullmatch(plain) else plain
+    return f"_{plain}"[:MAX_NAME_LENGTH] if RESERVED.fullmatch(plain) else plain
 
 
 def _with_hash(plain: str, name: str, digits: int) -> str:
     digest = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()
-    return f"{plain[: LONGEST - digits - 1]}-{digest[:digits]}"
+    return f"{plain[: MAX_NAME_LENGTH - digits - 1]}-{digest[:digits]}"

@@ -22,7 +22,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from ..errors import AssetError
 
-LARGEST = 512 * 2**20
+MAX_BYTES = 512 * 2**20
 """Files above this size [bytes] are refused, unless the reader knows a smaller limit."""
 PIECE = 1 << 20
 
@@ -61,7 +61,7 @@ def record(files: Iterable[InputFile]) -> None:
                 known.append(file)
 
 
-def read_bytes(path: Path, *, name: str | Path = "", at_most: int = LARGEST) -> bytes:
+def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -> bytes:
     """Read a whole input file, and record its hash.
 
     Args:

@@ -18,7 +18,7 @@ from pathlib import Path
 
 OWN = "uwsim"
 INSTALLED = ("site-packages", "dist-packages")
-MOST = 2000
+MAX_MODULES = 2000
 """So many modules are followed."""
 
 
@@ -31,7 +31,7 @@ def sources_of(module: str) -> dict[str, Path]:
     top = module.partition(".")[0]
     found: dict[str, Path] = {}
     todo, seen = [module], {""}
-    while todo and len(seen) < MOST:
+    while todo and len(seen) < MAX_MODULES:
         name = todo.pop()
         if name in seen:
             continue

@@ -114,14 +114,14 @@ def compile_scene(
         BadHydrodynamics: with every error.
         BadSetting: the step is no time, or longer than the physics bears.
     """
-    _check_step(timestep, is_simulated=bool(dynamics) or scene.things_fall)
+    _check_step(timestep, is_simulated=bool(dynamics) or scene.has_uwsim_physics)
     hush()
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
     spec.option.timestep = timestep
     spec.option.integrator = INTEGRATORS[scene.sim_params.integrator]
     spec.option.gravity = [0.0, 0.0, -GRAVITY if dynamics else 0.0]
-    if scene.things_fall:
+    if scene.has_uwsim_physics:
         spec.option.gravity = list(scene.sim_params.original_gravity)
     world_from_localized = scene.world_from_localized
     for index, vehicle in enumerate(scene.vehicles):

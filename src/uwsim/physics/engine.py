@@ -29,12 +29,12 @@ from .hydrodynamics import VehicleHydrodynamics
 from .motion import Motion
 from .scaled import ScaledLinks, stretched_axes
 from .shapes import Shape
-from .uwsim_physics import Falling
+from .uwsim_physics import UwsimPhysics
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics
 
-PILOT_PERIOD = 0.02
+AUTOPILOT_PERIOD = 0.02
 """An autopilot thinks this often [s]."""
 
 
@@ -49,7 +49,7 @@ class Engine:
         "_engine",
         "_autopilots",
         "_servos",
-        "_falling",
+        "_uwsim_physics",
         "_n_steps",
         "version",
         "_contacts_hold",
@@ -120,7 +120,7 @@ class Engine:
         self._servos = {i: Servos(self._model, self._data, robots[i], i) for i in dynamics}
         self._is_stale = True
         self._n_steps = 0
-        self._pilot_steps = max(1, round(PILOT_PERIOD / timestep))
+        self._autopilot_steps = max(1, round(AUTOPILOT_PERIOD / timestep))
         self._water: Hydrodynamics | None = _water_of(self._model) if dynamics else None
         bases = {self._bases[i] for i in dynamics}  # autopilots feel the water there
         self._wet = np.array(sorted({*(self._water.bodies if self._water else ()), *bases}), int)
@@ -150,7 +150,9 @@ class Engine:
             for i in dynamics
             if self._water is not None
         }
-        self._falling = Falling(scene, self._model, self._data) if scene.things_fall else None
+        self._uwsim_physics = (
+            UwsimPhysics(scene, self._model, self._data) if scene.has_uwsim_physics else None
+        )
 
     @property
     def _engine(self) -> tuple[mujoco.MjData, Array, Array, Array]:
@@ -213,7 +215,7 @@ class Engine:
         if self._water is None or self._set_current is None:
             return
         self._set_current(velocity, acceleration, rotation)
-        is_due = self._n_steps % self._pilot_steps == 0
+        is_due = self._n_steps % self._autopilot_steps == 0
         for index, autopilot in self._autopilots.items():
             if is_due or autopilot.has_news:
                 self._update_autopilot(index, autopilot, velocity)
@@ -239,9 +241,9 @@ class Engine:
         Raises:
             RunFailed: the engine warned: what follows would not be true.
         """
-        if self._falling is None:
+        if self._uwsim_physics is None:
             return
-        self._falling.step()
+        self._uwsim_physics.step()
         if any(self._warnings.tolist()):
             raise RunFailed(self._why_untrue())
         self._contacts_hold = True
@@ -417,7 +419,7 @@ class Engine:
         twist = self._twist(index, pose)
         if not self._over_ground[index] and not autopilot.is_over_ground:
             twist[:3] -= turned_back(pose.rotation, velocity[self._base_rows[index]])
-        commands = autopilot.commands(pose, twist, self._pilot_steps * self._timestep)
+        commands = autopilot.commands(pose, twist, self._autopilot_steps * self._timestep)
         self._water.set_thrusters(self._data, commands, self._thrusters[index])
 
     def _stop_thruster(self, thruster: int) -> None:

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from ..geometry import Array
 from ..jit import njit
 
-LARGEST_SPEED = 100.0
+MAX_SPEED = 100.0
 """Of a body in water: no thing that a simulation of this kind is for goes faster, or turns more
 quickly [m/s, rad/s]."""
 FIRST_UNSTABLE = int(mujoco.mjtWarning.mjWARN_BADQPOS)
@@ -74,7 +74,7 @@ def speeds_of(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
 
 @njit
 def too_fast(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
-    """The first degree of freedom of a speed above `LARGEST_SPEED`, or that is no number; else -1.
+    """The first degree of freedom of a speed above `MAX_SPEED`, or that is no number; else -1.
 
     Args:
         velocities: of all degrees of freedom [m/s, rad/s].
@@ -85,7 +85,7 @@ def too_fast(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
         square = 0.0
         for k in range(first, first + speeds[i, 1]):
             square += velocities[k] * velocities[k]
-        if not square <= LARGEST_SPEED * LARGEST_SPEED:
+        if not square <= MAX_SPEED * MAX_SPEED:
             return int(first)
     return -1
 
@@ -98,7 +98,7 @@ def say_too_fast(
     speed = math.hypot(*velocities[dof : dof + speeds[row, 1]].tolist())
     return (
         f"{names[dof]!r} moves at {speed:.4g} m/s or rad/s at {time:g} s, and nothing here is "
-        f"made for more than {LARGEST_SPEED:g}: a mass, an inertia, a force or a current is wrong."
+        f"made for more than {MAX_SPEED:g}: a mass, an inertia, a force or a current is wrong."
     )
 
 

@@ -27,11 +27,11 @@ HEAVY = 1e4
 """Mass and inertia of a vehicle's links: nothing that is loose moves them [kg, kg m2]."""
 
 
-class Falling:
+class UwsimPhysics:
     """Objects that forces move, among vehicles that are put somewhere.
 
     Args:
-        scene: what the file says; its ``things_fall`` is true.
+        scene: what the file says; its ``has_uwsim_physics`` is true.
         model: of the scene; changed here to what this engine needs.
         data: its state.
     """

@@ -21,7 +21,7 @@ from ..geometry import Array
 
 WORLD = 0
 """The engine's number of the body that fixed shapes hang on."""
-DEEPEST = 40
+MAX_DEPTH = 40
 """Nodes below this are halved at the median; the engine allows 50."""
 
 Ints = npt.NDArray[np.int64]
@@ -59,7 +59,7 @@ def _cut(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, Ints
     """Share out the shapes of a node."""
     middles = low[members] + high[members]
     orders = [members[np.argsort(middles[:, axis], kind="stable")] for axis in range(3)]
-    if depth >= DEEPEST:
+    if depth >= MAX_DEPTH:
         order = orders[int(np.argmax(np.ptp(middles, axis=0)))]
         half = len(order) // 2
         return order[:half], order[half:]

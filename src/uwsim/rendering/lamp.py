@@ -27,10 +27,10 @@ from ..geometry import Array, Pose
 from ..linear import product
 from .water import Colour
 
-LARGEST_HALF_ANGLE = math.radians(80.0)
+MAX_HALF_ANGLE = math.radians(80.0)
 """A wider cone does not fit the one image that its shadows are made of [rad]."""
 
-NEAREST = 0.01
+MIN_DISTANCE = 0.01
 """What is nearer to the lamp is lit as if it were here [m]."""
 
 
@@ -56,7 +56,7 @@ class Lamp:
     """Whether what stands in its light keeps it from what is behind."""
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.half_angle <= LARGEST_HALF_ANGLE:
+        if not 0.0 < self.half_angle <= MAX_HALF_ANGLE:
             raise ValueError(f"the half angle {self.half_angle} is not in (0, 80 degrees]")
         if not (0.0 <= self.softness <= 1.0 and self.intensity >= 0.0):
             raise ValueError(f"softness {self.softness} or intensity {self.intensity} is no such")
@@ -80,7 +80,9 @@ class Lamp:
             What white surfaces give, (n, 3).
         """
         towards = self.world_from_lamp.position - points
-        distance = np.maximum(np.linalg.norm(towards, axis=1, keepdims=True), NEAREST)  # (n, 1)
+        distance = np.maximum(
+            np.linalg.norm(towards, axis=1, keepdims=True), MIN_DISTANCE
+        )  # (n, 1)
         facing = np.maximum((normals * towards).sum(axis=1, keepdims=True) / distance, 0.0)
         cosine = product(towards, self.world_from_lamp.rotation[:, 2:]) / distance
         outer, steepness = self.edge

@@ -12,15 +12,13 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
+from ..devices.lamp import MAX_LAMPS
 from ..geometry import Array, Intrinsics, Pose
 from ..linear import product
 from .instance import INSTANCE, Instances, Slots, in_view
 from .lamp import Lamp
 from .program import Block, build
 from .projection import clip_from_camera, frustum
-
-MAX_LAMPS = 4
-"""So many shine in one image."""
 
 TILE = 512
 """Edge of one lamp's shadow map [texels]."""

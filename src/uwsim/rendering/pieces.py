@@ -12,7 +12,7 @@ MAX_PIECE_LENGTH = 2.0
 """Pieces are no longer than this ... [m]"""
 MAX_PIECES = 4
 """... unless there were more than so many along an axis."""
-FEWEST_TRIANGLES = 16
+MIN_TRIANGLES = 16
 """A model with fewer is not cut."""
 FLAT = 0.02
 """Of a flat piece, the sine of the angle between its normal and those of its triangles at most."""
@@ -48,7 +48,7 @@ def pieces(points: Array, triangles: Triangles, normals: Array) -> list[npt.NDAr
         The numbers of the triangles in each piece.
     """
     everything = np.arange(len(triangles))
-    if len(triangles) < FEWEST_TRIANGLES:
+    if len(triangles) < MIN_TRIANGLES:
         return [everything]
     low, high = points.min(axis=0), points.max(axis=0)
     counts = np.clip(np.ceil((high - low) / MAX_PIECE_LENGTH), 1, MAX_PIECES).astype(int)

@@ -14,17 +14,18 @@ import moderngl
 import numpy as np
 
 from ..assets.mesh import Model
+from ..devices.lamp import MAX_LAMPS
 from ..geometry import Array, Intrinsics, Pose
 from .context import create_context
 from .frame import FRAME, Frame
 from .gpu_model import GpuModels
 from .instance import INSTANCE, Instances, Slots, in_view
 from .lamp import Lamp
-from .lamps import LAMPS, MAX_LAMPS, Lamps
+from .lamps import LAMPS, Lamps
 from .program import build
 from .projection import clip_from_camera, frustum
 from .rendered_image import RenderedImage
-from .sun_shadow import LARGEST_CASTER, SunShadow, reached
+from .sun_shadow import MAX_CASTER_RADIUS, SunShadow, reached
 from .targets import STORES, TARGETS, Targets
 from .water import Light, Water, sun_direction
 
@@ -200,7 +201,7 @@ class Renderer:
         """Bring the shadow map up to date; returns which of what is seen may lie in shadow."""
         instances, sun = self._instances, sun_direction(view.light.sun)
         radii = instances.radii
-        casters = instances.casting([row for row in rows if radii[row] <= LARGEST_CASTER])
+        casters = instances.casting([row for row in rows if radii[row] <= MAX_CASTER_RADIUS])
         may = reached(instances, casters.tolist(), seen, sun, world_from_camera, clip)
         if may.any():
             needed = casters[np.any(may, axis=0)].tolist()

@@ -19,7 +19,7 @@ SMALL, LARGE = 512, 1024
 FINE_TEXEL = 0.008
 """The small map is used while its texels are no larger than this [m]."""
 
-LARGEST_CASTER = 5.0
+MAX_CASTER_RADIUS = 5.0
 """Bounding radius [m] above which a model casts no shadow: tanks and sea floors."""
 
 LOW_SUN = 0.3

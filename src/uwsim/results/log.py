@@ -22,7 +22,7 @@ from pathlib import Path
 from ..errors import ResultError
 from ..files.file_names import file_name
 from .atomic_file import write_text
-from .result import MOST
+from .result import MAX_VALUE
 
 Sample = tuple[float | int | None, ...]
 
@@ -76,8 +76,8 @@ def load_log(path: Path | str) -> Log:
     if any(len(sample) != len(header) for sample in samples):
         raise ResultError(f"{path}: a line has not as many fields as the header.")
     for line, sample in enumerate(samples, start=2):
-        if any(value is not None and not abs(value) <= MOST for value in sample):
-            raise ResultError(f"{path}:{line}: expected numbers up to {MOST:g}.")
+        if any(value is not None and not abs(value) <= MAX_VALUE for value in sample):
+            raise ResultError(f"{path}:{line}: expected numbers up to {MAX_VALUE:g}.")
     name = re.sub(r"^measure-", "", path.stem)
     return Log(measure=name, header=tuple(header), samples=samples)
 

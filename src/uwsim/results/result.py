@@ -17,7 +17,7 @@ from typing import Literal, get_args
 
 from ..errors import ResultError, UnknownName
 
-MOST = 1e60
+MAX_VALUE = 1e60
 """No number of a row is larger: what is made of it, powers and sums, is still a float64."""
 
 Kind = Literal["run", "level", "measure", "detail", "score", "status", "time"]
@@ -114,8 +114,8 @@ class SavedImage:
 class Result:
     """Everything a benchmark found, and everything it was found with.
 
-    Numbers are finite, those of rows up to `MOST`, and every row has as many cells as there are
-    columns; anything else is refused where the result is made, with ResultError.
+    Numbers are finite, those of rows up to `MAX_VALUE`, and every row has one cell for each
+    column; anything else is refused where the result is made, with ResultError.
     """
 
     inputs: Json
@@ -215,7 +215,7 @@ def _check_rows(result: Result) -> None:
             _expect(
                 fits or (cell is None and column.kind not in ("run", "level")),
                 f"rows[{i}], column {column.name!r}: {repr(cell)[:60]} cannot be a {column.kind}"
-                + f"; expected a number up to {MOST:g}" * (column.kind != "status"),
+                + f"; expected a number up to {MAX_VALUE:g}" * (column.kind != "status"),
             )
 
 
@@ -251,7 +251,7 @@ def _check_notes(result: Result) -> None:
 
 
 def _is_number(cell: object) -> bool:
-    return isinstance(cell, int | float) and not isinstance(cell, bool) and abs(cell) <= MOST
+    return isinstance(cell, int | float) and not isinstance(cell, bool) and abs(cell) <= MAX_VALUE
 
 
 def _is_draw(pair: object) -> bool:

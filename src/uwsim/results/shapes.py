@@ -14,9 +14,9 @@ from typing import Any
 from ..errors import ResultError
 
 Shape = Callable[[Any, str], None]
-DEEPEST = 12
+MAX_DEPTH = 12
 """Lists and objects are nested no deeper than this."""
-LONGEST = 60
+MAX_SHOWN = 60
 """So many letters of a wrong value are shown."""
 _CELLS = {int, float, NoneType}
 
@@ -25,7 +25,7 @@ def expect(truth: bool, value: object, at: str, what: str) -> None:
     """Raise unless it is true; says that ``value`` stands ``at`` a place where ``what`` should."""
     if not truth:
         shown = repr(value)
-        shown = shown if len(shown) <= LONGEST else f"{shown[: LONGEST - 3]}..."
+        shown = shown if len(shown) <= MAX_SHOWN else f"{shown[: MAX_SHOWN - 3]}..."
         raise ResultError(f"{at} is {shown}; expected {what}.")
 
 
@@ -49,10 +49,10 @@ def number(value: Any, at: str) -> None:
 def anything(value: Any, at: str) -> None:
     """Any value of JSON that is not nested too deep."""
     layer = [value]
-    for _ in range(DEEPEST):
+    for _ in range(MAX_DEPTH):
         inner = [each.values() if isinstance(each, Mapping) else each for each in layer]
         layer = [v for each in inner if not isinstance(each, _SCALARS) for v in each]
-    expect(not layer, "...", at, f"lists and objects in each other up to {DEEPEST} deep")
+    expect(not layer, "...", at, f"lists and objects in each other up to {MAX_DEPTH} deep")
 
 
 _SCALARS = (str, int, float, NoneType)
@@ -104,7 +104,7 @@ def table(shape: Shape) -> Shape:
     def check(value: Any, at: str) -> None:
         expect(isinstance(value, dict), value, at, "an object")
         for key, item in value.items():
-            shape(item, f"{at}.{key[:LONGEST]}")
+            shape(item, f"{at}.{key[:MAX_SHOWN]}")
 
     return check
 
@@ -118,6 +118,6 @@ def fields(required: Mapping[str, Shape], optional: Mapping[str, Shape] | None =
         for name in required:
             expect(name in value, sorted(value), at, f"{name!r} among its keys")
         for key, item in value.items():
-            known.get(key, anything)(item, f"{at}.{key[:LONGEST]}" if at else key[:LONGEST])
+            known.get(key, anything)(item, f"{at}.{key[:MAX_SHOWN]}" if at else key[:MAX_SHOWN])
 
     return check

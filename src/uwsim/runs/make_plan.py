@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 MAX_REPEATS = 10_000
 OF_ALGORITHM = "algorithm."
 """Begins the ``--set`` that are parameters of the algorithm."""
-LONGEST = 1e8
+MAX_TIME = 1e8
 """A benchmark that would simulate longer than this is taken for a typing error [s]."""
 
 
@@ -255,7 +255,7 @@ def check_length(
     length = (updaters.interval(spec.scene_updater) or 0.0) + settling
     n_levels = len(chosen_levels(updaters.levels(spec.scene_updater), chosen))
     total = length * n_levels * repeat
-    if total > LONGEST:
+    if total > MAX_TIME:
         raise BadSetting(
-            f"The benchmark would simulate {total:.3g} s; at most {LONGEST:g} s can be asked for."
+            f"The benchmark would simulate {total:.3g} s; at most {MAX_TIME:g} s can be asked for."
         )

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from ..schema import element
 
-FARTHEST_CLEARANCE = 1e4
+MAX_CLEARANCE = 1e4
 """[m]"""
 
 
@@ -28,7 +28,7 @@ class OnFloorSpec:
     """
 
     clearance: float = element(
-        namespaced=True, default=0.0, minimum=-FARTHEST_CLEARANCE, maximum=FARTHEST_CLEARANCE
+        namespaced=True, default=0.0, minimum=-MAX_CLEARANCE, maximum=MAX_CLEARANCE
     )
     """Height above the ground; below 0 it is sunk in [m]."""
     align_to_slope: bool = element(namespaced=True, default=False)

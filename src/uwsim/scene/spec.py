@@ -28,7 +28,7 @@ from ..devices.comms import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..errors import BadSetting
 from ..geometry import Pose, rotation_from_xyz
 from ..linear import product
-from ..schema import FARTHEST, NAMESPACE, REQUIRED, Original, element
+from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED, Original, element
 from ..topics import INTERFACES, InterfaceSpec
 from .doubts import ObjectDoubt
 from .on_floor import OnFloorSpec
@@ -81,7 +81,7 @@ class OceanStateSpec:
     """How far waves move points sideways [1]."""
     crest_foam_height: float = 2.2
     """Height from which crests foam; read and not used, as in the original [m]."""
-    ocean_surface_height: float = element(default=0.0, minimum=-FARTHEST, maximum=FARTHEST)
+    ocean_surface_height: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Height of the water surface in the world, z up [m]."""
     fog: FogSpec = element(default=FogSpec())
     """How visibility falls with distance."""
@@ -139,7 +139,7 @@ class SimParamsSpec:
     """Width of the window [px]."""
     resh: int = element(default=600, minimum=1)
     """Height of the window [px]."""
-    offsetp: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
+    offsetp: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Origin of the file's frame in the world [m]."""
     offsetr: Triple = ZERO
     """Turn of the file's frame in the world, about x, y, z: Rx Ry Rz [rad]."""
@@ -188,9 +188,11 @@ class ViewerCameraSpec:
     """Near plane; automatic unless both planes are given [m]."""
     far: float = -1.0
     """Far plane; automatic unless both planes are given [m]."""
-    position: Triple = element(default=(-5.0, -5.0, 8.0), minimum=-FARTHEST, maximum=FARTHEST)
+    position: Triple = element(
+        default=(-5.0, -5.0, 8.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
+    )
     """Of the viewer in the world [m]."""
-    look_at: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
+    look_at: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Where it looks, in the world [m]."""
 
 
@@ -255,7 +257,7 @@ class PhysicsSpec:
     """Speed after a bounce by the speed before, away from the water's drag [1]; without it contacts
     give 0.1 to 0.3 back."""
     centre_of_mass: Triple | None = element(
-        namespaced=True, default=None, minimum=-FARTHEST, maximum=FARTHEST
+        namespaced=True, default=None, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
     """In the object's frame [m]; without it the middle of its box. Inertia is about it."""
 
@@ -289,13 +291,15 @@ class ObjectSpec:
     """Its name; several may share one, searches find the first."""
     file: str
     """Its mesh."""
-    position: Triple = element(default=ZERO, original=REQUIRED, minimum=-FARTHEST, maximum=FARTHEST)
+    position: Triple = element(
+        default=ZERO, original=REQUIRED, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
+    )
     """In the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy", original=REQUIRED)
     """In the file's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6)
     """Scale along x, y, z [1]."""
-    offsetp: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
+    offsetp: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Point of the mesh that becomes the origin of the object [m]."""
     offsetr: Triple = ZERO
     """Turn of the mesh in the object, about x, y, z: Rx Ry Rz [rad]."""
@@ -421,7 +425,7 @@ class SceneSpec:
         return self.sim_params.enable_physics and not self.is_dynamic
 
     @property
-    def things_fall(self) -> bool:
+    def has_uwsim_physics(self) -> bool:
         """Whether objects move by the original's physics."""
         return self.is_original_physics and any(
             physics.is_loose for physics in self.solid_objects.values()

@@ -22,7 +22,7 @@ from typing import cast
 from lxml import etree
 
 from ..errors import SceneError
-from ..schema import FARTHEST, Diagnostics, number, parse
+from ..schema import MAX_DISTANCE, Diagnostics, number, parse
 from .angle_checks import MORE_THAN_A_TURN, degrees_for_radians
 from .urdf import (
     ZERO,
@@ -403,11 +403,12 @@ def _triple(
     if attribute not in node.attrib and default is not None:
         return default
     values = _numbers(node, attribute, 3, diagnostics)
-    if values is not None and not max(map(abs, values)) <= FARTHEST:
+    if values is not None and not max(map(abs, values)) <= MAX_DISTANCE:
         given = node.get(attribute, "")
         diagnostics.error(
             node,
-            f"{attribute} of <{node.tag}> is {given[:60]!r}; expected numbers up to {FARTHEST:g}",
+            f"{attribute} of <{node.tag}> is {given[:60]!r}; "
+            f"expected numbers up to {MAX_DISTANCE:g}",
         )
         return ZERO
     return ZERO if values is None else (values[0], values[1], values[2])
@@ -418,10 +419,10 @@ def _size(
 ) -> float:
     """A length or mass: not below 0."""
     value = _number(node, attribute, diagnostics, default)
-    if not 0 <= value <= FARTHEST:
+    if not 0 <= value <= MAX_DISTANCE:
         given = node.get(attribute, "")
         diagnostics.error(
-            node, f"{attribute} of <{node.tag}> is {given[:60]!r}; expected 0 to {FARTHEST:g}"
+            node, f"{attribute} of <{node.tag}> is {given[:60]!r}; expected 0 to {MAX_DISTANCE:g}"
         )
         return 0.0
     return value

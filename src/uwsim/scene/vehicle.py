@@ -28,7 +28,7 @@ from ..devices.object_picker import ObjectPickerSpec
 from ..devices.sway import SwaySpec
 from ..devices.thruster_fault import ThrusterFaultSpec
 from ..geometry import Pose
-from ..schema import FARTHEST, element, fields_of
+from ..schema import MAX_DISTANCE, element, fields_of
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.gps_sensor import GpsSensorSpec
 from ..sensors.imu import ImuSpec
@@ -54,7 +54,7 @@ class TfSpec:
 
     tf_id: str
     """The frame it follows."""
-    position: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
+    position: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Of the vehicle in that frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy")
     """Of the vehicle in that frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
@@ -76,7 +76,7 @@ class VehicleSpec:
     """Whether it is a ghost: drawn in the viewer, unseen by cameras."""
     joint_values: tuple[float, ...] = element(item="joint", default=())
     """Of the movable joints that mimic no other, in the order of the tree [rad or m]."""
-    position: Triple = element(default=ZERO, minimum=-FARTHEST, maximum=FARTHEST)
+    position: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Of its base in the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy")
     """Of its base in the file's frame, in UWSim's vehicle order: Rx Ry Rz [rad]."""

@@ -33,8 +33,8 @@ from .declaration import REQUIRED, Limits, Original, element
 from .diagnostics import MAX_DIAGNOSTICS, Diagnostics
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
 from .grammar import (
-    FARTHEST,
-    LARGEST,
+    MAX_DISTANCE,
+    MAX_NUMBER,
     Field,
     Numbers,
     TwoNumbers,
@@ -48,12 +48,12 @@ from .values import TOKENS, number
 from .writing import uses_extensions, write
 
 __all__ = [
-    "FARTHEST",
-    "LARGEST",
     "MAX_BYTES",
     "MAX_DEPTH",
     "MAX_DIAGNOSTICS",
+    "MAX_DISTANCE",
     "MAX_NODES",
+    "MAX_NUMBER",
     "NAMESPACE",
     "REQUIRED",
     "TOKENS",

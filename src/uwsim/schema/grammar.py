@@ -19,9 +19,9 @@ from typing import Annotated, Any, Literal, cast
 from .declaration import Xml
 from .names import NAMESPACE, local
 
-FARTHEST = 1e6
+MAX_DISTANCE = 1e6
 """Greatest length that a scene needs [m]."""
-LARGEST = 1e9
+MAX_NUMBER = 1e9
 """Greatest number that any quantity needs, in whatever unit; larger ones are mistakes of units."""
 
 QUANTITIES = ("float", "int", "triple", "numbers")

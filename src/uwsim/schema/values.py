@@ -10,7 +10,7 @@ from lxml import etree
 
 from ..errors import did_you_mean
 from .diagnostics import Diagnostics
-from .grammar import LARGEST, Field
+from .grammar import MAX_NUMBER, Field
 from .names import cut
 
 TOKENS = {
@@ -80,8 +80,8 @@ def scalar(
         value = text
     if value is not BAD and field.kind in ("float", "int", "triple") and not field.allows(value):
         value = BAD
-    if field.kind in ("float", "triple") and value is not BAD and abs(value) > LARGEST:
-        diagnostics.error(node, f"{shown} is {cut(text)}; no quantity is beyond {LARGEST:g}")
+    if field.kind in ("float", "triple") and value is not BAD and abs(value) > MAX_NUMBER:
+        diagnostics.error(node, f"{shown} is {cut(text)}; no quantity is beyond {MAX_NUMBER:g}")
         return BAD
     if value is BAD:
         near = did_you_mean(text, field.type) if field.kind == "word" and len(text) < 80 else ""
@@ -99,7 +99,9 @@ def numbers(
     """Several numbers from their text, separated by blanks; commas may stand between them."""
     words = text.replace(",", " ").split()
     values = [number(word) for word in words]
-    beyond = [word for word, value in zip(words, values, strict=True) if abs(value or 0) > LARGEST]
+    beyond = [
+        word for word, value in zip(words, values, strict=True) if abs(value or 0) > MAX_NUMBER
+    ]
     wrong = [
         word for word, value in zip(words, values, strict=True)
         if value is None or not field.allows(value)
@@ -109,7 +111,7 @@ def numbers(
     elif wrong or not words:
         message = f"holds {cut(wrong[0] if wrong else text)}; expected {field.expected}"
     elif beyond:
-        message = f"holds {cut(beyond[0])}; no quantity is beyond {LARGEST:g}"
+        message = f"holds {cut(beyond[0])}; no quantity is beyond {MAX_NUMBER:g}"
     elif field.type and len(words) != field.type:
         message = f"has {len(words)} numbers; expected {field.type}"
     else:

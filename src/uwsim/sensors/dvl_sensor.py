@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..schema import FARTHEST, element
+from ..schema import MAX_DISTANCE, element
 from .sensor import SensorSpec
 
 
@@ -20,7 +20,7 @@ class DvlSensorSpec(SensorSpec):
     """A ``<dvlSensor>``."""
 
     position: tuple[float, float, float] = element(
-        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+        default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")

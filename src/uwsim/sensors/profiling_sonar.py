@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..schema import FARTHEST, element
+from ..schema import MAX_DISTANCE, element
 from .sensor import SCAN_AXES, LookAt, SensorSpec
 
 
@@ -27,7 +27,7 @@ class ProfilingSonarSpec(SensorSpec):
     visible: bool = False
     """Whether the viewer draws the beams."""
     position: tuple[float, float, float] = element(
-        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+        default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
@@ -41,7 +41,7 @@ class ProfilingSonarSpec(SensorSpec):
     """Angle of the last beam [deg]."""
     angle_incr: float = element(above=0)
     """Angle between beams [deg]."""
-    range: float = element(above=0, maximum=FARTHEST)
+    range: float = element(above=0, maximum=MAX_DISTANCE)
     """Longest distance measured; the value of a beam that hits nothing [m]."""
     fov: float = element(above=0)
     """Width of the beam [deg]."""

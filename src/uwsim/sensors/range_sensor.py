@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..schema import FARTHEST, element
+from ..schema import MAX_DISTANCE, element
 from .sensor import LookAt, SensorSpec
 
 
@@ -19,12 +19,12 @@ from .sensor import LookAt, SensorSpec
 class RangeSensorSpec(SensorSpec):
     """A ``<rangeSensor>``."""
 
-    range: float = element(minimum=0, maximum=FARTHEST)
+    range: float = element(minimum=0, maximum=MAX_DISTANCE)
     """Length of the ray; the value when nothing is hit [m]."""
     visible: bool = False
     """Whether the viewer draws the ray."""
     position: tuple[float, float, float] = element(
-        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+        default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..schema import FARTHEST, element
+from ..schema import MAX_DISTANCE, element
 from .sensor import OPTICAL_AXES, LookAt, SensorSpec
 
 
@@ -30,7 +30,7 @@ class StructuredLightProjectorSpec(SensorSpec):
     laser: bool = True
     """1: laser, neither lit nor attenuated on its way; 0: lamp, falling off with distance."""
     position: tuple[float, float, float] = element(
-        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+        default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")

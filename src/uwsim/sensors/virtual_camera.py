@@ -21,7 +21,7 @@ import numpy.typing as npt
 
 from ..geometry import Intrinsics, Pose
 from ..messages import CameraInfo, Image, RegionOfInterest, header, image
-from ..schema import FARTHEST, element
+from ..schema import MAX_DISTANCE, element
 from ..world import Body, SensorWorld
 from .sensor import OPTICAL_AXES, Carrier, LookAt, SensorSpec
 
@@ -30,17 +30,17 @@ from .sensor import OPTICAL_AXES, Carrier, LookAt, SensorSpec
 class CameraParametersSpec:
     """The pinhole of a camera from a calibration; overrides ``fovy``."""
 
-    fx: float = element(above=0, maximum=FARTHEST)
+    fx: float = element(above=0, maximum=MAX_DISTANCE)
     """Focal length along the columns [px]."""
-    fy: float = element(above=0, maximum=FARTHEST)
+    fy: float = element(above=0, maximum=MAX_DISTANCE)
     """Focal length along the rows [px]."""
     x0: float
     """Principal point from the left edge [px]."""
     y0: float
     """Principal point from the top edge [px]; the original counts it from the bottom."""
-    f: float = element(above=0, maximum=FARTHEST)
+    f: float = element(above=0, maximum=MAX_DISTANCE)
     """Far plane [m]."""
-    n: float = element(above=0, maximum=FARTHEST)
+    n: float = element(above=0, maximum=MAX_DISTANCE)
     """Near plane [m]."""
     k: float
     """Skew [px]."""
@@ -78,7 +78,7 @@ class VirtualCameraSpec(SensorSpec):
     resh: int = element(default=120, minimum=1, maximum=16384)
     """Rows of the image [px]."""
     position: tuple[float, float, float] = element(
-        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+        default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
@@ -86,7 +86,7 @@ class VirtualCameraSpec(SensorSpec):
     look_at: LookAt = element(namespaced=True, default=None)
     """Where it looks at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""
-    baseline: float = element(default=0.0, minimum=-FARTHEST, maximum=FARTHEST)
+    baseline: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Distance to the first camera of a stereo pair [m]; Tx = -fx * baseline in CameraInfo."""
     frame_id: str = ""
     """Name of the frame in the headers of image and info."""

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..geometry import Intrinsics
-from ..schema import FARTHEST, element
+from ..schema import MAX_DISTANCE, element
 from .sensor import OPTICAL_AXES, LookAt, SensorSpec
 from .virtual_camera import CameraParametersSpec
 
@@ -31,7 +31,7 @@ class VirtualRangeImageSpec(SensorSpec):
     resh: int = element(default=120, minimum=1, maximum=16384)
     """Rows of the image [px]."""
     position: tuple[float, float, float] = element(
-        default=(0.0, 0.0, 0.0), minimum=-FARTHEST, maximum=FARTHEST
+        default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")

@@ -47,7 +47,7 @@ def simulated_shapes(
         dynamics: numbers of the vehicles that are simulated.
         data_path: folders in which files are looked for.
     """
-    if scene.things_fall:
+    if scene.has_uwsim_physics:
         return collision_shapes(scene, robots, robots, scene.solid_objects, data_path)
     solid = simulated_solids(scene, dynamics)
     if not solid and len(dynamics) < 2:
@@ -57,7 +57,7 @@ def simulated_shapes(
 
 def simulated_solids(scene: SceneSpec, dynamics: Collection[int]) -> Mapping[int, PhysicsSpec]:
     """Objects that the engine knows, by their numbers: none where it has nothing to simulate."""
-    if scene.things_fall:
+    if scene.has_uwsim_physics:
         return scene.solid_objects
     return scene.simulated_solids if dynamics else {}
 

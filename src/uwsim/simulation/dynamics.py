@@ -33,7 +33,7 @@ MAX_NAMED = 8
 """Links that one warning names."""
 MIN_LIFT = 0.1
 """What other water must add to the buoyancy of a vehicle to be told [N]."""
-LIGHTEST = 100.0
+MAX_BUOYANCY = 100.0
 """Buoyancy per weight that no vehicle has: the lightest foam has 10 kg/m3 [1]."""
 
 
@@ -120,8 +120,10 @@ class Search:
                 f"{name!r} gives one",
                 *place,
             )
-        elif displaced > LIGHTEST * mass:
-            self._say(f"{message}; {LIGHTEST:g} times the mass is lighter than any foam", *place)
+        elif displaced > MAX_BUOYANCY * mass:
+            self._say(
+                f"{message}; {MAX_BUOYANCY:g} times the mass is lighter than any foam", *place
+            )
 
     def _name_massless(self, index: int, robot: RobotSpec) -> None:
         """Say which links weigh what the engine needs, because no file says what they weigh."""

@@ -95,7 +95,7 @@ class InProcessNode:
         self._calls = calls or Calls()
         self._outbox = Outbox()
         self._thread = threading.get_ident()
-        self._is_open = True
+        self._is_started = True
         self._heard: dict[str, Callable[[], str | None]] = {}
         self._published: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
@@ -215,7 +215,7 @@ class InProcessNode:
 
     def close(self) -> None:
         """Take the algorithm off the bus."""
-        self._is_open = False
+        self._is_started = False
         for close in self._close:
             close()
         self._close.clear()
@@ -246,7 +246,7 @@ class InProcessNode:
         """Refuse what no algorithm may do with its node; that ends it, caught or not."""
         if threading.get_ident() != self._thread:
             self._break_rule("it uses its node from a thread of its own")
-        if not self._is_open:
+        if not self._is_started:
             self._break_rule("it uses its node after the end")
         if topic is not None and self._bus.is_withheld(topic):
             self._break_rule(f"topic {topic!r} is for observers of the run")

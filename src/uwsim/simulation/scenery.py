@@ -10,14 +10,13 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..devices.lamp import MountedLamp
+from ..devices.lamp import MAX_LAMPS, MountedLamp
 from ..errors import UwsimError
 from ..geometry import Array, Intrinsics, Pose
 from ..linear import product
 from ..physics.engine import Engine
 from ..rendering.grey import grey_truncated
 from ..rendering.lamp import Lamp
-from ..rendering.lamps import MAX_LAMPS
 from ..rendering.noise import add_noise
 from ..rendering.renderer import RenderedImage, Renderer
 from ..rendering.water import Light, Water

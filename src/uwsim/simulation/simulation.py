@@ -60,7 +60,7 @@ class Simulation:
         }
         """What publishes images, by topic."""
         self._inboxes: dict[str, Inbox[Any]] = {}
-        self._is_open = False
+        self._is_started = False
         self._animate()
 
     @property
@@ -83,9 +83,9 @@ class Simulation:
         """``step * timestep`` [s]."""
         return self.world.time
 
-    def open(self) -> None:
+    def start(self) -> None:
         """Publish the first samples, at step 0; the first `advance` does so, too."""
-        self._is_open = True
+        self._is_started = True
         self._publish()
 
     def advance(self, seconds: float | None = None) -> None:
@@ -95,8 +95,8 @@ class Simulation:
             BadSetting: the time is negative or not finite.
             RunFailed: the engine cannot go on; says why.
         """
-        if not self._is_open:
-            self.open()
+        if not self._is_started:
+            self.start()
         if seconds is None:
             self._advance()
             return
@@ -290,7 +290,7 @@ class Simulation:
             names = ", ".join(node.name for node in self._nodes)
             raise UwsimError(f"Cannot be saved: {names} is attached, and keeps what it knows.")
         newest = {topic: (box.last, box.last_step) for topic, box in self._inboxes.items()}
-        values = {"is_open": self._is_open, "newest": newest, "world": state_of(self.world)}
+        values = {"is_open": self._is_started, "newest": newest, "world": state_of(self.world)}
         return packed({"uwsim": __version__, **values})
 
     def restore(self, data: bytes) -> None:
@@ -305,7 +305,7 @@ class Simulation:
         if set(values) != {"is_open", "newest", "world"}:
             raise UwsimError("These bytes are no saved simulation.")
         put_state(self.world, values["world"])
-        self._is_open = values["is_open"]
+        self._is_started = values["is_open"]
         for topic, (last, step) in values["newest"].items():
             if topic not in self._inboxes:
                 self._inboxes[topic] = self.bus.inbox(topic, object)

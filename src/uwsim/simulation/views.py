@@ -22,7 +22,7 @@ FILLED = 0.8
 """What matters fills so much of an image, in width or height [1]."""
 NEARBY = 6.0
 """Objects within so many metres of the vehicles' middle matter, too, or 3 times their size [m]."""
-LARGEST = 10.0
+MAX_RADIUS = 10.0
 """A larger object is a landscape, whatever it is called; half its diagonal [m]."""
 WELL_SEEN = 0.98
 """Share of what matters that a good view is not hidden from [1]."""
@@ -32,7 +32,7 @@ ELEVATIONS = (25.0, 50.0, 10.0)
 """How high above the horizon [deg]."""
 SKETCH: Size = (96, 72)
 """Of the images that say how much of it is seen [px]."""
-NEAREST = 0.05
+NEAR_PLANE = 0.05
 """Near plane [m]."""
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -126,7 +126,7 @@ def focus_of(simulation: Simulation) -> Focus:
     things = [
         (part.id, corners)
         for part, corners in shown
-        if part.object is not None and part.name != TERRAIN and _radius(corners) <= LARGEST
+        if part.object is not None and part.name != TERRAIN and _radius(corners) <= MAX_RADIUS
     ]
     if vehicles:
         own = np.concatenate([corners for _, corners in vehicles])
@@ -191,7 +191,7 @@ def _looking(eye: Array, ahead: Array, what: str) -> Pose:
 
 
 def _lens(size: Size, field: float) -> Intrinsics:
-    return Intrinsics.from_fovy(*size, field, near=NEAREST)
+    return Intrinsics.from_fovy(*size, field, near=NEAR_PLANE)
 
 
 def _centre(simulation: Simulation, route: str) -> Array:

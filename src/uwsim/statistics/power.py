@@ -6,7 +6,7 @@ import math
 
 from .paired import fewest_for
 
-MOST = 100_000
+MAX_REPEATS = 100_000
 """More repeats than these are not counted."""
 
 
@@ -36,16 +36,16 @@ def repeats_needed(d: float, *, alpha: float = 0.05, wanted: float = 0.8) -> int
     """Return the least number of pairs that shows an effect of size d with power ``wanted``.
 
     Never fewer than the sign-flip test needs to reach ``alpha`` at all (`fewest_for`); None where
-    that takes more than `MOST`, as it does without an effect.
+    that takes more than `MAX_REPEATS`, as it does without an effect.
     """
     low, high = 1, max(2, fewest_for(alpha))
     if power(high, d, alpha) >= wanted:
         return high
     while power(high, d, alpha) < wanted:
         low, high = high, 2 * high
-        if low > MOST:
+        if low > MAX_REPEATS:
             return None
     while high - low > 1:
         middle = (low + high) // 2
         low, high = (low, middle) if power(middle, d, alpha) >= wanted else (middle, high)
-    return high if high <= MOST else None
+    return high if high <= MAX_REPEATS else None

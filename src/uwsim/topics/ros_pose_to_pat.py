@@ -10,7 +10,7 @@ import numpy as np
 
 from ..geometry import Pose, rotation_from_quaternion
 from ..messages import Pose as PoseMessage
-from ..vehicle import LARGEST, Vehicle
+from ..vehicle import MAX_COMMAND, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 
@@ -44,7 +44,7 @@ class PoseCommand(Interface):
         if not np.isfinite(position).all():
             return
         localized_from_base = Pose(
-            np.clip(position, -LARGEST, LARGEST), rotation_from_quaternion(wxyz / largest)
+            np.clip(position, -MAX_COMMAND, MAX_COMMAND), rotation_from_quaternion(wxyz / largest)
         )
         world_from_base = self._world_from_localized @ localized_from_base
         if (autopilot := self._vehicle.autopilot) is not None:

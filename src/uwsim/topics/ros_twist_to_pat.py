@@ -15,7 +15,7 @@ import numpy as np
 
 from ..geometry import Pose, rotation_from_xyz
 from ..messages import Twist, TwistStamped
-from ..vehicle import LARGEST, Vehicle
+from ..vehicle import MAX_COMMAND, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 MAX_GAP = 1.0
@@ -56,7 +56,7 @@ class TwistCommand(Interface):
         numbers = np.array([v.x, v.y, v.z, w.x, w.y, w.z])
         if not np.isfinite(numbers).all():
             return
-        numbers = np.clip(numbers, -LARGEST, LARGEST)
+        numbers = np.clip(numbers, -MAX_COMMAND, MAX_COMMAND)
         if (autopilot := self._vehicle.autopilot) is not None:
             autopilot.command(numbers[:3].tolist(), numbers[3:].tolist())
             return

@@ -27,7 +27,7 @@ from uwsim.cli import main
 from uwsim.errors import ResultError
 from uwsim.results.log import Log, save_log
 from uwsim.results.provenance import save_provenance
-from uwsim.results.result import MOST, Column, Missing, Result, SavedImage
+from uwsim.results.result import MAX_VALUE, Column, Missing, Result, SavedImage
 from uwsim.results.result_file import save
 
 QUAD = (10.0, 10.0, 30.0, 10.0, 30.0, 20.0, 10.0, 20.0)
@@ -223,7 +223,9 @@ def test_the_largest_numbers_of_all_are_drawn_without_a_warning(tmp_path: Path) 
     numbers = {swept.index(name) for name in ("corners", "corners.mean", "centroid", "total")}
     rows = tuple(
         tuple(
-            (-1) ** (i // 5) * MOST * (1 - i / 200) if j in numbers and cell is not None else cell
+            (-1) ** (i // 5) * MAX_VALUE * (1 - i / 200)
+            if j in numbers and cell is not None
+            else cell
             for j, cell in enumerate(row)
         )
         for i, row in enumerate(swept.rows)

@@ -198,7 +198,7 @@ def test_the_deepest_interval_counts_and_none_may_stand_at_the_bottom() -> None:
 @pytest.fixture
 def simulation() -> Iterator[Simulation]:
     simulation = Simulation(tank())
-    simulation.open()
+    simulation.start()
     yield simulation
     simulation.close()
 

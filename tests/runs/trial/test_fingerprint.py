@@ -142,7 +142,7 @@ def test_a_trace_is_read_back_as_it_was_stored() -> None:
 def test_a_scene_in_which_nothing_can_move_leaves_a_trace_too() -> None:
     simulation = Simulation(SceneSpec())
     fingerprinter = Fingerprinter(simulation)
-    simulation.open()
+    simulation.start()
     for _ in range(100):
         simulation.advance()
     assert len(fingerprinter.fingerprint) == 16

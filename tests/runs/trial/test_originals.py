@@ -36,7 +36,7 @@ ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 pytestmark = pytest.mark.skipif(ORIGINALS is None, reason="UWSIM_ORIGINALS is not set")
 SHORT = 0.5
 """What a level lasts here, beside the still water behind a step of a current [s]."""
-LONGEST = 3.0
+MAX_DURATION = 3.0
 """What a level lasts here that nothing ends [s]."""
 COMMON = {"benchmark", "scene", "auto", "recursive", "simple", "test"}
 """Words that say nothing about which scene a benchmark is for."""
@@ -155,7 +155,7 @@ def test_an_original_passes_the_check_with_its_scene(file: Path) -> None:
 def test_an_original_is_played_and_every_cell_has_a_value_or_a_reason(
     file: Path, quirks: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uwsim.runs.trial.trial.MAX_TASK_DURATION", LONGEST)
+    monkeypatch.setattr("uwsim.runs.trial.trial.MAX_TASK_DURATION", MAX_DURATION)
     scene = read_scene(scene_for(file, read_benchmark(file)))
     plan = plan_of(file, scene, compatibility([quirks] if quirks == "uwsim" else []))
     if (

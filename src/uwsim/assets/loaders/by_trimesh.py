@@ -23,18 +23,18 @@ from .references import References
 READABLE = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae")
 """Formats that are read without help from outside."""
 
-LARGEST_MODEL = 4_000_000
+MAX_TRIANGLES = 4_000_000
 """Models with more triangles are refused."""
 
-LARGEST_FILE = 256 * 2**20
+MAX_FILE_BYTES = 256 * 2**20
 """Largest file [bytes]."""
-LARGEST_TEXT = 64 * 2**20
+MAX_TEXT_BYTES = 64 * 2**20
 """Largest file of a format that is text [bytes]: reading it takes some twenty times as much."""
 
 STL_HEADER = 80
 """Length [bytes] of what a binary STL file says of itself."""
 
-FARTHEST = 1e6
+MAX_COORDINATE = 1e6
 """Vertices farther out than this [m] are taken for a broken file."""
 
 
@@ -92,9 +92,9 @@ def _bytes(path: Path, name: str, original: Path | None) -> bytes:
     suffix = path.suffix.lower()
     if original is not None and suffix in (".obj", ".mtl"):
         return path.read_bytes()
-    data = read_bytes(path, name=name, at_most=LARGEST_FILE)
-    if len(data) > LARGEST_TEXT and _is_text(data, suffix):
-        most = LARGEST_TEXT >> 20
+    data = read_bytes(path, name=name, at_most=MAX_FILE_BYTES)
+    if len(data) > MAX_TEXT_BYTES and _is_text(data, suffix):
+        most = MAX_TEXT_BYTES >> 20
         raise AssetError(f"{path}: is text of more than {most} MiB; write it as .glb or .stl.")
     # a Collada file needs no document type; one that has it may be a trap
     if suffix == ".dae" and (b"<!DOCTYPE" in data or b"<!ENTITY" in data):
@@ -162,8 +162,8 @@ def _parts(
 def _check_number(path: Path, n_triangles: int) -> None:
     if n_triangles == 0:
         raise AssetError(f"{path}: holds no triangles.")
-    if n_triangles > LARGEST_MODEL:
-        raise AssetError(f"{path}: {n_triangles} triangles; at most {LARGEST_MODEL} are read.")
+    if n_triangles > MAX_TRIANGLES:
+        raise AssetError(f"{path}: {n_triangles} triangles; at most {MAX_TRIANGLES} are read.")
 
 
 def _moved(part: Any, transform: npt.NDArray[np.float64]) -> Any:
@@ -213,8 +213,8 @@ def _mesh(part: Any, looks: Looks, visual: Any, path: Path, keep: float) -> Mesh
         raise AssetError(f"{path}{where}.")
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise AssetError(f"{path}: a triangle names a vertex that is not there.")
-    if not np.isfinite(vertices).all() or np.abs(vertices).max() > FARTHEST:
-        raise AssetError(f"{path}: vertices that are not finite or beyond {FARTHEST:g} m.")
+    if not np.isfinite(vertices).all() or np.abs(vertices).max() > MAX_COORDINATE:
+        raise AssetError(f"{path}: vertices that are not finite or beyond {MAX_COORDINATE:g} m.")
     uvs = np.zeros((len(vertices), 2))
     colour, texture = looks.of(visual)
     given = getattr(visual, "uv", None)

@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element, ParseError, fromstring
 
 MAX_NODES = 20_000
 """Most nodes and geometries, instances counted each."""
-DEEPEST = 100
+MAX_DEPTH = 100
 """Longest chain of nodes, instances followed."""
 MAX_TEXT = 64 * 2**20
 """Most letters of indices in all geometries, instances counted each."""
@@ -34,7 +34,7 @@ def too_much(data: bytes) -> str:
         scenes = [node for node in root.iter() if _kind(node) == "visual_scene"]
         weighed = [counts.of(scene) for scene in scenes]
     except _TooDeep:
-        return f"its nodes form a loop, or a chain of more than {DEEPEST}"
+        return f"its nodes form a loop, or a chain of more than {MAX_DEPTH}"
     if (n := sum(nodes for nodes, _, _ in weighed)) > MAX_NODES:
         return f"its nodes stand for {n:.3g}; at most {MAX_NODES} are read"
     if (letters := sum(text for _, text, _ in weighed)) > MAX_TEXT:
@@ -61,7 +61,7 @@ class _Counts:
     def of(self, node: Element, depth: int = 0) -> tuple[int, int, int]:
         """Number of nodes and geometries, letters of indices, and length of the longest chain."""
         if node not in self._known:
-            if depth > DEEPEST:
+            if depth > MAX_DEPTH:
                 raise _TooDeep
             n, text, longest = 1, 0, 0
             for child in node:
@@ -74,7 +74,7 @@ class _Counts:
                 for each in nodes if is_instance or _kind(child) == "node" else ():
                     found = self.of(each, depth + 1)
                     n, text, longest = n + found[0], text + found[1], max(longest, found[2] + 1)
-            if longest > DEEPEST:
+            if longest > MAX_DEPTH:
                 raise _TooDeep
             self._known[node] = n, text, longest
         return self._known[node]

@@ -11,11 +11,11 @@ from typing import Any
 
 MAX_ENTRIES = 20_000
 """Most nodes, primitives, accessors, images, ... of one kind."""
-DEEPEST = 100
+MAX_DEPTH = 100
 """Longest chain of nodes."""
 MAX_ELEMENTS = 12_000_000
 """Most elements of an accessor, and of all accessors without data."""
-LARGEST_HEADER = 32 * 2**20
+MAX_HEADER_BYTES = 32 * 2**20
 """Largest header of a .glb [bytes]."""
 HEAD = 20
 """Length of what stands before that [bytes]."""
@@ -28,8 +28,8 @@ def too_much(data: bytes, suffix: str) -> str:
     """
     if suffix == ".glb":
         length = int.from_bytes(data[12:16], "little")
-        if length > LARGEST_HEADER:
-            return f"its header has {length} bytes; at most {LARGEST_HEADER} are read"
+        if length > MAX_HEADER_BYTES:
+            return f"its header has {length} bytes; at most {MAX_HEADER_BYTES} are read"
         data = data[HEAD : HEAD + length]
     try:
         tree = json.loads(data)
@@ -72,8 +72,8 @@ def _too_deep(nodes: list[dict[str, Any]]) -> str:
             n_parents[child] -= 1
             if n_parents[child] == 0:
                 ready.append(child)
-    if len(ready) < len(nodes) or max(depth, default=0) >= DEEPEST:
-        return f"its nodes form a loop, or a chain of more than {DEEPEST}"
+    if len(ready) < len(nodes) or max(depth, default=0) >= MAX_DEPTH:
+        return f"its nodes form a loop, or a chain of more than {MAX_DEPTH}"
     return ""
 
 

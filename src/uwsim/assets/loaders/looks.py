@@ -13,7 +13,7 @@ from PIL import Image
 from ...errors import AssetError
 from ..mesh import Texture
 
-LARGEST_IMAGE = 2048
+MAX_TEXTURE_SIDE = 2048
 """Textures are reduced to this many pixels a side."""
 MAX_PIXELS = 8192 * 8192
 """Largest image [px]: it is decoded whole."""
@@ -97,7 +97,7 @@ class Looks:
             )
         try:
             rgb = image.convert("RGB")
-            rgb.thumbnail((LARGEST_IMAGE, LARGEST_IMAGE))
+            rgb.thumbnail((MAX_TEXTURE_SIDE, MAX_TEXTURE_SIDE))
             pixels = np.array(rgb, dtype=np.uint8)
         except Exception as error:  # Pillow raises whatever its decoders raise
             raise AssetError(

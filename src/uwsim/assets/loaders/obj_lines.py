@@ -6,7 +6,7 @@ import math
 
 SHOWN = 60
 """So many letters of a line are shown."""
-LONGEST = 2_000_000
+MAX_LINES = 2_000_000
 """So many lines are looked at."""
 COUNTED = {"v": 3, "vt": 1, "vn": 3}
 """What is numbered -> the fewest numbers it has."""
@@ -16,7 +16,9 @@ def wrong_line(data: bytes) -> str:
     """Return the first line that is wrong, as ``4: 'f 1 2 9': ...``; empty if none is found."""
     counts = dict.fromkeys(COUNTED, 0)
     later = []  # faces may come before their vertices
-    for number, line in enumerate(data.decode("utf-8", "replace").splitlines()[:LONGEST], start=1):
+    for number, line in enumerate(
+        data.decode("utf-8", "replace").splitlines()[:MAX_LINES], start=1
+    ):
         kind, *words = line.partition("#")[0].split() or [""]
         why = ""
         if kind in COUNTED:

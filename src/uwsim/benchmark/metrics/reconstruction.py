@@ -26,7 +26,7 @@ GROUND = 0.10
 """What is as near to the plane below the box, and nearer than to the box, is ground [m]."""
 OUTLIER = 0.15
 """What is as far from the surface of the box is no part of it [m]."""
-FARTHEST = 1e9
+MAX_COORDINATE = 1e9
 """Coordinates beyond this are no measurements [m]."""
 BLOCK = 1 << 15
 """How many points are worked on at once: as many as stay in a processor's cache."""
@@ -42,7 +42,7 @@ class Reconstruction:
         self.n_outliers = 0
         self.n_ground = 0
         self.n_skipped = 0
-        """Points of which a coordinate was no number, or beyond `FARTHEST`."""
+        """Points of which a coordinate was no number, or beyond `MAX_COORDINATE`."""
         self._mean = 0.0  # of d over the inliers [m]
         self._squares = 0.0  # sum of squared deviations from it [m^2]
 
@@ -50,7 +50,7 @@ class Reconstruction:
         """Take points (n, 3) [m] that ``rotation`` (3, 3) and ``offset`` (3,) bring to the box."""
         for begin in range(0, len(points), BLOCK):
             block = points[begin : begin + BLOCK]
-            is_place = (np.abs(block) <= FARTHEST).all(axis=1)  # NaN is not
+            is_place = (np.abs(block) <= MAX_COORDINATE).all(axis=1)  # NaN is not
             if not is_place.all():
                 self.n_skipped += len(block) - int(is_place.sum())
                 block = block[is_place]

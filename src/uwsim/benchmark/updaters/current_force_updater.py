@@ -21,7 +21,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...currents import (
-    FASTEST,
+    MAX_SPEED,
     MIN_PERIOD,
     LateCurrent,
     Place,
@@ -66,16 +66,16 @@ class CurrentForceUpdaterSpec(SweepSpec):
     unit: ClassVar[str] = "m/s"
 
     initial_value: float = element(
-        original=Original(aliases=("initialCurrent",)), minimum=-FASTEST, maximum=FASTEST
+        original=Original(aliases=("initialCurrent",)), minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
     """Speed of the current in the first level [m/s]."""
     final_value: float = element(
-        original=Original(aliases=("finalCurrent",)), minimum=-FASTEST, maximum=FASTEST
+        original=Original(aliases=("finalCurrent",)), minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
     """Speed that is not exceeded [m/s]."""
     spherical_direction: SphericalSpec
     """Its direction [rad]."""
-    force_variation: float = element(minimum=-FASTEST, maximum=FASTEST)
+    force_variation: float = element(minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """Amplitude of its swelling [m/s]."""
     force_period: float = element(minimum=MIN_PERIOD)
     """Period of its swelling [s]."""

@@ -48,7 +48,7 @@ import numpy as np
 
 from ...geometry import Array, Pose
 from ...linear import pseudo_inverse
-from ...vehicle import LARGEST
+from ...vehicle import MAX_COMMAND
 from ..hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 from .allocation import N_POINTS, ROLL, allocate, curve
 
@@ -179,7 +179,7 @@ class Autopilot:
         if self._mode != "velocity":
             self._mode, self._takes_over = "velocity", True
             self._integral[:] = 0.0
-        self._wanted[:] = np.clip([*linear, *angular], -LARGEST, LARGEST)
+        self._wanted[:] = np.clip([*linear, *angular], -MAX_COMMAND, MAX_COMMAND)
 
     def go_to(self, world_from_base: Pose) -> None:
         """Go to a place and its heading, and stay there; roll and pitch are not followed."""
@@ -188,13 +188,13 @@ class Autopilot:
             self._integral[:] = 0.0
         self._takes_over = False
         self._wanted[:] = 0.0
-        self._target = np.clip(world_from_base.position, -LARGEST, LARGEST)
+        self._target = np.clip(world_from_base.position, -MAX_COMMAND, MAX_COMMAND)
         self._heading = world_from_base.rotation.copy()
 
     def push(self, force: Array, torque: Array) -> None:
         """Share out a force [N] and a torque about the base's origin [N m], base axes."""
         self._mode, self.has_news = "wrench", True
-        force, torque = np.clip([force, torque], -LARGEST, LARGEST)
+        force, torque = np.clip([force, torque], -MAX_COMMAND, MAX_COMMAND)
         self._wrench = np.concatenate([force, torque - np.cross(self._reference, force)])
 
     def set_thrusters(self, commands: Array) -> None:

@@ -13,7 +13,7 @@ from ...jit import njit
 Axes = npt.NDArray[np.int64]
 DEPTH, POSITION, HEADING, VELOCITY, INTEGRAL = range(5)
 """Places of the gains, as `loops` takes them."""
-FASTEST = 0.5
+MAX_SPEED = 0.5
 """What position hold wishes for at most [m/s]."""
 MAX_CLIMB_RATE = 0.3
 """What depth hold wishes for at most [m/s]."""
@@ -88,7 +88,7 @@ def loops(
             ahead += rotation[k, 0] * (target[k] - position[k])
             aside += rotation[k, 1] * (target[k] - position[k])
         size = gains[POSITION] * math.hypot(ahead, aside)
-        slowed = gains[POSITION] * min(1.0, FASTEST / max(size, 1e-9))
+        slowed = gains[POSITION] * min(1.0, MAX_SPEED / max(size, 1e-9))
         wanted[0] += slowed * ahead
         wanted[1] += slowed * aside
     up = rotation[2, 2]  # how much of W's z lies along the base's z: +-1 when level

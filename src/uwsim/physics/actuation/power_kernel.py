@@ -14,11 +14,11 @@ from ..hydrodynamics.kernel import curve
 
 STATE, CONTROL, SITE, BODY, LOSS, ACTUATOR = range(6)
 """Columns of the rotors' addresses in the engine; a state below 0 is none."""
-LEAST, MOST, RADIUS = range(3)
+MIN_COMMAND, MAX_COMMAND, RADIUS = range(3)
 """Columns of the rotors' traits: ends of the command [1], radius [m]."""
 PLACE, DOF, INPUT, SERVO = range(4)
 """Columns of the motors' addresses in the engine."""
-STRONGEST, EFFICIENCY, COPPER = range(3)
+MAX_EFFORT, EFFICIENCY, COPPER = range(3)
 """Columns of the motors' traits: greatest effort [N m or N], efficiency [1], copper loss."""
 
 Ints = npt.NDArray[np.int64]
@@ -81,7 +81,7 @@ def thrusts(
         command = controls[control] if state < 0 else states[state]
         surface = still + userdata[WATER_COLUMNS * body + 6]
         wet = 0.5 + 0.5 * (surface - sites[site, 2]) / traits[i, RADIUS]
-        command = min(max(command, traits[i, LEAST]), traits[i, MOST])
+        command = min(max(command, traits[i, MIN_COMMAND]), traits[i, MAX_COMMAND])
         thrust = (1.0 - userdata[loss]) * curve(curves[actuator], command)
         given[i] = thrust * min(max(wet, 0.0), 1.0)
     return given
@@ -121,7 +121,7 @@ def efforts(
         before = qpos[place] - qvel[dof] * dt
         pull = gains[servo, 0] * controls[control]
         pull += biases[servo, 1] * before + biases[servo, 2] * qvel[dof]
-        strongest = traits[i, STRONGEST]
+        strongest = traits[i, MAX_EFFORT]
         acted[i] = min(max(pull, -strongest), strongest) + applied[dof]
     return acted
 

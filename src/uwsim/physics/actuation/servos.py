@@ -20,7 +20,7 @@ from ...scene.kinematics import joint_positions
 from ...scene.urdf import RobotSpec
 from ..compile import servo_gains, vehicle_joint
 
-FASTEST = 2.0
+MAX_SPEED = 2.0
 """A target moves at most this fast, whatever the URDF says [rad/s or m/s]."""
 AIM, TARGET, INTEGRAL = range(3)
 """Columns of the servos' memory."""
@@ -52,7 +52,7 @@ class Servos:
             np.int64
         )  # (m, 3): of all that move, in qpos, among the degrees of freedom, in ctrl
         self._traits = np.array(
-            [[*servo_gains(one.effort), one.effort, min(one.velocity, FASTEST)] for one in moving]
+            [[*servo_gains(one.effort), one.effort, min(one.velocity, MAX_SPEED)] for one in moving]
         ).reshape(-1, 4)
         self._memory = np.zeros((len(moving), 3))
         self._engine = (

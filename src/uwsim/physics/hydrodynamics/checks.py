@@ -23,14 +23,14 @@ from .spec import (
     matrix,
 )
 
-LONGEST = 500.0
+MAX_LENGTH = 500.0
 """No length or place of a vehicle is beyond that of the longest ship [m]."""
 MIN_INERTIA = 1e-12
 """What the engine still takes for one [kg m2]."""
 SAG = 0.02
 """A measured thrust curve, or the polynomial through it, may fall by this share of its greatest
 thrust."""
-STRONGEST = 1e7
+MAX_THRUST = 1e7
 """Of a propeller [N]."""
 LENGTHS = ("reference", "centre_of_buoyancy", "size", "centre_of_mass", "position", "radius")
 DRAG: dict[str, Kind] = {"linear_damping": "linear", "quadratic_damping": "quadratic"}
@@ -153,10 +153,10 @@ def _no_numbers(who: str, spec: BodyHydrodynamics | ThrusterSpec | JointDrive) -
             errors.append(
                 f"{who}: {_words(each.name)} is {_list(numbers)}; expected finite numbers"
             )
-        elif each.name in LENGTHS and any(abs(number) > LONGEST for number in numbers):
+        elif each.name in LENGTHS and any(abs(number) > MAX_LENGTH for number in numbers):
             errors.append(
                 f"{who}: {_words(each.name)} is {_list(numbers)}; expected none beyond "
-                f"{LONGEST:g} (metres, not millimetres) [m]"
+                f"{MAX_LENGTH:g} (metres, not millimetres) [m]"
             )
     return errors
 
@@ -232,9 +232,9 @@ def _thrust_errors(who: str, thruster: ThrusterSpec) -> list[str]:
         sizes = np.linspace(0.0, end - thruster.dead_zone, 1001)
         thrusts = np.polynomial.polynomial.polyval(sizes, (0.0, *curve))  # (1001,) [N]
         before = np.maximum.accumulate(thrusts)
-        if thrusts.max() > STRONGEST:
+        if thrusts.max() > MAX_THRUST:
             errors.append(
-                f"{who}: {side} gives {thrusts.max():.3g} N; expected at most {STRONGEST:g} N, "
+                f"{who}: {side} gives {thrusts.max():.3g} N; expected at most {MAX_THRUST:g} N, "
                 "twice the thrust of the largest ships"
             )
         worst = int(np.argmax(before - thrusts))

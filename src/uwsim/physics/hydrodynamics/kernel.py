@@ -46,10 +46,10 @@ from .columns import (
     IS_THRUSTER,
     KIND,
     LAG,
-    LEAST,
     MAGIC,
     MAGIC_NUMBER,
-    MOST,
+    MAX_THRUST,
+    MIN_THRUST,
     RADIUS,
     SURFACE,
     THETA,
@@ -296,7 +296,7 @@ def curve(table: Floats, command: float) -> float:
         thrust = (thrust + table[first + i]) * x
     if command < 0.0:
         thrust = -thrust
-    limited: float = min(max(thrust, table[LEAST]), table[MOST])
+    limited: float = min(max(thrust, table[MIN_THRUST]), table[MAX_THRUST])
     return limited
 
 

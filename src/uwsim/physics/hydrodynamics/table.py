@@ -96,7 +96,7 @@ def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:
     row = np.zeros(c.THRUSTER_COLUMNS)
     row[c.IS_THRUSTER] = 1.0
     row[c.DEAD_ZONE] = thruster.dead_zone
-    row[c.LEAST], row[c.MOST] = thruster.saturation or (-math.inf, math.inf)
+    row[c.MIN_THRUST], row[c.MAX_THRUST] = thruster.saturation or (-math.inf, math.inf)
     row[c.TORQUE], row[c.RADIUS], row[c.LAG] = (
         thruster.torque, thruster.radius, thruster.time_constant,
     )  # fmt: skip

@@ -178,7 +178,7 @@ class _Execution:
     def rows(self) -> Iterator[Row | TrialEnd]:
         """Play the levels."""
         plan, simulation = self._plan, self._simulation
-        simulation.open()
+        simulation.start()
         facts: dict[str, Fact] = {}
         target_motion: TargetMotion | None = None
         floor: Floor | None = None

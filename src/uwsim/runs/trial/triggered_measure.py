@@ -7,7 +7,7 @@ from numbers import Real
 
 from ...benchmark.measures import MeasureSpec
 from ...benchmark.plugin_checks import sample_of
-from ...results.result import MOST
+from ...results.result import MAX_VALUE
 from ...world import World
 
 Sample = tuple[float | None, ...]
@@ -21,8 +21,8 @@ def finite(value: object) -> tuple[float | None, str | None]:
         try:
             number = value if isinstance(value, int | float) else float(value)
             if math.isfinite(number):
-                beyond = f"it gave {number:.3g}, beyond what can be reckoned with ({MOST:g})"
-                return (number, None) if abs(number) <= MOST else (None, beyond)
+                beyond = f"it gave {number:.3g}, beyond what can be reckoned with ({MAX_VALUE:g})"
+                return (number, None) if abs(number) <= MAX_VALUE else (None, beyond)
             return None, f"it gave {number}"
         except OverflowError:
             return None, "it gave a whole number beyond float64"

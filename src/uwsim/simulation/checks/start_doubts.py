@@ -20,7 +20,7 @@ from ..floor import Floor
 
 SUNK = 0.1
 """Share of its height by which a body may begin in the ground; what is sunk less is lifted."""
-LEAST = 0.02
+MIN_RISE = 0.02
 """But no less than this [m]."""
 
 
@@ -83,7 +83,10 @@ class Starts:
                     f"it begins under the surface of {name!r}, its middle {depth:.3g} m deep; "
                     "expected above it: <u:onFloor/> sets it there"
                 )
-            if rise is not None and max(LEAST, SUNK * (high[2] - low[2])) < rise < high[2] - low[2]:
+            if (
+                rise is not None
+                and max(MIN_RISE, SUNK * (high[2] - low[2])) < rise < high[2] - low[2]
+            ):
                 return (
                     f"it begins {rise:.3g} m deep in {name!r}; expected above it: <u:onFloor/> "
                     "sets it there"

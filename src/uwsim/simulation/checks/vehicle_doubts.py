@@ -31,11 +31,11 @@ HOLLOW = 0.005
 """A share of the volume of its boxes that is too little for a hull [1]."""
 LOW = 1e-3
 """Height of the centre of buoyancy under the centre of mass [m]."""
-LARGEST, SMALLEST = 50.0, 0.05
+MAX_SIZE, MIN_SIZE = 50.0, 0.05
 """Of a vehicle [m]."""
 OFF = 0.5
 """How far off its hull a part of a vehicle lies, as a share of its length."""
-STRONGEST = 50.0
+MAX_ACCELERATION = 50.0
 """Acceleration by one thruster [m/s2]."""
 SPEED = 1.0
 """At which quadratic drag is looked at [m/s]."""
@@ -63,7 +63,7 @@ class Candidate:
 
 def size_said(hull: Hull, robot: RobotSpec) -> str:
     """Say that a vehicle is as large as a ship, or smaller than a hand."""
-    if SMALLEST <= hull.size <= LARGEST:
+    if MIN_SIZE <= hull.size <= MAX_SIZE:
         return ""
     link, box = max(hull.links.items(), key=lambda each: float(each[1].extent.max()))
     spec = robot.link(link)
@@ -72,7 +72,7 @@ def size_said(hull: Hull, robot: RobotSpec) -> str:
     named = f"{link!r} ({file})" if file else repr(link)
     return (
         f"it is {hull.size:.4g} m long, its link {named} {box.extent.max():.4g} m; expected "
-        f'{SMALLEST:g} to {LARGEST:g} m (a mesh in millimetres needs scale="0.001 0.001 0.001" in '
+        f'{MIN_SIZE:g} to {MAX_SIZE:g} m (a mesh in millimetres needs scale="0.001 0.001 0.001" in '
         "the URDF)"
     )
 
@@ -160,13 +160,13 @@ def strength_said(one: Candidate) -> str:
         greatest = float(max(-thrusts[0], thrusts[-1]))
         if thruster.saturation is not None:
             greatest = min(greatest, max(map(abs, thruster.saturation)))
-        if greatest > STRONGEST * one.balance.mass:
+        if greatest > MAX_ACCELERATION * one.balance.mass:
             strong.append(f"{thruster.name!r} gives {greatest:.3g} N")
     if not strong:
         return ""
     return (
         f"its thruster {strong[0]} for {one.balance.mass:.4g} kg; expected less than "
-        f"{STRONGEST:g} m/s2 (<forward> and <backward> in N)"
+        f"{MAX_ACCELERATION:g} m/s2 (<forward> and <backward> in N)"
     )
 
 

@@ -43,7 +43,7 @@ def play(*objects: ObjectSpec, vehicle: bool = True, **params: object) -> Simula
             ros_interfaces=(TWIST,) if vehicle else (),
         )
     )
-    simulation.open()
+    simulation.start()
     return simulation
 
 
@@ -162,7 +162,7 @@ def test_without_enable_physics_everything_stands_still() -> None:
     simulation = Simulation(
         replace(scene, vehicles=(plain,), objects=(box(7.0, 1.5, 1.0, mass=2.0),))
     )
-    simulation.open()
+    simulation.start()
     before = simulation.world.body("blackbox").world_from_body.position
     run(simulation, 0.5)
     assert np.array_equal(simulation.world.body("blackbox").world_from_body.position, before)
