@@ -35,8 +35,8 @@ from uwsim.physics.compile import compile_scene
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec, callback, prepare
 from uwsim.physics.hydrodynamics.columns import WATER_COLUMNS
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
+from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import PhysicsSpec
 from uwsim.simulation.bodies import read_robots
 from uwsim.simulation.collision_shapes import simulated_shapes
 from uwsim.simulation.dynamics import read_dynamics

@@ -15,6 +15,9 @@ import numpy.typing as npt
 from .linear import composed, length, placed, product, turned_back
 
 Array = npt.NDArray[np.float64]
+Triple = tuple[float, float, float]
+ZERO: Triple = (0.0, 0.0, 0.0)
+ONE: Triple = (1.0, 1.0, 1.0)
 
 
 def rotation_x(angle: float) -> Array:

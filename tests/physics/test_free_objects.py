@@ -12,7 +12,7 @@ from uwsim.physics.free_objects import box_added_mass, loose_hydrodynamics
 from uwsim.physics.hydrodynamics import BodyHydrodynamics
 from uwsim.physics.hydrodynamics.hydrodynamics import install
 from uwsim.physics.shapes import Shape
-from uwsim.scene.spec import PhysicsSpec
+from uwsim.scene.object import PhysicsSpec
 
 
 @pytest.mark.parametrize(

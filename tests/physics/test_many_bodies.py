@@ -13,8 +13,8 @@ from tests.physics.water_models import FAR_BELOW, free_body, set_options
 from tests.simulation.simulated import SCENE, make, run
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, callback, prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import install
+from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import PhysicsSpec
 from uwsim.simulation import parts
 
 WATER = BodyHydrodynamics(

@@ -13,7 +13,7 @@ from uwsim.physics.free_objects import (
     loose_link,
 )
 from uwsim.physics.shapes import MAX_PIECES, Shape, bounds, shapes_of
-from uwsim.scene.spec import PhysicsSpec
+from uwsim.scene.object import PhysicsSpec
 
 SAME = np.eye(4)
 

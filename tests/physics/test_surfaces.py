@@ -12,7 +12,9 @@ from uwsim.geometry import Pose
 from uwsim.physics.compile import compile_scene, object_body
 from uwsim.physics.free_objects import loose_link
 from uwsim.physics.shapes import Shape
-from uwsim.scene.spec import ObjectSpec, PhysicsSpec, SceneSpec, SimParamsSpec
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
+from uwsim.scene.sim_params import SimParamsSpec
+from uwsim.scene.spec import SceneSpec
 
 BOX = Shape(kind="box", size=(0.1, 0.1, 0.1), body_from_shape=Pose.identity())
 FLOOR = Shape(kind="box", size=(5.0, 5.0, 0.5), body_from_shape=Pose.identity())

@@ -21,8 +21,9 @@ from uwsim.errors import SceneError
 from uwsim.geometry import Pose
 from uwsim.scene import SceneSpec, read_scene
 from uwsim.scene.kinematics import link_poses
+from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import check_scene
-from uwsim.scene.spec import ObjectSpec, ShowTrajectorySpec
+from uwsim.scene.sim_params import ShowTrajectorySpec
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
 from uwsim.schema import Diagnostics, Field, fields_of

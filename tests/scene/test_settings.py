@@ -9,8 +9,9 @@ from typing import Literal
 import pytest
 
 from uwsim.errors import BadSetting
+from uwsim.scene.object import ObjectSpec
 from uwsim.scene.settings import apply_setting
-from uwsim.scene.spec import ObjectSpec, SceneSpec
+from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.schema import element
 from uwsim.sensors.virtual_camera import VirtualCameraSpec

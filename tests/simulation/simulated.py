@@ -9,8 +9,8 @@ import numpy as np
 
 from uwsim.currents import ConstantSpec, Place
 from uwsim.messages import Twist, TwistStamped, Vector3, header
+from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import ObjectSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 from uwsim.topics import InterfaceSpec

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from uwsim.scene.spec import FogSpec, OceanStateSpec, SceneSpec, SimParamsSpec
+from uwsim.scene.ocean_state import FogSpec, OceanStateSpec
+from uwsim.scene.sim_params import SimParamsSpec
+from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 

@@ -10,8 +10,8 @@ from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.errors import UnknownName
 from uwsim.messages import Bool
 from uwsim.physics.free_objects import ellipsoid_added_mass
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import ObjectSpec, PhysicsSpec
 from uwsim.simulation import Simulation
 from uwsim.topics.contact_sensor_to_ros import ContactSensorToROSSpec
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from uwsim.errors import SceneError
+from uwsim.scene.ocean_state import OceanStateSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import OceanStateSpec, SceneSpec
+from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation.bodies import read_robots
 from uwsim.simulation.dynamics import Search, read_dynamics

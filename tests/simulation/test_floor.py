@@ -13,9 +13,11 @@ from uwsim.assets import load_model
 from uwsim.cli.check import diagnostics_of
 from uwsim.errors import SceneError
 from uwsim.geometry import Pose
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.on_floor import OnFloorSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import ObjectSpec, PhysicsSpec, SceneSpec, SimParamsSpec
+from uwsim.scene.sim_params import SimParamsSpec
+from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uwsim.scene.ocean_state import FogSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import FogSpec
 from uwsim.simulation import Simulation
 
 SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-scene.xml"

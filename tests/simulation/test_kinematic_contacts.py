@@ -10,8 +10,8 @@ from tests.simulation.simulated import SCENE, TWIST, command, make, position, se
 from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.messages import Bool
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import ObjectSpec, PhysicsSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 from uwsim.topics.contact_sensor_to_ros import ContactSensorToROSSpec

@@ -13,7 +13,9 @@ from uwsim.devices.lamp import LampSpec
 from uwsim.errors import SceneError
 from uwsim.geometry import Pose, rotation_from_rpy, rotation_from_xyz
 from uwsim.scene.kinematics import link_poses
-from uwsim.scene.spec import ObjectSpec, PhysicsSpec, SceneSpec, SimParamsSpec
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
+from uwsim.scene.sim_params import SimParamsSpec
+from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 

@@ -11,7 +11,7 @@ import pytest
 from tests.simulation.small_robots import begin, joint, scene_of, shape, write_robot
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import RenderedImage
-from uwsim.scene.spec import ObjectSpec, PhysicsSpec
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.urdf import VisualSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec

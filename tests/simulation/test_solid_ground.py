@@ -10,8 +10,8 @@ import pytest
 
 from tests.simulation.simulated import SCENE, TWIST, make, position, run
 from uwsim.messages import Twist, TwistStamped, header
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import ObjectSpec, PhysicsSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 

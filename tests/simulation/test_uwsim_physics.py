@@ -11,8 +11,9 @@ import pytest
 from tests.simulation.simulated import SCENE, TWIST, command, position, run
 from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.geometry import Pose
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import ObjectSpec, PhysicsSpec, SimParamsSpec
+from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.simulation import Simulation
 
 TANK, BLACKBOX = read_scene(SCENE).objects

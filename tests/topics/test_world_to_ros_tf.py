@@ -11,7 +11,9 @@ import numpy as np
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
 from uwsim.geometry import Pose
 from uwsim.messages import JointState, TFMessage, TransformStamped, seconds
-from uwsim.scene.spec import ObjectSpec, SceneSpec, SimParamsSpec
+from uwsim.scene.object import ObjectSpec
+from uwsim.scene.sim_params import SimParamsSpec
+from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.multibeam_sensor import MultibeamSensorSpec
 from uwsim.sensors.pressure_sensor import PressureSensorSpec

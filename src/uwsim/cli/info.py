@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -50,7 +51,8 @@ def info(
         with wrong.kept():
             spec = apply_setting(spec, name, value)
     wrong.check()
-    simulation = Simulation(spec.nominal, data_path=folders, is_blind=True, runs_code=False)
+    nominal = dataclasses.replace(spec, vary=())
+    simulation = Simulation(nominal, data_path=folders, is_blind=True, runs_code=False)
     try:
         found = inventory(spec, simulation, diagnostics_of(path, data_path=folders))
     finally:

@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import Diagnostic
-from ..scene.spec import ObjectSpec, SceneSpec
+from ..scene.object import ObjectSpec
+from ..scene.spec import SceneSpec
 from ..scene.unsupported import READ_ONLY, limit_of
 from ..scene.urdf import JointSpec
 from ..scene.variation import draw

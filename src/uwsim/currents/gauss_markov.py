@@ -17,11 +17,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry import Triple
 from ..schema import element
 from .current import MAX_SPEED, Array, Current, CurrentSpec, Place, everywhere
 from .random_table import Draws
-
-Triple = tuple[float, float, float]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -34,10 +34,10 @@ import numpy as np
 
 from ..elementwise import log, power
 from ..errors import BadSetting
+from ..geometry import Triple
 from ..schema import element
 from .current import MAX_SPEED, Array, Current, CurrentSpec, Place
 
-Triple = tuple[float, float, float]
 KARMAN = 0.41
 """Von Karman's constant [1]."""
 

@@ -17,7 +17,8 @@ import numpy as np
 from ..errors import BadSetting, UwsimError
 from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..linear import product
-from ..scene.spec import PhysicsSpec, SceneSpec
+from ..scene.object import PhysicsSpec
+from ..scene.spec import SceneSpec
 from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
 from .engine_warnings import hush
 from .free_objects import loose_hydrodynamics, loose_link

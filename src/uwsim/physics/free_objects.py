@@ -17,7 +17,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..geometry import Array
-from ..scene.spec import PhysicsSpec
+from ..scene.object import PhysicsSpec
 from ..scene.urdf import LinkSpec
 from .hydrodynamics import BodyHydrodynamics
 from .shapes import Shape, bounds

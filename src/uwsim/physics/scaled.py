@@ -14,13 +14,11 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from ..geometry import Array, Pose, rotation_from_rpy
+from ..geometry import Array, Pose, Triple, rotation_from_rpy
 from ..linear import length, product, turned, turned_back
 from ..scene.kinematics import joint_positions, link_poses
 from ..scene.urdf import RobotSpec
 from .compile import vehicle_body
-
-Triple = tuple[float, float, float]
 
 
 class ScaledLinks:

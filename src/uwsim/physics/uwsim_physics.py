@@ -20,7 +20,8 @@ import numpy as np
 
 from ..geometry import Array
 from ..linear import turned
-from ..scene.spec import PhysicsSpec, SceneSpec
+from ..scene.object import PhysicsSpec
+from ..scene.spec import SceneSpec
 from .kinematic_contacts import MAX_JUMP
 
 HEAVY = 1e4

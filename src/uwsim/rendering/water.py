@@ -25,7 +25,7 @@ import numpy.typing as npt
 from ..elementwise import exp
 from ..geometry import Intrinsics
 from ..linear import length
-from ..scene.spec import OceanStateSpec
+from ..scene.ocean_state import OceanStateSpec
 
 Colour = tuple[float, float, float]
 Sun = Literal["clear", "dusk", "cloudy"]

@@ -1,7 +1,8 @@
 """Scenes: what a scene or robot file says, and nothing that runs."""
 
+from .object import ObjectSpec
 from .reader import check_scene, read_scene
-from .spec import ObjectSpec, SceneSpec
+from .spec import SceneSpec
 from .vehicle import VehicleSpec
 
 __all__ = ["ObjectSpec", "SceneSpec", "VehicleSpec", "check_scene", "read_scene"]

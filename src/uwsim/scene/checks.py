@@ -18,7 +18,8 @@ from ..topics.interface import VehiclePublisherSpec
 from ..topics.simulated_device_ros import SimulatedDeviceROSSpec
 from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from .angle_checks import MORE_THAN_A_TURN
-from .spec import ObjectSpec, SceneSpec
+from .object import ObjectSpec
+from .spec import SceneSpec
 from .urdf import RobotSpec
 from .vehicle import VehicleSpec
 

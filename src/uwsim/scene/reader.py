@@ -14,8 +14,9 @@ from .angle_checks import check_angles, remember_twins
 from .checks import check_names
 from .legacy import upgrade
 from .look_checks import check_looks
+from .object import ObjectSpec
 from .size_checks import check_sizes
-from .spec import ObjectSpec, SceneSpec
+from .spec import SceneSpec
 from .unsupported import not_simulated
 from .urdf import RobotSpec
 from .urdf_reader import read_robot, read_urdf

@@ -19,10 +19,10 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-Triple = tuple[float, float, float]
+from ..geometry import ZERO, Triple
+
 Colour = tuple[float, float, float, float]
 
-ZERO: Triple = (0.0, 0.0, 0.0)
 ShapeKind = Literal["mesh", "box", "cylinder", "sphere"]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed"]
 

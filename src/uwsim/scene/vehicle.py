@@ -27,7 +27,7 @@ from ..devices.led_array import LedArraySpec
 from ..devices.object_picker import ObjectPickerSpec
 from ..devices.sway import SwaySpec
 from ..devices.thruster_fault import ThrusterFaultSpec
-from ..geometry import Pose
+from ..geometry import ONE, ZERO, Pose, Triple
 from ..schema import MAX_DISTANCE, element, fields_of
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.gps_sensor import GpsSensorSpec
@@ -41,11 +41,6 @@ from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from .doubts import VehicleDoubt
 from .on_floor import OnFloorSpec
-
-Triple = tuple[float, float, float]
-
-ZERO: Triple = (0.0, 0.0, 0.0)
-ONE: Triple = (1.0, 1.0, 1.0)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -24,7 +24,8 @@ from ..physics.compile import object_body, vehicle_body
 from ..physics.ground import triangles_of
 from ..physics.shapes import TRIMESHES, Shape, seen_from, shapes_of
 from ..scene.kinematics import link_poses
-from ..scene.spec import ObjectSpec, PhysicsSpec, SceneSpec
+from ..scene.object import ObjectSpec, PhysicsSpec
+from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec, VisualSpec
 from ..scene.vehicle import VehicleSpec
 from .parts import object_models, visual_model

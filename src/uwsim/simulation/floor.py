@@ -21,8 +21,9 @@ from ..linear import length, product
 from ..physics.compile import object_body
 from ..physics.ground import Ground, triangles_of
 from ..scene.kinematics import link_poses
+from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.on_floor import OnFloorSpec
-from ..scene.spec import ObjectSpec, PhysicsSpec, SceneSpec
+from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from .checks.scene_lines import SceneLines

@@ -16,7 +16,8 @@ from ..assets.weathering import weathered
 from ..errors import AssetNotFound
 from ..geometry import Pose
 from ..linear import product
-from ..scene.spec import ObjectSpec, SceneSpec
+from ..scene.object import ObjectSpec
+from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec, VisualSpec
 
 THINNEST = 1e-4

@@ -12,7 +12,8 @@ from ..errors import BadSetting, UnknownName
 from ..geometry import Array, Intrinsics, Pose
 from ..linear import length, product
 from ..scene.mounts import camera_axes
-from ..scene.spec import TERRAIN, ViewerCameraSpec
+from ..scene.object import TERRAIN
+from ..scene.sim_params import ViewerCameraSpec
 from .simulation import Simulation
 
 Size = tuple[int, int]

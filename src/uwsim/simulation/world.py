@@ -17,7 +17,8 @@ from ..geometry import Intrinsics, Pose
 from ..physics.engine import Engine
 from ..rng import stream
 from ..scene.reader import angle_warnings
-from ..scene.spec import Integrator, SceneSpec, with_integrator
+from ..scene.sim_params import Integrator
+from ..scene.spec import SceneSpec, with_integrator
 from ..scene.variation import varied
 from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera

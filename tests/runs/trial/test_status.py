@@ -13,8 +13,9 @@ from tests.played import DATA, make_plan, rows_of
 from uwsim.bus import Inbox, Node
 from uwsim.messages import Float64MultiArray, MultiArrayLayout, String
 from uwsim.runs.trial.status import StatusMonitor
+from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.scene.spec import PhysicsSpec, SceneSpec
+from uwsim.scene.spec import SceneSpec
 from uwsim.topics.thruster_commands import ROSThrustersToPATSpec
 
 REPEAT = "<repeat> <iterations>2</iterations> <interval>3</interval> </repeat>"

@@ -16,13 +16,12 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import UwsimError
+from ...geometry import ZERO, Triple
 from ...schema import Numbers, TwoNumbers, element
 
-Triple = tuple[float, float, float]
 DragLaw = Literal["axes", "speed", "x", "y", "z"]
 Shape = Literal["sphere", "ellipsoid", "box", "cylinder", "shrinking-sphere"]
 
-ZERO: Triple = (0.0, 0.0, 0.0)
 SIZES: dict[str, int] = {
     "sphere": 1, "ellipsoid": 3, "box": 3, "cylinder": 2, "shrinking-sphere": 1
 }  # fmt: skip

@@ -1,0 +1,80 @@
+"""What a scene file says of the water: ``<oceanState>`` and its ``<fog>``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..currents import CURRENTS, CurrentSpec
+from ..geometry import Triple
+from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED, Original, element
+from .seawater import sea_water_density
+
+NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
+MILD = 15.0
+"""Temperature of water of which only the salinity is said [degrees Celsius]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FogSpec:
+    """A ``<fog>``: how visibility falls with distance."""
+
+    density: float = element(default=0.1, original=REQUIRED, minimum=0, maximum=1e6)
+    """At a distance d the share ``1 - exp(-(density d)^2)`` of what is there is lost [1/m]."""
+    color: Triple = element(default=NIGHT_BLUE, parts="rgb", original=REQUIRED)
+    """What replaces what cannot be seen [0..1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OceanStateSpec:
+    """An ``<oceanState>``: the surface and the water."""
+
+    windx: float = 0.04
+    """Wind along x; not normalised, its length scales the waves [1]."""
+    windy: float = 0.04
+    """Wind along y; not normalised, its length scales the waves [1]."""
+    wind_speed: float = 12.0
+    """Wind speed of the wave spectrum [m/s]."""
+    depth: float = 1000.0
+    """Depth of the water, for the speed of waves only: it is no floor [m]."""
+    reflection_damping: float = 0.35
+    """Factor on waves that run against the wind [1]."""
+    wave_scale: float = 1e-7
+    """Amplitude of the wave spectrum [1]."""
+    is_not_choppy: bool = element(default=False, original=Original(invalid=True))
+    """Whether waves move points only up and down."""
+    choppy_factor: float = 2.5
+    """How far waves move points sideways [1]."""
+    crest_foam_height: float = 2.2
+    """Height from which crests foam; read and not used, as in the original [m]."""
+    ocean_surface_height: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
+    """Height of the water surface in the world, z up [m]."""
+    fog: FogSpec = element(default=FogSpec())
+    """How visibility falls with distance."""
+    color: Triple = element(default=NIGHT_BLUE, parts="rgb")
+    """Light scattered into the view by the water [0..1]."""
+    attenuation: Triple = element(
+        default=(0.015, 0.0075, 0.005), parts="rgb", minimum=0, maximum=1e6
+    )
+    """Loss of red, green and blue light on its way [1/m]."""
+    density: float | None = element(namespaced=True, default=None, minimum=100.0, maximum=20000.0)
+    """Of the water that vehicles and things float in [kg/m3]; when absent that of temperature and
+    salinity, and without these the density that the vehicles' sets are given for."""
+    temperature: float | None = element(namespaced=True, default=None, minimum=-2.0, maximum=40.0)
+    """Of the water, for its density by EOS-80 [degrees Celsius]; 15 where only salinity is said."""
+    salinity: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=42.0)
+    """Of the water, for its density [g/kg]; 0 where only the temperature is said, 35 in the sea."""
+    currents: tuple[CurrentSpec, ...] = element(
+        "current", namespaced=True, default=(),
+        choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in CURRENTS.items()},
+    )  # fmt: skip
+    """How the water moves; several add up."""
+
+    @property
+    def water_density(self) -> float | None:
+        """What the file says of the density [kg/m3]; None if nothing."""
+        if self.density is not None:
+            return self.density
+        if self.temperature is None and self.salinity is None:
+            return None
+        warmth = MILD if self.temperature is None else self.temperature
+        return sea_water_density(warmth, self.salinity or 0.0)

@@ -1,0 +1,92 @@
+"""What a scene file says of the simulation and its window: ``<simParams>``, ``<camera>``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from ..geometry import ZERO, Triple
+from ..schema import MAX_DISTANCE, Original, element
+
+Integrator = Literal["implicitfast", "RK4"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShowTrajectorySpec:
+    """A ``<showTrajectory>``: the viewer draws where something went."""
+
+    target: str
+    """Route of the node to follow."""
+    color: Triple = element(default=(1.0, 0.0, 0.0), parts="rgb")
+    """Of the line [0..1]."""
+    line_style: int = 1
+    """1 solid, 2 to 4 dashed."""
+    time_window: float = -1.0
+    """How long points stay; not above 0: for ever [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SimParamsSpec:
+    """A ``<simParams>``: frames, window, physics, light."""
+
+    disable_shaders: bool = False
+    """Whether water and sky are drawn without effects."""
+    resw: int = element(default=800, minimum=1)
+    """Width of the window [px]."""
+    resh: int = element(default=600, minimum=1)
+    """Height of the window [px]."""
+    offsetp: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
+    """Origin of the file's frame in the world [m]."""
+    offsetr: Triple = ZERO
+    """Turn of the file's frame in the world, about x, y, z: Rx Ry Rz [rad]."""
+    enable_physics: bool = False
+    """Whether contacts and gravity act on objects."""
+    gravity: Triple = ZERO
+    """In the world; all zero stands for (0, 0, -1) [m/s2]."""
+    physics_frequency: float = element(default=60.0, above=0)
+    """Steps of the original's physics [Hz]."""
+    physics_sub_steps: int = 0
+    """Most steps per frame; 0 is automatic."""
+    physics_solver: str = "Dantzig"
+    """Dantzig, SolveProjectedGauss or SequentialImpulse."""
+    show_trajectory: tuple[ShowTrajectorySpec, ...] = ()
+    """Trails to draw in the viewer."""
+    light_rate: float = element(default=1.0, minimum=0, maximum=1e6)
+    """Factor on the light of the scene [1]."""
+    sun_shadow: bool | None = element(namespaced=True, default=None)
+    """Whether vehicles and objects cast the sun's shadow; when absent they do, but not in a scene
+    of the original's, which had no shadows."""
+
+    integrator: Integrator = element(namespaced=True, default="implicitfast")
+    """How simulated vehicles step in time. ``implicitfast`` bears stiff servos, contacts and light
+    things, its errors fall with the square of the step; ``RK4`` with the fourth power, for a
+    vehicle alone: servos of arms and contacts need steps so short that it is of no use there."""
+
+    @property
+    def original_gravity(self) -> Triple:
+        """What things fall with by the original's physics, in the world [m/s2]."""
+        return self.gravity if any(self.gravity) else (0.0, 0.0, -1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ViewerCameraSpec:
+    """A ``<camera>``: the viewer's, in the world (z up)."""
+
+    free_motion: bool = element(default=True, original=Original(invalid=True))
+    """1: the mouse moves it; 0: it follows ``objectToTrack``."""
+    object_to_track: str = ""
+    """Route of the node to follow."""
+    fov: float = element(default=60.0, above=0, below=180)
+    """Vertical field of view [deg]."""
+    aspect_ratio: float = element(default=1.33, above=0)
+    """Width over height [1]."""
+    near: float = -1.0
+    """Near plane; automatic unless both planes are given [m]."""
+    far: float = -1.0
+    """Far plane; automatic unless both planes are given [m]."""
+    position: Triple = element(
+        default=(-5.0, -5.0, 8.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
+    )
+    """Of the viewer in the world [m]."""
+    look_at: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
+    """Where it looks, in the world [m]."""

@@ -1,0 +1,168 @@
+"""``<joint>`` of a robot file: how it moves, how far, and which joint it mimics."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+from lxml import etree
+
+from ..schema import Diagnostics
+from .angle_checks import MORE_THAN_A_TURN
+from .urdf import (
+    JointKind,
+    JointSpec,
+    LinkSpec,
+    MimicSpec,
+)
+from .urdf_values import name_of, number_of, origin_of, triple_of
+
+MOVABLE = ("revolute", "continuous", "prismatic")
+STIFF = ("floating", "planar")
+
+
+def read_joint(
+    node: etree._Element, links: dict[str, LinkSpec], diagnostics: Diagnostics
+) -> JointSpec | None:
+    """Read a joint; None when it joins no two links, or in no known way."""
+    name, given = name_of(node), (node.get("type") or "").strip()
+    if given not in (*MOVABLE, *STIFF, "fixed"):
+        diagnostics.unknown(
+            node,
+            f"joint {name!r} has the type {given[:60]!r}; expected one of "
+            f"{', '.join((*MOVABLE, 'fixed', *STIFF))}",
+            given,
+            (*MOVABLE, "fixed", *STIFF),
+        )
+        return None
+    if given in STIFF:
+        diagnostics.warning(node, f"joint {name!r} is {given}; held fixed, as in the original")
+    parent, child = (_end(node, end, links, diagnostics) for end in ("parent", "child"))
+    if parent is None or child is None:
+        return None
+    position, rpy = origin_of(node, diagnostics)
+    kind: JointKind = "fixed"
+    axis, lower, upper = (1.0, 0.0, 0.0), 0.0, 0.0
+    if given in MOVABLE:
+        kind = given  # type: ignore[assignment]  # one of MOVABLE
+        lower, upper = _limits(node, given, diagnostics)
+        if (axis_node := node.find("axis")) is not None:
+            axis = triple_of(axis_node, "xyz", diagnostics, axis)
+        if not any(axis):
+            diagnostics.warning(node, f"joint {name!r} has the axis 0 0 0; held fixed")
+            kind = "fixed"
+    return JointSpec(
+        name=name,
+        kind=kind,
+        parent=parent,
+        child=child,
+        position=position,
+        rpy=rpy,
+        axis=axis,
+        lower=lower,
+        upper=upper,
+        effort=_most(node, "effort", diagnostics),
+        velocity=_most(node, "velocity", diagnostics),
+        mimic=_mimic(node, diagnostics) if given in MOVABLE else None,
+    )
+
+
+def _limits(node: etree._Element, kind: str, diagnostics: Diagnostics) -> tuple[float, float]:
+    limit = node.find("limit")
+    if limit is None:
+        if kind != "continuous" and node.find("mimic") is None:
+            what = f"joint {name_of(node)!r} is {kind} without <limit>; -pi to pi"
+            diagnostics.warning(node, what)
+        return -math.pi, math.pi
+    lower, upper = (number_of(limit, end, diagnostics, 0.0) for end in ("lower", "upper"))
+    if kind == "revolute" and _are_degrees(lower, upper):
+        diagnostics.warning(
+            limit,
+            f"joint {name_of(node)!r} turns from {lower:g} to {upper:g} rad; as degrees that would "
+            f"be {math.radians(lower):.5g} to {math.radians(upper):.5g}",
+        )
+    if lower > upper:
+        diagnostics.warning(
+            limit, f"joint {name_of(node)!r}: lower {lower:g} is above upper {upper:g}"
+        )
+    elif "lower" not in limit.attrib and "upper" not in limit.attrib:
+        diagnostics.warning(
+            limit, f"joint {name_of(node)!r} has a <limit> without lower and upper: it is held at 0"
+        )
+    return lower, upper
+
+
+def _are_degrees(lower: float, upper: float) -> bool:
+    """Whether limits look like degrees: whole numbers beyond a turn, up to 360."""
+    return MORE_THAN_A_TURN < max(abs(lower), abs(upper)) <= 360.0 and not (lower % 1 or upper % 1)
+
+
+def _most(node: etree._Element, what: str, diagnostics: Diagnostics) -> float:
+    """An effort or speed of a ``<limit>``; none, or 0 as many files have it, is no limit."""
+    limit = node.find("limit")
+    most = 0.0 if limit is None else number_of(limit, what, diagnostics, 0.0)
+    return most if most > 0.0 else math.inf
+
+
+def _mimic(node: etree._Element, diagnostics: Diagnostics) -> MimicSpec | None:
+    mimic = node.find("mimic")
+    if mimic is None:
+        return None
+    return MimicSpec(
+        joint=(mimic.get("joint") or "").strip(),
+        multiplier=number_of(mimic, "multiplier", diagnostics, 1.0),
+        offset=number_of(mimic, "offset", diagnostics, 0.0),
+    )
+
+
+def with_leader(
+    joint: JointSpec, joints: dict[str, JointSpec], diagnostics: Diagnostics
+) -> JointSpec:
+    """Return the joint; one that mimics nobody is free."""
+    if joint.mimic is None or joint.mimic.joint in joints:
+        return joint
+    node, source = diagnostics.node_of(joint), joint.mimic.joint
+    diagnostics.warning(
+        node,
+        f"joint {joint.name!r} mimics {source[:60]!r}, which is no joint"
+        f".{diagnostics.near(source, joints, 'warning')} It moves by itself",
+    )
+    free = dataclasses.replace(joint, mimic=None)
+    if node is not None:
+        diagnostics.remember(free, node)
+    return free
+
+
+def check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None:
+    """Say which joints mimic each other in a loop; every joint is visited once."""
+    seen: set[str] = set()
+    for name in joints:
+        path: dict[str, int] = {}  # joint -> how many before it
+        while name in joints and name not in seen:
+            seen.add(name)
+            path[name] = len(path)
+            mimic = joints[name].mimic
+            name = "" if mimic is None else mimic.joint
+        loop = list(path)[path[name] :] if name in path else []
+        for i, member in enumerate(loop):
+            turned = (*loop[i:], *loop[:i], member)[:100]
+            message = " mimics ".join(repr(each) for each in turned)
+            diagnostics.error(diagnostics.node_of(joints[member]), f"joint {message[:200]}: a loop")
+
+
+def _end(
+    node: etree._Element, end: str, links: dict[str, LinkSpec], diagnostics: Diagnostics
+) -> str | None:
+    child = node.find(end)
+    link = "" if child is None else (child.get("link") or "").strip()
+    if link in links:
+        return link
+    if not link:
+        diagnostics.error(node, f'joint {name_of(node)!r} lacks <{end} link="...">')
+    else:
+        diagnostics.error(
+            node,
+            f"joint {name_of(node)!r}: its {end} {link[:60]!r} is no link."
+            f"{diagnostics.near(link, links)}",
+        )
+    return None

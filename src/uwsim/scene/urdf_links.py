@@ -1,0 +1,110 @@
+"""``<link>`` of a robot file: its mass, and the shapes that are seen and touched."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from lxml import etree
+
+from ..geometry import ZERO
+from ..schema import Diagnostics
+from .urdf import (
+    Colour,
+    LinkSpec,
+    ShapeKind,
+    VisualSpec,
+)
+from .urdf_values import colour_of, elements_of, name_of, number_of, origin_of, size_of, triple_of
+
+
+def read_link(
+    node: etree._Element, materials: dict[str, Colour], diagnostics: Diagnostics
+) -> LinkSpec:
+    """Read a link."""
+    inertial = node.find("inertial")
+    mass, centre, turn = 0.0, ZERO, ZERO
+    inertia = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if inertial is not None:
+        centre, turn = origin_of(inertial, diagnostics)
+        if (weight := inertial.find("mass")) is not None:
+            mass = size_of(weight, "value", diagnostics, 0.0)
+        if (tensor := inertial.find("inertia")) is not None:
+            xx, yy, zz, xy, xz, yz = (
+                number_of(tensor, f"i{axes}", diagnostics, 0.0)
+                for axes in ("xx", "yy", "zz", "xy", "xz", "yz")
+            )
+            inertia = (xx, yy, zz, xy, xz, yz)
+    return LinkSpec(
+        name=name_of(node),
+        visuals=_shapes(node.findall("visual"), materials, diagnostics),
+        collisions=_shapes(node.findall("collision"), materials, diagnostics),
+        mass=mass,
+        centre_of_mass=centre,
+        inertia_rpy=turn,
+        inertia=inertia,
+    )
+
+
+def read_materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, Colour]:
+    """The colours that have names: those of the robot, then those that visuals define."""
+    found: dict[str, Colour] = {}
+    quiet = Diagnostics(diagnostics.file)  # what is wrong with a visual's is said with the visual
+    for path, sink in (("material", diagnostics), ("link/visual/material", quiet)):
+        for node in root.findall(path):
+            colour = colour_of(node, sink)
+            if colour is not None and name_of(node):
+                found.setdefault(name_of(node), colour)
+    return found
+
+
+def _shapes(
+    nodes: list[etree._Element], materials: dict[str, Colour], diagnostics: Diagnostics
+) -> tuple[VisualSpec, ...]:
+    shapes = (_shape(node, materials, diagnostics) for node in nodes)
+    return tuple(shape for shape in shapes if shape is not None)
+
+
+def _shape(
+    node: etree._Element, materials: dict[str, Colour], diagnostics: Diagnostics
+) -> VisualSpec | None:
+    position, rpy = origin_of(node, diagnostics)
+    geometry = node.find("geometry")
+    shape = None if geometry is None else next(elements_of(geometry), None)
+    if shape is None:
+        diagnostics.error(
+            node, f"<{node.tag}> lacks a <geometry> with a mesh, box, cylinder or sphere"
+        )
+        return None
+    colour = None
+    if (material := node.find("material")) is not None:
+        colour = colour_of(material, diagnostics) or materials.get(name_of(material))
+    kind = shape.tag
+    file, size, scale = "", (1.0, 1.0, 1.0), (1.0, 1.0, 1.0)
+    if kind == "mesh":
+        file = (shape.get("filename") or "").strip()
+        if not file:
+            diagnostics.error(shape, "<mesh> lacks the attribute filename")
+        scale = triple_of(shape, "scale", diagnostics, scale)
+    elif kind == "box":
+        size = triple_of(shape, "size", diagnostics, None)
+        if min(size) < 0:
+            given = shape.get("size", "")
+            diagnostics.error(shape, f"size of <box> is {given[:60]!r}; expected numbers >= 0")
+    elif kind in ("cylinder", "sphere"):
+        wide = 2 * size_of(shape, "radius", diagnostics, None)
+        tall = size_of(shape, "length", diagnostics, None) if kind == "cylinder" else wide
+        size = (wide, wide, tall)
+    else:
+        kinds = ("mesh", "box", "cylinder", "sphere")
+        given = str(kind)
+        diagnostics.unknown(shape, f"<{given[:60]}> is not a geometry", given, kinds)
+        return None
+    return VisualSpec(
+        kind=cast(ShapeKind, kind),
+        file=file,
+        size=size,
+        scale=scale,
+        position=position,
+        rpy=rpy,
+        colour=colour,
+    )

@@ -1,0 +1,111 @@
+"""Attributes of a robot file: names, numbers, places and colours, or what is wrong with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lxml import etree
+
+from ..geometry import ZERO, Triple
+from ..schema import MAX_DISTANCE, Diagnostics, number
+from .angle_checks import degrees_for_radians
+from .urdf import (
+    Colour,
+)
+
+
+def origin_of(node: etree._Element, diagnostics: Diagnostics) -> tuple[Triple, Triple]:
+    """Position and roll, pitch, yaw of an ``<origin>``; zero without one."""
+    origin = node.find("origin")
+    if origin is None:
+        return ZERO, ZERO
+    rpy = triple_of(origin, "rpy", diagnostics, ZERO)
+    if message := degrees_for_radians(rpy):
+        diagnostics.warning(origin, f"rpy of <origin> is {message}")
+    return triple_of(origin, "xyz", diagnostics, ZERO), rpy
+
+
+def colour_of(node: etree._Element, diagnostics: Diagnostics) -> Colour | None:
+    """The ``rgba`` of a ``<color>``; None without one."""
+    colour = node.find("color")
+    if colour is None:
+        return None
+    values = numbers_of(colour, "rgba", 4, diagnostics)
+    if values is None:
+        return None
+    red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in values)
+    if [red, green, blue, opacity] != values:
+        given = colour.get("rgba", "")
+        diagnostics.warning(colour, f"rgba of <color> is {given[:60]!r}; held within 0 to 1")
+    return red, green, blue, opacity
+
+
+def triple_of(
+    node: etree._Element, attribute: str, diagnostics: Diagnostics, default: Triple | None
+) -> Triple:
+    """Three numbers of an attribute; the default when it is absent."""
+    if attribute not in node.attrib and default is not None:
+        return default
+    values = numbers_of(node, attribute, 3, diagnostics)
+    if values is not None and not max(map(abs, values)) <= MAX_DISTANCE:
+        given = node.get(attribute, "")
+        diagnostics.error(
+            node,
+            f"{attribute} of <{node.tag}> is {given[:60]!r}; "
+            f"expected numbers up to {MAX_DISTANCE:g}",
+        )
+        return ZERO
+    return ZERO if values is None else (values[0], values[1], values[2])
+
+
+def size_of(
+    node: etree._Element, attribute: str, diagnostics: Diagnostics, default: float | None
+) -> float:
+    """A length or mass: not below 0."""
+    value = number_of(node, attribute, diagnostics, default)
+    if not 0 <= value <= MAX_DISTANCE:
+        given = node.get(attribute, "")
+        diagnostics.error(
+            node, f"{attribute} of <{node.tag}> is {given[:60]!r}; expected 0 to {MAX_DISTANCE:g}"
+        )
+        return 0.0
+    return value
+
+
+def number_of(
+    node: etree._Element, attribute: str, diagnostics: Diagnostics, default: float | None
+) -> float:
+    """A number of an attribute; the default when it is absent."""
+    if attribute not in node.attrib and default is not None:
+        return default
+    values = numbers_of(node, attribute, 1, diagnostics)
+    return 0.0 if values is None else values[0]
+
+
+def numbers_of(
+    node: etree._Element, attribute: str, count: int, diagnostics: Diagnostics
+) -> list[float] | None:
+    """So many numbers of an attribute; None when it has others."""
+    text = node.get(attribute)
+    if text is None:
+        diagnostics.error(node, f"<{node.tag}> lacks the attribute {attribute}")
+        return None
+    words = text.split() if len(text) < 1000 else [text]
+    values = [number(word) for word in words if not word.lstrip("-").startswith("M_")]
+    if len(words) == count and len(values) == count and None not in values:
+        return [value for value in values if value is not None]
+    hint = "; expand the file with xacro first" if "${" in text else ""
+    what = "a number" if count == 1 else f"{count} numbers"
+    shown = text if len(text) <= 60 else text[:57] + "..."
+    diagnostics.error(node, f"{attribute} of <{node.tag}> is {shown!r}; expected {what}{hint}")
+    return None
+
+
+def name_of(node: etree._Element) -> str:
+    """The attribute ``name``."""
+    return (node.get("name") or "").strip()
+
+
+def elements_of(node: etree._Element) -> Iterator[etree._Element]:
+    """The child elements, without comments."""
+    return (child for child in node if isinstance(child.tag, str))
