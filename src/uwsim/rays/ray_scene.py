@@ -1,0 +1,104 @@
+"""The triangles of a scene as rays meet them: bodies that move, each with a tree of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array, Pose
+from ..linear import inverse, product
+from .kernel import Hits, Trees, cast_rays
+from .tree import build_tree
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Triangles that rays know by one number."""
+
+    number: int
+    """What `Hits.surface` says of a ray that hits them."""
+    triangles: Array
+    """In the frame of their body, counter-clockwise from outside, (n, 3, 3) [m]."""
+    is_two_sided: bool = False
+    """Whether rays also hit them from behind."""
+
+
+class RayScene:
+    """What rays can hit. A triangle is hit on its outside, as a camera sees it.
+
+    Args:
+        bodies: surfaces of each body, in the body's frame. Bodies begin in the place of W.
+    """
+
+    def __init__(self, bodies: Sequence[Sequence[Surface]]) -> None:
+        built = [_tree(surfaces) for surfaces in bodies]
+        nodes = np.cumsum([0, *(len(each.boxes) for each in built)])
+        first = np.cumsum([0, *(len(each.triangles) for each in built)])
+        for each, node, triangle in zip(built, nodes[:-1], first[:-1], strict=True):
+            is_leaf = each.links[:, 1::2] > 0
+            each.links[:, ::2] += np.where(is_leaf, triangle, node).astype(np.int32)
+        self._trees = Trees(
+            boxes=np.concatenate([np.zeros((0, 12)), *(each.boxes for each in built)]),
+            links=np.concatenate([np.zeros((0, 4), np.int32), *(each.links for each in built)]),
+            triangles=np.concatenate([np.zeros((0, 9)), *(each.triangles for each in built)]),
+            surfaces=np.concatenate(
+                [np.zeros((0, 2), np.int32), *(each.surfaces for each in built)]
+            ),
+            roots=nodes[:-1].astype(np.int32),
+            balls=np.concatenate([np.zeros((0, 4)), *(each.balls for each in built)]),
+        )
+        self._world_from_body = np.tile(np.eye(4), (len(built), 1, 1))
+        self._body_from_world = self._world_from_body.copy()
+        self._moved = False
+
+    def place(self, body: int, world_from_body: npt.NDArray[np.float64]) -> None:
+        """Put a body somewhere; the matrix (4, 4) may stretch [m]."""
+        self._world_from_body[body] = world_from_body
+        self._moved = True
+
+    def cast(self, world_from_sensor: Pose, directions: Array, reach: float) -> Hits:
+        """Send rays from the origin of a sensor.
+
+        Args:
+            world_from_sensor: where the sensor is.
+            directions: unit vectors in its frame, (n, 3).
+            reach: how far the rays go [m].
+        """
+        if self._moved:
+            self._body_from_world = inverse(self._world_from_body)
+            self._moved = False
+        n = len(directions)
+        hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, dtype=np.int32))
+        along = product(directions, world_from_sensor.rotation.T)
+        frames = self._world_from_body, self._body_from_world
+        cast_rays(self._trees, frames, world_from_sensor.position, along, reach, hits)
+        return hits
+
+
+def _tree(surfaces: Sequence[Surface]) -> Trees:
+    """The tree of one body."""
+    corners = np.concatenate([np.zeros((0, 3, 3)), *(each.triangles for each in surfaces)])
+    kinds = [(each.number, each.is_two_sided) for each in surfaces]
+    sizes = [len(each.triangles) for each in surfaces]
+    numbers = np.repeat(np.array(kinds, dtype=np.int32).reshape(-1, 2), sizes, axis=0)
+    boxes, links, order = build_tree(np.ascontiguousarray(corners, dtype=np.float64))
+    a, b, c = corners[order].transpose(1, 0, 2)
+    return Trees(
+        boxes=boxes,
+        links=links,
+        triangles=np.concatenate([a, b - a, c - a], axis=1),
+        surfaces=numbers[order],
+        roots=np.zeros(1, dtype=np.int32),
+        balls=_ball(corners.reshape(-1, 3))[None],
+    )
+
+
+def _ball(corners: Array) -> Array:
+    """Centre and radius of a ball around points (n, 3) [m], (4,)."""
+    if not len(corners):
+        return np.array([0.0, 0.0, 0.0, 0.0])
+    centre = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+    return np.array([*centre, np.linalg.norm(corners - centre, axis=1).max() * (1.0 + 1e-9)])

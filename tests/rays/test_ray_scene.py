@@ -1,0 +1,148 @@
+"""Rays against triangles: the same as looking at every triangle, and as the formulas of solids."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from uwsim.geometry import Pose, rotation_from_rpy
+from uwsim.rays import RayScene, Surface
+
+HERE = Pose.identity()
+
+
+def soup(n: int, seed: int, spread: float = 5.0) -> np.ndarray:
+    """Triangles anywhere, (n, 3, 3) [m]."""
+    random = np.random.default_rng(seed)
+    centres = random.uniform(-spread, spread, (n, 1, 3))
+    return centres + random.normal(scale=0.5, size=(n, 3, 3))
+
+
+def all_around(n: int, seed: int = 1) -> np.ndarray:
+    random = np.random.default_rng(seed)
+    ways = random.normal(size=(n, 3))
+    return ways / np.linalg.norm(ways, axis=1, keepdims=True)
+
+
+def first_of_all(triangles: np.ndarray, ways: np.ndarray) -> np.ndarray:
+    """Distances from the origin by linear equations, one for each ray and triangle."""
+    a, b, c = triangles.transpose(1, 0, 2)
+    found = np.full(len(ways), np.inf)
+    for i, way in enumerate(ways):
+        matrix = np.stack([b - a, c - a, np.broadcast_to(-way, a.shape)], axis=2)
+        u, v, t = np.linalg.solve(matrix, -a[..., None])[..., 0].T
+        met = (u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0)
+        found[i] = t[met].min(initial=np.inf)
+    return found
+
+
+def square(half: float, height: float = 0.0) -> np.ndarray:
+    """A level square that looks up, (2, 3, 3) [m]."""
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], dtype=float) * half
+    corners[:, 2] = height
+    return corners[[[0, 1, 2], [0, 2, 3]]]
+
+
+def test_rays_find_what_a_look_at_every_triangle_finds() -> None:
+    triangles, ways = soup(300, seed=0), all_around(400)
+    hits = RayScene([[Surface(7, triangles, is_two_sided=True)]]).cast(HERE, ways, 100.0)
+    expected = first_of_all(triangles, ways)
+    assert np.isfinite(expected).sum() > 100
+    np.testing.assert_allclose(hits.distance, expected, rtol=1e-9)
+    assert set(hits.surface[np.isfinite(expected)]) == {7}
+    assert set(hits.surface[~np.isfinite(expected)]) == {-1}
+
+
+def test_normals_are_those_of_the_face_and_point_back() -> None:
+    pose = Pose(np.array([0.0, 0.0, 3.0]), np.eye(3))
+    tilted = square(10.0) @ rotation_from_rpy(0.3, 0.2, 0.0).T
+    hits = RayScene([[Surface(0, tilted)]]).cast(pose, np.array([[0.0, 0.0, -1.0]]), 100.0)
+    np.testing.assert_allclose(hits.normal[0], rotation_from_rpy(0.3, 0.2, 0.0)[:, 2], atol=1e-12)
+
+
+def test_faces_are_not_hit_from_behind_unless_both_sides_are_seen() -> None:
+    up = np.array([[0.0, 0.0, 1.0]])
+    below = Pose(np.array([0.0, 0.0, -2.0]), np.eye(3))
+    assert RayScene([[Surface(0, square(1.0))]]).cast(below, up, 9.0).distance[0] == np.inf
+    both = RayScene([[Surface(0, square(1.0), is_two_sided=True)]]).cast(below, up, 9.0)
+    assert both.distance[0] == pytest.approx(2.0)
+    assert both.normal[0, 2] == -1.0
+
+
+def test_no_ray_passes_between_two_triangles() -> None:
+    """Rays at the very edges and corners of a grid all hit it."""
+    axis = np.linspace(-1.0, 1.0, 21)
+    x, y = np.meshgrid(axis, axis, indexing="ij")
+    grid = np.stack([x, y, 0.05 * np.sin(7.0 * x + 3.0 * y)], axis=2)
+    a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
+    triangles = np.concatenate([np.stack(t, 2).reshape(-1, 3, 3) for t in ((a, b, c), (a, c, d))])
+    eye = np.array([0.013, 0.007, 2.0])
+    inner = grid[1:-1, 1:-1].reshape(-1, 3)
+    middles = 0.5 * (grid[1:-2, 1:-1] + grid[2:-1, 1:-1]).reshape(-1, 3)
+    ways = np.concatenate([inner, middles]) - eye
+    far = np.linalg.norm(ways, axis=1)
+    hits = RayScene([[Surface(0, triangles)]]).cast(
+        Pose(eye, np.eye(3)), ways / far[:, None], 100.0
+    )
+    np.testing.assert_allclose(hits.distance, far, rtol=1e-8)
+
+
+def test_a_body_is_hit_where_it_was_put() -> None:
+    """Moved, turned and stretched: as if its triangles were moved."""
+    own, ways = soup(80, seed=3, spread=1.0), all_around(300, seed=4)
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation_from_rpy(0.4, -0.2, 1.0) @ np.diag([1.0, 2.0, 0.5])
+    matrix[:3, 3] = 0.5, -0.3, 1.0
+    scene = RayScene([[Surface(0, own, is_two_sided=True)]])
+    scene.place(0, matrix)
+    moved = own @ matrix[:3, :3].T + matrix[:3, 3]
+    found = scene.cast(HERE, ways, 100.0)
+    baked = RayScene([[Surface(0, moved, is_two_sided=True)]]).cast(HERE, ways, 100.0)
+    np.testing.assert_allclose(found.distance, baked.distance, rtol=1e-9)
+    np.testing.assert_allclose(found.normal, baked.normal, atol=1e-9)
+
+
+def test_the_nearest_of_several_bodies_is_hit() -> None:
+    scene = RayScene([[Surface(3, square(5.0))], [Surface(4, square(0.5))]])
+    lifted = np.eye(4)
+    lifted[2, 3] = 1.0
+    scene.place(1, lifted)
+    above = Pose(np.array([0.0, 0.0, 4.0]), np.eye(3))
+    slant = np.array([0.6, 0.0, -0.8])
+    hits = scene.cast(above, np.array([[0.0, 0.0, -1.0], slant]), 100.0)
+    assert hits.distance.tolist() == pytest.approx([3.0, 5.0])
+    assert hits.surface.tolist() == [4, 3]
+
+
+def test_rays_end_at_their_reach() -> None:
+    scene = RayScene([[Surface(0, square(5.0))]])
+    above = Pose(np.array([0.0, 0.0, 4.0]), np.eye(3))
+    down = np.array([[0.0, 0.0, -1.0]])
+    assert scene.cast(above, down, 4.1).distance[0] == 4.0
+    assert scene.cast(above, down, 3.9).distance[0] == np.inf
+
+
+@pytest.mark.parametrize("bodies", [[], [[]], [[Surface(0, np.zeros((0, 3, 3)))]]])
+def test_where_nothing_is_nothing_is_hit(bodies: list[list[Surface]]) -> None:
+    hits = RayScene(bodies).cast(HERE, all_around(5), 100.0)
+    assert (hits.distance == np.inf).all()
+
+
+def test_triangles_in_one_place_make_a_tree_all_the_same() -> None:
+    stacked = np.repeat(square(1.0), 40, axis=0)
+    above = Pose(np.array([0.1, 0.2, 1.0]), np.eye(3))
+    hits = RayScene([[Surface(0, stacked)]]).cast(above, np.array([[0.0, 0.0, -1.0]]), 5.0)
+    assert hits.distance[0] == 1.0
+
+
+def test_a_cone_of_rays_finds_a_body_at_its_rim() -> None:
+    """What leaves out bodies beside all rays leaves out no other."""
+    ways = all_around(400, seed=8)
+    ways = ways[ways[:, 2] < -math.cos(0.5)]
+    bodies = [[Surface(k, soup(6, seed=k, spread=3.0), is_two_sided=True)] for k in range(30)]
+    apart = RayScene(bodies).cast(HERE, ways, 100.0)
+    together = RayScene([[surface for body in bodies for surface in body]]).cast(HERE, ways, 100.0)
+    np.testing.assert_array_equal(apart.distance, together.distance)
+    np.testing.assert_array_equal(apart.surface, together.surface)
