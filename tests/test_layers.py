@@ -23,6 +23,7 @@ GROUND = {
     "opencv",
     "optics",
     "acoustics",
+    "rays",
     "schema",
     "message_fields",
     "sampling",

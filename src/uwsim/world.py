@@ -14,8 +14,10 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from .acoustics import Material, SeaWater
 from .bus import Bus
 from .geometry import Intrinsics, Pose
+from .rays import Hits
 
 TIMESTEP = 0.002
 """Length of a physics step, unless another is asked for [s]."""
@@ -200,8 +202,39 @@ class Stage(World, Protocol):
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
 
 
+class Rays(Protocol):
+    """The surfaces of a scene as rays meet them."""
+
+    @property
+    def materials(self) -> Sequence[Material]:
+        """What sonars find at each surface, by its number."""
+
+    def cast(
+        self, world_from_sensor: Pose, directions: npt.NDArray[np.float64], reach: float
+    ) -> Hits:
+        """Send rays from the origin of a sensor; what each hits first.
+
+        Args:
+            world_from_sensor: where the sensor is.
+            directions: unit vectors in its frame, (n, 3).
+            reach: how far the rays go [m].
+        """
+
+
 class SensorWorld(World, Protocol):
-    """What a sensor sees: the world, and light."""
+    """What a sensor sees: the world, light and sound."""
+
+    @property
+    def rays(self) -> Rays:
+        """The surfaces of the scene where they are now."""
+
+    @property
+    def sea_water(self) -> SeaWater:
+        """The water that sound goes through."""
+
+    @property
+    def surface_height(self) -> float:
+        """Height of the water's surface in W [m]."""
 
     def render(
         self,

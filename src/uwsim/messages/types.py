@@ -288,6 +288,37 @@ class JointState(ros.sensor_msgs__msg__JointState):
 
 
 @dataclass
+class Range(ros.sensor_msgs__msg__Range):
+    """The distance to what is nearest in a cone [m]."""
+
+    header: Header = field(default_factory=Header)
+    radiation_type: int = 0
+    field_of_view: float = 0.0
+    min_range: float = 0.0
+    max_range: float = 0.0
+    range: float = 0.0
+    variance: float = 0.0
+
+
+@dataclass
+class LaserScan(ros.sensor_msgs__msg__LaserScan):
+    """Distances along rays of a plane, at equal angles [m, rad]."""
+
+    header: Header = field(default_factory=Header)
+    angle_min: float = 0.0
+    angle_max: float = 0.0
+    angle_increment: float = 0.0
+    time_increment: float = 0.0
+    scan_time: float = 0.0
+    range_min: float = 0.0
+    range_max: float = 0.0
+    ranges: np.ndarray[tuple[int, ...], np.dtype[np.float32]] = field(default_factory=_FLOATS_0)
+    intensities: np.ndarray[tuple[int, ...], np.dtype[np.float32]] = field(
+        default_factory=_FLOATS_0
+    )
+
+
+@dataclass
 class PointField(ros.sensor_msgs__msg__PointField):
     """Where a number of each point lies."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..acoustics import MaterialName
 from ..geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
 from ..linear import product
 from ..schema import MAX_DISTANCE, REQUIRED, element
@@ -105,6 +106,8 @@ class ObjectSpec:
     it, and it stays where it is. Without: solid with `<physics>`, and if it is called `terrain`."""
     on_floor: OnFloorSpec | None = element(namespaced=True, default=None)
     """Whether it is set on the ground."""
+    acoustic_material: MaterialName | None = element(namespaced=True, default=None)
+    """What sonars take it for; without it an object called `terrain` is sand, others are steel."""
     weathering: WeatheringSpec | None = element(namespaced=True, default=None)
     """Clouds of light and dark on its textures; None: as they are."""
     accepts: tuple[ObjectDoubt, ...] = element("accept", namespaced=True, default=())

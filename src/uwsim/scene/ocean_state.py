@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..acoustics import SeaWater
 from ..currents import CURRENTS, CurrentSpec
 from ..geometry import Triple
 from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED, Original, element
@@ -68,6 +69,13 @@ class OceanStateSpec:
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in CURRENTS.items()},
     )  # fmt: skip
     """How the water moves; several add up."""
+
+    @property
+    def sea_water(self) -> SeaWater:
+        """The water that sound goes through; sea water where the file says nothing of its salt."""
+        warmth = MILD if self.temperature is None else self.temperature
+        fresh = 0.0 if self.temperature is not None else SeaWater.salinity
+        return SeaWater(warmth, fresh if self.salinity is None else self.salinity)
 
     @property
     def water_density(self) -> float | None:

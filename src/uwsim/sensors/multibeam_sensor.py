@@ -7,22 +7,34 @@
       <initAngle>-60</initAngle> <finalAngle>60</finalAngle> <angleIncr>0.1</angleIncr>
       <range>10</range>
     </multibeamSensor>
+
+A beam at the angle t points along (0, sin t, -cos t). Its range is exact for the triangles of the
+scene. With a beam width it is the mean over what the beam covers, weighted by its pattern, as
+bottom detection by amplitude finds it.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
+from ..geometry import Array
+from ..messages import LaserScan, header
 from ..schema import MAX_DISTANCE, element
-from .sensor import SCAN_AXES, LookAt, SensorSpec
+from ..world import Body, SensorWorld
+from .pencil import pencil
+from .sensor import SCAN_AXES, Carrier, LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
-class MultibeamSensorSpec(SensorSpec):
-    """A ``<multibeamSensor>``."""
+class FanSpec(SensorSpec):
+    """What a multibeam and a profiling sonar have in common."""
 
     frame_rpy: ClassVar[tuple[float, float, float]] = SCAN_AXES
+    message_type: ClassVar[type] = LaserScan
 
     visible: bool = False
     """Whether the viewer draws the beams."""
@@ -43,10 +55,75 @@ class MultibeamSensorSpec(SensorSpec):
     """Angle between beams [deg]."""
     range: float = element(above=0, maximum=MAX_DISTANCE)
     """Longest distance measured; the value of a beam that hits nothing [m]."""
-    underwater_particles: bool = element(attribute=True, default=False)
-    """Whether particles drifting in the water are seen."""
+    beam_width: float = element(namespaced=True, default=0.0, minimum=0, maximum=30)
+    """Of each beam between its points of half power, all round [deg]; 0 is a ray."""
+    std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
+    """Noise of each range, standard deviation [m]."""
 
     @property
     def n_beams(self) -> int:
         """Number of beams, as the original counts them."""
         return int(abs(self.final_angle - self.init_angle) / self.angle_incr) + 1
+
+    def bind(self, world: SensorWorld, vehicle: Carrier) -> BeamFan:
+        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
+        return BeamFan(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class MultibeamSensorSpec(FanSpec):
+    """A ``<multibeamSensor>``."""
+
+    underwater_particles: bool = element(attribute=True, default=False)
+    """Whether particles drifting in the water are seen."""
+
+
+class BeamFan:
+    """Ranges of beams side by side, as sensor_msgs/LaserScan."""
+
+    STATE: ClassVar[tuple[str, ...]] = ("_random",)
+    """What of it changes as time goes by."""
+
+    def __init__(
+        self, spec: FanSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+    ) -> None:
+        self._spec, self._mount, self._world, self._random = spec, mount, world, random
+        sign = 1.0 if spec.final_angle >= spec.init_angle else -1.0
+        self._first = math.radians(spec.init_angle)
+        self._step = sign * math.radians(spec.angle_incr)
+        angles = self._first + self._step * np.arange(spec.n_beams)
+        axes = np.stack([np.zeros(len(angles)), np.sin(angles), -np.cos(angles)], axis=1)
+        beside = np.broadcast_to([1.0, 0.0, 0.0], axes.shape)
+        rays, self._weights = pencil(axes, beside, math.radians(spec.beam_width))
+        self._rays = np.ascontiguousarray(rays.reshape(-1, 3))
+
+    def sample(self, time: float) -> LaserScan:
+        """Measure now, at ``time`` [s]."""
+        spec = self._spec
+        ranges = self._ranges()
+        if spec.std > 0.0:
+            noise = spec.std * self._random.standard_normal(len(ranges))
+            ranges = np.where(ranges < spec.range, ranges + noise, ranges)
+        last = len(ranges) - 1
+        return LaserScan(
+            header=header(time, spec.name),
+            angle_min=self._first,
+            angle_max=self._first + self._step * last,
+            angle_increment=self._step,
+            range_max=spec.range,
+            ranges=np.clip(ranges, 0.0, spec.range).astype(np.float32),
+        )
+
+    def _ranges(self) -> Array:
+        """Without noise, (n,) [m]; that of the sensor where nothing is hit."""
+        reach = self._spec.range
+        hits = self._world.rays.cast(self._mount.world_from_body, self._rays, reach)
+        distances = hits.distance.reshape(-1, len(self._weights))
+        if len(self._weights) == 1:
+            return np.minimum(distances[:, 0], reach)
+        is_hit = np.isfinite(distances)
+        weights = np.where(is_hit, self._weights, 0.0).sum(axis=1)
+        total = np.where(is_hit, self._weights * np.where(is_hit, distances, 0.0), 0.0).sum(axis=1)
+        ranges: Array = np.where(weights > 0.0, total / np.maximum(weights, 1e-300), reach)
+        return ranges

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ..acoustics import SeaWater
 from ..bus import Bus
 from ..devices.device import DeviceSpec
 from ..errors import Diagnostic, UnknownName
@@ -30,6 +31,7 @@ from .contacts import Contacts
 from .dynamics import read_dynamics
 from .floor import set_on_floor
 from .renderer_pool import RendererPool
+from .scene_rays import SceneRays
 from .scenery import Scenery
 from .vehicles import SceneVehicle, vehicles_of
 
@@ -93,6 +95,8 @@ class SceneWorld:
             pool=pool,
         )
         """What it looks like."""
+        self.rays = SceneRays(scene, self.scenery.parts, self.state)
+        """What the rays of sensors meet."""
         self._bodies = name_bodies(
             scene, self.robots, self.state, self.scenery.parts, compatibility
         )
@@ -147,6 +151,16 @@ class SceneWorld:
     def world_from_localized(self) -> Pose:
         """W from L: the scene's offset."""
         return self.scene.world_from_localized
+
+    @property
+    def sea_water(self) -> SeaWater:
+        """The water that sound goes through."""
+        return self.scene.ocean_state.sea_water
+
+    @property
+    def surface_height(self) -> float:
+        """Height of the water's surface in W [m]."""
+        return self.scene.ocean_state.ocean_surface_height
 
     @property
     def compatibility(self) -> frozenset[str]:

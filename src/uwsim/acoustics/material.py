@@ -1,0 +1,73 @@
+r"""What comes back from a surface: backscattering by material and angle of incidence.
+
+The backscattering cross section of a square metre, seen at the angle :math:`\theta` to its normal,
+
+.. math::
+
+    \sigma(\theta) = \frac{R^2}{8 \pi s^2 \cos^4\theta} \exp\left(-\frac{\tan^2\theta}{2 s^2}\right)
+                     + 10^{\mu / 10} \cos^2\theta ,
+
+is that of facets with Gaussian slopes (of root mean square :math:`s`) which reflect as mirrors of
+coefficient :math:`R`, and of Lambert's law with the strength :math:`\mu` [dB]: a glint and a
+diffuse part, as in the generic seafloor acoustic backscatter model (G. Lamarche, X. Lurton et al.,
+*Quantitative characterisation of seafloor substrate and bedforms using advanced processing of
+multibeam backscatter*, Continental Shelf Research 31, 2011). A large sphere of radius a sends back
+:math:`R^2 a^2 / 4` (while :math:`s` is small), and a large plate at the distance h as much as its
+mirror image at 2 h does (whatever :math:`s` is).
+
+Reflection coefficients of bottoms are those of the densities and speeds of sound of APL-UW (*High-
+frequency ocean environmental acoustic models handbook*, TR 9407, 1994, table 2); strengths and
+slopes are typical values. Not modelled: that they change with frequency, sound that enters the
+bottom, thin walls that ring.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+MaterialName = Literal[
+    "clay", "silt", "fineSand", "sand", "coarseSand", "gravel", "cobble", "rock",
+    "concrete", "wood", "steel", "smoothSteel", "waterSurface",
+]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Material:
+    """What sonars find at a surface."""
+
+    reflection: float
+    """Of the amplitude of sound that meets it head on, R [1]."""
+    slope: float
+    """Root mean square of the slopes of its facets, s [1]."""
+    strength: float
+    """Lambert's backscattering strength of a square metre, mu [dB]."""
+
+    def cross_section(self, angle: float) -> float:
+        """Return sigma at an angle of incidence [rad], [1]."""
+        cosine, tangent = math.cos(angle), math.tan(angle)
+        facets = math.exp(-0.5 * (tangent / self.slope) ** 2) / (cosine * cosine) ** 2
+        glint: float = self.reflection**2 / (8.0 * math.pi * self.slope**2) * facets
+        diffuse: float = 10.0 ** (0.1 * self.strength) * cosine * cosine
+        return glint + diffuse
+
+
+MATERIALS: dict[MaterialName, Material] = {
+    "clay": Material(0.06, 0.10, -38.0),
+    "silt": Material(0.06, 0.10, -35.0),
+    "fineSand": Material(0.23, 0.12, -31.0),
+    "sand": Material(0.37, 0.15, -27.0),
+    "coarseSand": Material(0.47, 0.18, -25.0),
+    "gravel": Material(0.54, 0.22, -22.0),
+    "cobble": Material(0.64, 0.30, -19.0),
+    "rock": Material(0.72, 0.35, -17.0),
+    "concrete": Material(0.68, 0.12, -25.0),
+    "wood": Material(0.35, 0.15, -28.0),
+    "steel": Material(0.94, 0.12, -24.0),
+    "smoothSteel": Material(0.94, 0.06, -35.0),
+    "waterSurface": Material(1.00, 0.20, -25.0),
+}
+"""Of a medium roughness, in the order of `MaterialName`."""
+
+assert tuple(MATERIALS) == get_args(MaterialName)

@@ -1,0 +1,28 @@
+"""The water that sound goes through."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .absorption import absorption
+from .sound_speed import sound_speed
+
+
+@dataclass(frozen=True)
+class SeaWater:
+    """Water of one temperature and salinity everywhere."""
+
+    temperature: float = 15.0
+    """[degrees Celsius]."""
+    salinity: float = 35.0
+    """On the practical scale [g/kg]."""
+
+    def sound_speed(self, depth: float) -> float:
+        """Return the speed of sound at a depth [m], [m/s]."""
+        return sound_speed(temperature=self.temperature, salinity=self.salinity, depth=depth)
+
+    def absorption(self, frequency: float, depth: float) -> float:
+        """Return the loss of sound of a frequency [Hz] at a depth [m], [dB/m]."""
+        return absorption(
+            frequency, temperature=self.temperature, salinity=self.salinity, depth=depth
+        )

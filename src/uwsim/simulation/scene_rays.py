@@ -1,0 +1,101 @@
+"""What rays of sensors meet in a scene: all that cameras see, and what sound makes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property
+
+import numpy as np
+
+from ..acoustics import MATERIALS, Material, MaterialName
+from ..geometry import Array, Pose
+from ..linear import determinant, placed, product
+from ..physics.engine import Engine
+from ..rays import Hits, RayScene, Surface
+from ..scene.spec import SceneSpec
+from .parts import Part
+
+
+class SceneRays:
+    """Rays against the models of a scene (`uwsim.world.Rays`); ghosts (``vr``) are not met.
+
+    The triangles of a scene are sorted when the first ray is cast.
+
+    Args:
+        scene: what the file says.
+        parts: its models.
+        state: where everything is.
+    """
+
+    def __init__(self, scene: SceneSpec, parts: Sequence[Part], state: Engine) -> None:
+        self._state = state
+        self._parts = tuple(part for part in parts if not part.is_hidden)
+        names = {part.id: _material(scene, part) for part in self._parts}
+        numbers = range(max(names, default=0) + 1)
+        self.materials: tuple[Material, ...] = tuple(
+            MATERIALS[names.get(number, "sand")] for number in numbers
+        )
+        """Of each surface, by its number."""
+
+    def cast(self, world_from_sensor: Pose, directions: Array, reach: float) -> Hits:
+        """Send rays from the origin of a sensor; see `RayScene.cast`."""
+        for body, frame in enumerate(self._frames):
+            self._scene.place(body + 1, frame())
+        return self._scene.cast(world_from_sensor, directions, reach)
+
+    @cached_property
+    def _frames(self) -> tuple[Callable[[], Array], ...]:
+        """Where each body that moves is; in the order of `_scene`."""
+        return tuple(frame for frame, _ in self._moving)
+
+    @cached_property
+    def _moving(self) -> list[tuple[Callable[[], Array], list[Surface]]]:
+        """Links, and objects that move, with their surfaces."""
+        bodies: dict[tuple[int | None, str, int | None], list[Surface]] = {}
+        for part in self._parts:
+            if not self._is_fixed(part):
+                whose = part.vehicle, part.link, part.object
+                bodies.setdefault(whose, []).extend(_surfaces(part, part.frame_from_mesh))
+        return [(self._frame(*whose), surfaces) for whose, surfaces in bodies.items()]
+
+    @cached_property
+    def _scene(self) -> RayScene:
+        """What stands fixed as the first body, then all that moves."""
+        fixed: list[Surface] = []
+        for part in self._parts:
+            if self._is_fixed(part):
+                frame = self._frame(part.vehicle, part.link, part.object)()
+                fixed += _surfaces(part, product(frame, part.frame_from_mesh))
+        return RayScene([fixed, *(surfaces for _, surfaces in self._moving)])
+
+    def _is_fixed(self, part: Part) -> bool:
+        return part.object is not None and self._state.is_fixed(part.object)
+
+    def _frame(self, vehicle: int | None, link: str, thing: int | None) -> Callable[[], Array]:
+        """What says where a link or an object is, (4, 4) [m]."""
+        state = self._state
+        if vehicle is not None:
+            return lambda: state.link_frame(vehicle, link)
+        assert thing is not None
+        return lambda: state.object_pose(thing).matrix
+
+
+def _material(scene: SceneSpec, part: Part) -> MaterialName:
+    """What a part is made of, for sonars."""
+    if part.object is None:
+        return "steel"
+    thing = scene.objects[part.object]
+    return thing.acoustic_material or ("sand" if thing.is_ground else "steel")
+
+
+def _surfaces(part: Part, frame: Array) -> list[Surface]:
+    """The triangles of a part in a frame; a mirror turns them round."""
+    found = []
+    for mesh in part.model.meshes:
+        if mesh.opacity > 0.0:
+            vertices = mesh.vertices.astype(np.float64)
+            corners = placed(vertices, frame[:3, :3], frame[:3, 3])[mesh.triangles]
+            if determinant(np.ascontiguousarray(frame[:3, :3])) < 0.0:
+                corners = corners[:, ::-1]
+            found.append(Surface(part.id, corners, mesh.two_sided))
+    return found

@@ -1,0 +1,80 @@
+"""A world of triangles for sonars, without scene file and engine."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tests.fakes import FakeBody
+from uwsim import rng
+from uwsim.acoustics import MATERIALS, Material, SeaWater
+from uwsim.geometry import Pose
+from uwsim.rays import RayScene, Surface
+
+
+class Materials(RayScene):
+    """Triangles, each set of them of one material."""
+
+    def __init__(self, sets: list[np.ndarray], materials: list[Material] | None = None) -> None:
+        super().__init__([[Surface(i, triangles) for i, triangles in enumerate(sets)]])
+        self.materials = tuple(materials or [MATERIALS["sand"]] * len(sets))
+
+
+class AcousticWorld:
+    """What a sonar sees of the world."""
+
+    def __init__(
+        self, *sets: np.ndarray, materials: list[Material] | None = None, seed: int = 0,
+        surface_height: float = 100.0, compatibility: frozenset[str] = frozenset(),
+    ) -> None:  # fmt: skip
+        self.rays = Materials(list(sets), materials)
+        self.sea_water = SeaWater()
+        self.surface_height = surface_height
+        self.compatibility = compatibility
+        self.seed = seed
+
+    def stream(self, name: str) -> np.random.Generator:
+        return rng.stream(self.seed, name)
+
+
+class FakeCarrier:
+    """A vehicle in the origin of W, or where it is put: mounts stand where their spec says."""
+
+    name = "vehicle"
+
+    def __init__(self, pose: Pose | None = None) -> None:
+        self.pose = pose or Pose.identity()
+
+    def mount(self, spec: object, *, visual: bool = False) -> FakeBody:
+        here = self.pose @ Pose.from_rpy(spec.position, spec.orientation)  # type: ignore[attr-defined]
+        return FakeBody(tuple(here.position), rotation=here.rotation)  # type: ignore[arg-type]
+
+
+def plate(half: float, height: float) -> np.ndarray:
+    """A level square around the z axis that looks up, (2, 3, 3) [m]."""
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], dtype=float) * half
+    corners[:, 2] = height
+    return corners[[[0, 1, 2], [0, 2, 3]]]
+
+
+def box(lower: tuple[float, float, float], upper: tuple[float, float, float]) -> np.ndarray:
+    """A box, (12, 3, 3) [m]."""
+    low, high = np.array(lower), np.array(upper)
+    unit = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)])
+    faces = np.array(
+        [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
+         [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]
+    )  # fmt: skip
+    return (low + (high - low) * unit)[faces]
+
+
+def sphere(centre: tuple[float, float, float], radius: float, n: int = 96) -> np.ndarray:
+    """A ball of 2 n (n - 1) triangles, (m, 3, 3) [m]."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 2 * n + 1)[:-1]
+    lean = np.linspace(0.0, np.pi, n + 1)
+    t, e = np.meshgrid(turn, lean, indexing="ij")
+    points = np.stack([np.sin(e) * np.cos(t), np.sin(e) * np.sin(t), np.cos(e)], axis=2)
+    following = np.roll(points, -1, axis=0)
+    a, b, c, d = points[:, :-1], points[:, 1:], following[:, 1:], following[:, :-1]
+    faces = [np.stack(each, axis=2).reshape(-1, 3, 3) for each in ((a, b, c), (a, c, d))]
+    found: np.ndarray = np.array(centre) + radius * np.concatenate(faces)
+    return found

@@ -1,0 +1,93 @@
+"""Beams of a multibeam against a plane, and what its scan says of them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, box, plate
+from uwsim.geometry import Pose, rotation_from_rpy
+from uwsim.sensors.multibeam_sensor import BeamFan, FanSpec, MultibeamSensorSpec
+from uwsim.sensors.profiling_sonar import ProfilingSonarSpec
+
+FAN = {"init_angle": -60.0, "final_angle": 60.0, "angle_incr": 0.5, "range": 30.0}
+
+
+def make(world: AcousticWorld, *, roll: float = 0.0, **fields: float) -> BeamFan:
+    spec = MultibeamSensorSpec(name="sonar", relative_to="base", **{**FAN, **fields})  # type: ignore[arg-type]
+    return bound(spec, world, Pose(np.zeros(3), rotation_from_rpy(roll, 0.0, 0.0)))
+
+
+def bound(spec: FanSpec, world: AcousticWorld, pose: Pose) -> BeamFan:
+    return spec.bind(world, FakeCarrier(pose))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("roll", [0.0, math.radians(30.0)])
+def test_beams_find_a_flat_floor_at_every_angle(roll: float) -> None:
+    message = make(AcousticWorld(plate(100.0, -5.0)), roll=roll).sample(0.0)
+    angles = message.angle_min + message.angle_increment * np.arange(len(message.ranges))
+    expected = 5.0 / np.cos(angles + roll)
+    expected = np.where((expected > 0.0) & (expected < 30.0), expected, 30.0)
+    np.testing.assert_allclose(message.ranges, expected, rtol=1e-6)
+
+
+def test_the_scan_says_its_angles() -> None:
+    message = make(AcousticWorld(plate(100.0, -5.0))).sample(2.0)
+    assert len(message.ranges) == 241
+    assert message.angle_min == pytest.approx(math.radians(-60))
+    assert message.angle_max == pytest.approx(math.radians(60))
+    assert message.angle_increment == pytest.approx(math.radians(0.5))
+    assert (message.range_min, message.range_max) == (0.0, 30.0)
+    assert (message.header.frame_id, message.header.stamp.sec) == ("sonar", 2)
+    assert len(message.intensities) == 0
+
+
+def test_positive_angles_are_towards_y_whichever_end_comes_first() -> None:
+    wall = box((-1.0, 2.0, -3.0), (1.0, 2.5, 3.0))
+    up = make(AcousticWorld(wall)).sample(0.0)
+    down = make(AcousticWorld(wall), init_angle=60.0, final_angle=-60.0).sample(0.0)
+    assert up.ranges[:120].min() == 30.0
+    assert up.ranges[-1] == pytest.approx(2.0 / math.sin(math.radians(60)))
+    assert down.angle_increment < 0.0
+    np.testing.assert_allclose(down.ranges, up.ranges[::-1], rtol=1e-6)
+
+
+def test_a_wide_beam_gives_the_mean_of_what_it_covers() -> None:
+    """At nadir of a plane: h (1 + <t^2> / 2), t of the rays with their weights."""
+    message = make(AcousticWorld(plate(100.0, -5.0)), beam_width=4.0).sample(0.0)
+    narrow = make(AcousticWorld(plate(100.0, -5.0))).sample(0.0)
+    width = math.radians(4.0)
+    weights = np.array([1.0, 6.0 * 2.0**-0.25, 12.0 * 0.5])
+    angles = np.array([0.0, 0.25, 0.5]) * width
+    mean = 5.0 * (weights / np.cos(angles)).sum() / weights.sum()
+    assert message.ranges[120] == pytest.approx(mean, rel=1e-6)
+    assert (message.ranges[1:-1] >= narrow.ranges[1:-1] - 1e-6).all()
+
+
+def test_noise_is_that_of_the_sensor_and_spares_beams_that_hit_nothing() -> None:
+    """2410 ranges: the deviation is within 5 % with a confidence of 99.9 %."""
+    sensor = make(AcousticWorld(plate(5.0, -5.0)), std=0.03)
+    clean = make(AcousticWorld(plate(5.0, -5.0))).sample(0.0).ranges
+    noise = np.array([sensor.sample(0.0).ranges - clean for _ in range(10)])
+    hit = clean < 30.0
+    assert 0 < hit.sum() < len(hit)
+    assert (noise[:, ~hit] == 0.0).all()
+    assert noise[:, hit].std() == pytest.approx(0.03, rel=0.07)
+
+
+def test_a_profiling_sonar_scans_as_a_multibeam_does() -> None:
+    world = AcousticWorld(plate(100.0, -5.0))
+    profiler = ProfilingSonarSpec(name="p", relative_to="base", fov=2.0, **FAN)  # type: ignore[arg-type]
+    scan = bound(profiler, world, Pose.identity()).sample(0.0)
+    np.testing.assert_array_equal(scan.ranges, make(world).sample(0.0).ranges)
+
+
+def test_its_own_vehicle_hides_nothing_from_inside_but_from_outside() -> None:
+    """A sensor within a hull sees through it, as a camera does; a part beside it is in the way."""
+    floor, hull = plate(100.0, -5.0), box((-0.3, -0.3, -0.3), (0.3, 0.3, 0.3))
+    foot = box((-0.1, -0.1, -1.2), (0.1, 0.1, -1.0))
+    ranges = make(AcousticWorld(floor, hull, foot)).sample(0.0).ranges
+    assert ranges[120] == pytest.approx(1.0)
+    assert ranges[0] == pytest.approx(10.0)
