@@ -18,7 +18,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
 from paper.figures import image_with_inset
 from paper.station_figures import Line, over_current, over_time
@@ -28,14 +27,13 @@ from uwsim.assets.bundled import benchmark_file
 from uwsim.assets.find import find
 from uwsim.cli import main as uwsim
 from uwsim.errors import ResultError
-from uwsim.geometry import Intrinsics, Pose
+from uwsim.geometry import Array, Intrinsics, Pose
 from uwsim.results.log import load_log
 from uwsim.results.result import Result
 from uwsim.results.result_file import load
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 
-Array = npt.NDArray[np.float64]
 BENCHMARK, SCENE, CAMERA, SEED = "currents-figures.xml", "currents-scene.xml", "bowtech1", 1
 FOVY = math.radians(50.0)
 LEVELS = {0.0: "no current", 0.2: "0.2 m/s"}

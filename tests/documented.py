@@ -13,7 +13,7 @@ CONSOLE = re.compile(r"^```console\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
-class Command:
+class DocumentedCommand:
     """A line after ``$``, and what stands below it."""
 
     words: tuple[str, ...]
@@ -29,7 +29,7 @@ def write_files(page: str, folder: Path) -> list[str]:
     return [name for name, _ in FILE.findall(page)]
 
 
-def commands(page: str) -> list[Command]:
+def commands(page: str) -> list[DocumentedCommand]:
     """Every command of a page's consoles, in order."""
     found = []
     for block in CONSOLE.findall(page):
@@ -37,7 +37,7 @@ def commands(page: str) -> list[Command]:
         for part in re.split(r"^\$ ", joined, flags=re.MULTILINE)[1:]:
             line, *output = part.splitlines()
             words = tuple(shlex.split(line, comments=True))
-            found.append(Command(words, tuple(each for each in output if each.strip())))
+            found.append(DocumentedCommand(words, tuple(each for each in output if each.strip())))
     return found
 
 

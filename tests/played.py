@@ -7,7 +7,7 @@ from pathlib import Path
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.bus import Algorithm
 from uwsim.runs.plan import Mode, Plan
-from uwsim.runs.trial.trial import Row, execute
+from uwsim.runs.trial.trial import LevelRow, execute
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 
@@ -53,6 +53,8 @@ def make_plan(
     )
 
 
-def rows_of(plan: Plan) -> list[Row]:
+def rows_of(plan: Plan) -> list[LevelRow]:
     """Play every unit of a plan."""
-    return [row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, Row)]
+    return [
+        row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, LevelRow)
+    ]

@@ -203,7 +203,7 @@ class Bus:
         """Return ``publish(message)`` for ``topic``, delayed by ``delay_steps``."""
         if type is object:
             raise BadSetting(f"Topic {topic!r} is published without a message type.")
-        name = _plain(topic)
+        name = _without_slash(topic)
         entry = self._typed(topic, type)
         entry.has_writers = True
 
@@ -229,39 +229,43 @@ class Bus:
 
     def withhold(self, topic: str) -> None:
         """Keep a topic from algorithms under test; observers of the run may hear it."""
-        self._withheld.add(_plain(topic))
+        self._withheld.add(_without_slash(topic))
 
     def is_withheld(self, topic: str) -> bool:
         """Whether a topic is kept from algorithms under test."""
-        return _plain(topic) in self._withheld
+        return _without_slash(topic) in self._withheld
 
     def unread(self, topic: str) -> object | None:
         """Return the newest message that was published while nobody read the topic."""
-        entry = self._topics.get(_plain(topic))
+        entry = self._topics.get(_without_slash(topic))
         return None if entry is None or entry.unread is None else freeze(entry.unread)
 
     def message_type(self, topic: str) -> type | None:
         """What ``topic`` carries; None while nobody has said."""
-        entry = self._topics.get(_plain(topic))
+        entry = self._topics.get(_without_slash(topic))
         return entry.type if entry else None
 
     def has_readers(self, topic: str) -> bool:
         """Whether anybody would see a message on ``topic``."""
-        entry = self._topics.get(_plain(topic))
+        entry = self._topics.get(_without_slash(topic))
         return bool(entry and entry.readers)
 
     def unheard(self, topic: str) -> str | None:
         """Say that nobody reads a topic, with the nearest that is read; None where one does."""
         read = [name for name, entry in self._topics.items() if entry.readers]
-        return None if _plain(topic) in read else f"nobody reads it.{did_you_mean(topic, read)}"
+        return (
+            None
+            if _without_slash(topic) in read
+            else f"nobody reads it.{did_you_mean(topic, read)}"
+        )
 
     def unsaid(self, topic: str) -> str | None:
         """Say that nobody publishes on a topic, with the nearest that is; None where one does."""
         published = [name for name, entry in self._topics.items() if entry.has_writers]
-        if _plain(topic) in published:
+        if _without_slash(topic) in published:
             return None
         near = did_you_mean(topic, published)
-        read = self._topics.get(_plain(topic))
+        read = self._topics.get(_without_slash(topic))
         alike = [name for name in published if read and self._topics[name].type is read.type]
         if not near and alike:
             near = f" Of its type there is {' and '.join(map(repr, alike[:3]))}."
@@ -269,14 +273,14 @@ class Bus:
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service whose request class is ``type``; a later offer takes its place."""
-        self._services[_plain(name)] = (type, handler)
+        self._services[_without_slash(name)] = (type, handler)
 
     def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
         """Offer a service together with others: a call reaches all, the newest answers.
 
         Returns the way to take part no more; the last to leave withdraws the service.
         """
-        handlers = self._offers.setdefault(_plain(name), [])
+        handlers = self._offers.setdefault(_without_slash(name), [])
         handlers.append(handler)
         self.serve(name, type, lambda request: [answer(request) for answer in list(handlers)][-1])
 
@@ -290,11 +294,11 @@ class Bus:
 
     def withdraw(self, name: str) -> None:
         """Stop offering a service, if it is offered."""
-        self._services.pop(_plain(name), None)
+        self._services.pop(_without_slash(name), None)
 
     def serves(self, name: str) -> bool:
         """Whether somebody offers the service."""
-        return _plain(name) in self._services
+        return _without_slash(name) in self._services
 
     def call(self, name: str, request: object) -> object:
         """Call a service now.
@@ -303,9 +307,9 @@ class Bus:
             UnknownName: nobody serves it.
             BadMessage: the request is of another type, or its fields are.
         """
-        if _plain(name) not in self._services:
+        if _without_slash(name) not in self._services:
             raise UnknownName("service", name, self._services)
-        type, handler = self._services[_plain(name)]
+        type, handler = self._services[_without_slash(name)]
         if not _is_exactly(request, type):
             raise BadMessage(
                 f"Service {name!r} takes {_type_name(type)}, not {_type_name(request.__class__)}."
@@ -344,7 +348,7 @@ class Bus:
         return tuple(sorted(self._services))
 
     def _typed(self, topic: str, type: type[M]) -> _Topic:
-        entry = self._topics.setdefault(_plain(topic), _Topic())
+        entry = self._topics.setdefault(_without_slash(topic), _Topic())
         if type is object:
             return entry
         if entry.type is None:
@@ -362,7 +366,7 @@ def _is_exactly(message: object, expected: type) -> bool:
     return type(message) is expected
 
 
-def _plain(name: str) -> str:
+def _without_slash(name: str) -> str:
     return name.strip().lstrip("/")
 
 

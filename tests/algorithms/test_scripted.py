@@ -12,7 +12,7 @@ from uwsim.assets.bundled import bundled
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.runs.plan import Plan
-from uwsim.runs.trial.trial import Row, execute
+from uwsim.runs.trial.trial import LevelRow, execute
 from uwsim.scene.reader import read_scene
 from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
 from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
@@ -37,7 +37,7 @@ def rows(
     stop: str = STOP,
     updater: str = "<none/>",
     **given: object,
-) -> list[Row]:
+) -> list[LevelRow]:
     file = tmp_path / "benchmark.xml"
     file.write_text(FILE.format(measure=DISTANCE.format(gate=gate), stop=stop, updater=updater))
     scene = read_scene(bundled("scenes")["visibility-scene"])
@@ -51,7 +51,9 @@ def rows(
         parameters=given,  # type: ignore[arg-type]
         is_blind=True,
     )
-    return [row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, Row)]
+    return [
+        row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, LevelRow)
+    ]
 
 
 @pytest.mark.parametrize(("drive", "topic"), [("twist_topic", "/twist"), ("odom_topic", "/odom")])

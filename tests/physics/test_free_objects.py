@@ -11,7 +11,7 @@ from uwsim.geometry import Pose
 from uwsim.physics.free_objects import box_added_mass, loose_hydrodynamics
 from uwsim.physics.hydrodynamics import BodyHydrodynamics
 from uwsim.physics.hydrodynamics.hydrodynamics import install
-from uwsim.physics.shapes import Shape
+from uwsim.physics.shapes import CollisionShape
 from uwsim.scene.object import PhysicsSpec
 
 
@@ -36,7 +36,7 @@ def test_a_long_square_bar_moves_across_as_in_two_dimensions() -> None:
 
 @pytest.mark.parametrize("way", [(1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (1.0, 1.0, 1.0)])
 def test_the_drag_of_a_ball_does_not_depend_on_how_it_is_turned(way: tuple[float, ...]) -> None:
-    shape = Shape(kind="sphere", size=(0.1,), body_from_shape=Pose.identity())
+    shape = CollisionShape(kind="sphere", size=(0.1,), body_from_shape=Pose.identity())
     water = loose_hydrodynamics("body", PhysicsSpec(mass=4.19), [shape], 1000.0)
     model = free_body(water, mass=4.19, gravity=0.0, integrator="RK4")
     install(model)

@@ -12,7 +12,7 @@ from uwsim.physics.free_objects import (
     loose_hydrodynamics,
     loose_link,
 )
-from uwsim.physics.shapes import MAX_PIECES, Shape, bounds, shapes_of
+from uwsim.physics.shapes import MAX_PIECES, CollisionShape, bounds, shapes_of
 from uwsim.scene.object import PhysicsSpec
 
 SAME = np.eye(4)
@@ -95,7 +95,7 @@ def test_the_tank_is_open_in_its_middle_and_has_a_floor() -> None:
     assert len(below) >= 1
 
 
-def holds(shape: Shape, point: tuple[float, float, float]) -> bool:
+def holds(shape: CollisionShape, point: tuple[float, float, float]) -> bool:
     local = shape.body_from_shape.inverse().transform(np.array([point]))[0]
     if shape.corners is None:
         return bool(np.all(np.abs(local) <= shape.size))

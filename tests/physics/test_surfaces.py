@@ -11,17 +11,19 @@ import pytest
 from uwsim.geometry import Pose
 from uwsim.physics.compile import compile_scene, object_body
 from uwsim.physics.free_objects import loose_link
-from uwsim.physics.shapes import Shape
+from uwsim.physics.shapes import CollisionShape
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
 
-BOX = Shape(kind="box", size=(0.1, 0.1, 0.1), body_from_shape=Pose.identity())
-FLOOR = Shape(kind="box", size=(5.0, 5.0, 0.5), body_from_shape=Pose.identity())
-BALL = Shape(kind="sphere", size=(0.1,), body_from_shape=Pose.identity())
+BOX = CollisionShape(kind="box", size=(0.1, 0.1, 0.1), body_from_shape=Pose.identity())
+FLOOR = CollisionShape(kind="box", size=(5.0, 5.0, 0.5), body_from_shape=Pose.identity())
+BALL = CollisionShape(kind="sphere", size=(0.1,), body_from_shape=Pose.identity())
 
 
-def falling(physics: PhysicsSpec, shape: Shape, height: float, tilt: float) -> mujoco.MjModel:
+def falling(
+    physics: PhysicsSpec, shape: CollisionShape, height: float, tilt: float
+) -> mujoco.MjModel:
     """A thing over a floor in air, under a gravity that leans by an angle."""
     pull = (9.81 * math.sin(tilt), 0.0, -9.81 * math.cos(tilt))
     thing = ObjectSpec(name="thing", file="", position=(0, 0, height), physics=physics)

@@ -5,16 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-import numpy as np
-import numpy.typing as npt
-
+from ..geometry import Array
 from .direct_tracker import DirectTracker
 from .esm.alignment import Method
 from .esm.pyramid import Grey
 from .tracker import Tracker
 from .tracker_node import INPUT, LOSS, TrackerNode
-
-Array = npt.NDArray[np.float64]
 
 
 class Esm(TrackerNode):

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from ..geometry import Array
 from ..linear import product
 from .esm.alignment import Method, align, zncc
 from .esm.homography import between, unimodular, warp
 from .esm.pyramid import Grey, pyramid
 from .esm.template import Template, take_template
 from .tracker import Estimate, Tracker
-
-Array = npt.NDArray[np.float64]
 
 
 class DirectTracker(Tracker):

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
-import numpy.typing as npt
 
+from ..geometry import Array
 from ..linear import determinant, inverse, product
 from ..opencv import plain_opencv
 from .direct_tracker import crossing
@@ -17,8 +17,6 @@ from .esm.pyramid import Grey
 from .esm.template import Template, take_template
 from .tracker import Estimate, Tracker
 from .tracker_node import INPUT, LOSS, TrackerNode
-
-Array = npt.NDArray[np.float64]
 
 
 class Ecc(TrackerNode):

@@ -5,15 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-import numpy as np
-import numpy.typing as npt
-
+from ..geometry import Array
 from .direct_tracker import crossing
 from .esm.pyramid import Grey
 from .tracker import Estimate, Tracker
 from .tracker_node import INPUT, TrackerNode
-
-Array = npt.NDArray[np.float64]
 
 
 class Frozen(TrackerNode):

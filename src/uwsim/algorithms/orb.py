@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from ..geometry import Array
 from ..linear import determinant
 from ..opencv import plain_opencv
 from .direct_tracker import crossing
@@ -18,7 +19,6 @@ from .esm.template import Template, take_template
 from .tracker import Estimate, Tracker
 from .tracker_node import INPUT, LOSS, TrackerNode
 
-Array = npt.NDArray[np.float64]
 MARGIN = 15
 """How far from an image's rim ORB looks for features, and half its smallest patch [px]."""
 

@@ -5,13 +5,9 @@ from __future__ import annotations
 import abc
 from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-
+from ..geometry import Array
 from .esm.homography import is_convex
 from .esm.pyramid import Grey
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,10 +17,10 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
-import numpy.typing as npt
 
 from ..bus import Node
 from ..errors import BadSetting, UnknownName, did_you_mean
+from ..geometry import Array
 from ..messages import (
     Empty,
     Float32MultiArray,
@@ -33,8 +33,6 @@ from ..messages import (
 )
 from .esm.pyramid import Grey, grey
 from .tracker import LossTest, Tracker, quad_error
-
-Array = npt.NDArray[np.float64]
 
 INPUT: Mapping[str, float | str] = {"image_topic": "/uwsim/camera1", "corners": ""}
 """Parameters of what it looks at: the topic of the images; x, y of the quad NW NE SE SW [px] in

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry import Array
 from ..schema import element
-from .current import MAX_SPEED, Array, Current, CurrentSpec, Place, everywhere
+from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,12 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
-from ..geometry import Pose
+from ..geometry import Array, Pose
 from ..linear import product
 
-Array = npt.NDArray[np.float64]
 MAX_SPEED = 100.0
 """No water that a file or a function speaks of moves faster: turbidity currents and tsunamis reach
 some 30 m/s. What is faster is taken for a mistake, mostly of units [m/s]."""

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..geometry import Array
 from ..world import Flow
-from .current import Array, Current
+from .current import Current
 
 
 class LateCurrent(Current):

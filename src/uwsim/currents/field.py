@@ -27,8 +27,9 @@ import numpy.typing as npt
 
 from ..errors import AssetError
 from ..files.input_files import read_bytes
+from ..geometry import Array
 from ..schema import MAX_NUMBER, element, number
-from .current import MAX_SPEED, Array, Current, CurrentSpec, Place
+from .current import MAX_SPEED, Current, CurrentSpec, Place
 from .units import unit
 
 Ints = npt.NDArray[np.int64]

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Triple
+from ..geometry import Array, Triple
 from ..schema import element
-from .current import MAX_SPEED, Array, Current, CurrentSpec, Place, everywhere
+from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
 from .random_table import Draws
 
 

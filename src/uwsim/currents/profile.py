@@ -34,9 +34,9 @@ import numpy as np
 
 from ..elementwise import log, power
 from ..errors import BadSetting
-from ..geometry import Triple
+from ..geometry import Array, Triple
 from ..schema import element
-from .current import MAX_SPEED, Array, Current, CurrentSpec, Place
+from .current import MAX_SPEED, Current, CurrentSpec, Place
 
 KARMAN = 0.41
 """Von Karman's constant [1]."""

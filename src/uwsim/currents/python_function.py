@@ -25,8 +25,9 @@ import numpy as np
 from ..errors import BadSetting, did_you_mean
 from ..files.modules import located
 from ..files.python_sources import sources_of
+from ..geometry import Array
 from ..schema import element
-from .current import MAX_SPEED, Array, Current, CurrentSpec, Place
+from .current import MAX_SPEED, Current, CurrentSpec, Place
 
 Function = Callable[[Array, float, str], Sequence[float]]
 

@@ -20,8 +20,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from ..geometry import Array
 from ..schema import element
-from .current import MAX_SPEED, Array, Current, CurrentSpec, Place, everywhere
+from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
 
 DEGREES_PER_HOUR = {"M2": 28.9841042, "S2": 30.0, "K1": 15.0410686, "O1": 13.9430356}
 """Speed of each constituent (Doodson): periods of 12.4206, 12, 23.9345 and 25.8193 h."""

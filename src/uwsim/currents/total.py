@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..geometry import Array
 from ..world import Flow
-from .current import Array, Current, CurrentSpec, Place
+from .current import Current, CurrentSpec, Place
 
 
 class TotalCurrent(Current):

@@ -17,11 +17,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from ..geometry import Array, Triple
 from ..schema import element
-from .current import MAX_SPEED, Array, Current, CurrentSpec, Place, everywhere
+from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
 from .random_table import Draws
 
-Vector = tuple[float, float, float]
 MIN_PERIOD = 0.01
 """No water swells and turns faster [s]."""
 RATE = 60.0
@@ -88,7 +88,7 @@ class UwsimSinusoid(Current):
         self._theta_rate = 2.0 * math.pi / spec.theta_period  # [rad/s]
         self._phi_rate = 2.0 * math.pi / spec.phi_period  # [rad/s]
         self._time = math.nan  # of the newest motion [s]
-        self._motion: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        self._motion: tuple[Triple, Triple] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
     @property
     def is_uniform(self) -> bool:
@@ -103,13 +103,13 @@ class UwsimSinusoid(Current):
         """Return the derivative with the random factors held, in L, (n, 3) [m/s2]."""
         return everywhere(points, *self._at(time)[1])
 
-    def _at(self, time: float) -> tuple[Vector, Vector]:
+    def _at(self, time: float) -> tuple[Triple, Triple]:
         """Velocity [m/s] and acceleration [m/s2]; both are asked for at every step."""
         if time != self._time:
             self._time, self._motion = time, self._move(time)
         return self._motion
 
-    def _move(self, time: float) -> tuple[Vector, Vector]:
+    def _move(self, time: float) -> tuple[Triple, Triple]:
         spec = self._spec
         a, b, c = self._factors(time)
         speed = a * (spec.speed + spec.speed_variation * math.sin(self._speed_rate * time))

@@ -171,7 +171,7 @@ class Envelope:
                 {"seed": one.seed, "held": one.held, "broken": one.broken}
                 for one in self.found.thresholds
             ],
-            "evaluations": [_plain(e) for e in self.evaluations],
+            "evaluations": [_evaluation_record(e) for e in self.evaluations],
         }
 
     def save(self, directory: Path) -> Path:
@@ -225,7 +225,7 @@ def _finite(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
-def _plain(evaluation: Evaluation) -> dict[str, object]:
+def _evaluation_record(evaluation: Evaluation) -> dict[str, object]:
     row = evaluation.row
     return {
         "seed": evaluation.seed,

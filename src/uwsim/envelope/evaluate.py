@@ -18,7 +18,7 @@ from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel
 from ..runs.plan import Plan, Trial
 from ..runs.run import Run
 from .criterion import Criterion, Judgement
-from .search import Search, Strategy, Task
+from .search import Search, SeedSearch, Strategy
 
 STRIDE = 10_000
 """Numbers of trial files that a seed has for itself."""
@@ -122,7 +122,7 @@ class _JobQueue(JobQueue):
     def __init__(self, runs: Evaluations, strategy: Strategy, on_run: OnLevel) -> None:
         super().__init__([], on_run)
         self._runs, self._strategy = runs, strategy
-        self._tasks: list[Task[Any]] = []
+        self._tasks: list[SeedSearch[Any]] = []
         self._results: dict[int, Any] = {}
         self._awaited: dict[tuple[int, float], list[int]] = {}
         self.found: Search | None = None
@@ -140,7 +140,7 @@ class _JobQueue(JobQueue):
             self._go_on(task, answer)
         self._end_if_done()
 
-    def _begin(self, tasks: list[Task[Any]]) -> None:
+    def _begin(self, tasks: list[SeedSearch[Any]]) -> None:
         self._tasks, self._results = tasks, {}
         for i in range(len(tasks)):
             self._go_on(i, None)

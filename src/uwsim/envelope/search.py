@@ -45,7 +45,7 @@ Questions = Generator[float, bool, T]
 
 
 @dataclass(frozen=True)
-class Task(Generic[T]):
+class SeedSearch(Generic[T]):
     """What is to be found out with one seed."""
 
     seed: int
@@ -54,7 +54,7 @@ class Task(Generic[T]):
     """One after the other; those of several tasks may be answered side by side."""
 
 
-Strategy = Generator[list[Task[Any]], list[Any], "Search"]
+Strategy = Generator[list[SeedSearch[Any]], list[Any], "Search"]
 """Yields tasks, takes in what each found; returns what the search found."""
 
 
@@ -132,9 +132,9 @@ def strategy(seeds: Sequence[int], where: Range) -> Strategy:
         where: the range.
     """
     grid = [where.at(where.start, where.stop, i / GRID) for i in range(GRID + 1)]
-    seen: list[bool] = yield [Task(seeds[0], _once(level)) for level in grid]
+    seen: list[bool] = yield [SeedSearch(seeds[0], _once(level)) for level in grid]
     if not any(seen):  # most likely nothing breaks: one question a seed tells
-        broken: list[bool] = yield [Task(seed, _once(where.stop)) for seed in seeds]
+        broken: list[bool] = yield [SeedSearch(seed, _once(where.stop)) for seed in seeds]
         holding = [s for s, breaks in zip(seeds, broken, strict=True) if not breaks]
         known = {s: Threshold(seed=s, held=where.stop, broken=None) for s in holding}
         return (yield from _others(seeds, known, where, where.stop, None))
@@ -142,7 +142,7 @@ def strategy(seeds: Sequence[int], where: Range) -> Strategy:
     stop = where.stop if fold is None else fold.broken
     known = {}
     if all(seen) or stop == where.start:
-        broken = yield [Task(seed, _once(where.start)) for seed in seeds]
+        broken = yield [SeedSearch(seed, _once(where.start)) for seed in seeds]
         for seed, breaks in zip(seeds, broken, strict=True):
             if breaks:
                 known[seed] = Threshold(seed=seed, held=None, broken=where.start)
@@ -165,7 +165,7 @@ def _others(
 ) -> Strategy:
     """Bisect the seeds that are not known yet."""
     others = [seed for seed in seeds if seed not in known]
-    found: list[Threshold] = yield [Task(s, bisection(s, where, stop)) for s in others]
+    found: list[Threshold] = yield [SeedSearch(s, bisection(s, where, stop)) for s in others]
     thresholds = known | {one.seed: one for one in found}
     return Search(thresholds=tuple(thresholds[seed] for seed in seeds), fold=fold, stop=stop)
 
@@ -222,14 +222,14 @@ def bisection(seed: int, where: Range, stop: float) -> Questions[Threshold]:
 
 def _fold(
     seeds: Sequence[int], grid: Sequence[float], seen: Sequence[bool]
-) -> Generator[list[Task[bool]], list[bool], Fold | None]:
+) -> Generator[list[SeedSearch[bool]], list[bool], Fold | None]:
     """Look for a level that holds behind one that breaks, and ask every seed about both."""
     first = seen.index(True)
     behind = [i for i in range(first + 1, len(grid)) if not seen[i]]
     if not behind:
         return None
     here, there = grid[first], grid[behind[-1]]
-    answers = yield [Task(seed, _once(level)) for level in (here, there) for seed in seeds]
+    answers = yield [SeedSearch(seed, _once(level)) for level in (here, there) for seed in seeds]
     n = len(seeds)
     n_broken, n_holding = sum(answers[:n]), n - sum(answers[n:])
     if 2 * n_broken <= n or 2 * n_holding <= n:

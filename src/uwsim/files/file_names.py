@@ -30,7 +30,7 @@ def file_names(names: Iterable[str], *, taken: Iterable[str] = ()) -> dict[str, 
         names: All that are to be files of one folder.
         taken: Names of files that are there already.
     """
-    wanted = {name: _plain(name) for name in names}
+    wanted = {name: _sanitised(name) for name in names}
     others = {name.casefold() for name in taken}
     seen = Counter(plain.casefold() for plain in wanted.values())
     alike = {
@@ -53,7 +53,7 @@ def file_name(name: str) -> str:
     return file_names([name])[name]
 
 
-def _plain(name: str) -> str:
+def _sanitised(name: str) -> str:
     plain = re.sub(r"[^A-Za-z0-9_.-]", "_", name.replace(":", "."))[:MAX_NAME_LENGTH]
     plain = plain.lstrip(".-").rstrip(".") or "_"
     return f"_{plain}"[:MAX_NAME_LENGTH] if RESERVED.fullmatch(plain) else plain

@@ -42,7 +42,7 @@ class DecodedImage:
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class RecordedFrame:
     """An image in a recording, not decoded yet."""
 
     time: int
@@ -62,10 +62,12 @@ class Frame:
         """
         message = self.read()
         is_packed = message.__msgtype__ == COMPRESSED
-        pixels, is_blue_first = self._unpacked(message) if is_packed else self._plain(message)
+        pixels, is_blue_first = (
+            self._unpacked(message) if is_packed else self._uncompressed(message)
+        )
         return DecodedImage(pixels, is_blue_first, str(message.header.frame_id))
 
-    def _plain(self, message: Any) -> tuple[npt.NDArray[np.uint8], bool]:
+    def _uncompressed(self, message: Any) -> tuple[npt.NDArray[np.uint8], bool]:
         encoding = str(message.encoding)
         if encoding not in (*GREY, *COLOUR):
             raise AssetError(
@@ -147,7 +149,7 @@ class Recording:
         self.gap = gap
         """Time from the first image to the next [ns]."""
 
-    def frames(self) -> Iterator[Frame]:
+    def frames(self) -> Iterator[RecordedFrame]:
         """Go through the images once, in the order recorded."""
         start: int | None = None
         info, count = self._first_info, 0
@@ -158,7 +160,9 @@ class Recording:
             count += 1
             start = time if start is None else start
             place = f"Image {count} of {self._image_topic!r} in {self._name}"
-            yield Frame(time - start, info, place, partial(self._decoded, data, connection.msgtype))
+            yield RecordedFrame(
+                time - start, info, place, partial(self._decoded, data, connection.msgtype)
+            )
 
     def close(self) -> None:
         """Close the files."""

@@ -23,7 +23,7 @@ from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
 from .engine_warnings import hush
 from .free_objects import loose_hydrodynamics, loose_link
 from .hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics, prepare
-from .shapes import Shape
+from .shapes import CollisionShape
 from .world_tree import rebuild_world_tree
 
 MAX_STEP = 0.02
@@ -100,7 +100,7 @@ def compile_scene(
     robots: Mapping[int, RobotSpec],
     dynamics: Mapping[int, VehicleHydrodynamics],
     timestep: float,
-    shapes: Mapping[str, Sequence[Shape]],
+    shapes: Mapping[str, Sequence[CollisionShape]],
 ) -> mujoco.MjModel:
     """Build the MuJoCo model of a scene.
 
@@ -191,7 +191,7 @@ def _add_shapes(
     spec: mujoco.MjSpec,
     body: mujoco.MjsBody,
     name: str,
-    shapes: Sequence[Shape],
+    shapes: Sequence[CollisionShape],
     body_from_owner: Pose,
 ) -> None:
     """Hang the shapes of the owner ``name`` on a body; those of one vehicle do not touch."""
@@ -221,7 +221,7 @@ def _add_shapes(
 
 
 def _give_surface(
-    spec: mujoco.MjSpec, name: str, shapes: Sequence[Shape], physics: PhysicsSpec
+    spec: mujoco.MjSpec, name: str, shapes: Sequence[CollisionShape], physics: PhysicsSpec
 ) -> None:
     """Give an object's shapes the friction and the bounce that the file says of them."""
     if physics.friction is None and physics.restitution is None:

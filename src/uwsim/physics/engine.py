@@ -28,7 +28,7 @@ from .engine_warnings import say_too_fast, speeds_of, too_fast, why_untrue
 from .hydrodynamics import VehicleHydrodynamics
 from .motion import Motion
 from .scaled import ScaledLinks, stretched_axes
-from .shapes import Shape
+from .shapes import CollisionShape
 from .uwsim_physics import UwsimPhysics
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ class Engine:
         robots: Mapping[int, RobotSpec],
         dynamics: Mapping[int, VehicleHydrodynamics],
         timestep: float,
-        shapes: Mapping[str, Sequence[Shape]],
+        shapes: Mapping[str, Sequence[CollisionShape]],
     ) -> None:
         self._model = compile_scene(scene, robots, dynamics, timestep, shapes)
         self._owners = np.array(

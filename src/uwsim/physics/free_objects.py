@@ -20,7 +20,7 @@ from ..geometry import Array
 from ..scene.object import PhysicsSpec
 from ..scene.urdf import LinkSpec
 from .hydrodynamics import BodyHydrodynamics
-from .shapes import Shape, bounds
+from .shapes import CollisionShape, bounds
 
 BOX_DRAG = 1.05
 """Of a cube face on [1]."""
@@ -45,7 +45,7 @@ DEPTHS = (
 face as a plate [1] (up to 0.5 rectangles of table A-1, from 1 on square prisms of table A-2)."""
 
 
-def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[Shape]) -> LinkSpec:
+def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> LinkSpec:
     """Mass and inertia of an object, about its centre of mass."""
     box = bounds(shapes)
     x, y, z = (2.0 * half for half in box.size)
@@ -63,7 +63,7 @@ def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[Shape]) -> Link
 
 
 def loose_hydrodynamics(
-    name: str, physics: PhysicsSpec, shapes: Sequence[Shape], density: float
+    name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float
 ) -> BodyHydrodynamics:
     """What the water does to an object.
 

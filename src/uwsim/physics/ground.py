@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from ..geometry import Array, Pose
 from ..linear import length, product, pseudo_inverse, rank
-from .shapes import Shape
+from .shapes import CollisionShape
 
 STEEPEST = 1e-6
 """A face whose normal has less of an upward part than this is a wall [1]."""
@@ -159,7 +159,7 @@ class Ground:
         return self._triangles[near], self._doubled[near]
 
 
-def triangles_of(shapes: Sequence[Shape], world_from_body: Pose) -> Array:
+def triangles_of(shapes: Sequence[CollisionShape], world_from_body: Pose) -> Array:
     """The surface of shapes in W, (n, 3, 3) [m]; balls and cylinders have `ROUND` corners."""
     found = [
         world_from_body.transform(
@@ -170,7 +170,7 @@ def triangles_of(shapes: Sequence[Shape], world_from_body: Pose) -> Array:
     return np.concatenate(found)
 
 
-def _surface(shape: Shape) -> Array:
+def _surface(shape: CollisionShape) -> Array:
     """Triangles of a shape in its own frame, (n, 3, 3) [m]; which way they turn is not said."""
     from scipy.spatial import ConvexHull
 

@@ -18,7 +18,7 @@ from ..geometry import Array, Pose, quaternion_from_rotation
 from ..linear import dot
 from ..world import Contact
 from .compile import ALL, OBJECTS, SHAPES
-from .shapes import Shape
+from .shapes import CollisionShape
 
 MAX_JUMP = 1.0
 """A jump after a longer rest counts as made in this time [s]."""
@@ -40,7 +40,7 @@ class KinematicContacts:
 
     def __init__(
         self,
-        shapes: Mapping[str, Sequence[Shape]],
+        shapes: Mapping[str, Sequence[CollisionShape]],
         poses: Mapping[str, Callable[[], Pose]],
         names: Mapping[str, str],
         version: Callable[[], int],
@@ -141,7 +141,7 @@ class _Mover:
         return velocity
 
 
-def _model(shapes: Mapping[str, Sequence[Shape]]) -> mujoco.MjModel:
+def _model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjModel:
     """Build a model of free bodies, one for each name, in their order."""
     spec = mujoco.MjSpec()
     for name, parts in shapes.items():

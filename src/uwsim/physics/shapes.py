@@ -49,7 +49,7 @@ OPEN = 0.5
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Shape:
+class CollisionShape:
     """A convex shape on a body."""
 
     kind: Literal["box", "sphere", "cylinder", "hull"]
@@ -69,7 +69,7 @@ def shapes_of(
     *,
     is_fixed: bool,
     up: Array | None = None,
-) -> tuple[Shape, ...]:
+) -> tuple[CollisionShape, ...]:
     """Make the shapes of a body.
 
     Args:
@@ -96,31 +96,37 @@ def shapes_of(
         return tuple(_cylinder(box_around(part)) for part in parts)
     box = box_around(np.concatenate(parts))
     if kind == "sphere":
-        return (Shape(kind="sphere", body_from_shape=box.body_from_shape, size=(max(box.size),)),)
+        return (
+            CollisionShape(
+                kind="sphere", body_from_shape=box.body_from_shape, size=(max(box.size),)
+            ),
+        )
     return (box,)
 
 
-def box_around(points: Array) -> Shape:
+def box_around(points: Array) -> CollisionShape:
     """The box along the axes around points (n, 3) [m]."""
     low, high = points.min(axis=0), points.max(axis=0)
     half = np.maximum(0.5 * (high - low), 0.5 * THINNEST)
     middle = Pose(0.5 * (low + high), np.eye(3))
-    return Shape(kind="box", body_from_shape=middle, size=tuple(half.tolist()))
+    return CollisionShape(kind="box", body_from_shape=middle, size=tuple(half.tolist()))
 
 
-def _cylinder(box: Shape) -> Shape:
+def _cylinder(box: CollisionShape) -> CollisionShape:
     along = int(np.argmax(box.size))
     across = [half for axis, half in enumerate(box.size) if axis != along]
     turn = np.roll(np.eye(3), along - 2, axis=0)  # z becomes the longest axis
     place = Pose(box.body_from_shape.position, turn)
-    return Shape(kind="cylinder", body_from_shape=place, size=(max(across), box.size[along]))
+    return CollisionShape(
+        kind="cylinder", body_from_shape=place, size=(max(across), box.size[along])
+    )
 
 
-def _hull(points: Array) -> Shape:
+def _hull(points: Array) -> CollisionShape:
     extent = points.max(axis=0) - points.min(axis=0)
     if extent.min() < THINNEST:  # flat: has no hull
         return box_around(points)
-    return Shape(kind="hull", body_from_shape=Pose.identity(), corners=points)
+    return CollisionShape(kind="hull", body_from_shape=Pose.identity(), corners=points)
 
 
 def seen_from(up: Array, triangles: Array) -> Array:
@@ -134,7 +140,7 @@ def seen_from(up: Array, triangles: Array) -> Array:
     return turned
 
 
-def _plates(triangles: Array, name: str) -> tuple[Shape, ...]:
+def _plates(triangles: Array, name: str) -> tuple[CollisionShape, ...]:
     """Slabs and prisms behind the faces of triangles (n, 3, 3) [m]."""
     faces = convex_faces(triangles)
     if len(faces) > MAX_PIECES:
@@ -149,7 +155,7 @@ def _plates(triangles: Array, name: str) -> tuple[Shape, ...]:
     return tuple(_plate(face, depth) for face in faces)
 
 
-def _plate(face: Array, depth: float) -> Shape:
+def _plate(face: Array, depth: float) -> CollisionShape:
     """What stands behind a flat convex polygon, (k, 3) [m]: a slab if it is a rectangle."""
     edges = np.roll(face, -1, axis=0) - face
     normal = np.cross(face[1:-1] - face[0], face[2:] - face[0]).sum(axis=0)
@@ -162,12 +168,12 @@ def _plate(face: Array, depth: float) -> Shape:
         turn = np.column_stack([along, np.cross(normal, along), normal])  # body_from_shape
         middle = face.mean(axis=0) - 0.5 * depth * normal
         half = (0.5 * float(lengths[0]), 0.5 * float(lengths[1]), 0.5 * depth)
-        return Shape(kind="box", body_from_shape=Pose(middle, turn), size=half)
+        return CollisionShape(kind="box", body_from_shape=Pose(middle, turn), size=half)
     prism = np.concatenate([face, face - depth * normal])
-    return Shape(kind="hull", body_from_shape=Pose.identity(), corners=prism)
+    return CollisionShape(kind="hull", body_from_shape=Pose.identity(), corners=prism)
 
 
-def bounds(shapes: Sequence[Shape]) -> Shape:
+def bounds(shapes: Sequence[CollisionShape]) -> CollisionShape:
     """The box along the body's axes around several shapes."""
     points = []
     for shape in shapes:

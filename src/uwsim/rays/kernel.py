@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ..geometry import Array
 from ..jit import njit
 
-Array = npt.NDArray[np.float64]
 Whole = npt.NDArray[np.int32]
 Ray = tuple[float, float, float, float, float, float, float, float, float]
 """Origin, direction, and one over the components of the direction."""

@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ..geometry import Array
 from ..jit import njit
 
-Array = npt.NDArray[np.float64]
 Whole = npt.NDArray[np.int32]
 BINS = 16
 MAX_IN_LEAF = 4

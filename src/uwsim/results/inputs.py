@@ -47,13 +47,15 @@ def differing(before: Mapping[str, object], now: Mapping[str, object]) -> list[s
         elif new is None:
             messages.append(f"{file} is not used any more")
         elif old != new:
-            messages.append(f"{file} is another file now ({short(old)} then, {short(new)} now)")
+            messages.append(
+                f"{file} is another file now ({short_hash(old)} then, {short_hash(new)} now)"
+            )
     return (
         messages if len(messages) <= NAMED else [*messages[:NAMED], f"{len(messages) - NAMED} more"]
     )
 
 
-def short(digest: object) -> str:
+def short_hash(digest: object) -> str:
     """Return the first digits of a hash."""
     return str(digest).removeprefix("sha256:")[:SHORT]
 

@@ -60,7 +60,7 @@ def log_text(log: Log) -> str:
                 f"log of {log.measure}: sample {i} has {len(sample)} values, "
                 f"the header {len(log.header)}."
             )
-        writer.writerow(["" if v is None else repr(v) for v in _plain(sample)])
+        writer.writerow(["" if v is None else repr(v) for v in _python_numbers(sample)])
     return stream.getvalue()
 
 
@@ -87,7 +87,7 @@ def logs_of(directory: Path) -> tuple[Path, ...]:
     return tuple(sorted(directory.glob("measure-*.csv")))
 
 
-def _plain(sample: Sample) -> Iterable[float | int | None]:
+def _python_numbers(sample: Sample) -> Iterable[float | int | None]:
     """Numpy's scalars as Python's, whose ``repr`` is the number alone."""
     for value in sample:
         yield value if value is None or isinstance(value, int) else float(value)

@@ -140,10 +140,10 @@ class Result:
 
     def __post_init__(self) -> None:
         for name in ("inputs", "run", "facts"):
-            object.__setattr__(self, name, _plain(getattr(self, name), name))
+            object.__setattr__(self, name, _checked_values(getattr(self, name), name))
         for name in ("columns", "missing", "variations", "image_streams", "images"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
-        object.__setattr__(self, "rows", _plain(self.rows, "rows"))
+        object.__setattr__(self, "rows", _checked_values(self.rows, "rows"))
         _check_columns(self)
         _check_rows(self)
         _check_notes(self)
@@ -276,17 +276,17 @@ def _expect(truth: bool, otherwise: str) -> None:
         raise ResultError(otherwise + ".")
 
 
-def _plain(value: object, at: str) -> object:
+def _checked_values(value: object, at: str) -> object:
     """Return the value as dicts, tuples, str, bool, int, float or None; all numbers finite."""
     if value is None or isinstance(value, str | bool):
         return value
     if isinstance(value, Mapping):
-        return {str(k): _plain(v, f"{at}.{k}") for k, v in value.items()}
+        return {str(k): _checked_values(v, f"{at}.{k}") for k, v in value.items()}
     if isinstance(value, Integral):
         return int(value)
     if isinstance(value, Real):
         _expect(math.isfinite(value), f"{at} is {float(value)}: nothing to measure is null")
         return float(value)
     if isinstance(value, Sequence):
-        return tuple(_plain(v, f"{at}[{i}]") for i, v in enumerate(value))
+        return tuple(_checked_values(v, f"{at}[{i}]") for i, v in enumerate(value))
     raise ResultError(f"{at} is {value!r}; expected text, a number, a list or an object.")

@@ -38,7 +38,7 @@ BIG = 1e7
 
 
 @dataclass(frozen=True, kw_only=True)
-class Line:
+class LevelLine:
     """One level, as text."""
 
     level: tuple[float, ...]
@@ -58,7 +58,7 @@ def shown_columns(result: Result) -> tuple[Column, ...]:
     return result.of_kind("level") + result.of_kind("measure", "score") + result.of_kind("time")
 
 
-def lines(result: Result) -> tuple[Line, ...]:
+def lines(result: Result) -> tuple[LevelLine, ...]:
     """Return the table's lines, a line a level; repeats are gathered."""
     levels = rows_by_level(result)
     texts: list[list[str]] = []
@@ -72,7 +72,7 @@ def lines(result: Result) -> tuple[Line, ...]:
             decimals = sensible_decimals([i.mean for i in intervals if i.mean is not None])
             texts.append([interval_text(interval, decimals) for interval in intervals])
     return tuple(
-        Line(
+        LevelLine(
             level=level,
             cells=tuple(text[n] for text in texts),
             status=_status(result, rows),
@@ -182,7 +182,7 @@ def _head(result: Result, column: Column) -> tuple[str, str]:
     return column.name, f"[{unit}]" if unit else ""
 
 
-def _notes(shown: Sequence[Line], n_levels: int) -> list[str]:
+def _notes(shown: Sequence[LevelLine], n_levels: int) -> list[str]:
     """One note for each run of lines with the same reason: ``1.20 to 1.30: tracker lost ...``."""
     notes = []
     for why, run in itertools.groupby(shown, key=lambda line: line.why):

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ..errors import RunFailed
 from ..files.input_files import InputFile, hash_of
-from ..results.inputs import NAMED, short
+from ..results.inputs import NAMED, short_hash
 
 _Stamp = tuple[tuple[int, int, int], ...]
 
@@ -53,7 +53,9 @@ class Watch:
         except OSError as error:
             return f"{file.path} became unreadable ({error.strerror})"
         if now != file.sha256:
-            return f"{file.path} was changed ({short(file.sha256)} then, {short(now)} now)"
+            return (
+                f"{file.path} was changed ({short_hash(file.sha256)} then, {short_hash(now)} now)"
+            )
         self._sound[file.path] = stamp
         return ""
 

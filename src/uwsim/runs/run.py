@@ -98,8 +98,8 @@ class Run:
     def head(self, unit: Trial) -> journal.Record:
         """Say what a trial is: equal heads mean that its rows must be equal."""
         return {
-            "inputs": _plain(self.inputs),
-            "run": _plain(_run(self.plan, self.renderer)),
+            "inputs": _as_stored(self.inputs),
+            "run": _as_stored(_run(self.plan, self.renderer)),
             "seed": unit.seed,
             "levels": [[value for _, value in level.values] for level in unit.levels],
         }
@@ -306,6 +306,6 @@ def _run(plan: Plan, renderer: str) -> dict[str, object]:
     }
 
 
-def _plain(value: object) -> object:
+def _as_stored(value: object) -> object:
     """Return a value as it will be read back from JSON."""
     return json.loads(json.dumps(value))

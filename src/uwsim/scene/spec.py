@@ -34,10 +34,6 @@ from .sim_params import Integrator, SimParamsSpec, ViewerCameraSpec
 from .variation import DISTRIBUTIONS, VariationSpec
 from .vehicle import VehicleSpec
 
-Triple = tuple[float, float, float]
-ZERO: Triple = (0.0, 0.0, 0.0)
-ONE: Triple = (1.0, 1.0, 1.0)
-
 
 @dataclass(frozen=True, kw_only=True)
 class NedOriginSpec:

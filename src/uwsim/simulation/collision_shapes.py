@@ -22,7 +22,7 @@ from ..geometry import Array, Pose
 from ..linear import placed, product, turned
 from ..physics.compile import object_body, vehicle_body
 from ..physics.ground import triangles_of
-from ..physics.shapes import TRIMESHES, Shape, seen_from, shapes_of
+from ..physics.shapes import TRIMESHES, CollisionShape, seen_from, shapes_of
 from ..scene.kinematics import link_poses
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.spec import SceneSpec
@@ -39,7 +39,7 @@ def simulated_shapes(
     robots: Mapping[int, RobotSpec],
     dynamics: Collection[int],
     data_path: tuple[Path, ...],
-) -> dict[str, tuple[Shape, ...]]:
+) -> dict[str, tuple[CollisionShape, ...]]:
     """Make the shapes that the engine knows: none where it has nothing to simulate.
 
     Args:
@@ -69,7 +69,7 @@ def collision_shapes(
     vehicles: Collection[int],
     objects: Mapping[int, PhysicsSpec],
     data_path: tuple[Path, ...],
-) -> dict[str, tuple[Shape, ...]]:
+) -> dict[str, tuple[CollisionShape, ...]]:
     """Make the shapes of a scene, by the name of their body in the model.
 
     Args:
@@ -79,7 +79,7 @@ def collision_shapes(
         objects: what each object that can be touched is, by its number.
         data_path: folders in which files are looked for.
     """
-    shapes: dict[str, tuple[Shape, ...]] = {}
+    shapes: dict[str, tuple[CollisionShape, ...]] = {}
     load = object_models(scene, data_path)
     for index, physics in objects.items():
         thing = scene.objects[index]
@@ -121,7 +121,7 @@ def _stretches(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
 
 def _boxes(
     solid: VisualSpec, stretch: Array | None, robot: RobotSpec, data_path: tuple[Path, ...]
-) -> list[Shape]:
+) -> list[CollisionShape]:
     """What is touched of one shape of a link, in the link's frame."""
     model, scale = visual_model(solid, Path(robot.path).parent, data_path)
     link_from_solid = Pose.from_rpy(solid.position, solid.rpy)

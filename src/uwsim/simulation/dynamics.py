@@ -234,8 +234,8 @@ class Search:
                 other, first = carried.setdefault(topic.strip("/"), (message, element))
                 if other is not message:
                     self._say(
-                        f"<{element}>: the topic {topic!r} carries {_plain(message)}, but of "
-                        f"<{first}> it carries {_plain(other)}",
+                        f"<{element}>: the topic {topic!r} carries {_type_name(message)}, but of "
+                        f"<{first}> it carries {_type_name(other)}",
                         *place,
                     )
 
@@ -268,6 +268,6 @@ class Search:
         self.found.append(found)
 
 
-def _plain(message: type) -> str:
+def _type_name(message: type) -> str:
     """``std_msgs/msg/Bool``."""
     return str(getattr(message, "__msgtype__", message.__name__))

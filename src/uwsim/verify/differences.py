@@ -103,7 +103,7 @@ def _without_checkpoints(end: Record) -> Record:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Motion:
+class FingerprintComparison:
     """What the fingerprints of a unit say."""
 
     message: str | None
@@ -114,12 +114,12 @@ class Motion:
     """Whether both have fingerprints."""
 
 
-def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> Motion:
+def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> FingerprintComparison:
     """Compare the fingerprints of two tellings of one unit."""
     ends = [record.end or {} for record in (stored, again)]
     one, other = (Checkpoints.of(end.get("trace")) for end in ends)
     if one is None or other is None:
-        return Motion(message=None, is_known=False)
+        return FingerprintComparison(message=None, is_known=False)
     found = divergence(one, other)
     if found is None:
         fingerprints = [[row.get("fingerprint") for row in each.rows] for each in (stored, again)]
@@ -127,14 +127,16 @@ def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> Motion:
             n for n, pair in enumerate(zip(*fingerprints, strict=False)) if pair[0] != pair[1]
         ]
         if not differs:
-            return Motion(message=None)
-        return Motion(message=f"the fingerprint of its level {differs[0]} differs, no mark does")
+            return FingerprintComparison(message=None)
+        return FingerprintComparison(
+            message=f"the fingerprint of its level {differs[0]} differs, no mark does"
+        )
     span = (
         f"the same up to step {found.after} ({found.after * timestep:g} s), "
         f"no more at step {found.until} ({found.until * timestep:g} s)"
     )
     what = f"; first differs: {', '.join(found.parts)}" if found.parts else ""
-    return Motion(message=f"motion and images are {span}{what}", parts=found.parts)
+    return FingerprintComparison(message=f"motion and images are {span}{what}", parts=found.parts)
 
 
 def of_text(stored: str, again: str) -> str | None:

@@ -137,16 +137,16 @@ def find_input(
         found = "sha256:" + hashlib.sha256(file.read_bytes()).hexdigest()
         if found == wanted:
             return file
-        others.append(f"{file} ({_short(found)})")
+        others.append(f"{file} ({_shortened(found)})")
     if others:
         raise ResultError(
-            f"The {kind} is not the one that was played, {name} ({_short(wanted)}): "
+            f"The {kind} is not the one that was played, {name} ({_shortened(wanted)}): "
             f"{', '.join(others)}. Give the right one with --{kind}."
         )
     searched = folders_searched(beside=directory.absolute(), data_path=overrides.data_path)
     folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
     raise AssetNotFound(
-        f"The {kind} {name!r} ({_short(wanted)}) was not found; give it with --{kind}. "
+        f"The {kind} {name!r} ({_shortened(wanted)}) was not found; give it with --{kind}. "
         f"Folders searched: {folders}."
     )
 
@@ -182,7 +182,7 @@ def _plugins(result: Result, overrides: Sequence[Path]) -> list[Path]:
             alike = [str(path) for path in overrides if path.name == name]
             what = f"; {alike[0]} is another" if alike else f"; give it with --plugin {name}"
             raise ResultError(
-                f"The result was made with the plugin {name} ({_short(wanted)}){what}."
+                f"The result was made with the plugin {name} ({_shortened(wanted)}){what}."
             )
         found.append(right[0])
     if extra := [str(path) for path in overrides if path not in found]:
@@ -206,7 +206,7 @@ def named_input(result: Result, kind: str) -> tuple[str, str]:
     raise ResultError(f'The result does not name its {kind}: "inputs" has {entry!r} for it.')
 
 
-def _short(digest: str) -> str:
+def _shortened(digest: str) -> str:
     return digest[: len("sha256:") + 12]
 
 

@@ -18,7 +18,7 @@ from uwsim.cli import main
 from uwsim.compatibility import COMPATIBILITY
 from uwsim.errors import AssetError, AssetNotFound, BadSetting, RunFailed, UnknownName
 from uwsim.messages import CameraInfo, Image, pixels_of, seconds
-from uwsim.messages.bag_camera import Frame
+from uwsim.messages.bag_camera import RecordedFrame
 from uwsim.rendering.water import Water, apply_water
 from uwsim.runs.plan import Plan
 from uwsim.runs.trial.trial import TrialEnd, execute
@@ -198,7 +198,7 @@ def test_what_nobody_reads_is_not_decoded(tmp_path: Path, monkeypatch: pytest.Mo
     updater = spec(tmp_path).bind(stage)
     updater.ramp(0.0)
     updater.apply(0.0)
-    monkeypatch.setattr(Frame, "decode", None)
+    monkeypatch.setattr(RecordedFrame, "decode", None)
     stage.advance(20)
     assert updater.streams[0][1] == 0
     updater.close()

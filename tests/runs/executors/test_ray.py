@@ -12,7 +12,7 @@ import pytest
 from tests.runs.executors.test_executor import mortal
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from uwsim.errors import BadSetting, MissingExtra
-from uwsim.runs.executors.ray import RayExecutor, Worker, address
+from uwsim.runs.executors.ray import RayExecutor, RayWorker, address
 from uwsim.runs.executors.worker import LevelEnded, TrialEnded, TrialFailed
 
 needs_ray = pytest.mark.skipif(
@@ -71,7 +71,7 @@ def test_a_cluster_of_two_that_loses_a_worker_gives_the_same_bytes(
 def test_a_worker_sends_home_all_that_is_kept(tmp_path: Path) -> None:
     bench = bench_of(write_benchmark(tmp_path, "0.2"), tmp_path / "a", mode="independent")
     trial = bench.plan.units()[1]
-    level, end = Worker().execute(bench, trial, bench.head(trial))
+    level, end = RayWorker().execute(bench, trial, bench.head(trial))
     assert isinstance(level, LevelEnded)
     assert isinstance(end, TrialEnded)
     [(name, png)] = level.images
@@ -86,7 +86,7 @@ def test_a_worker_with_other_files_versions_or_renderer_refuses_to_play(tmp_path
     head = bench.head(trial)
     head["run"]["renderer"] = "a graphics card"
     head["inputs"]["scene"][1] = "sha256:0"
-    [failed] = Worker().execute(bench, trial, head)
+    [failed] = RayWorker().execute(bench, trial, head)
     assert isinstance(failed, TrialFailed)
     assert "inputs.scene is ['visibility-scene.xml', 'sha256:" in str(failed.error)
     assert "not 'a graphics card'" in str(failed.error)

@@ -11,7 +11,7 @@ import pytest
 from tests.played import DATA, make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.messages import GTpublish, GTpublishResponse
-from uwsim.runs.trial.trial import Row, execute
+from uwsim.runs.trial.trial import LevelRow, execute
 from uwsim.scene.reader import read_scene
 
 CURRENT = """<currentForceUpdater EXTRA>
@@ -102,7 +102,7 @@ def told(
     )
     found = []
     for unit in plan.units():
-        assert [row for row in execute(plan, unit) if isinstance(row, Row)]
+        assert [row for row in execute(plan, unit) if isinstance(row, LevelRow)]
         found += Asked.told
     return found
 

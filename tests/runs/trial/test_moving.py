@@ -24,7 +24,7 @@ from uwsim.runs.plan import Plan
 from uwsim.runs.plan_request import PlanRequest
 from uwsim.runs.prepare import hash_inputs
 from uwsim.runs.run import Run
-from uwsim.runs.trial.trial import Row, execute
+from uwsim.runs.trial.trial import LevelRow, execute
 
 TRACKERS = ("ecc", "esm", "ic", "orb", "ssd-esm")
 
@@ -63,7 +63,7 @@ def test_guesses_published_in_a_burst_score_what_they_are_worth(tmp_path: Path) 
 def blind(algorithm: str, out: Path) -> dict[str, float]:
     """Play the clear level without drawing anything; returns the measures."""
     plan = replace(plan_of(algorithm, ["fog=0"]), is_blind=True)
-    [row] = [row for row in execute(plan, plan.units()[0]) if isinstance(row, Row)]
+    [row] = [row for row in execute(plan, plan.units()[0]) if isinstance(row, LevelRow)]
     assert row.status == "ok"
     return {name: value for name, (value, _) in row.measures.items() if value is not None}
 

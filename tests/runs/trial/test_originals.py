@@ -26,7 +26,7 @@ from uwsim.cli import main
 from uwsim.compatibility import compatibility
 from uwsim.errors import BenchmarkError, NeverStarted, UwsimError
 from uwsim.runs.plan import Plan
-from uwsim.runs.trial.trial import Row, execute
+from uwsim.runs.trial.trial import LevelRow, execute
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
@@ -131,11 +131,13 @@ def plan_of(file: Path, scene: SceneSpec, compatibility: frozenset[str]) -> Plan
     )
 
 
-def played(plan: Plan) -> list[Row]:
-    return [row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, Row)]
+def played(plan: Plan) -> list[LevelRow]:
+    return [
+        row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, LevelRow)
+    ]
 
 
-def refer(row: Row) -> tuple[float, ...]:
+def refer(row: LevelRow) -> tuple[float, ...]:
     return tuple(value for _, value in row.values)
 
 

@@ -18,9 +18,9 @@ from collections.abc import Mapping
 from typing import ClassVar, Protocol
 
 import numpy as np
-import numpy.typing as npt
 
 from ...bus import Node
+from ...geometry import Array
 from ...messages import (
     CameraInfo,
     Float32MultiArray,
@@ -33,8 +33,6 @@ from ...messages import (
 from ..direct import Esm
 from ..tracker_node import chosen
 from .node_view import NodeView
-
-Array = npt.NDArray[np.float64]
 
 PARAMETERS: Mapping[str, float | str] = {
     "kp": 0.4,

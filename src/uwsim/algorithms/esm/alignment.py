@@ -19,17 +19,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-
+from ...geometry import Array
 from ...linear import inverse, product
 from .alignment_kernel import Settings, iterate
 from .correlation import nearest_zncc
 from .patch import Patch
 from .pyramid import Grey
 from .template import Template
-
-Array = npt.NDArray[np.float64]
 
 BLENDS = {"esm": (0.5, 0.5), "ic": (0.0, 1.0), "fc": (1.0, 0.0)}
 """Share (a, b) of the image's and of the template's gradient in J."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from ...geometry import Array
 from ...jit import njit
 from .correlation import Statistics, statistics
 from .homography import exponential, multiply
@@ -14,8 +14,6 @@ from .normal_equations import normal_equations, solve
 from .patch import Patch
 from .pyramid import Grey
 from .template import Runs
-
-Array = npt.NDArray[np.float64]
 
 
 class Settings(NamedTuple):

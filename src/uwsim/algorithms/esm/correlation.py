@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from ...geometry import Array
 from ...jit import njit
 from .pyramid import Grey
 from .template import Runs
-
-Array = npt.NDArray[np.float64]
 
 
 class Statistics(NamedTuple):

@@ -10,12 +10,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
+from ...geometry import Array
 from ...jit import njit
 from ...linear import determinant, product, solve
-
-Array = npt.NDArray[np.float64]
 
 
 @njit

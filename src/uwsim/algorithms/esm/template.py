@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ...geometry import Array
 from .pyramid import Grey
 
-Array = npt.NDArray[np.float64]
 Runs = npt.NDArray[np.int64]
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from .compare import compare, compare_files
 from .inputs import Entry, differences, read_entries, remarks, shared_column
-from .model import Comparison, Difference
+from .model import Comparison, PairedDifference
 from .write import write_comparison
 
 __all__ = [
     "Comparison",
-    "Difference",
     "Entry",
+    "PairedDifference",
     "compare",
     "compare_files",
     "differences",

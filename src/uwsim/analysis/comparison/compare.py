@@ -32,9 +32,9 @@ from .model import (
     POWER,
     AtLevel,
     Comparison,
-    Difference,
     Outcome,
     Overall,
+    PairedDifference,
     Success,
     Versus,
     family_size,
@@ -154,12 +154,12 @@ def _both(pairs: Iterable[Pair]) -> list[tuple[float, float]]:
     ]
 
 
-def _difference(values: Sequence[tuple[float, float]], higher_is_better: bool) -> Difference:
+def _difference(values: Sequence[tuple[float, float]], higher_is_better: bool) -> PairedDifference:
     first, second = [a for a, _ in values], [b for _, b in values]
     found = [b - a for a, b in values]
     better, worse = (second, first) if higher_is_better else (first, second)
     is_tested = len(found) > 1
-    return Difference(
+    return PairedDifference(
         first=mean_interval(first, confidence=CONFIDENCE),
         second=mean_interval(second, confidence=CONFIDENCE),
         difference=mean_interval(found, confidence=CONFIDENCE),
@@ -268,7 +268,7 @@ def _corrected(versus: Sequence[Versus], higher_is_better: bool) -> tuple[Versus
     )
 
 
-def _judged(family: Sequence[Difference], higher_is_better: bool) -> list[Difference]:
+def _judged(family: Sequence[PairedDifference], higher_is_better: bool) -> list[PairedDifference]:
     """Correct one family by Holm, give verdicts, and plan repeats for its strictest step.
 
     Tests that could not reach `ALPHA` alone are no part of it (Tarone 1990): they can never be
@@ -296,7 +296,7 @@ def _judged(family: Sequence[Difference], higher_is_better: bool) -> list[Differ
 
 
 def _verdict(
-    d: Difference, p: float | None, *, can_differ: bool, higher_is_better: bool
+    d: PairedDifference, p: float | None, *, can_differ: bool, higher_is_better: bool
 ) -> Outcome:
     mean, n = d.difference.mean, d.difference.n
     if n == 0 or mean is None:

@@ -20,7 +20,7 @@ from collections.abc import Mapping
 from ...results.per_level import per_level, success_per_level
 from ...statistics import Interval
 from .inputs import Entry
-from .model import CONFIDENCE, POWER, AtLevel, Comparison, Difference, Overall, Versus
+from .model import CONFIDENCE, POWER, AtLevel, Comparison, Overall, PairedDifference, Versus
 from .repeats import ALPHA
 from .sentences import sentences
 
@@ -83,8 +83,11 @@ def _entry(entry: Entry, column: str) -> Fields:
         "name": entry.name,
         "directory": entry.source,
         "sha256": entry.sha256,
-        **{key: _plain(run.get(key)) for key in ("algorithm", "parameters", "version", "mode")},
-        "inputs": _plain(entry.result.inputs),
+        **{
+            key: _json_values(run.get(key))
+            for key in ("algorithm", "parameters", "version", "mode")
+        },
+        "inputs": _json_values(entry.result.inputs),
         "levels": [
             {
                 "level": list(at.level),
@@ -167,7 +170,7 @@ def _overall_fields(overall: Overall) -> Fields:
     }
 
 
-def _difference(d: Difference) -> Fields:
+def _difference(d: PairedDifference) -> Fields:
     return {
         "n": d.difference.n,
         "first_mean": d.first.mean,
@@ -200,9 +203,9 @@ def _interval(interval: Interval) -> Fields:
     return {name: getattr(interval, name) for name in names}
 
 
-def _plain(value: object) -> object:
+def _json_values(value: object) -> object:
     if isinstance(value, Mapping):
-        return {str(key): _plain(v) for key, v in value.items()}
+        return {str(key): _json_values(v) for key, v in value.items()}
     if isinstance(value, tuple):
-        return [_plain(v) for v in value]
+        return [_json_values(v) for v in value]
     return value

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...errors import ResultError
-from ...results.inputs import ALGORITHM, files_by_role, short
+from ...results.inputs import ALGORITHM, files_by_role, short_hash
 from ...results.journal_check import check_rows
 from ...results.result import Column, Result
 from ...results.result_file import file_of, load
@@ -143,7 +143,7 @@ def same_images(first: Result, second: Result) -> tuple[int, int] | None:
 def _file(result: Result, what: str) -> str:
     value = result.inputs.get(what)
     if isinstance(value, tuple) and len(value) == 2:
-        return f"{value[0]} {short(value[1])}"
+        return f"{value[0]} {short_hash(value[1])}"
     return "unknown"
 
 
@@ -182,7 +182,7 @@ def _said_of_files(entries: Sequence[Entry], role: str, what: str) -> list[str]:
     ]
     found = []
     for name in dict.fromkeys(name for table in tables for name in table):
-        values = [short(table[name]) if name in table else "absent" for table in tables]
+        values = [short_hash(table[name]) if name in table else "absent" for table in tables]
         if len(set(values)) > 1:
             found.append(f"{what} {name}: {_who(entries, values)}")
     return found

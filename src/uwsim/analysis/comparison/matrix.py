@@ -20,7 +20,7 @@ from typing import Literal
 
 from ...results.per_level import success_per_level
 from .inputs import Entry
-from .model import Comparison, Difference, Outcome, Versus
+from .model import Comparison, Outcome, PairedDifference, Versus
 
 Standing = Literal[
     "better", "worse", "equal", "not shown", "too few", "one repeat", "no pair", "itself"
@@ -64,7 +64,7 @@ class Cell:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class MatrixRow:
     """One result against all others."""
 
     name: str
@@ -81,7 +81,7 @@ class Matrix:
 
     columns: tuple[str, ...]
     """Names of the results that the rows are compared with."""
-    rows: tuple[Row, ...]
+    rows: tuple[MatrixRow, ...]
     """One result each, those that beat most first."""
 
     def legend(self) -> str:
@@ -105,7 +105,7 @@ def matrix(comparison: Comparison) -> Matrix:
     return Matrix(
         columns=tuple(comparison.entries[j].name for j in columns),
         rows=tuple(
-            Row(
+            MatrixRow(
                 name=comparison.entries[i].name,
                 ok=_ok(comparison.entries[i]),
                 cells=tuple(_cell(found, i, j) for j in columns),
@@ -136,7 +136,7 @@ def note(comparison: Comparison) -> str:
     return f"{too_few(few[0])}. {text}" if few else text
 
 
-def too_few(d: Difference) -> str:
+def too_few(d: PairedDifference) -> str:
     """Return ``Too few repeats to test (6 of 7 needed)``."""
     return f"Too few repeats to test ({d.difference.n} of {d.fewest} needed)"
 

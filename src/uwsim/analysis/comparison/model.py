@@ -22,7 +22,7 @@ have shown a difference (see `least_corrected`), so nothing was tested."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Difference:
+class PairedDifference:
     """Second less first, over pairs in which both have a value."""
 
     first: Interval
@@ -96,7 +96,7 @@ class AtLevel:
     """Pairs in which only the second has one."""
     n_neither: int
     """Pairs in which neither has one."""
-    value: Difference
+    value: PairedDifference
     """Of the measure, over the pairs in which both have a value."""
     success: Success | None
     """Over all pairs; None where a result has no status."""
@@ -112,9 +112,9 @@ class Overall:
     """Number of shared levels."""
     levels: tuple[Level, ...]
     """Those at which every one of these seeds has a value from both: `value` is over them."""
-    value: Difference
+    value: PairedDifference
     """Of the seeds' means over `levels`."""
-    success: Difference | None
+    success: PairedDifference | None
     """Of the seeds' shares of levels that ended ``ok``, 0 to 1; more is better."""
     n_first_smaller: int
     """Levels at which the first's mean is the smaller one; a description, not a test."""
@@ -177,13 +177,13 @@ class Comparison:
         return fewest_of([versus.overall.value for versus in self.versus])
 
 
-def family_size(family: Sequence[Difference]) -> int:
+def family_size(family: Sequence[PairedDifference]) -> int:
     """Return how many tests Holm counts; where no test is possible, how many there would be."""
     tested = sum(d.is_tested for d in family)
     return tested or sum(d.difference.n > 0 for d in family) or 1
 
 
-def fewest_of(family: Sequence[Difference]) -> int:
+def fewest_of(family: Sequence[PairedDifference]) -> int:
     """Return how many repeats it takes until a test of this family can show a difference.
 
     With m tests of n repeats each the smallest corrected p there is is m times :math:`2/2^n`; m
@@ -192,7 +192,7 @@ def fewest_of(family: Sequence[Difference]) -> int:
     return fewest_for(ALPHA / max(1, sum(d.difference.n > 0 for d in family)))
 
 
-def least_corrected(family: Sequence[Difference]) -> tuple[float | None, ...]:
+def least_corrected(family: Sequence[PairedDifference]) -> tuple[float | None, ...]:
     """Return the smallest p that each test could have after Holm's correction; None: not tested.
 
     Holm's correction of no test falls when the p of another rises, so the least there is is that of

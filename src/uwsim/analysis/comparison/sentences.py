@@ -7,10 +7,10 @@ from collections.abc import Sequence
 
 from ...results.result import Column
 from ...statistics import Interval, smallest_p
-from ..plots import written_unit
+from ..plots import level_text, written_unit
 from .inputs import Entry
 from .matrix import too_few
-from .model import AtLevel, Comparison, Difference, Overall, Versus
+from .model import AtLevel, Comparison, Overall, PairedDifference, Versus
 from .pairs import Level
 from .repeats import ALPHA
 
@@ -28,7 +28,7 @@ def sentences(comparison: Comparison, versus: Versus) -> tuple[str, ...]:
     return tuple(part for part in parts if part)
 
 
-def short(versus: Versus, d: Difference) -> str:
+def short_verdict(versus: Versus, d: PairedDifference) -> str:
     """Return a verdict of a few words: ``ic better``, ``not shown``, ``too few (6 of 7)``."""
     if d.verdict in ("first", "second"):
         return f"{_winner(versus, d).name} better"
@@ -37,7 +37,7 @@ def short(versus: Versus, d: Difference) -> str:
     return d.verdict
 
 
-def needed_text(comparison: Comparison, d: Difference) -> str:
+def needed_text(comparison: Comparison, d: PairedDifference) -> str:
     """Return how many repeats would show what was not shown: ``34``, ``290``, ``>1000``, ``≥6``."""
     is_open = d.verdict in ("not shown", "too few")
     if d.verdict == "one repeat" or (is_open and d.hedges_g is None):
@@ -54,10 +54,10 @@ def p_text(p: float | None) -> str:
     return "<0.001" if p < 0.001 else f"{p:.3f}"
 
 
-def level_text(columns: Sequence[Column], level: Level) -> str:
+def levels_text(columns: Sequence[Column], level: Level) -> str:
     """Return ``fog 0.3 m⁻¹, current 0.1 m/s``."""
     parts = [
-        f"{column.name} {value:g}" + (f" {written_unit(column.unit)}" if column.unit else "")
+        level_text(column, value)
         for column, value in zip(columns, level, strict=True)
         if column.name != "none"
     ]
@@ -105,7 +105,7 @@ def _sweep(comparison: Comparison, versus: Versus) -> str:
     return f"No difference is shown: {found}, {over}; {tested}. {_needed(comparison, d)}"
 
 
-def _found(comparison: Comparison, versus: Versus, d: Difference) -> str:
+def _found(comparison: Comparison, versus: Versus, d: PairedDifference) -> str:
     """``in 'total' ic lies 0.31 px above esm (95 % interval 0.22 to 0.41 px)``."""
     mean = d.difference.mean or 0.0
     unit = unit_text(comparison.column)
@@ -144,12 +144,12 @@ def _where(overall: Overall) -> str:
     return f"over {shared} of {overall.n_levels} levels at which every repeat of both has a value"
 
 
-def _effect(d: Difference) -> str:
+def _effect(d: PairedDifference) -> str:
     size = "" if d.hedges_g is None else f"Hedges' g = {d.hedges_g:.2f}, "
     return size if d.superiority is None else f"{size}A = {d.superiority:.2f}, "
 
 
-def _tested(comparison: Comparison, d: Difference) -> str:
+def _tested(comparison: Comparison, d: PairedDifference) -> str:
     """``p = 0.012 (sign flips, Holm over 3 pairs of results)``."""
     n = len(comparison.versus)
     if d.p_holm is None:
@@ -158,7 +158,7 @@ def _tested(comparison: Comparison, d: Difference) -> str:
     return f"{_p_said(d.p_holm)} (sign flips{corrected})"
 
 
-def _needed(comparison: Comparison, d: Difference) -> str:
+def _needed(comparison: Comparison, d: PairedDifference) -> str:
     """How many more repeats would say, or why that cannot be planned."""
     n, fewest = d.difference.n, comparison.fewest_for_sweep
     if d.verdict == "too few":
@@ -176,7 +176,7 @@ def _needed(comparison: Comparison, d: Difference) -> str:
     )
 
 
-def _more(d: Difference, n: int, fewest: int) -> str:
+def _more(d: PairedDifference, n: int, fewest: int) -> str:
     if d.needed is None or d.needed <= max(n, fewest):
         return ""
     return f", and about {_about(d.needed)} to show the observed difference in 4 of 5 experiments"
@@ -224,8 +224,8 @@ def _levels(columns: Sequence[Column], versus: Versus, chosen: Sequence[AtLevel]
         else:
             runs.append([place])
     names = [
-        level_text(columns, versus.levels[run[0]].level)
-        + (f" to {level_text(columns, versus.levels[run[-1]].level)}" if len(run) > 1 else "")
+        levels_text(columns, versus.levels[run[0]].level)
+        + (f" to {levels_text(columns, versus.levels[run[-1]].level)}" if len(run) > 1 else "")
         for run in runs
     ]
     n = len(places)
@@ -309,15 +309,15 @@ def _images(versus: Versus) -> str:
 # ---------------------------------------------------------------------------- small words
 
 
-def _winner(versus: Versus, d: Difference) -> Entry:
+def _winner(versus: Versus, d: PairedDifference) -> Entry:
     return versus.first if d.verdict == "first" else versus.second
 
 
-def _loser(versus: Versus, d: Difference) -> Entry:
+def _loser(versus: Versus, d: PairedDifference) -> Entry:
     return versus.second if d.verdict == "first" else versus.first
 
 
-def _open(d: Difference) -> str:
+def _open(d: PairedDifference) -> str:
     """Say why no side is named."""
     message = too_few(d) if d.verdict == "too few" else "no difference is shown"
     return message[0].lower() + message[1:]

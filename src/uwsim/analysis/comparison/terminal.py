@@ -15,7 +15,7 @@ from ...results.table import exact_decimals, interval_text, number_text, sensibl
 from ...statistics import Interval
 from .matrix import Standing, matrix, note, title
 from .model import AtLevel, Comparison, Versus
-from .sentences import needed_text, p_text, sentences, short
+from .sentences import needed_text, p_text, sentences, short_verdict
 
 STYLES: dict[Standing, str] = {"better": "green", "worse": "red", "too few": "yellow"}
 LEGEND = (
@@ -25,8 +25,8 @@ LEGEND = (
     "experiments. docs/statistics.md says more."
 )
 GIVES_WAY = ("a", "g", "ok", "n")
-"""Columns that give way on a narrow terminal, in this order, by what they hold (a `Line`'s field).
-Headings say nothing about that: an algorithm may have any name."""
+"""Columns that give way on a narrow terminal, in this order, named by the field of
+`ComparisonLine` that they hold. Headings do not decide: an algorithm may have any name."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +34,7 @@ class Shown:
     """One column of a table."""
 
     kind: str
-    """What it holds: a field of `Line`."""
+    """What it holds: a field of `ComparisonLine`."""
     heading: str
     """What stands above it; two columns may have the same."""
     cells: tuple[str, ...]
@@ -47,7 +47,7 @@ class Shown:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Line:
+class ComparisonLine:
     """One level of one pair of results, as text."""
 
     level: tuple[str, ...]
@@ -76,7 +76,7 @@ class Line:
     """Whether one is better."""
 
 
-def lines(comparison: Comparison, versus: Versus) -> tuple[Line, ...]:
+def lines(comparison: Comparison, versus: Versus) -> tuple[ComparisonLine, ...]:
     """Return the table of one pair of results, a line a level."""
     columns = versus.first.result.of_kind("level")
     decimals = [exact_decimals([at.level[i] for at in versus.levels]) for i in range(len(columns))]
@@ -156,7 +156,9 @@ def _table(comparison: Comparison, versus: Versus, width: int) -> Table:
     return table
 
 
-def _columns(levels: Sequence[Column], versus: Versus, found: Sequence[Line]) -> list[Shown]:
+def _columns(
+    levels: Sequence[Column], versus: Versus, found: Sequence[ComparisonLine]
+) -> list[Shown]:
     """The columns of a table, from left to right."""
     headings = {
         "n": "n",
@@ -189,9 +191,9 @@ def _line(
     decimals: Sequence[int],
     places: int,
     fine: int,
-) -> Line:
+) -> ComparisonLine:
     d, success = at.value, at.success
-    return Line(
+    return ComparisonLine(
         level=tuple(number_text(v, k) for v, k in zip(at.level, decimals, strict=True)),
         n=str(d.difference.n),
         first=_mean(d.first, places),
@@ -203,7 +205,7 @@ def _line(
         ok="-"
         if success is None
         else f"{success.first.successes} : {success.second.successes} of {success.first.n}",
-        verdict=short(versus, d),
+        verdict=short_verdict(versus, d),
         needed=needed_text(comparison, d),
         is_shown=d.verdict in ("first", "second"),
     )

@@ -166,11 +166,11 @@ def draw_prediction(axes: Axes, result: Result, label: bool = True) -> None:
     if fact is None or not is_fog_swept(result):
         return
     low, high = axes.get_xlim()
-    text = f"$f^*$ = {_short(fact[0])} {plain(written_unit(fact[1]))}"
+    text = f"$f^*$ = {_two_decimals(fact[0])} {plain(written_unit(fact[1]))}"
     x = fact[0]
     if (length := LENGTHS.get(levels[-1].name)) is not None:
         x = length(x) if x > 0.0 else math.inf
-        text = f"{_short(x)} m, {text}"
+        text = f"{_two_decimals(x)} m, {text}"
     if low <= x <= high:
         axes.axvline(x, color=FAINT, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
         if label:
@@ -179,7 +179,7 @@ def draw_prediction(axes: Axes, result: Result, label: bool = True) -> None:
         _write_above(axes, high, f"loss predicted beyond these levels, {text}", FAINT, line=0)
 
 
-def _short(number: float) -> str:
+def _two_decimals(number: float) -> str:
     """Two digits behind the point, unless there would be many before it."""
     return f"{number:.2f}" if abs(number) < 1e4 else f"{number:.3g}"
 

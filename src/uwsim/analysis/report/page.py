@@ -191,16 +191,16 @@ def _cards(result: Result, found: Sequence[Ending]) -> list[Card]:
         if not known:
             continue
         first, last = known[0], known[-1]
-        value, at = _short(first, last), ""
+        value, at = _mean_text(first, last), ""
         if len(known) > 1:
-            value += f" to {_short(last, first)}"
+            value += f" to {_mean_text(last, first)}"
             at = f"at {named_level(result, first.level)} and {named_level(result, last.level)}"
         unit = _space(unit_of(result, column))
         cards.append(Card(label=column.name, value=value + unit, note=at))
     return cards[:MAX_CARDS]
 
 
-def _short(entry: LevelInterval, other: LevelInterval) -> str:
+def _mean_text(entry: LevelInterval, other: LevelInterval) -> str:
     """A mean in three digits; in those of the other one where it is nothing against that."""
     value, against = entry.interval.mean or 0.0, other.interval.mean or 0.0
     measure = against if abs(value) < 1e-3 * abs(against) else value

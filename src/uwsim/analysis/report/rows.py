@@ -22,7 +22,7 @@ Head = tuple[str, str]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class TableRow:
     """One level in the table."""
 
     cells: tuple[tuple[str, str], ...]
@@ -44,15 +44,15 @@ def heads(result: Result) -> list[Head]:
     return [_head(result, column) for column in shown_columns(result)]
 
 
-def level_rows(result: Result) -> list[Row]:
+def level_rows(result: Result) -> list[TableRow]:
     """Return the table, a row a level; repeats are gathered."""
-    found: list[Row] = []
+    found: list[TableRow] = []
     above = ""
     outer: tuple[float, ...] | None = None
     for line in lines(result)[:MAX_LINES]:
         status, _, rate = line.status.partition(" ok, ")
         found.append(
-            Row(
+            TableRow(
                 cells=tuple(_split(cell) for cell in line.cells),
                 status=f"{status} ok" if rate else line.status,
                 rate=rate,

@@ -13,10 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...geometry import Triple
 from ...linear import length
 from ..mesh import Mesh
 from .shapes import (
-    Point,
     Shape,
     box,
     cylinder,
@@ -38,7 +38,7 @@ HINGE_IN_PART4 = (0.073, 0.0, 0.04)
 """A jaw's hinge in part4_base's mesh frame (the other has z reversed) [m]."""
 
 
-def fitted(parts: list[Shape], lower: Point, upper: Point) -> list[Shape]:
+def fitted(parts: list[Shape], lower: Triple, upper: Triple) -> list[Shape]:
     """The parts, stretched a little so that their common box is exactly this one."""
     points = join(*parts).corners.reshape(-1, 3)
     low, high = points.min(axis=0), points.max(axis=0)
@@ -57,7 +57,7 @@ def _metal(bright: list[Shape], dark: list[Shape], accent: list[Shape]) -> tuple
 
 
 def _link(
-    bright: list[Shape], dark: list[Shape], accent: list[Shape], lower: Point, upper: Point
+    bright: list[Shape], dark: list[Shape], accent: list[Shape], lower: Triple, upper: Triple
 ) -> tuple[Mesh, ...]:
     """Parts in three materials, fitted together into the link's box."""
     whole = fitted([*bright, *dark, *accent], lower, upper)
@@ -65,7 +65,7 @@ def _link(
     return _metal(whole[:b], whole[b:d], whole[d:])
 
 
-def _ram(start: Point, end: Point, radius: float, rod: float) -> tuple[Shape, Shape]:
+def _ram(start: Triple, end: Triple, radius: float, rod: float) -> tuple[Shape, Shape]:
     """An electric linear actuator: its body, and the rod that leaves it for ``rod`` metres."""
     a, b = np.array(start), np.array(end)
     split = b - rod * (b - a) / length(b - a)
@@ -74,7 +74,7 @@ def _ram(start: Point, end: Point, radius: float, rod: float) -> tuple[Shape, Sh
     return body, cylinder((x, y, z), end, radius * 0.4, n=6)
 
 
-def _block(lower: Point, upper: Point, radius: float) -> Shape:
+def _block(lower: Triple, upper: Triple, radius: float) -> Shape:
     """A block with chamfered edges."""
     return rounded_box(lower, upper, radius=radius, n=1)
 

@@ -10,9 +10,9 @@ from functools import cache
 import cv2
 import numpy as np
 
-from ...geometry import rotation_from_rpy, rotation_y
+from ...geometry import Array, rotation_from_rpy, rotation_y
 from ..mesh import Mesh, Texture
-from .shapes import Array, Shape, cylinder, join, mesh, sphere, surface
+from .shapes import Shape, cylinder, join, mesh, sphere, surface
 from .ships import hull
 from .textures import finished, lit, mixed, noise, plain, step, worn
 

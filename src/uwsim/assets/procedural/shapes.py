@@ -15,11 +15,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...elementwise import arccos
+from ...geometry import Array, Triple
 from ...linear import dot, length, product
 from ..mesh import Mesh, Texture
-
-Array = npt.NDArray[np.float64]
-Point = tuple[float, float, float]
 
 CREASE = 0.85
 """Faces that meet at less than this angle [rad] look like one curved surface."""
@@ -192,10 +190,10 @@ def surface(points: Array, uvs: Array | None = None) -> Shape:
 
 
 def quad(
-    a: Point,
-    b: Point,
-    c: Point,
-    d: Point,
+    a: Triple,
+    b: Triple,
+    c: Triple,
+    d: Triple,
     *,
     uv: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0),
     cuts: tuple[int, int] = (1, 1),
@@ -212,7 +210,7 @@ def quad(
     return surface(points, np.concatenate([u0 + s_ * (u1 - u0), v0 + t_ * (v1 - v0)], axis=2))
 
 
-def box(lower: Point, upper: Point) -> Shape:
+def box(lower: Triple, upper: Triple) -> Shape:
     """A box; every face shows the whole texture, upright on the sides."""
     (x0, y0, z0), (x1, y1, z1) = lower, upper
     return join(
@@ -280,7 +278,7 @@ def extrusion(
     return loft(np.array(rings))
 
 
-def rounded_box(lower: Point, upper: Point, *, radius: float, n: int = 2) -> Shape:
+def rounded_box(lower: Triple, upper: Triple, *, radius: float, n: int = 2) -> Shape:
     """A box with rounded edges upright and bevelled rims."""
     low, high = np.array(lower), np.array(upper)
     size, middle = high - low, (low + high) / 2
@@ -339,7 +337,7 @@ def facing(direction: Array) -> Array:
 
 
 def cylinder(
-    start: Point, end: Point, radius: float, *, n: int = 20, bevel: float = 0.0, top: float = 1.0
+    start: Triple, end: Triple, radius: float, *, n: int = 20, bevel: float = 0.0, top: float = 1.0
 ) -> Shape:
     """A rod from ``start`` to ``end``; ``top`` times as thick at the end (0 is a cone)."""
     a, b = np.array(start), np.array(end)
@@ -358,7 +356,7 @@ def cylinder(
 
 
 def tube(
-    path: Sequence[Point] | Array, radius: float, *, n: int = 10, closed: bool = True
+    path: Sequence[Triple] | Array, radius: float, *, n: int = 10, closed: bool = True
 ) -> Shape:
     """A bent bar along a path of points; ``closed`` gives it flat ends."""
     points = np.asarray(path, dtype=np.float64)

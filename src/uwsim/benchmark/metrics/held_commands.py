@@ -38,7 +38,7 @@ JOINTS = {"position": "rad or m", "velocity": "rad/s or m/s", "effort": "N m or 
 
 
 @dataclass(frozen=True, kw_only=True)
-class Command:
+class AxisValues:
     """What one message asks for."""
 
     values: Mapping[str, float]
@@ -47,29 +47,29 @@ class Command:
     """Axis -> unit."""
 
 
-def twist(message: Twist) -> Command:
+def twist(message: Twist) -> AxisValues:
     """Return a twist's six numbers."""
     v, w = message.linear, message.angular
-    return Command(
+    return AxisValues(
         values=dict(zip(TWIST, (v.x, v.y, v.z, w.x, w.y, w.z), strict=True)), units=TWIST
     )
 
 
-def wrench(message: Wrench) -> Command:
+def wrench(message: Wrench) -> AxisValues:
     """Return a wrench's six numbers."""
     f, t = message.force, message.torque
-    return Command(
+    return AxisValues(
         values=dict(zip(WRENCH, (f.x, f.y, f.z, t.x, t.y, t.z), strict=True)), units=WRENCH
     )
 
 
-def thrusters(message: Float64MultiArray) -> Command:
+def thrusters(message: Float64MultiArray) -> AxisValues:
     """Return the numbers of an array, ``u0``, ``u1``, ...: shares of full command."""
     values = {f"u{i}": float(value) for i, value in enumerate(message.data)}
-    return Command(values=values, units=dict.fromkeys(values, "1"))
+    return AxisValues(values=values, units=dict.fromkeys(values, "1"))
 
 
-def joints(message: JointState) -> Command:
+def joints(message: JointState) -> AxisValues:
     """Return what the joints are told: positions, else velocities, else efforts.
 
     Axes have the joints' names, or ``q0``, ``q1``, ... where the message has none.
@@ -79,11 +79,11 @@ def joints(message: JointState) -> Command:
         if len(given):
             names = message.name or [f"q{i}" for i in range(len(given))]
             values = {name: float(value) for name, value in zip(names, given, strict=False)}
-            return Command(values=values, units=dict.fromkeys(values, unit))
-    return Command(values={}, units={})
+            return AxisValues(values=values, units=dict.fromkeys(values, unit))
+    return AxisValues(values={}, units={})
 
 
-READERS: dict[type, Callable[[Any], Command]] = {
+READERS: dict[type, Callable[[Any], AxisValues]] = {
     Float64MultiArray: thrusters,
     JointState: joints,
     Twist: twist,
@@ -149,7 +149,7 @@ class HeldCommands:
             if name not in self.axes and (not self.chosen or name in self.chosen):
                 self.axes[name] = HeldCommand(unit)
 
-    def hold(self, command: Command) -> None:
+    def hold(self, command: AxisValues) -> None:
         """Take a command without counting anything."""
         self.expect(command.units)
         for name, value in command.values.items():
@@ -161,7 +161,7 @@ class HeldCommands:
         for axis in self.axes.values():
             axis.notice()
 
-    def change(self, command: Command) -> None:
+    def change(self, command: AxisValues) -> None:
         """Take the next command."""
         self.expect(command.units)
         for name, value in command.values.items():

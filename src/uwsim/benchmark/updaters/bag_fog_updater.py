@@ -35,7 +35,7 @@ import numpy.typing as npt
 from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
 from ...linear import dot
 from ...messages import CameraInfo, Image, image, time_from_seconds
-from ...messages.bag_camera import DecodedImage, Frame, Recording, camera_info
+from ...messages.bag_camera import DecodedImage, RecordedFrame, Recording, camera_info
 from ...schema import element
 from ...world import Stage
 from .fog_sweep import FogSweepSpec
@@ -126,8 +126,8 @@ class BagFogUpdater(SceneUpdater):
         self._recording: Recording | None = None
         self._has_begun = False
         self._since = 0  # step at which the first image was due
-        self._schedule: Iterator[tuple[int, Frame]] = iter(())
-        self._next: tuple[int, Frame] | None = None  # step at which it is due, and what
+        self._schedule: Iterator[tuple[int, RecordedFrame]] = iter(())
+        self._next: tuple[int, RecordedFrame] | None = None  # step at which it is due, and what
         self._n_frames = 0
         self._digest = hashlib.sha256()
         stage.every(1.0 / stage.timestep, self._tick)
@@ -159,14 +159,14 @@ class BagFogUpdater(SceneUpdater):
             self._recording = Recording(self._path, self._spec.image_topic, self._spec.info_topic)
         return self._recording
 
-    def _still(self) -> Iterator[tuple[int, Frame]]:
+    def _still(self) -> Iterator[tuple[int, RecordedFrame]]:
         """Yield the first image over and over, each time with when it is due [ns]."""
         recording, n = self._open(), 0
         while True:
             yield n * recording.gap, recording.first
             n += 1
 
-    def _replay(self) -> Iterator[tuple[int, Frame]]:
+    def _replay(self) -> Iterator[tuple[int, RecordedFrame]]:
         """Yield every image with when it is due [ns], round after round."""
         recording, began = self._open(), 0
         while True:
@@ -176,7 +176,7 @@ class BagFogUpdater(SceneUpdater):
                 yield began + last, frame
             began += last + last // (count - 1)
 
-    def _start(self, schedule: Iterator[tuple[int, Frame]]) -> None:
+    def _start(self, schedule: Iterator[tuple[int, RecordedFrame]]) -> None:
         self._since, self._schedule = self._stage.step, schedule
         self._advance()
 
@@ -195,7 +195,7 @@ class BagFogUpdater(SceneUpdater):
         except AssetError as error:
             raise RunFailed(f"The recording broke off: {error}") from error
 
-    def _publish(self, frame: Frame) -> None:
+    def _publish(self, frame: RecordedFrame) -> None:
         is_seen = self._stage.bus.has_readers(self._image_topic)
         if not is_seen and not self._stage.bus.has_readers(self._info_topic):
             return

@@ -71,14 +71,14 @@ class ProcessExecutor:
             SerialExecutor().execute(queue)
             return
         settings = ENVIRONMENT if n > 1 else {}
-        workers = [Worker(settings) for _ in range(n)]
+        workers = [WorkerProcess(settings) for _ in range(n)]
         try:
             while True:
                 for i, worker in enumerate(workers):
                     if worker.job is None and (job := queue.take()) is not None:
                         if not worker.may_play(job):
                             worker.kill()
-                            workers[i] = Worker(settings)
+                            workers[i] = WorkerProcess(settings)
                         workers[i].give(job)
                 busy = [worker for worker in workers if worker.job is not None]
                 if not busy:
@@ -90,7 +90,7 @@ class ProcessExecutor:
             for worker in workers:
                 worker.kill()
 
-    def _attend(self, busy: list[Worker], queue: JobQueue) -> None:
+    def _attend(self, busy: list[WorkerProcess], queue: JobQueue) -> None:
         """Wait until one of them has something to say, or for the time of a glance."""
         began = time.monotonic()
         wait([handle for worker in busy for handle in worker.handles], self._glance)
@@ -102,7 +102,7 @@ class ProcessExecutor:
                 worker.watch(queue, min(waited, 2 * self._glance), self._limit)
 
 
-class Worker:
+class WorkerProcess:
     """A process as its employer sees it.
 
     Args:

@@ -75,17 +75,17 @@ class RayExecutor:
         # Ray prints on standard output what the queue tells better.
         with self._cluster(), redirect_stdout(io.StringIO()):
             n_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
-            remote = ray.remote(num_cpus=1, max_restarts=0)(Worker)
+            remote = ray.remote(num_cpus=1, max_restarts=0)(RayWorker)
             remote = remote.options(runtime_env={"env_vars": not_chosen(ENVIRONMENT)})
             idle: list[tuple[Any, str]] = []  # and the only algorithm that it plays
-            tasks: dict[Any, Task] = {}
+            tasks: dict[Any, AssignedJob] = {}
             try:
                 while True:
                     while len(tasks) < n_workers and (job := queue.take()) is not None:
                         name = job.run.plan.algorithm_name
                         while idle and idle[-1][1] != name:  # no process sees two algorithms
                             ray.kill(idle.pop()[0])
-                        task = Task(job, idle.pop()[0] if idle else remote.remote())
+                        task = AssignedJob(job, idle.pop()[0] if idle else remote.remote())
                         tasks[task.begin(ray)] = task
                     for worker, _ in idle:  # there is nothing left for them
                         ray.kill(worker)
@@ -103,7 +103,7 @@ class RayExecutor:
                 for task in tasks.values():
                     task.writer.close()
 
-    def _is_over(self, events: Any, task: Task, queue: JobQueue) -> bool:
+    def _is_over(self, events: Any, task: AssignedJob, queue: JobQueue) -> bool:
         """Take the next event of a task; returns whether it was the last."""
         errors = self._ray.exceptions
         try:
@@ -187,12 +187,12 @@ def address() -> str | None:
 
 
 @dataclass
-class Task:
+class AssignedJob:
     """A job in the hands of a worker."""
 
     job: Job
     worker: Any
-    """Ray's handle of a `Worker`."""
+    """Ray's handle of a `RayWorker`."""
     is_alive: bool = True
     """Whether the worker can be given another."""
 
@@ -204,7 +204,7 @@ class Task:
         return execute.remote(run, trial, run.head(trial))
 
 
-class Worker:
+class RayWorker:
     """A process somewhere in the cluster, with a renderer that lasts."""
 
     def __init__(self) -> None:

@@ -22,7 +22,7 @@ from ...simulation import Calls, RendererPool
 from ..input_watch import Watch
 from ..plan import Plan, Trial
 from ..run import Run
-from ..trial.trial import Row, TrialEnd, execute
+from ..trial.trial import LevelRow, TrialEnd, execute
 
 IMAGES = "pictures"
 
@@ -137,7 +137,7 @@ def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
     return bytes(png.tobytes())
 
 
-def _record(played: Row, images: dict[str, str]) -> journal.Record:
+def _record(played: LevelRow, images: dict[str, str]) -> journal.Record:
     return {
         "values": [value for _, value in played.values],
         "measures": played.measures,

@@ -52,7 +52,7 @@ RAMP = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class LevelRow:
     """What one level leaves behind."""
 
     values: tuple[tuple[str, float], ...]
@@ -99,8 +99,8 @@ class TrialEnd:
 
 def execute(
     plan: Plan, unit: Trial, *, pool: RendererPool | None = None, calls: Calls | None = None
-) -> Iterator[Row | TrialEnd]:
-    """Play a unit; yields a Row as each level ends, and at last the UnitEnd.
+) -> Iterator[LevelRow | TrialEnd]:
+    """Play a unit; yields a LevelRow as each level ends, and at last the UnitEnd.
 
     Args:
         plan: what is played.
@@ -175,7 +175,7 @@ class _Execution:
         self._notes: dict[str, None] = {}
         self._n_measured = 0  # steps of the levels so far
 
-    def rows(self) -> Iterator[Row | TrialEnd]:
+    def rows(self) -> Iterator[LevelRow | TrialEnd]:
         """Play the levels."""
         plan, simulation = self._plan, self._simulation
         simulation.start()
@@ -325,7 +325,7 @@ class _Execution:
             self._simulation.advance()
             self._monitor.listen(self._simulation.time)
 
-    def _run_level(self, level: Level) -> Row:
+    def _run_level(self, level: Level) -> LevelRow:
         """Play one level, with triggers and measures that have seen nothing before."""
         plan, simulation, monitor = self._plan, self._simulation, self._monitor
         began = simulation.step
@@ -364,7 +364,7 @@ class _Execution:
         status: str,
         why: str | None,
         began: int,
-    ) -> Row:
+    ) -> LevelRow:
         simulation = self._simulation
         values: dict[str, float | None] = {}
         units: dict[str, str] = {}
@@ -395,7 +395,7 @@ class _Execution:
         if total is None:
             missing["total"] = why or score.why or f"the function: {reason}"
         logged = [gated for gated in measures if gated.spec.log is not None]
-        return Row(
+        return LevelRow(
             values=level.values,
             measures={name: (value, units[name]) for name, value in values.items()},
             details=details,
