@@ -101,7 +101,7 @@ def test_elements_may_stand_in_any_order(tmp_path: Path) -> None:
 
 def test_strict_holds_a_file_against_the_order_of_the_fields(tmp_path: Path) -> None:
     _, said = read_text("<thing>\n<count>5</count>\n<name>a</name></thing>", tmp_path, strict=True)
-    assert said == ["thing.xml:3: <name> stands behind <count>; the original wants it before"]
+    assert said == ["thing.xml:3: <name> comes after <count>; the original expects it before"]
 
 
 def test_every_error_is_reported_at_once_with_its_line(tmp_path: Path) -> None:
@@ -142,7 +142,7 @@ def test_what_the_original_read_leniently_is_a_warning(tmp_path: Path) -> None:
 
 def test_an_element_that_may_stand_once_stands_once(tmp_path: Path) -> None:
     _, said = read_text("<thing><name>a</name>\n<name>b</name></thing>", tmp_path)
-    assert said == ["thing.xml:2: <name> stands twice in <thing> (first in line 1); only one may"]
+    assert said == ["thing.xml:2: <name> is given twice in <thing> (first in line 1); only one may"]
 
 
 def test_an_old_name_is_read_with_a_warning(tmp_path: Path) -> None:

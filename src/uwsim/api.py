@@ -1,4 +1,4 @@
-"""The Python face of uwsim: what `import uwsim` offers beside the classes that it names.
+"""The functions of the Python interface that `import uwsim` offers.
 
 Files are found as the command line finds them: a path, a name in a search folder, or a bundled
 name. Everything takes `str` or `Path`, and what goes wrong is an `UwsimError` of one or more lines
@@ -131,7 +131,7 @@ def read_result(path: str | Path) -> Result:
     """Read a result: its directory or its ``result.json``, of any format version.
 
     Raises:
-        ResultError: it is not there, not whole, or not a result; says which.
+        ResultError: it does not exist, is incomplete, or is not a result.
     """
     from .results.result_file import load as load_result
 
@@ -149,7 +149,7 @@ def compare(
         higher_is_better: more of it is better; errors are not so.
 
     Raises:
-        ResultError: a result cannot be read, or the results cannot be compared; says why.
+        ResultError: a result cannot be read, or the results cannot be compared.
     """
     from .analysis.comparison import compare_files
 
@@ -158,7 +158,7 @@ def compare(
 
 
 def check(*paths: str | Path) -> tuple[Diagnostic, ...]:
-    """Return what ``uwsim check`` says of scene, benchmark, robot and vehicle files.
+    """Return the errors and warnings of scene, benchmark, robot and hydrodynamics files.
 
     Errors come with their file, line and severity; a file without any gives none.
     """

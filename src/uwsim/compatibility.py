@@ -13,23 +13,23 @@ from .errors import UnknownName
 
 COMPATIBILITY: dict[str, str] = {
     "bag-fog": "over a recording fog is 1.44 times as thick, of one colour, none on grey images",
-    "box-scale": "the bounding box of an object does not know of its scaleFactor",
-    "collision": "only the first body of a contact and its velocity count, and one thing touched",
+    "box-scale": "the bounding box of an object ignores its scaleFactor",
+    "collision": "only the first body of a contact and its velocity count, and one touched object",
     "current-force": "publishAsForce pushes with v^2 along each axis: the sign of v is lost",
     "current-target": "a benchmark's current moves its target alone, not all that floats",
     "fog-distance": "fog uses the clip-space z of the camera, not the distance along the ray",
-    "last-norm": "an estimate of any age is scored; without a new one the last norm stands",
+    "last-norm": "an estimate of any age is scored; without a new one the last norm is kept",
     "never-started": "a measure that never started is 0 (positionError 100, collision 1)",
     "path-frame": "to the points of a path the place of its frame in W is added",
     "path-ise": "the ISE of a path is the integral of the error, not of its square",
     "path-point": "a path of one point is none",
-    "path-repeats": "a point that stands twice in a path holds up all that follows",
+    "path-repeats": "a point that occurs twice in a path blocks all that follow",
     "position-frame": "positionError is in W, and a place from its topic is taken to be in W",
-    "position-start": "positionError is 100 until its first update, -1 until its topic says where",
+    "position-start": "positionError is 100 until its first update, -1 until its first message",
     "reconstruction-box": "two corners of the box are turned into W: right for quarter turns only",
     "reconstruction-coverage": "coverage is divided by a slightly wrong number of cells",
     "reconstruction-empty": "without inliers the error is 0 and its variance 0/-1",
-    "reconstruction-transform": "clouds are placed where their frame stood when the level began",
+    "reconstruction-transform": "clouds are placed where their frame was when the level began",
     "restart": "a time or a collision that goes on again begins anew",
     "rows": "a row without an estimate or a path is left out of result.dat, unless errors cancel",
     "stop-once": "the benchmark's stopOn is never reset: after it, no further level begins",
@@ -46,7 +46,7 @@ OLDER = frozenset({"visual-frames"})
 
 
 def compatibility(names: Iterable[str]) -> frozenset[str]:
-    """Return the set of names asked for, ``uwsim`` standing for all but `OLDER`.
+    """Return the set of quirks for these names; ``uwsim`` means all but `OLDER`.
 
     Raises:
         UnknownName: a name is not in the table.

@@ -1,25 +1,23 @@
-"""What can go wrong, and how it is said.
+"""The exceptions of uwsim.
 
 .. code-block:: text
 
     UwsimError
-      SeveralErrors        ... all that is wrong with a call, at once
-      FileError            a file is wrong: all its errors at once, each with its place
+      SeveralErrors        ... all errors of one call
+      FileError            a file is wrong: all its errors, each with its line
         SceneError         ... a scene or robot file
         BenchmarkError     ... a benchmark file
         PluginError        ... a plugin
-      UnknownName          a name that nothing has; names the nearest right one
-      AssetNotFound        a file that is nowhere; names every folder searched
-      AssetError           a file that was found and cannot be used
-      BadSetting           a command-line setting or a parameter that cannot be used
-      BadMessage           a message or request that its topic or service does not take
-      NotAllowed           what an algorithm under test may not do
-      MissingExtra         an optional part that is not installed; says how to install it
-      NoGraphics           no OpenGL context; says what to install
-      RunFailed            a run that broke in the middle
-      NeverStarted         the start trigger of a benchmark never went on
-      ResultError          a result that cannot be read, resumed or trusted
-        ReplayDiffers      ... a replay that did not give the rows that are stored
+      UnknownName          an unknown name; the message gives the nearest known one AssetNotFound
+      a file that was not found; the message lists the folders searched AssetError           a file
+      that was found and cannot be used BadSetting           a command-line setting or a parameter
+      that cannot be used BadMessage           a message or request that does not fit its topic or
+      service NotAllowed           what an algorithm under test may not do MissingExtra         an
+      optional dependency is not installed; the message tells how to install it NoGraphics
+      no OpenGL context; the message tells what to install RunFailed            a run that failed
+      NeverStarted         the start trigger of a benchmark never switched on ResultError          a
+      result that cannot be read or resumed, or is inconsistent
+        ReplayDiffers      ... a replay whose rows differ from the stored ones
 """
 
 from __future__ import annotations
@@ -31,19 +29,19 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 MAX_LISTED = 16
-"""So many names are listed; of more the nearest `N_NEAREST`."""
+"""Greatest number of names listed; of more, the nearest `N_NEAREST` are."""
 N_NEAREST = 3
 
 
 class UwsimError(Exception):
-    """Anything uwsim refuses to do, with a message for the user.
+    """Base of all errors of uwsim; its message is for the user.
 
-    Comes out of a pickle as it went in, whatever its ``__init__`` takes: workers send it home.
+    Can be pickled whatever its ``__init__`` takes, because workers send it to their parent.
     """
 
     def __init__(self, message: str = "", *, name: str = "") -> None:
         self.name = name
-        """The word in a file that it is about, by which its line can be found; may be empty."""
+        """The name in a file that it concerns, by which its line is found; may be empty."""
         super().__init__(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -52,14 +50,14 @@ class UwsimError(Exception):
 
 @dataclass(frozen=True, kw_only=True)
 class Diagnostic:
-    """One thing that is wrong, or worth knowing, about a file."""
+    """An error or a warning about a file."""
 
     file: str
     """The file as the user named it."""
     line: int | None
-    """Line number from 1; None when the whole file is meant."""
+    """Line number from 1; None for the whole file."""
     message: str
-    """What was found, what was expected, and the nearest right answer."""
+    """What was found, what was expected, and the nearest valid value."""
     severity: Literal["error", "warning"] = "error"
     """A warning does not make the file wrong ("read, not simulated yet")."""
 
@@ -77,7 +75,7 @@ class FileError(UwsimError):
 
 
 class SeveralErrors(UwsimError):
-    """Several things are wrong with one call; each is said as if it were alone."""
+    """Several errors of one call, one per line."""
 
     def __init__(self, errors: Sequence[UwsimError]) -> None:
         self.errors = tuple(errors)
@@ -93,11 +91,11 @@ class BenchmarkError(FileError):
 
 
 class PluginError(FileError):
-    """A plugin is wrong, or raised while it was asked something."""
+    """A plugin is wrong, or raised an exception."""
 
 
 class UnknownName(UwsimError):
-    """A name that nothing has."""
+    """An unknown name."""
 
     def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
         self.kind, self.known = kind, tuple(sorted(known))
@@ -105,7 +103,7 @@ class UnknownName(UwsimError):
 
 
 class AssetNotFound(UwsimError):
-    """A file that is in none of the folders searched."""
+    """A file that was not found in the folders searched."""
 
 
 class AssetError(UwsimError):
@@ -117,15 +115,15 @@ class BadSetting(UwsimError):
 
 
 class BadMessage(UwsimError):
-    """A message or request that its topic or service does not take: the sender's error."""
+    """A message or request that does not fit its topic or service: the sender's error."""
 
 
 class NotAllowed(UwsimError):
-    """What an algorithm under test may not do: flood a topic, use a thread, hear the results."""
+    """Forbidden to an algorithm under test: flooding a topic, threads, reading results."""
 
 
 class MissingExtra(UwsimError):
-    """An optional part that is not installed."""
+    """An optional dependency that is not installed."""
 
 
 class NoGraphics(UwsimError):
@@ -133,34 +131,34 @@ class NoGraphics(UwsimError):
 
 
 class NeverStarted(UwsimError):
-    """The start trigger of a benchmark never went on."""
+    """The start trigger of a benchmark never switched on."""
 
 
 class RunFailed(UwsimError):
-    """A run that broke in the middle; what was finished is kept."""
+    """A run that failed; its finished parts are kept."""
 
 
 class ResultError(UwsimError):
-    """A result that cannot be read, resumed or trusted."""
+    """A result that cannot be read or resumed, or is inconsistent."""
 
 
 class ReplayDiffers(ResultError):
-    """A replay did not give the rows that are stored; found only by running."""
+    """The rows of a replay differ from the stored ones; found only by running."""
 
 
 RUN_ERRORS = (NeverStarted, ReplayDiffers, RunFailed)
-"""What can only be found by running; every other `UwsimError` is wrong input."""
+"""Errors found only by running; every other `UwsimError` is invalid input."""
 
 
 class AllErrors:
-    """Collects what is wrong with one call, so that all of it is said at once."""
+    """Collects the errors of one call, so that all of them are reported at once."""
 
     def __init__(self) -> None:
         self._found: list[UwsimError] = []
 
     @contextmanager
     def kept(self) -> Iterator[None]:
-        """Keep what is raised within, and go on behind it."""
+        """Keep an error raised within the block, and continue after it."""
         try:
             yield
         except SeveralErrors as error:
@@ -169,7 +167,7 @@ class AllErrors:
             self._found.append(error)
 
     def check(self) -> None:
-        """Raise what was kept, if anything: one error as it is, several as `SeveralErrors`."""
+        """Raise the kept errors, if any: one as it is, several as `SeveralErrors`."""
         first: dict[str, UwsimError] = {}
         for error in self._found:
             first.setdefault(str(error), error)
@@ -179,7 +177,7 @@ class AllErrors:
 
 
 def choices(name: str, known: Iterable[str], *, called: str = "Known") -> str:
-    """Return " Did you mean 'x'? Known: x, y"; of more than `MAX_LISTED` the nearest alone."""
+    """Return " Did you mean 'x'? Known: x, y"; of more than `MAX_LISTED`, only the nearest."""
     names = list(known)
     meant = did_you_mean(name, names)
     if len(names) <= MAX_LISTED:

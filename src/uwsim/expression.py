@@ -1,4 +1,4 @@
-r"""Expressions with names for numbers, in the language of muParser: scores, error rates.
+r"""Arithmetic expressions with named values, in the syntax of muParser: scores, error rates.
 
 .. code-block:: text
 
@@ -195,12 +195,12 @@ def parse(text: str, names: Collection[str], *, kind: str = "measure") -> Expres
         tree = _parser().parse(text)
     except lark.exceptions.UnexpectedCharacters as error:
         column = error.pos_in_stream or 0
-        raise ScoreError(text, column, f"{text[column]!r} cannot stand here") from None
+        raise ScoreError(text, column, f"{text[column]!r} is not allowed here") from None
     except lark.exceptions.UnexpectedToken as error:
         if error.token.type == "$END":
             raise ScoreError(text, len(text), "the expression ends too early") from None
         column = error.token.start_pos or 0
-        raise ScoreError(text, column, f"{str(error.token)!r} cannot stand here") from None
+        raise ScoreError(text, column, f"{str(error.token)!r} is not allowed here") from None
     steps, used = _compile(tree, text, tuple(names), kind)
     return Expression(text, tuple(used), tuple(steps))
 
@@ -324,7 +324,7 @@ OPERATORS: dict[str, Function] = {
     "/": np.divide,
     "^": elementwise.power,
 }
-"""What stands between two operands."""
+"""The binary operators."""
 
 FUNCTIONS: dict[str, tuple[int | None, Function]] = {
     "abs": (1, np.abs),

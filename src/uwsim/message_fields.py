@@ -1,4 +1,4 @@
-"""Messages before they are given away: every field is what its definition says, and stays so.
+"""Checks and copies of messages before they are published: each field has its defined type.
 
 The definition is the message's dataclass, whose annotations are ROS's own: ``float``, ``str``,
 ``np.ndarray[..., np.dtype[np.float64]]``, ``list[...]`` and other messages.
@@ -39,7 +39,7 @@ _LIST = re.compile(r"list\[(.*)\]")
 def unfit(message: object, of: str = "") -> str | None:
     """Say which field of a message holds something else than its definition has there, or None.
 
-    Lists and tuples that stand for arrays become arrays. ``of`` is the path to a message in
+    Lists and tuples given for arrays become arrays. ``of`` is the path to a message in
     another, with a dot behind it.
     """
     for name, kind, inner in _definition(cast(Hashable, message.__class__)):

@@ -1,4 +1,4 @@
-"""What the user is told on standard error, as lines that can be printed."""
+"""Messages on standard error, cleaned of control characters and shortened."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from collections.abc import Iterable
 from .errors import Diagnostic
 
 MAX_QUOTE_LENGTH = 300
-"""Letters of what a file said that are shown: a word, or what stands between quotes."""
+"""Greatest number of letters shown of a long word or of a quoted text."""
 
 
 MAX_LINE_LENGTH = 4000
-"""Letters of a line, whatever is in it."""
+"""Greatest number of letters in a line."""
 
 
 def warn(message: str) -> None:
-    """Tell the user what the command goes on in spite of."""
+    """Print a warning; the command continues."""
     print(printable(f"uwsim: warning: {message}"), file=sys.stderr)
 
 
 def print_warnings(warnings: Iterable[Diagnostic]) -> None:
-    """Tell the user what of a file seems not to be meant; the command goes on."""
+    """Print warnings about files; the command continues."""
     for warning in warnings:
         print(printable(f"{warning} (warning)"), file=sys.stderr)
 
 
 def printable(text: str) -> str:
-    """Show what a hostile file may hold: no control characters, and not more than can be read."""
+    """Return a text from an untrusted file without control characters, cut to a readable length."""
     return "\n".join(_legible(line) for line in text.split("\n"))
 
 
@@ -40,7 +40,7 @@ def _legible(line: str) -> str:
 
 
 def legible(text: str) -> str:
-    """Show control characters but ends of lines instead of letting a terminal obey them."""
+    """Escape all control characters but line ends."""
     return "".join(
         letter if letter.isprintable() or letter == "\n" else f"\\x{ord(letter):02x}"
         for letter in text
@@ -48,7 +48,7 @@ def legible(text: str) -> str:
 
 
 LONG = re.compile(rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{MAX_QUOTE_LENGTH + 1},}}""")
-"""What a file said: what stands between quotes, and what is long and has no gap."""
+"""Quoted texts, and long words."""
 
 
 def _shortened(found: re.Match[str]) -> str:

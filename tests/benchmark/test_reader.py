@@ -258,8 +258,8 @@ def test_any_order_gives_the_same_specs_and_strict_names_what_is_misplaced(file:
     file.write_bytes(etree.tostring(root))
     assert read_benchmark(file) == WHOLE_SPEC
     misplaced = [str(f) for f in check_benchmark(file, strict=True) if f.severity == "error"]
-    assert any("<startOn> stands behind" in message for message in misplaced)
-    assert any("the original wants it before" in message for message in misplaced)
+    assert any("<startOn> comes after" in message for message in misplaced)
+    assert any("the original expects it before" in message for message in misplaced)
 
 
 @pytest.mark.parametrize(

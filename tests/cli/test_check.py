@@ -48,7 +48,7 @@ def test_strict_holds_a_scene_against_the_originals_order(
     file.write_text("<UWSimScene><simParams/><oceanState/></UWSimScene>")
     assert status(str(file)) == 0
     assert status(str(file), "--strict") == 2
-    assert "<oceanState> stands behind <simParams>" in capsys.readouterr().out
+    assert "<oceanState> comes after <simParams>" in capsys.readouterr().out
 
 
 def test_a_root_that_nobody_knows_says_what_was_expected(

@@ -203,7 +203,7 @@ def test_runs_that_another_search_writes_are_not_overwritten(
     ("options", "wrong"),
     [
         (["--over", "lod"], "--over lod: this benchmark sweeps load. Did you mean 'load'?"),
-        (["--until", "strain >> 5"], "'>' cannot stand here"),
+        (["--until", "strain >> 5"], "'>' is not allowed here"),
         (["--until", "stran > 5"], "Did you mean 'strain'?"),
         (["--from", "-1"], "--from -1: load must be a number >= 0 [N]."),
         (["--from", "1"], "--from and --to are both 1"),

@@ -1,4 +1,4 @@
-"""The interval of a rate of success."""
+"""Confidence interval of a success rate."""
 
 from __future__ import annotations
 

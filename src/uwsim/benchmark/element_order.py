@@ -71,10 +71,10 @@ def check_order(root: etree._Element, diagnostics: Diagnostics) -> None:
                 continue
             if order.index(tag) < last:
                 diagnostics.error(
-                    child, f"<{tag}> stands behind <{shown}>; the original wants it before"
+                    child, f"<{tag}> comes after <{shown}>; the original expects it before"
                 )
             else:
                 last, shown = order.index(tag), tag
         for tag in REQUIRED.get(str(node.tag), ()):
             if tag not in present:
-                diagnostics.error(node, f"<{node.tag}> lacks <{tag}>; the original wants it")
+                diagnostics.error(node, f"<{node.tag}> lacks <{tag}>; the original requires it")

@@ -246,7 +246,7 @@ class _Reader:
             )
         cls = self.triggers.get(kind)
         if len(kinds) > 1:
-            self.diagnostics.error(kinds[1], f"<type> stands twice in <{node.tag}>; only one may")
+            self.diagnostics.error(kinds[1], f"<type> is given twice in <{node.tag}>; only one may")
         for child in kinds:
             _take_out(child)
         if cls is None:

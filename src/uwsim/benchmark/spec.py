@@ -42,18 +42,18 @@ class BenchmarkSpec:
     scene_updater: SceneUpdaterSpec
     """How the scene changes from level to level."""
     scene: str | None = element(default=None, attribute=True, namespaced=True)
-    """Scene file to play in, found from this file's folder; None: it is given with ``--scene``."""
+    """Scene file, relative to this file's folder; None: it is given with ``--scene``."""
     algorithm: str | None = element(default=None, attribute=True, namespaced=True)
-    """Algorithm under test, unless another is asked for."""
+    """Algorithm under test, unless `--algorithm` names another."""
     mode: Literal["sequential", "independent"] | None = element(
         default=None, attribute=True, namespaced=True
     )
-    """How levels follow each other; None: sequential."""
+    """Execution of the levels; None: sequential."""
     compatibility: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
     """Compatibility quirks of the original to reproduce (`uwsim.compatibility`), separated by
     blanks; ``uwsim`` is all of them but ``visual-frames``."""
     patience: float | None = element(default=None, attribute=True, namespaced=True, above=0.0)
-    """How long the start is waited for, in simulation time [s]; None: 10 s."""
+    """Longest wait for the start trigger, in simulation time [s]; None: 10 s."""
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
     """Values of its scene updaters that are drawn anew for each seed: ``u:path`` begins with the
     name of the updater, ``currentForceUpdater.timeOffset``."""

@@ -44,7 +44,7 @@ COMMANDS: dict[str, Command] = {
     "bench": Command(
         module="bench",
         function="bench",
-        summary="Play a benchmark: levels, scores, table, plots and a report.",
+        summary="Run a benchmark: levels, scores, table, plots and a report.",
         examples=(
             "uwsim bench visibility --seed 1",
             "uwsim bench visibility --algorithm ecc --level fog=0.5 --out ecc.result",
@@ -59,7 +59,7 @@ COMMANDS: dict[str, Command] = {
     "compare": Command(
         module="compare",
         function="compare",
-        summary="Say which result is better, by how much, and how surely.",
+        summary="Report which result is better, by how much, how certainly.",
         examples=(
             "uwsim compare esm.result ic.result",
             "uwsim compare --baseline esm.result ic.result ecc.result --measure corners",
@@ -68,7 +68,7 @@ COMMANDS: dict[str, Command] = {
     "envelope": Command(
         module="envelope",
         function="envelope",
-        summary="Find the level at which a benchmark breaks, with its bound.",
+        summary="Find the level at which a benchmark fails, with its bound.",
         examples=(
             'uwsim envelope visibility --over fog --until "corners > 5" --to 2 --repeat 20',
             'uwsim envelope visibility-moving --over fog --until "status == lost" --algorithm orb',

@@ -62,7 +62,8 @@ class BenchOptions:
             INPUT,
             "--algorithm",
             metavar="NAME|module:Class",
-            help="What is tested: a name of `uwsim list algorithms`, or module:Class of your own; "
+            help="Algorithm under test: a name of `uwsim list algorithms`, or your own "
+            "module:Class; "
             "without it the one that the benchmark names (u:algorithm). May be repeated: each has "
             "its result in a folder of --out.",
             autocompletion=algorithm_names,
@@ -124,11 +125,11 @@ class BenchOptions:
 
 
 def bench(context: typer.Context, options: BenchOptions) -> None:
-    """Play a benchmark: every level, scored; a table, logs, plots and a report come out.
+    """Run a benchmark: score every level and write a table, logs, plots and a report.
 
     Written into --out: result.json (all numbers, with units, seeds and hashes), result.dat (the
-    original's table), logs as CSV, plots, report.html. Same files and same seed: the same bytes. A
-    run that was stopped goes on with --resume.
+    original's table), logs as CSV, plots, report.html. Same files and same seed: the same bytes.
+    --resume continues an interrupted run.
     """
     from ..results.directory import check, prepared
     from ..runs.prepare import prepare_runs

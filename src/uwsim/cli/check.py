@@ -40,7 +40,7 @@ def check(
             INPUT,
             "--scene",
             metavar="SCENE.xml",
-            help="The scene that the benchmarks are played in.",
+            help="The scene that the benchmarks are run in.",
             autocompletion=scene_names,
         ),
     ] = None,
@@ -52,13 +52,13 @@ def check(
     plugin: PluginOption = None,
     data_path: DataPathOption = None,
 ) -> None:
-    """Say everything that is wrong with scene, robot, hydrodynamics and benchmark files.
+    """Report all errors of scene, robot, hydrodynamics and benchmark files, with line numbers.
 
-    Code that these files name is looked for and never run; that of a --plugin, which you name, is.
+    Python code that these files name is located but not run; the code of a --plugin is run.
 
-    Exit status 0 without errors, else 2; what is read and not simulated yet is a warning. With
-    --json: {"files": [{"file", "diagnostics": [{"file", "line", "severity", "message"}]}],
-    "n_errors"}.
+    Exit status 0 without errors, else 2; an element that is read and not simulated yet is a
+    warning. With --json: {"files": [{"file", "diagnostics": [{"file", "line", "severity",
+    "message"}]}], "n_errors"}.
     """
     folders = tuple(data_path or ())
     own = read_plugins(plugin)

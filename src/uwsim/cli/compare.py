@@ -52,7 +52,7 @@ class CompareOptions:
     ] = None
     higher_is_better: Annotated[
         bool,
-        in_group(COMPARED, "--higher-is-better", help="More of it is better; errors are not so."),
+        in_group(COMPARED, "--higher-is-better", help="Larger values are better."),
     ] = False
     force: Annotated[
         bool,
@@ -66,9 +66,9 @@ class CompareOptions:
 class PlaceOptions:
     """Where the comparison goes."""
 
-    out: Annotated[
-        Path, in_group(OUTPUT, "--out", metavar="DIR", help="Where numbers, plots and page go.")
-    ] = Path("comparison")
+    out: Annotated[Path, in_group(OUTPUT, "--out", metavar="DIR", help="Output directory.")] = Path(
+        "comparison"
+    )
     overwrite: Annotated[
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier comparison in --out.")
     ] = False
@@ -80,14 +80,14 @@ def compare(
     place: PlaceOptions,
     as_json: JsonOption = False,
 ) -> None:
-    """Say which of several results is better, by how much, and how surely.
+    """Report which of several results is better, by how much, and with what confidence.
 
-    Rows are paired by seed and level: play every algorithm with the same --seed and --repeat, as
+    Rows are paired by seed and level: run every algorithm with the same --seed and --repeat, as
     `uwsim bench visibility --algorithm esm --repeat 12 --out esm.result`. For each level and for
-    the sweep as a whole come the mean difference with its 95 % interval, effect sizes, paired
-    tests corrected by Holm, success rates, and how many repeats would be needed where no
-    difference is shown. Lost rows are counted and never guessed. One repeat shows no difference at
-    all; six are the fewest that can, more where many levels are tested.
+    the whole sweep it reports the mean difference with its 95 % interval, effect sizes, paired
+    tests corrected by Holm, success rates, and how many repeats would be needed where no difference
+    is shown. Rows without a value are counted, not imputed. A difference cannot be significant with
+    fewer than six repeats; more are needed where many levels are tested.
 
     Results whose benchmark, scene, models, mode, timestep, compatibility or settings of the scene
     differ are refused. Written: comparison.json, comparison.csv, comparison.html, plots as PNG and

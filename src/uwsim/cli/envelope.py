@@ -50,7 +50,7 @@ class SearchOptions:
             SEARCH,
             "--over",
             metavar="PARAMETER",
-            help="What grows: a swept parameter of the benchmark, as fog.",
+            help="The swept parameter of the benchmark that is searched, as fog.",
         ),
     ]
     until: Annotated[
@@ -65,12 +65,12 @@ class SearchOptions:
     start: Annotated[
         float | None,
         in_group(
-            SEARCH, "--from", metavar="A", help="Near end, where it holds [first of the sweep]."
+            SEARCH, "--from", metavar="A", help="Near end, where it passes [first of the sweep]."
         ),
     ] = None
     stop: Annotated[
         float | None,
-        in_group(SEARCH, "--to", metavar="B", help="Far end, where it breaks [last of the sweep]."),
+        in_group(SEARCH, "--to", metavar="B", help="Far end, where it fails [last of the sweep]."),
     ] = None
     tolerance: Annotated[
         float | None,
@@ -78,7 +78,7 @@ class SearchOptions:
             SEARCH,
             "--tolerance",
             metavar="T",
-            help="How finely each seed is searched [1 % of the range].",
+            help="Resolution of the search of each seed [1 % of the range].",
         ),
     ] = None
     confidence: Annotated[
@@ -87,7 +87,7 @@ class SearchOptions:
             SEARCH,
             "--confidence",
             metavar="C",
-            help="How surely the bound shall hold the breaking point.",
+            help="Confidence level of the bound of the breaking point.",
         ),
     ] = 0.95
     level: Annotated[
@@ -96,7 +96,7 @@ class SearchOptions:
             SEARCH,
             "--level",
             metavar="NAME=VALUE",
-            help="Where another swept parameter stays, as current=0.1.",
+            help="Fixed value of another swept parameter, as current=0.1.",
         ),
     ] = None
 
@@ -142,7 +142,7 @@ class EnvelopeOptions:
     by: WorkerOptions
     out: Annotated[
         Path | None,
-        in_group(OUTPUT, "--out", metavar="DIR", help="Where it goes [./NAME.envelope]."),
+        in_group(OUTPUT, "--out", metavar="DIR", help="Output directory [./NAME.envelope]."),
     ] = None
     resume: Annotated[
         bool, in_group(OUTPUT, "--resume", help="Use the runs that are in --out already.")
@@ -173,18 +173,18 @@ class EnvelopeOptions:
 
 
 def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
-    """Find the level at which a benchmark breaks: one number, its unit, and its bound.
+    """Find the level at which a benchmark fails: a number, its unit and its confidence bound.
 
-    Each seed is searched by bisection, every level played alone (mode independent). A run is broken
-    where the criterion is not 0, and where its status is not ok: what is lost has no error. A
-    criterion that asks for the status decides itself: 'status == lost', with the names ok, lost,
-    timeout, collision and error. What is found is the median of the seeds' breaking points, with
-    its exact limits; six seeds are the fewest for 95 %. 'Does not break up to B', and a criterion
-    that goes back, are said.
+    Each seed is searched by bisection, every level run alone (mode independent). A run counts as
+    broken where the criterion is not 0 or its status is not ok. A criterion that uses the status
+    decides alone: 'status == lost', with the names ok, lost, timeout, collision and error. The
+    result is the median of the seeds' breaking points, with its exact confidence limits; 95 % needs
+    at least six seeds. A benchmark that does not break up to B, and a criterion that is not
+    monotonic, are reported.
 
-    Written: envelope.json, the same bytes twice, with every run; envelope.png. With --resume the
-    runs in --out are used again, whatever criterion, range, tolerance or number of seeds is asked
-    for now.
+    Writes envelope.json (reproducible byte for byte, with every run) and envelope.png. With
+    --resume the runs in --out are reused, also for another criterion, range, tolerance or number of
+    seeds.
     """
     from ..envelope import plan_for
 

@@ -34,9 +34,9 @@ def info(
 ) -> None:
     """Show what is in a scene: vehicles, cameras, topics, services, joints, water, floor.
 
-    Places are in the file's frame, as in the file and on topics: metres and radians. The floor is
-    looked for straight below each vehicle's origin. What the file says and uwsim does not simulate
-    is listed last.
+    Positions are in the file's frame, as in the file and on topics, in metres and radians. The
+    floor is searched straight below each vehicle's origin. Elements that are read and not simulated
+    are listed last.
     """
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting

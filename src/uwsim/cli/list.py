@@ -41,10 +41,10 @@ def list_names(
     as_json: JsonOption = False,
     plugin: PluginOption = None,
 ) -> None:
-    """List what can be named on the command line and in files, with a line about each.
+    """List the names that can be used on the command line and in files, with a description of each.
 
-    What uwsim reads in a scene and does not simulate is marked. With --json: {KIND: [{"name",
-    "summary", "limit"}]}; limit is empty where all of it is simulated.
+    Elements of a scene that uwsim reads and does not simulate are marked. With --json: {KIND:
+    [{"name", "summary", "limit"}]}; limit is empty where the element is fully simulated.
     """
     if kind is not None and kind not in KINDS:
         raise UnknownName("kind of thing to list", kind, KINDS)

@@ -74,9 +74,7 @@ CompatOption = Annotated[
 
 DataPathOption = Annotated[
     list[Path] | None,
-    in_group(
-        FILES, "--data-path", metavar="DIR", help="Look for files here, too; may be repeated."
-    ),
+    in_group(FILES, "--data-path", metavar="DIR", help="Search files here, too; may be repeated."),
 ]
 
 JsonOption = Annotated[
@@ -123,8 +121,7 @@ WorkersOption = Annotated[
         "--workers",
         metavar="N|ray",
         help="Processes to use on this machine; ray: the cluster that RAY_ADDRESS names, else all "
-        "cores here; 0: this very process, as a debugger wants it, where an algorithm can do more "
-        "harm.",
+        "cores here; 0: this process, for debugging; the algorithm is then not isolated.",
     ),
 ]
 

@@ -42,8 +42,8 @@ class LookOptions:
             INPUT,
             "--view",
             metavar="orbit|top|viewer",
-            help="Look at the vehicles from where they are seen best, from above, or as the file's "
-            "viewer does (its element camera).",
+            help="View of the vehicles from a chosen orbit, from above, or of the file's viewer "
+            "(its element camera).",
         ),
     ] = None
     eye: Annotated[
@@ -62,9 +62,7 @@ class LookOptions:
 class ImageOptions:
     """Which files are written."""
 
-    out: Annotated[
-        Path, in_group(OUTPUT, "--out", "-o", metavar="FILE.png", help="Where the image goes.")
-    ]
+    out: Annotated[Path, in_group(OUTPUT, "--out", "-o", metavar="FILE.png", help="Image file.")]
     size: Annotated[
         str | None,
         in_group(
@@ -115,10 +113,10 @@ def render(
 ) -> None:
     """Draw a scene at time 0: what a camera of it sees, or a view of it.
 
-    A virtual camera sees with its noise and through the water. A view has no noise, and air above
+    The image of a virtual camera has its noise and the water. A view has no noise, and air above
     the water; orbit and top are drawn without fog, unless --set gives it. Without --camera, --view
-    and --from the scene's one virtual camera sees; where there is none, the file's viewer; without
-    either it is an orbit view.
+    and --from the scene's only virtual camera is used; without one, the file's viewer; without
+    either, an orbit view.
     """
     from ..simulation import Simulation
 

@@ -13,9 +13,9 @@ Pdf = Annotated[bool, in_group(OUTPUT, "--pdf", help="Draw every plot as PDF, to
 
 
 def report(result: ResultArgument, pdf: Pdf = False) -> None:
-    """Draw report.html and the plots of RESULT again, from what lies in it alone.
+    """Draw report.html and the plots of RESULT again, from its own files alone.
 
-    Its rows are held against what its units have stored; where that is not there, it is said.
+    Its rows are compared with the journals of its trials; missing journals are reported.
     """
     from ..analysis.report import write_report
     from ..results.journal_check import check_rows

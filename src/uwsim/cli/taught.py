@@ -17,12 +17,12 @@ from ..errors import AllErrors, BadSetting
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 """How help is asked for, of ``uwsim`` and of each command."""
 
-INPUT = "What is played"
-RUN = "How often and by whom"
+INPUT = "What is run"
+RUN = "Repeats and processes"
 SEARCH = "What is searched"
 COMPARED = "What is compared"
-FILES = "Files of your own"
-OUTPUT = "Where it goes"
+FILES = "Your own files and code"
+OUTPUT = "Output"
 OTHERS = "Options"
 """Groups of options, in the order in which help shows them."""
 ORDER = (INPUT, COMPARED, SEARCH, RUN, OUTPUT, FILES, OTHERS)

@@ -46,7 +46,7 @@ class SampleOptions:
             help="How many trials to replay, chosen by chance.",
         ),
     ] = 3
-    whole: Annotated[bool, in_group(RUN, "--all", help="Replay every unit.")] = False
+    whole: Annotated[bool, in_group(RUN, "--all", help="Replay every trial.")] = False
     sample_seed: Annotated[
         int | None,
         in_group(
@@ -54,7 +54,7 @@ class SampleOptions:
             "--sample-seed",
             metavar="N",
             min=0,
-            help="Choose the units that an earlier call has chosen, which said this number.",
+            help="Replay the same trials as an earlier call, which printed this number.",
         ),
     ] = None
 
@@ -121,15 +121,15 @@ def verify(
 ) -> None:
     """Replay a sample of a stored result and compare it with what is stored, byte for byte.
 
-    A trial is what is played in one go: a seed's whole sweep, or one level of it where the
-    benchmark is independent. Files are found by name (beside the result, here, bundled) and known
-    by the hash that was recorded; others are refused. Before any replay, every file of the result
-    is made anew from its trials and compared, every total is worked out from its row, and every
-    value held against the detail that it is. Nobody can know beforehand which trials are replayed:
-    the sample is drawn from the system's own chance, and the number that draws it again is said.
+    A trial is the unit of execution: the whole sweep of a seed, or one level where the benchmark is
+    independent. Files are found by name (next to the result, here, bundled) and identified by the
+    recorded hash; others are refused. Before any replay, every file of the result is made anew from
+    its trials and compared, and every total and every derived value is computed again from its row.
+    The sample of trials is drawn from the system's random source, so it cannot be predicted; the
+    seed that draws it again is printed.
 
-    Exit status 0: the same. 3: something differs; says which trial, level, column and sample, and
-    from the fingerprints that every trial keeps, from which step on and in which body or image.
+    Exit status 0: the same. 3: something differs; the report names trial, level, column and sample
+    and, from the fingerprints of each trial, the first step and the body or image that differ.
     2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
     """
     from ..results.result_file import file_of, load

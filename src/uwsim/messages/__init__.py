@@ -1,4 +1,4 @@
-"""ROS message and service types: what travels on the bus.
+"""ROS message and service types of the bus.
 
 Messages are the ROS 2 (Jazzy) dataclasses that rosbags ships, with ROS's defaults, so that
 ``Twist()`` is one that is all zero (`types`); their text is ROS's own. Services and the types of

@@ -1,4 +1,4 @@
-"""A camera in a recording: the images and the camera's info of a ROS 1 or ROS 2 bag.
+"""The images and camera info of one camera in a ROS 1 or ROS 2 bag.
 
 Read from ``.bag`` files, rosbag2 folders, and single ``.mcap`` and ``.db3`` files, by rosbags. The
 bag is read as it is played: what stands in memory is one image.

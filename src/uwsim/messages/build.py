@@ -1,4 +1,4 @@
-"""Short ways to build and read the messages that everybody needs."""
+"""Functions that build and read common messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Point clouds: sensor_msgs/PointCloud2 to and from arrays, whatever its layout.
+"""Conversion of sensor_msgs/PointCloud2 of any layout to and from arrays.
 
 A cloud is ``height`` rows of ``width`` points; a row takes ``row_step`` bytes, a point
 ``point_step``, and its fields lie anywhere in it: padding, colours and other fields between them
@@ -21,14 +21,14 @@ KINDS = {1: "int8", 2: "uint8", 3: "int16", 4: "uint16", 5: "int32", 6: "uint32"
 
 
 def points(cloud: PointCloud2) -> npt.NDArray[np.float64]:
-    """Return x, y, z of every point, row by row, (n, 3) [m]; NaN as it stands there.
+    """Return x, y, z of every point, row by row, (n, 3) [m]; NaN is kept.
 
     Raises:
         BadSetting: it has no x, y, z, one of them is no float, or its bytes are not all there.
     """
     try:
         return _points(cloud)
-    except (AttributeError, TypeError, ValueError) as error:  # a message made by hand
+    except (AttributeError, TypeError, ValueError) as error:  # a message built by other code
         raise BadSetting(f"it cannot be read: {error}") from error
 
 

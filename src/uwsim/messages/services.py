@@ -1,4 +1,4 @@
-"""Service types: a request and a response each.
+"""Service types, each a request and a response.
 
 ``srv/`` holds their text; a test holds the two together.
 """

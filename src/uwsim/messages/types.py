@@ -1,4 +1,4 @@
-"""ROS's message types with ROS's defaults: ``Twist()`` is one that is all zero.
+"""ROS message types with ROS's defaults: ``Twist()`` is all zero.
 
 The classes are those of rosbags (ROS 2 Jazzy), which want every field; here each field has the
 default that ROS gives it: 0, False, an empty text or list, arrays of zeros in their length, and for
@@ -71,7 +71,7 @@ class MultiArrayDimension(ros.std_msgs__msg__MultiArrayDimension):
 
 @dataclass
 class MultiArrayLayout(ros.std_msgs__msg__MultiArrayLayout):
-    """How the numbers of an array lie."""
+    """The layout of an array."""
 
     dim: list[ros.std_msgs__msg__MultiArrayDimension] = field(default_factory=list)
     data_offset: int = 0
@@ -121,7 +121,7 @@ class Vector3(ros.geometry_msgs__msg__Vector3):
 
 @dataclass
 class Quaternion(ros.geometry_msgs__msg__Quaternion):
-    """A rotation; none, as long as nothing is said: w is 1."""
+    """A rotation; the identity by default (w is 1)."""
 
     x: float = 0.0
     y: float = 0.0
@@ -320,7 +320,7 @@ class LaserScan(ros.sensor_msgs__msg__LaserScan):
 
 @dataclass
 class PointField(ros.sensor_msgs__msg__PointField):
-    """Where a number of each point lies."""
+    """The offset and type of a field of each point."""
 
     name: str = ""
     offset: int = 0

@@ -1,4 +1,4 @@
-"""``docs/*dialect.md`` and ``docs/grammar/*.rng``: the dialects, as the specs have them.
+"""``docs/*dialect.md`` and ``docs/grammar/*.rng``: the dialects, generated from the specs.
 
 All are made from the same table that reads the files (`uwsim.schema.fields_of`), so that none can
 say what the reader does not do.
@@ -20,33 +20,33 @@ from ..schema.names import local
 from .relax_ng import benchmark_grammar, scene_grammar
 
 HEAD = """\
-# The dialect
+# Scene file reference
 
-What may stand in a scene file, made from the specs that read it by `scripts/docs`. Elements may
-stand in any order; what equals its default may be left out. Numbers may be `M_PI`, `M_PI_2`,
+All elements of a scene file; `scripts/docs` generates this page from the specs that read the files.
+Elements may be in any order; those with a default may be left out. Numbers may be `M_PI`, `M_PI_2`,
 `M_PI_4` and their negatives. Flags are 0 or 1. `u:` is the namespace `urn:uwsim:1`: a file that
-uses it carries no DOCTYPE, and what stands in it must say something: an empty element of `u:` that
-holds a value is an error, where one of the original's is as good as none. [Old names](#old-names)
-that older UWSim files use are read, too, with a warning; `uwsim check FILE.xml` names them.
-What is marked as *read, not simulated yet* may stand in a file and does nothing.
+uses it carries no DOCTYPE. An empty element of `u:` that needs a value is an error; an empty
+element of the original keeps its default. [Old names](#old-names) of older UWSim files are read,
+too, with a warning; `uwsim check FILE.xml` reports them. Elements marked as *read, not simulated
+yet* have no effect.
 
-The grammar for editors is [uwsim-scene.rng](grammar/uwsim-scene.rng) (RELAX NG). It knows today's
+The grammar for editors is [uwsim-scene.rng](grammar/uwsim-scene.rng) (RELAX NG). It has today's
 names only.
 """
 
 BENCHMARK_HEAD = """\
-# The dialect of benchmarks
+# Benchmark file reference
 
-What may stand in a benchmark file, made from the specs that read it by `scripts/docs`. Elements may
-stand in any order; what equals its default may be left out. Numbers may be `M_PI`, `M_PI_2`,
-`M_PI_4` and their negatives. `u:` is the namespace `urn:uwsim:1`: a file that uses it carries no
-DOCTYPE. What it all means: [measures](measures.md), [levels](levels.md). `uwsim check FILE.xml`
-holds a file against it, `--strict` also against the original's order. In a file with the original's
-DOCTYPE what stands behind a number (`2 s`) is passed over with a warning; a decimal comma is a
-error.
+All elements of a benchmark file; `scripts/docs` generates this page from the specs that read the
+files. Elements may be in any order; those with a default may be left out. Numbers may be `M_PI`,
+`M_PI_2`, `M_PI_4` and their negatives. `u:` is the namespace `urn:uwsim:1`: a file that uses it
+carries no DOCTYPE. The meaning of the elements: [measures](measures.md), [levels](levels.md).
+`uwsim check FILE.xml` checks a file, `--strict` also the order of elements in the original. In a
+file with the original's DOCTYPE text after a number (`2 s`) is ignored with a warning; a decimal
+comma is an error.
 
-The grammar for editors is [uwsim-benchmark.rng](grammar/uwsim-benchmark.rng) (RELAX NG). It knows
-today's names only, and neither the limits of numbers nor the parts of a plugin.
+The grammar for editors is [uwsim-benchmark.rng](grammar/uwsim-benchmark.rng) (RELAX NG). It has
+today's names only, without the limits of numbers and the elements of plugins.
 """
 
 
@@ -67,22 +67,22 @@ def page() -> str:
 
 
 def _doubts() -> str:
-    """What `uwsim check` asks about."""
+    """The plausibility warnings of `uwsim check`."""
     from ..scene.doubts import DOUBTS
 
     lines = [
-        "## Doubts", "",
-        "What `uwsim check` asks about, and `uwsim bench` and `uwsim render` before they begin, "
-        "though it may be meant. A vehicle with `<u:accept>NAME</u:accept>` is not asked about it "
-        "again, nor an object with `<u:accept>start</u:accept>`. All but `passable`, `size` and "
-        "`start` is asked about simulated vehicles only.", "",
-        "| name | asked about when |", "|---|---|",
+        "## Plausibility warnings", "",
+        "`uwsim check`, and `uwsim bench` and `uwsim render` before they begin, warn about values "
+        "that are valid but unlikely. `<u:accept>NAME</u:accept>` in a vehicle, or "
+        "`<u:accept>start</u:accept>` in an object, accepts the value. All warnings but "
+        "`passable`, `size` and `start` concern simulated vehicles only.", "",
+        "| name | warns when |", "|---|---|",
     ]  # fmt: skip
     return "\n".join([*lines, *(f"| `{name}` | {when} |" for name, when in DOUBTS.items()), ""])
 
 
 def _old_names() -> str:
-    """What files of 2011 to 2019 may say besides."""
+    """Elements of files from 2011 to 2019."""
     from ..scene.legacy import ANYWHERE, RULES
 
     by_parent: dict[str, list[str]] = {}
@@ -90,8 +90,8 @@ def _old_names() -> str:
         by_parent.setdefault(parent, []).append(element)
     lines = [
         "## Old names", "",
-        "Elements that UWSim or its forks once had. They are read as what they are called today, "
-        "or passed over; `uwsim check` says which.", "",
+        "Elements of earlier versions of UWSim and its forks. They are read under today's names or "
+        "ignored; `uwsim check` reports each.", "",
         "| in | old elements |", "|---|---|",
     ]  # fmt: skip
     for parent, elements in [*sorted(by_parent.items()), ("anything", list(ANYWHERE))]:
@@ -159,7 +159,7 @@ def _section(
     limit: str = "",
     homes: Mapping[type, str] = MappingProxyType({}),
 ) -> str:
-    """One element: what it is, how it looks, what stands in it.
+    """One element: description, example and table of its content.
 
     Args:
         name: of the element.
@@ -181,7 +181,7 @@ def _section(
         lines += ["```xml", inspect.cleandoc(block[1]).rstrip(), "```", ""]
     if not fields_of(cls):
         return "\n".join(lines)
-    lines += ["| element | what stands there | default | meaning |", "|---|---|---|---|"]
+    lines += ["| element | content | default | meaning |", "|---|---|---|---|"]
     for field in fields_of(cls):
         mark = " (attribute)" if field.xml.attribute else ""
         part = "" if title is not None else limit_of(name, clark(field.shown))
@@ -214,7 +214,7 @@ def _kind(field: Field, homes: Mapping[type, str]) -> str:
 
 
 def _family(field: Field) -> str:
-    """Where the members of a benchmark's family stand."""
+    """The sections of a benchmark's families of elements."""
     kind = field.type.__name__.removesuffix("Spec")
     title = {"SceneUpdater": "Scene updaters", "GroundTruth": "Ground truths"}.get(kind, f"{kind}s")
     which = "any of" if field.repeated else "one of"
@@ -229,7 +229,7 @@ def _anchor(name: str) -> str:
 def _default(field: Field) -> str:
     default = field.default
     if default is dataclasses.MISSING:
-        return "must be there"
+        return "required"
     if default is None or default in ((), "") or field.kind == "spec":
         return "-"
     if isinstance(default, bool):

@@ -1,4 +1,4 @@
-"""``docs/command-line.md``: the help of every command, as the program itself prints it."""
+"""``docs/command-line.md``: the help texts of all commands."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ HEAD = """\
 This page is what `uwsim --help` and `uwsim COMMAND --help` print; `scripts/docs` writes it.
 
 Exit status: 0 done; 2 wrong input, with one line on stderr for each error; 3 the run failed,
-partial results kept; 130 interrupted, what was finished kept.
+partial results kept; 130 interrupted, finished parts kept.
 
-`uwsim --install-completion` once, and Tab completes commands, options, and the names of scenes,
-benchmarks and algorithms; `python -m uwsim` is the same command. With `--json`, `list`, `info`,
-`check` and `compare` print for programs.
+Run `uwsim --install-completion` once; then Tab completes commands, options, and the names of
+scenes, benchmarks and algorithms; `python -m uwsim` is the same command. With `--json`, `list`,
+`info`, `check` and `compare` print JSON for programs.
 
-A file is looked for as given; beside the file that names it and in each of its parent folders; in
-every `--data-path`; in `~/.uwsim/data` and `~/.uwsim`; in the package; each also under `data`,
-`data/scenes`, `objects`, `terrain`, `robot` and `textures`. Bundled scenes and benchmarks are
-called by their bare name.
+A file is searched as given; next to the file that names it and in each of its parent folders; in
+every `--data-path`; in `~/.uwsim/data` and `~/.uwsim`; in the package; in each of these also under
+`data`, `data/scenes`, `objects`, `terrain`, `robot` and `textures`. Bundled scenes and benchmarks
+are called by their bare name.
 
-A PATH in `--set PATH=VALUE` is element names joined by dots; `[name]` chooses among equals:
-`vehicle[girona500].virtualCamera[bowtech1].std=0.016`.
+A PATH in `--set PATH=VALUE` is element names joined by dots; `[name]` selects one of several
+elements: `vehicle[girona500].virtualCamera[bowtech1].std=0.016`.
 """
 
 

@@ -1,4 +1,4 @@
-"""RELAX NG grammars of the two dialects, as the specs have them.
+"""RELAX NG grammars of the two dialects, generated from the specs.
 
 A spec is a ``<define>`` of what stands in its element, each part once and in any order. A family of
 a benchmark (measures, triggers, ground truths, scene updaters) is a ``<define>`` of its members to
@@ -70,7 +70,7 @@ def _grammar(root: str, spec: type, families: Mapping[type, tuple[Family, Member
 
 
 def _each_once(specs: Iterable[type]) -> Iterator[type]:
-    """These specs and all that stand in them, in the order of the files."""
+    """These specs and all nested ones, in the order of the files."""
     waiting, done = list(specs), set[type]()
     while waiting:
         cls = waiting.pop(0)
@@ -95,7 +95,7 @@ def _by_element(choice: etree._Element, family: Family) -> None:
 
 
 def _by_type(choice: etree._Element, family: Family) -> None:
-    """Members told apart by ``<type>``; a place that means nothing to a type is ignored."""
+    """Alternatives distinguished by ``<type>``; an element that a type does not use is ignored."""
     places = {field.tag: field for spec in family.values() for field in fields_of(spec)}
     for name, spec in family.items():
         member = _sub(choice, "interleave")
@@ -106,7 +106,7 @@ def _by_type(choice: etree._Element, family: Family) -> None:
 
 
 def _by_type_attribute(choice: etree._Element, family: Family) -> None:
-    """Members told apart by ``type=``."""
+    """Alternatives distinguished by ``type=``."""
     for name, spec in family.items():
         member = _sub(choice, "group")
         _pattern(_sub(member, "attribute", name="type"), f"{SPACE}{name}{SPACE}")
@@ -150,7 +150,7 @@ def _field(content: etree._Element, field: Field) -> None:
 
 
 def _stands_often(field: Field) -> bool:
-    """Whether the element itself may be repeated, rather than what stands in it."""
+    """Whether the element itself may be repeated, not only its content."""
     is_one_box = field.kind in ("choice", "manual") or (
         field.kind != "list" and bool(field.xml.item)
     )
@@ -189,7 +189,7 @@ def _pattern(node: etree._Element, pattern: str) -> None:
 
 
 def _ref(node: etree._Element, spec: type) -> None:
-    """What stands here is what ``spec`` says."""
+    """The content of an element, from its ``spec``."""
     _sub(node, "ref", name=spec.__name__)
 
 

@@ -1,4 +1,4 @@
-"""The tables of ``docs/sensors.md``: what is simulated and what is only read, as the code has it.
+"""The tables of ``docs/sensors.md``: simulated sensors, and those that are only read.
 
 The page itself is written by hand; each table stands between ``<!-- table: NAME -->`` and
 ``<!-- end of table -->`` and is made by `filled` from the specs that read scene files.
@@ -29,7 +29,7 @@ def filled(page: str) -> str:
 
 
 def _sensors(*, simulated: bool) -> str:
-    """Sensors, with the elements that they have beside name and link."""
+    """Sensors, with their elements besides name and link."""
     rows = []
     for name, summary in sensors(bundled_tables()).items():
         if simulated is (limit_in("sensors", name) == ""):
@@ -48,7 +48,7 @@ def _devices(*, simulated: bool) -> str:
 
 
 def _topics(*, simulated: bool) -> str:
-    """Interfaces that publish, with the rate that they have unless the file says otherwise."""
+    """Interfaces that publish, with their default rates."""
     rows = []
     for tag, spec in INTERFACES.items():
         name = f"u:{local(tag)}" if tag.startswith("{") else tag

@@ -35,7 +35,7 @@ def check_angles(spec: object, diagnostics: Diagnostics) -> None:
 
     Args:
         spec: what a file says.
-        diagnostics: where to ask; it remembers the elements of the specs.
+        diagnostics: receives the warnings; knows the elements of the specs.
     """
     kind: type = type(spec)
     for field, shown in _angles(kind):

@@ -26,7 +26,7 @@ def check_looks(
     Args:
         scene: the scene.
         robots: the robot of each vehicle that has one, by its number in the scene.
-        diagnostics: where to say it; it remembers the elements of the specs.
+        diagnostics: receives the warnings; knows the elements of the specs.
     """
     for index, robot in robots.items():
         vehicle = scene.vehicles[index]

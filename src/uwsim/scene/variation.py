@@ -204,7 +204,7 @@ def check_variations(
 
     Args:
         spec: a scene, or a benchmark.
-        diagnostics: where to say it.
+        diagnostics: receives the errors.
         find: where a path leads in it.
         also: raises BadSetting at what is wrong with the whole when a value is at its bound.
     """

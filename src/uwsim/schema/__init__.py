@@ -1,12 +1,12 @@
-r"""How a spec stands in XML: safe parsing, reading and writing of dataclasses, every error at once.
+r"""Reading and writing dataclasses as XML: safe parsing, all errors of a file at once.
 
 .. code-block:: xml
 
     <rangeSensor> <name>sonar</name> <relativeTo>part0</relativeTo> <range>10</range> </rangeSensor>
 
-A frozen dataclass is the grammar. Each field is an element (``relative_to`` is ``<relativeTo>``;
-`element` says where it differs), its annotation says what may stand there, its documentation
-string says what it means and, in brackets, its unit:
+A frozen dataclass is the grammar. Each field is an element (``relative_to`` is ``<relativeTo>``
+unless `element` gives another name); its annotation gives the type, its documentation string the
+meaning and, in brackets, the unit:
 
 =========================  ====================================================================
 annotation                 in the file
@@ -24,9 +24,9 @@ a dataclass                an element that is filled from its own fields
 ``T | None``               may be absent
 =========================  ====================================================================
 
-Elements stand in any order. Names without a namespace are the original's and nothing else;
-extensions live in ``urn:uwsim:1``. A DTD is never loaded, an entity never expanded, the network
-never asked. `Diagnostics` in strict mode also holds a file against the order of the fields.
+Elements may be in any order. Names without a namespace are those of the original; extensions are in
+``urn:uwsim:1``. DTDs are not loaded, entities not expanded, the network not used. In strict mode
+`Diagnostics` also reports elements that are not in the order of the fields.
 """
 
 from .declaration import REQUIRED, Limits, Original, element

@@ -1,4 +1,4 @@
-"""How a field of a spec is declared: what `element` says about it."""
+"""Declaration of the fields of a spec: `element` and its options."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from typing import Any, TypedDict, Unpack
 
 @dataclass(frozen=True)
 class Original:
-    """How the original reads an element, where that is more than its name and type."""
+    """How the original reads an element, where that differs from its name and type."""
 
     aliases: tuple[str, ...] = ()
     """Old names, read with a warning."""
     required: bool = False
-    """Its DTD wants the element although it has a default."""
+    """Its DTD requires the element although it has a default."""
     lenient: bool = False
     """Junk behind a number is a warning, not an error (the original uses atof)."""
     invalid: bool | None = None
@@ -23,7 +23,7 @@ class Original:
 
 
 REQUIRED = Original(required=True)
-"""An element that the original's DTD wants although it has a default."""
+"""An element that the original's DTD requires although it has a default."""
 
 
 class Limits(TypedDict, total=False):
@@ -67,7 +67,7 @@ def element(
     original: Original = Xml.original,
     **limits: Unpack[Limits],
 ) -> Any:
-    """Make a dataclass field that stands in the file otherwise than its name alone would say.
+    """Make a dataclass field whose XML form differs from what its name and type imply.
 
     Args:
         name: of the element or attribute; the field's in camelCase when absent.
@@ -77,7 +77,7 @@ def element(
         namespaced: it is an extension, ``u:name``.
         parts: names of a triple's elements, one letter each.
         item: the element is a list; this is the name of its items.
-        choice: name -> spec of the children that may stand in the element, in any number.
+        choice: name -> spec of the children that the element may contain, in any number.
         original: how the original reads it.
         limits: ``minimum``, ``maximum``, ``above`` and ``below`` of a number.
     """

@@ -40,7 +40,7 @@ class Diagnostics:
         self.error(node, f"{what}.{self.near(name, known)}")
 
     def near(self, name: str, known: Iterable[str], severity: str = "error") -> str:
-        """Return " Did you mean x?", or nothing where nobody would read it."""
+        """Return " Did you mean x?"; empty for long names and beyond the listed diagnostics."""
         if len(name) > 80 or not self._has_room(severity):
             return ""
         return did_you_mean(name, itertools.islice(known, 1000)).replace("'", "")

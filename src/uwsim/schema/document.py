@@ -1,4 +1,4 @@
-"""Files to trees: no DTD, no entities, no network, bounded in size, depth and number."""
+"""Parsing XML files: no DTD, no entities, no network, bounded in size, depth and number."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ STRAY = {
     "EntityRef: expecting ';'": "a bare '&'; write &amp;",
     "StartTag: invalid element name": "a '<' that begins no element; for 'less than' write &lt;",
 }
-"""What the parser says of a sign of the score language, and what we say."""
+"""Messages of the parser about signs of the score language, and their replacements."""
 _NICKNAME = re.compile(r"latin-?1", re.I)
 
 
@@ -83,7 +83,7 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
 
 
 def _message(entry: etree._LogEntry, data: bytes) -> str:
-    """What the parser found wrong, in whole words."""
+    """The parser's message, without abbreviations."""
     text = data.rstrip()
     if (
         entry.line > text.count(b"\n")
@@ -106,7 +106,7 @@ def _not_there(path: Path) -> str:
 
 
 def _bytes(path: Path, diagnostics: Diagnostics) -> bytes:
-    """The bytes of a file that may be handed to the parser, or errors."""
+    """The bytes of a file, if they may be parsed; else errors."""
     try:
         if not path.is_file():
             diagnostics.error(None, _not_there(path))
@@ -153,7 +153,7 @@ def check_head(document: Document, root: str, diagnostics: Diagnostics) -> None:
         diagnostics.error(
             use,
             f"uses {NAMESPACE} and names a DOCTYPE; drop the DOCTYPE, so that the original "
-            "refuses the file instead of playing something else",
+            "refuses the file instead of running something else",
         )
 
 

@@ -39,7 +39,7 @@ _SIGNS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
     "maximum": ("<=", operator.le),
     "below": ("<", operator.lt),
 }
-"""How each of `Limits` is written, and the comparison that it stands for."""
+"""Text and comparison of each of `Limits`."""
 
 
 @dataclass(frozen=True)
@@ -60,13 +60,13 @@ class Field:
     optional: bool
     """Whether None is allowed."""
     xml: Xml
-    """What `element` said."""
+    """The options of `element`."""
     default: Any
-    """Its default; MISSING when it must be there."""
+    """Its default; MISSING when it required."""
     owner: type
     """The spec it belongs to."""
     words: tuple[str, ...] = ()
-    """Of a triple, what may stand in the place of its elements."""
+    """Words that a triple may hold instead of its elements."""
 
     @property
     def shown(self) -> str:
@@ -86,7 +86,7 @@ class Field:
 
     @property
     def expected(self) -> str:
-        """What should have stood there, in words."""
+        """The expected content, in words."""
         if self.kind == "word":
             text = "one of " + ", ".join(repr(word) for word in self.type)
             parts = " ".join(f"<{part}>" for part in self.xml.parts)

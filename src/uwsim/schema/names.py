@@ -1,4 +1,4 @@
-"""How elements and values are called in messages."""
+"""Names of elements and values in messages."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def shown(node: etree._Element) -> str:
 
 
 def shown_tag(tag: str) -> str:
-    """A qualified name as an element, with the namespace when it is none of ours."""
+    """A qualified name as an element, with the namespace when it is unknown."""
     if tag.startswith("{"):
         space, _, name = tag[1:].partition("}")
         return f"<u:{name[:60]}>" if space == NAMESPACE else f"<{name[:60]}> (in {space[:60]!r})"
@@ -36,12 +36,12 @@ FOREIGN = {
 
 
 def advice(tag: str) -> str:
-    """What to do about an element of somebody else's namespace; empty when we do not know."""
+    """Advice about an element of another namespace; empty when there is none."""
     return FOREIGN.get(tag[1:].partition("}")[0], "") if tag.startswith("{") else ""
 
 
 def shown_attribute(name: str) -> str:
-    """A qualified name as an attribute, with the namespace when it is none of ours."""
+    """A qualified name as an attribute, with the namespace when it is unknown."""
     return shown_tag(name).replace("<", "", 1).replace(">", "", 1)
 
 

@@ -1,4 +1,4 @@
-"""Elements to specs."""
+"""Reading specs from XML elements."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def read(
     Args:
         cls: a dataclass.
         node: the element.
-        diagnostics: where to say what is wrong.
-        given: fields that the caller has read by hand; their elements are not looked at.
+        diagnostics: receives the errors.
+        given: fields that the caller has read already; their elements are skipped.
 
     Returns:
         The spec, with defaults where optional values were invalid; None when it cannot be made.
@@ -75,7 +75,7 @@ def read_choice(
         if tag not in table:
             _unknown_element(child, node, table, diagnostics)
             continue
-        if not tag.startswith("{"):  # of extensions the original says nothing
+        if not tag.startswith("{"):  # the original has no extensions
             if diagnostics.strict and order[tag] < last[0]:
                 _misplaced(child, last[1], diagnostics)
             last = max(last, (order[tag], tag))
@@ -85,12 +85,12 @@ def read_choice(
 
 
 def text_of(node: etree._Element, diagnostics: Diagnostics) -> str:
-    """The text of a leaf, trimmed; of several pieces split by comments the last that says some."""
+    """The text of a leaf, trimmed; where comments split it, the last piece that is not empty."""
     message = ""
     for piece in (node.text, *(child.tail for child in node)):
         message = (piece or "").strip(BLANKS) or message
     for child in _elements(node, diagnostics):
-        diagnostics.error(child, f"{shown(child)} inside {shown(node)}, where only text may stand")
+        diagnostics.error(child, f"{shown(child)} inside {shown(node)}, where only text is allowed")
     return message
 
 
@@ -135,7 +135,7 @@ def _children(
         if here and not (field.repeated and field.kind != "choice" and _repeats(field)):
             diagnostics.error(
                 child,
-                f"{shown(child)} stands twice in {shown(node)} (first in line "
+                f"{shown(child)} is given twice in {shown(node)} (first in line "
                 f"{here[0].sourceline}); only one may",
             )
             continue
@@ -144,7 +144,7 @@ def _children(
 
 
 def _repeats(field: Field) -> bool:
-    """Whether the element itself is repeated, rather than the items in it."""
+    """Whether the element itself is repeated, not only the items in it."""
     return field.kind == "list" or field.xml.item is None
 
 
@@ -173,7 +173,7 @@ def _read_attributes(
 def _read_field(
     field: Field, parent: etree._Element, nodes: list[etree._Element], diagnostics: Diagnostics
 ) -> Any:
-    """The value of a field that is not an attribute; BAD when it is absent or invalid."""
+    """Read a field that is not an attribute; BAD when it is absent or invalid."""
     if field.xml.text:
         return _leaf(field, parent, diagnostics)
     if not nodes:
@@ -184,7 +184,7 @@ def _read_field(
             and _repeats(field)
         ):
             diagnostics.error(
-                parent, f"{shown(parent)} lacks <{field.shown}>: at least one must stand"
+                parent, f"{shown(parent)} lacks <{field.shown}>: at least one is required"
             )
         elif field.default is MISSING or (diagnostics.strict and field.xml.original.required):
             diagnostics.error(parent, f"{shown(parent)} lacks <{field.shown}>: {_purpose(field)}")
@@ -233,7 +233,7 @@ def _read_triple(field: Field, node: etree._Element, diagnostics: Diagnostics) -
         if tag not in tuple(field.xml.parts):
             _unknown_element(child, node, tuple(field.xml.parts), diagnostics)
         elif tag in seen:
-            diagnostics.error(child, f"<{tag}> stands twice in {shown(node)}; only one may")
+            diagnostics.error(child, f"<{tag}> is given twice in {shown(node)}; only one may")
         else:
             seen.add(tag)
             text = text_of(child, diagnostics)
@@ -302,11 +302,11 @@ def _unknown_attribute(
 
 def _misplaced(child: etree._Element, after: str, diagnostics: Diagnostics) -> None:
     diagnostics.error(
-        child, f"{shown(child)} stands behind <{after}>; the original wants it before"
+        child, f"{shown(child)} comes after <{after}>; the original expects it before"
     )
 
 
 def _purpose(field: Field) -> str:
-    """What a missing element would say: the first sentence of its documentation."""
+    """The purpose of a missing element: the first sentence of its documentation."""
     message = field.doc.split(". ")[0].replace("\n", " ").replace("``", "`").rstrip(".")
     return message[:1].lower() + message[1:] or field.expected

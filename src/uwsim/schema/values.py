@@ -1,4 +1,4 @@
-"""Scalars: a number, a flag, a word from its text."""
+"""Parsing scalars: numbers, flags and words."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ TOKENS = {
     "-M_PI_2": -math.pi / 2,
     "-M_PI_4": -math.pi / 4,
 }
-"""What may stand in the place of a number."""
+"""Constants that are read as numbers."""
 
 MAX_NUMBERS = 36
 """In one element: a full matrix of six rows."""
@@ -96,7 +96,7 @@ def scalar(
 def numbers(
     field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, shown: str
 ) -> Any:
-    """Several numbers from their text, separated by blanks; commas may stand between them."""
+    """Several numbers from their text, separated by blanks or commas."""
     words = text.replace(",", " ").split()
     values = [number(word) for word in words]
     beyond = [

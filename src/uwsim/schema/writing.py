@@ -1,4 +1,4 @@
-"""Specs to elements."""
+"""Writing specs as XML elements."""
 
 from __future__ import annotations
 

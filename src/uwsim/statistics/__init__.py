@@ -1,4 +1,4 @@
-"""Statistics: intervals, paired tests, effect sizes and how many repeats would be enough.
+"""Confidence intervals, paired tests, effect sizes and power analysis.
 
 Pure numbers in, pure numbers out; nothing here knows of benchmarks. Where chance is needed it comes
 from a named stream of its own, so that equal values always have equal intervals.

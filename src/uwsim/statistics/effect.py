@@ -1,4 +1,4 @@
-"""Sizes of effects: how large a difference is, in units that any benchmark has."""
+"""Effect sizes: the size of a difference in standardised units."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Many tests at once."""
+"""Holm's correction for multiple tests."""
 
 from __future__ import annotations
 

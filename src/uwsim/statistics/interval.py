@@ -1,4 +1,4 @@
-r"""The interval of a mean, by the smoothed bootstrap-t."""
+r"""Confidence interval of a mean, by the smoothed bootstrap-t."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MAX_RESAMPLED = 200
 
 @dataclass(frozen=True, kw_only=True)
 class Interval:
-    """A mean and where it lies; without limits there were too few values to say."""
+    """A mean and its confidence interval; without limits there were too few values."""
 
     n: int
     """Number of values."""

@@ -1,4 +1,4 @@
-"""The median of values that are known between limits, and the exact interval of it."""
+"""The median of interval-censored values, with its exact confidence interval."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Median:
-    """The middle of some values, and between which limits the middle of all there are lies."""
+    """A sample median and the confidence limits of the true median."""
 
     n: int
     """Number of values, at least 1."""
     value: float | None
-    """Their median; None where it lies beyond what is known."""
+    """Their median; None where it is censored."""
     low: float | None
-    """Lower limit, minus infinity where it lies beyond; None: too few values for any."""
+    """Lower limit, minus infinity where it is censored; None: too few values."""
     high: float | None
     """Upper limit, likewise."""
     confidence: float | None
-    """How surely the limits hold the median, at least: no less than what was asked for."""
+    """Confidence level of the limits, at least the requested one."""
 
 
 def median_interval(brackets: Sequence[tuple[float, float]], *, confidence: float = 0.95) -> Median:

@@ -1,4 +1,4 @@
-"""Tests on pairs: two values, or two outcomes, that share their seed and their level."""
+"""Paired tests: two values, or two outcomes, of the same seed and level."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def mcnemar(first_only: int, second_only: int) -> float:
 
     Of the pairs in which only one succeeded, each side should win half: p is that of a fair coin,
     :math:`2\,P(X \le \min(b, c))` with :math:`X \sim B(b + c, 1/2)`, at most 1. Pairs in which both
-    or neither succeeded say nothing about which is better.
+    or neither succeeded carry no information about which is better.
     """
     from scipy.special import bdtr
 

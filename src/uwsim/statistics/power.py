@@ -1,4 +1,4 @@
-"""How many repeats would be enough: planning, not inference."""
+"""Number of repeats for a wanted power: planning, not inference."""
 
 from __future__ import annotations
 

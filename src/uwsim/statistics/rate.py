@@ -1,4 +1,4 @@
-"""The interval of a rate of success."""
+"""Confidence interval of a success rate."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Rate:
-    """How often something succeeded, and between which limits the true rate lies."""
+    """A success rate and its confidence limits."""
 
     n: int
     """Number of trials, at least 1."""

@@ -126,7 +126,7 @@ ERRORS = {
     ),
     "a syntax error": (
         changed("corners+centroid", "corners+*centroid"),
-        "<function", "<function>: '*' cannot stand here (column 9)",
+        "<function", "<function>: '*' is not allowed here (column 9)",
     ),
     "a measure that is not there in the function": (
         changed("corners+centroid", "corners+centre"),
@@ -196,7 +196,7 @@ ERRORS = {
     "an arm that goes nowhere": (
         with_updater("<armMoveUpdater><step>1</step><interval>1</interval>"
                      "<target>girona500</target></armMoveUpdater>"),
-        "<armMoveUpdater>", "lacks <armPosition>: at least one must stand",
+        "<armMoveUpdater>", "lacks <armPosition>: at least one is required",
     ),
     "an unknown camera": (
         changed(CAMERA, CAMERA.replace("h1", "h")), "<camera>bowtech<", "Did you mean 'bowtech1'?",

@@ -249,6 +249,6 @@ def _points(path: Path) -> Array | None:
     try:
         places = [pose.pose.position for pose in path.poses]
         points = np.array([(place.x, place.y, place.z) for place in places], dtype=np.float64)
-    except (AttributeError, TypeError, ValueError):  # a message made by hand
+    except (AttributeError, TypeError, ValueError):  # a message built by other code
         return None
     return points.reshape(-1, 3) if np.isfinite(points).all() else None

@@ -2,7 +2,7 @@
 
 No file system is shared. Rows and images come back level by level and are kept here, as though
 they had been played here; a worker whose machine has other files, versions or another renderer
-says so before it plays. What is played must be there already: uwsim, and a user's own files under
+says so before it plays. What is played required already: uwsim, and a user's own files under
 the same paths (``ray job submit --working-dir`` brings them).
 """
 
