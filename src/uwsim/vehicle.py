@@ -64,6 +64,13 @@ class Vehicle(Protocol):
         """Names of its thrusters as in its hydrodynamics file; none if it is not simulated."""
 
     @property
+    def fins(self) -> tuple[str, ...]:
+        """Names of its fins as in its hydrodynamics file; none if it is not simulated."""
+
+    def turn_fins(self, angles: Array) -> None:
+        """Let its fins turn to these angles and stay there, (n,) [rad]."""
+
+    @property
     def autopilot(self) -> Autopilot | None:
         """What steers it; None if it is not simulated."""
 

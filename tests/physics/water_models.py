@@ -11,6 +11,7 @@ import numpy as np
 from uwsim.geometry import Pose, rotation_about
 from uwsim.physics.hydrodynamics import (
     BodyHydrodynamics,
+    FinSpec,
     ThrusterSpec,
     VehicleHydrodynamics,
     prepare,
@@ -29,6 +30,7 @@ def free_body(
     inertia: tuple[float, ...] = (1.0, 1.0, 1.0),
     centre_of_mass: tuple[float, float, float] = (0.0, 0.0, 0.0),
     thrusters: Mapping[str, ThrusterSpec] | None = None,
+    fins: Mapping[str, FinSpec] | None = None,
     surface: float = FAR_BELOW,
     density: float = 1000.0,
     timestep: float = 0.002,
@@ -46,7 +48,8 @@ def free_body(
     body.explicitinertial = True
     body.add_freejoint()
     propellers = {name: ("body", one) for name, one in (thrusters or {}).items()}
-    prepare(spec, {"body": water}, propellers, surface=surface, density=density)
+    foils = {name: ("body", one) for name, one in (fins or {}).items()}
+    prepare(spec, {"body": water}, propellers, foils, surface=surface, density=density)
     return spec.compile()
 
 
@@ -78,6 +81,7 @@ DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data"
 ROBOTS = {
     "bluerov2_heavy": DATA / "vehicles" / "bluerov2_heavy.urdf",
     "g500_physical": DATA / "scenes" / "g500ARM5.urdf",
+    "remus100": DATA / "vehicles" / "remus100.urdf",
     "rexrov": DATA / "vehicles" / "rexrov.urdf",
     "uwsim_compat": DATA / "scenes" / "g500ARM5.urdf",
 }
@@ -121,6 +125,7 @@ def bundled(
         spec,
         {body.link: body for body in vehicle.bodies if body.link in nodes},
         {one.name: (one.link, one) for one in vehicle.thrusters},
+        {one.name: (one.link, one) for one in vehicle.fins},
         surface=FAR_BELOW,
         density=vehicle.density,
     )

@@ -41,6 +41,12 @@ WAYS = {
         f"</u:ROSThrustersToPAT>{END}",
         "no vehicle is called 'girona50'. Did you mean 'girona500'?",
     ),
+    "angles of fins that it has not": (
+        END,
+        "\n<u:ROSFinsToPAT> <u:topic>/a</u:topic> <u:vehicleName>girona500</u:vehicleName> "
+        f"</u:ROSFinsToPAT>{END}",
+        "the hydrodynamics file of the vehicle 'girona500' has no <fin>",
+    ),
     "two kinds of messages on a topic": (
         END,
         "\n<u:ROSWrenchToPAT> <u:topic>dataNavigator</u:topic> "

@@ -21,6 +21,15 @@ from .check import diagnostics_of
 from .console import Console
 from .options import DataPathOption, JsonOption, SceneArgument, SetOption
 
+DRAG_LAWS = {
+    "axes": "by each component's own speed",
+    "speed": "by the speed of all three components",
+    "x": "by the speed across the x axis",
+    "y": "by the speed across the y axis",
+    "z": "by the speed across the z axis",
+    "matrix": "by a full matrix",
+}
+"""``dragLaw`` of a hydrodynamics file, in words."""
 UNWRAPPED = 160
 """Columns for a reader that is a program."""
 Fields = Mapping[str, Any]
@@ -130,10 +139,25 @@ def _vehicle(vehicle: Fields) -> list[str]:
         f"turned {_numbers(vehicle['orientation'])} rad; {vehicle['moves']}",
         f"below it: {_below(vehicle['below'])}",
         f"thrusters: {', '.join(vehicle['thrusters']) or 'none that are simulated'}",
+        *_fins(vehicle["fins"]),
         f"links: {', '.join(vehicle['links'])}",
+        *_drag(vehicle["drag_laws"]),
     ]
     lines += [f"joint {_joint(joint)}" for joint in vehicle["joints"]]
     return lines
+
+
+def _fins(fins: Sequence[Fields]) -> Iterator[str]:
+    said = [f"{fin['name']} ({fin['limits'][0]:g} to {fin['limits'][1]:g} rad)" for fin in fins]
+    if said:
+        yield f"fins: {', '.join(said)}"
+
+
+def _drag(laws: Mapping[str, str]) -> Iterator[str]:
+    """Which links have which drag law."""
+    for law, words in DRAG_LAWS.items():
+        if links := [link for link, one in laws.items() if one == law]:
+            yield f"quadratic drag {words}: {', '.join(links)}"
 
 
 def _below(surfaces: Sequence[Fields]) -> str:

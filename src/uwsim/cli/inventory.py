@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import Diagnostic
+from ..physics.hydrodynamics import FinSpec, VehicleHydrodynamics
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec
 from ..scene.unsupported import READ_ONLY, limit_of
@@ -95,6 +96,7 @@ def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
     spec = scene.vehicles[index]
     robot = simulation.world.robots[index]
     actuators = simulation.world.actuators(spec.name)
+    dynamics = simulation.world.dynamics.get(index)
     return {
         "name": spec.name,
         "file": spec.file,
@@ -105,6 +107,8 @@ def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
         "links": [link.name for link in robot.links],
         "joints": [_joint(joint) for joint in robot.movable],
         "thrusters": list(actuators.thrusters) if actuators is not None else [],
+        "fins": [] if dynamics is None else [_fin(fin) for fin in dynamics.fins],
+        "drag_laws": {} if dynamics is None else _drag_laws(dynamics),
         "lamps": len(spec.lamps),
         "below": _below(scene, spec, simulation),
     }
@@ -121,6 +125,25 @@ def _moves(scene: SceneSpec, spec: VehicleSpec) -> str:
         for interface in scene.ros_interfaces
     )
     return "kinematic: goes where messages put it" if is_reported else "stands still"
+
+
+def _drag_laws(dynamics: VehicleHydrodynamics) -> dict[str, str]:
+    """Link -> what its quadratic drag goes with; links without any are left out."""
+    return {
+        body.link: "matrix" if len(body.quadratic_damping) == 36 else body.drag_law
+        for body in dynamics.bodies
+        if any(body.quadratic_damping)
+    }
+
+
+def _fin(fin: FinSpec) -> Fields:
+    return {
+        "name": fin.name,
+        "link": fin.link,
+        "area": fin.area,
+        "limits": list(fin.limits),
+        "rate": fin.rate,
+    }
 
 
 def _joint(joint: JointSpec) -> Fields:

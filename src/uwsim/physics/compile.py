@@ -22,7 +22,13 @@ from ..scene.spec import SceneSpec
 from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
 from .engine_warnings import hush
 from .free_objects import loose_hydrodynamics, loose_link
-from .hydrodynamics import BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics, prepare
+from .hydrodynamics import (
+    BodyHydrodynamics,
+    FinSpec,
+    ThrusterSpec,
+    VehicleHydrodynamics,
+    prepare,
+)
 from .shapes import CollisionShape
 from .world_tree import rebuild_world_tree
 
@@ -83,6 +89,11 @@ def vehicle_joint(index: int, joint: str) -> str:
 def vehicle_thruster(index: int, thruster: str) -> str:
     """Name in the model of a thruster of the vehicle number ``index``."""
     return f"vehicle/{index}/thruster/{thruster}"
+
+
+def vehicle_fin(index: int, fin: str) -> str:
+    """Name in the model of a fin of the vehicle number ``index``."""
+    return f"vehicle/{index}/fin/{fin}"
 
 
 def object_body(index: int) -> str:
@@ -336,15 +347,18 @@ def _add_water(
 ) -> None:
     bodies: dict[str, BodyHydrodynamics] = dict(loose)
     thrusters: dict[str, tuple[str, ThrusterSpec]] = {}
+    fins: dict[str, tuple[str, FinSpec]] = {}
     for index, vehicle in dynamics.items():
         for body in vehicle.bodies:
             bodies[vehicle_body(index, body.link)] = body
         for thruster in vehicle.thrusters:
             link = vehicle_body(index, thruster.link)
             thrusters[vehicle_thruster(index, thruster.name)] = (link, thruster)
+        for fin in vehicle.fins:
+            fins[vehicle_fin(index, fin.name)] = (vehicle_body(index, fin.link), fin)
     density = next(iter(dynamics.values())).density
     surface = scene.ocean_state.ocean_surface_height
-    prepare(spec, bodies, thrusters, surface=surface, density=density)
+    prepare(spec, bodies, thrusters, fins, surface=surface, density=density)
 
 
 def _add_body(

@@ -22,7 +22,14 @@ from .actuation.allocation import thrusters_on_base
 from .actuation.autopilot import Autopilot
 from .actuation.servos import Servos
 from .balance import balance_of
-from .compile import compile_scene, object_body, vehicle_body, vehicle_joint, vehicle_thruster
+from .compile import (
+    compile_scene,
+    object_body,
+    vehicle_body,
+    vehicle_fin,
+    vehicle_joint,
+    vehicle_thruster,
+)
 from .contacts import contacts_of
 from .engine_warnings import say_too_fast, speeds_of, too_fast, why_untrue
 from .hydrodynamics import VehicleHydrodynamics
@@ -301,6 +308,20 @@ class Engine:
             return ()
         return tuple(thruster.name for thruster in self._dynamics[index].thrusters)
 
+    def fins(self, index: int) -> tuple[str, ...]:
+        """Names of the fins of a vehicle, in the order of its hydrodynamics file."""
+        return (
+            tuple(fin.name for fin in self._dynamics[index].fins)
+            if self.is_simulated(index)
+            else ()
+        )
+
+    def turn_fins(self, index: int, angles: Array) -> None:
+        """Let the fins of a vehicle turn to these angles, (n,) [rad]."""
+        assert self._water is not None
+        for name, angle in zip(self.fins(index), angles.tolist(), strict=True):
+            self._water.turn_fin(self._data, vehicle_fin(index, name), angle)
+
     def set_loss(self, index: int, thruster: int, loss: float) -> None:
         """Let a thruster lose a part of its thrust: 0 healthy, 1 dead."""
         assert self._water is not None
@@ -323,6 +344,9 @@ class Engine:
             self._free_velocities[index][:] = 0.0
             for thruster in self._thrusters[index]:
                 self._stop_thruster(thruster)
+            for name in self.fins(index):
+                assert self._water is not None
+                self._water.stop_fin(self._data, vehicle_fin(index, name))
             self._autopilots[index].hold(world_from_base)
             self._contacts_hold = False
         self._moved()

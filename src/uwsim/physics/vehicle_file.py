@@ -18,13 +18,18 @@
         <forward>0 40</forward>
         <timeConstant>0.1</timeConstant>
         <radius>0.04</radius> <efficiency>0.35</efficiency>
+        <advance>0 0.45 0.66 0.18</advance>
       </thruster>
+      <fin name="rudder" link="base_link">
+        <position> <x>-0.6</x> <y>0</y> <z>0</z> </position>
+        <area>0.01</area> <aspectRatio>2.2</aspectRatio> <rate>0.5</rate>
+      </fin>
       <joint name="elbow"> <efficiency>0.5</efficiency> <copperLoss>0.02</copperLoss> </joint>
     </hydrodynamics>
 
-One file is one named set, keyed by the links of the URDF. ``<include>`` takes the bodies and
-thrusters of another file in (an arm that several vehicles carry). docs/your-own-vehicle.md has
-every element.
+One file is one named set, keyed by the links of the URDF. ``<include>`` takes the bodies,
+thrusters and fins of another file in (an arm that several vehicles carry).
+docs/your-own-vehicle.md has every element.
 """
 
 from __future__ import annotations
@@ -42,9 +47,11 @@ from ..files.input_files import is_inside
 from ..schema import Diagnostics, cut, parse, read
 from .actuation.power import power_errors
 from .hydrodynamics.checks import body_errors, thruster_errors
+from .hydrodynamics.fin_checks import fin_errors
 from .hydrodynamics.spec import (
     SIZES,
     BodyHydrodynamics,
+    FinSpec,
     JointDrive,
     ThrusterSpec,
     VehicleHydrodynamics,
@@ -66,6 +73,7 @@ class _Parts:
     """Joints that it can move; None to take any."""
     bodies: list[BodyHydrodynamics] = field(default_factory=list)
     thrusters: list[ThrusterSpec] = field(default_factory=list)
+    fins: list[FinSpec] = field(default_factory=list)
     joints: list[JointDrive] = field(default_factory=list)
     files: list[Path] = field(default_factory=list)
 
@@ -91,6 +99,16 @@ class _Parts:
         for message in thruster_errors(thruster) or power_errors(thruster):
             diagnostics.error(node, message)
         self.thrusters.append(thruster)
+
+    def add_fin(self, fin: FinSpec, node: etree._Element, diagnostics: Diagnostics) -> None:
+        if not fin.name.strip():
+            diagnostics.error(node, "a fin has no name")
+        if any(fin.name == known.name for known in self.fins):
+            diagnostics.error(node, f"two fins are called {fin.name!r}")
+        _check_name(node, "link", fin.link, self.links, diagnostics)
+        for message in fin_errors(fin):
+            diagnostics.error(node, message)
+        self.fins.append(fin)
 
     def add_joint(self, joint: JointDrive, node: etree._Element, diagnostics: Diagnostics) -> None:
         if any(joint.name == known.name for known in self.joints):
@@ -143,6 +161,7 @@ def read_vehicle_into(
         include=(),
         bodies=tuple(parts.bodies),
         thrusters=tuple(parts.thrusters),
+        fins=tuple(parts.fins),
         joints=tuple(parts.joints),
         files=tuple(parts.files),
     )
@@ -167,6 +186,8 @@ def _read_file(
         parts.add_body(body, _node_of(body, diagnostics), diagnostics)
     for thruster in head.thrusters:
         parts.add_thruster(thruster, _node_of(thruster, diagnostics), diagnostics)
+    for fin in head.fins:
+        parts.add_fin(fin, _node_of(fin, diagnostics), diagnostics)
     for joint in head.joints:
         parts.add_joint(joint, _node_of(joint, diagnostics), diagnostics)
     for name, node in zip(head.include, root.findall("include"), strict=False):

@@ -23,7 +23,7 @@ from ..scene.urdf import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..schema import NAMESPACE, Diagnostics
 from ..topics import element_of
-from ..topics.thruster_commands import AutopilotTopicSpec
+from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
 from .bodies import find_file
 from .checks.scene_lines import SceneLines
 
@@ -202,6 +202,24 @@ class Search:
                     *place,
                 )
 
+    def _no_autopilot(
+        self, interface: AutopilotTopicSpec, vehicles: Mapping[str, VehicleSpec]
+    ) -> str | None:
+        """Say why nothing takes the commands of an interface."""
+        wanted = vehicles.get(interface.vehicle_name)
+        if wanted is None:
+            near = did_you_mean(interface.vehicle_name, vehicles)
+            return f"no vehicle is called {interface.vehicle_name!r}.{near}"
+        if wanted.dynamics is None:
+            return (
+                f"the vehicle {wanted.name!r} has no <u:dynamics>; it takes "
+                "no commands of thrusters or fins, and no wrenches"
+            )
+        found = self.dynamics.get(self._scene.vehicles.index(wanted))
+        if isinstance(interface, ROSFinsToPATSpec) and found is not None and not found.fins:
+            return f"the hydrodynamics file of the vehicle {wanted.name!r} has no <fin>"
+        return None
+
     def _follow_interfaces(self) -> None:
         vehicles = {vehicle.name: vehicle for vehicle in reversed(self._scene.vehicles)}
         cameras = {spec.name for one in self._scene.vehicles for spec in one.virtual_cameras}
@@ -209,20 +227,10 @@ class Search:
         for number, interface in enumerate(self._scene.ros_interfaces):
             place = ("rosInterfaces", 0, "*", number)
             element = element_of(interface).replace(U, "u:")
-            if isinstance(interface, AutopilotTopicSpec):
-                wanted = vehicles.get(interface.vehicle_name)
-                if wanted is None:
-                    near = did_you_mean(interface.vehicle_name, vehicles)
-                    self._say(
-                        f"<{element}>: no vehicle is called {interface.vehicle_name!r}.{near}",
-                        *place,
-                    )
-                elif wanted.dynamics is None:
-                    self._say(
-                        f"<{element}>: the vehicle {wanted.name!r} has no <u:dynamics>; it takes "
-                        "neither thruster commands nor wrenches",
-                        *place,
-                    )
+            if isinstance(interface, AutopilotTopicSpec) and (
+                said := self._no_autopilot(interface, vehicles)
+            ):
+                self._say(f"<{element}>: {said}", *place)
             named = (
                 getattr(interface, "vehicle_name", None),
                 getattr(interface, "camera_name", None),

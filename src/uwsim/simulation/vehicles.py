@@ -60,6 +60,15 @@ class SceneVehicle:
         return self._state.thrusters(self._index)
 
     @property
+    def fins(self) -> tuple[str, ...]:
+        """Names of its fins as in its hydrodynamics file; none if it is not simulated."""
+        return self._state.fins(self._index)
+
+    def turn_fins(self, angles: Array) -> None:
+        """Let its fins turn to these angles, (n,) [rad]."""
+        self._state.turn_fins(self._index, angles)
+
+    @property
     def world_from_base(self) -> Pose:
         """Where its base is now."""
         return self._state.vehicle_pose(self._index)

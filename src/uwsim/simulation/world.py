@@ -79,7 +79,8 @@ class SceneWorld:
         self.is_blind = is_blind
         """Whether images on topics are black."""
         self._bus = Bus()
-        self._dynamics = dynamics = read_dynamics(scene, self.robots, data_path)
+        self.dynamics = dynamics = read_dynamics(scene, self.robots, data_path)
+        """Hydrodynamics of each vehicle that is simulated, by its number."""
         self.files = {path.name: path for one in dynamics.values() for path in one.files}
         """Hydrodynamics files of vehicles, and files of currents, by name."""
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
@@ -124,7 +125,7 @@ class SceneWorld:
     def warnings(self) -> tuple[Diagnostic, ...]:
         """What of the scene seems not to be meant, with the lines of the file."""
         scene = self._as_written
-        doubts = doubts_about(scene, self.robots, self._dynamics, self._data_path)
+        doubts = doubts_about(scene, self.robots, self.dynamics, self._data_path)
         return (*angle_warnings(scene), *doubts)
 
     @property

@@ -22,6 +22,7 @@ ROSOdomToPAT           nav_msgs/Odometry            a pose that is not all zero 
                                                     else its twist as ROSTwistToPAT
 ROSJointStateToArm     sensor_msgs/JointState       positions, else one step of the velocities
 u:ROSThrustersToPAT    std_msgs/Float64MultiArray   commands of the thrusters, simulated only
+u:ROSFinsToPAT         std_msgs/Float64MultiArray   angles of the fins [rad], simulated only
 u:ROSWrenchToPAT       geometry_msgs/WrenchStamped  force and torque, simulated only
 =====================  ===========================  =============================================
 
@@ -58,7 +59,7 @@ from .sensor_topic import (
     RangeSensorToROSRangeSpec,
 )
 from .simulated_device_ros import SimulatedDeviceROSSpec
-from .thruster_commands import ROSThrustersToPATSpec, ROSWrenchToPATSpec
+from .thruster_commands import ROSFinsToPATSpec, ROSThrustersToPATSpec, ROSWrenchToPATSpec
 from .viewer_topics import ROSImageToHUDSpec, ROSPointCloudLoaderSpec
 from .virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from .world_to_ros_tf import WorldToROSTFSpec
@@ -90,6 +91,7 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     "CustomCommsDeviceROS": CustomCommsDeviceROSSpec,
     "AcousticCommsDeviceROS": AcousticCommsDeviceROSSpec,
     f"{{{NAMESPACE}}}ROSThrustersToPAT": ROSThrustersToPATSpec,
+    f"{{{NAMESPACE}}}ROSFinsToPAT": ROSFinsToPATSpec,
     f"{{{NAMESPACE}}}ROSWrenchToPAT": ROSWrenchToPATSpec,
 }
 """Element -> spec, in the order of the original grammar; ours last."""

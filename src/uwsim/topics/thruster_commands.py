@@ -1,4 +1,4 @@
-"""Thrusters and wrenches of simulated vehicles; extensions of the dialect.
+"""Thrusters, fins and wrenches of simulated vehicles; extensions of the dialect.
 
 A command is held until the next of any kind; the autopilot holds nothing meanwhile. What is not
 finite is passed over, what is beyond 1e6 taken as that; a wrong number of thruster commands is the
@@ -17,7 +17,7 @@ from ..errors import BadMessage, UnknownName
 from ..geometry import Array
 from ..messages import Float64MultiArray, WrenchStamped
 from ..schema import element
-from ..vehicle import Autopilot
+from ..vehicle import Autopilot, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 
@@ -81,6 +81,52 @@ class ThrusterCommand(Interface):
         commands: Array = np.array(message.data, dtype=np.float64)  # (n,) [1]
         if np.isfinite(commands).all():
             self._autopilot.set_thrusters(commands)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSFinsToPATSpec(AutopilotTopicSpec):
+    """Turns the fins of a simulated vehicle by std_msgs/Float64MultiArray.
+
+    One angle a fin, in radians, in the order of the vehicle's hydrodynamics file; held until the
+    next. Thrusters and autopilot go on as they were commanded.
+    """
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": Float64MultiArray}
+
+    def bind(self, world: TopicWorld) -> FinCommand:
+        """Listen from now on; raises UnknownName if no such vehicle is simulated."""
+        self.autopilot(world)
+        vehicle = world.vehicle(self.vehicle_name)
+        command = FinCommand(vehicle)
+        world.bus.subscribe(
+            self.topic,
+            Float64MultiArray,
+            lambda m: world.at_next_step(command.obey, m),
+            check=command.check,
+        )
+        return command
+
+
+class FinCommand(Interface):
+    """Turns all fins of a vehicle."""
+
+    def __init__(self, vehicle: Vehicle) -> None:
+        self._vehicle = vehicle
+
+    def check(self, message: Float64MultiArray) -> None:
+        """Refuse a wrong number of values."""
+        names = self._vehicle.fins
+        if message.data.shape != (len(names),):
+            raise BadMessage(
+                f"A message for the fins of {self._vehicle.name!r} has "
+                f"{message.data.size} values; expected {len(names)}: {', '.join(names)}."
+            )
+
+    def obey(self, message: Float64MultiArray) -> None:
+        """Take an angle a fin."""
+        angles: Array = np.array(message.data, dtype=np.float64)  # (n,) [rad]
+        if np.isfinite(angles).all():
+            self._vehicle.turn_fins(angles)
 
 
 @dataclass(frozen=True, kw_only=True)

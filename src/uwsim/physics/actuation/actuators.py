@@ -80,7 +80,7 @@ class Actuators:
         losses_of_copper = [one.copper_loss for one in drives]
         # What the laws take. Views into the engine's memory: servos are switched off and on there.
         self._rotors = (
-            _columns([*addresses, losses, rotors], np.int64),
+            _columns([*addresses, losses, losses + model.nactuator, rotors], np.int64),
             _columns([*ends, radii], np.float64),
             model.actuator_user,
             water.surface,

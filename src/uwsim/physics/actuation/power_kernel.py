@@ -10,9 +10,9 @@ import numpy.typing as npt
 from ...geometry import Array
 from ...jit import njit
 from ..hydrodynamics.columns import WATER_COLUMNS
-from ..hydrodynamics.kernel import curve
+from ..hydrodynamics.thrusters import curve
 
-STATE, CONTROL, SITE, BODY, LOSS, ACTUATOR = range(6)
+STATE, CONTROL, SITE, BODY, LOSS, INFLOW, ACTUATOR = range(7)
 """Columns of the rotors' addresses in the engine; a state below 0 is none."""
 MIN_COMMAND, MAX_COMMAND, RADIUS = range(3)
 """Columns of the rotors' traits: ends of the command [1], radius [m]."""
@@ -66,7 +66,7 @@ def thrusts(
     """Return the thrusts along the thrusters' directions, as the water has it, (n,) [N].
 
     Args:
-        rotors: addresses, (n, 6).
+        rotors: addresses, (n, 7).
         traits: (n, 3).
         curves: the engine's ``actuator_user``.
         still: height of the still water's surface [m].
@@ -77,12 +77,13 @@ def thrusts(
     """
     given = np.empty(len(rotors))
     for i in range(len(rotors)):
-        state, control, site, body, loss, actuator = rotors[i]
+        state, control, site, body, loss, inflow, actuator = rotors[i]
         command = controls[control] if state < 0 else states[state]
         surface = still + userdata[WATER_COLUMNS * body + 6]
         wet = 0.5 + 0.5 * (surface - sites[site, 2]) / traits[i, RADIUS]
         command = min(max(command, traits[i, MIN_COMMAND]), traits[i, MAX_COMMAND])
         thrust = (1.0 - userdata[loss]) * curve(curves[actuator], command)
+        thrust *= 1.0 - userdata[inflow]
         given[i] = thrust * min(max(wet, 0.0), 1.0)
     return given
 

@@ -10,6 +10,7 @@ from .checks import vehicle_errors
 from .spec import (
     BadHydrodynamics,
     BodyHydrodynamics,
+    FinSpec,
     ThrusterSpec,
     VehicleHydrodynamics,
 )
@@ -18,6 +19,7 @@ from .table import prepare
 __all__ = [
     "BadHydrodynamics",
     "BodyHydrodynamics",
+    "FinSpec",
     "ThrusterSpec",
     "VehicleHydrodynamics",
     "prepare",

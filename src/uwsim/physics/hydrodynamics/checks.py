@@ -1,8 +1,7 @@
-"""Everything that is wrong with the numbers of bodies, thrusters and drives, all at once."""
+"""Everything that is wrong with the numbers of bodies, thrusters, fins and drives, all at once."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Iterable
 
@@ -10,7 +9,10 @@ import numpy as np
 
 from ...errors import choices, did_you_mean
 from ...geometry import Array
-from ...schema import Numbers, fields_of
+from ...schema import Numbers
+from .columns import MAX_POINTS
+from .fin_checks import fin_errors
+from .number_checks import beyond_limits, listed, number_errors, words
 from .passivity import Kind, bearable_share, driving_motion
 from .spec import (
     LIQUIDS,
@@ -23,8 +25,6 @@ from .spec import (
     matrix,
 )
 
-MAX_LENGTH = 500.0
-"""No length or place of a vehicle is beyond that of the longest ship [m]."""
 MIN_INERTIA = 1e-12
 """What the engine still takes for one [kg m2]."""
 SAG = 0.02
@@ -32,19 +32,20 @@ SAG = 0.02
 thrust."""
 MAX_THRUST = 1e7
 """Of a propeller [N]."""
-LENGTHS = ("reference", "centre_of_buoyancy", "size", "centre_of_mass", "position", "radius")
 DRAG: dict[str, Kind] = {"linear_damping": "linear", "quadratic_damping": "quadratic"}
 
 
 def body_errors(body: BodyHydrodynamics) -> list[str]:
     """Everything that is wrong with the numbers of a body."""
     who = f"link {body.link!r}"
-    if errors := _no_numbers(who, body):
+    if errors := number_errors(who, body):
         return errors
-    for name in ("added_mass", *DRAG):
+    for name in ("added_mass", "body_lift", *DRAG):
         numbers: Numbers = getattr(body, name)
         if len(numbers) not in (6, 36):
-            errors.append(f"{who}: {_words(name)} has {len(numbers)} numbers; expected 6 or 36")
+            errors.append(f"{who}: {words(name)} has {len(numbers)} numbers; expected 6 or 36")
+        elif name == "body_lift":
+            errors += _lift_errors(who, matrix(numbers))
         elif name == "added_mass":
             errors += _mass_errors(who, matrix(numbers))
         else:
@@ -63,13 +64,13 @@ def body_errors(body: BodyHydrodynamics) -> list[str]:
         errors.append(f"{who}: a {body.shape} needs its {SIZES[body.shape]} lengths (size) [m]")
     if body.inertia is not None:
         errors += _inertia_errors(who, body.inertia)
-    return errors + _beyond_limits(who, body)
+    return errors + beyond_limits(who, body)
 
 
 def thruster_errors(thruster: ThrusterSpec) -> list[str]:
     """Everything that is wrong with the numbers of a thruster."""
     who = f"thruster {thruster.name!r}"
-    if errors := _no_numbers(who, thruster):
+    if errors := number_errors(who, thruster):
         return errors
     if not math.hypot(*thruster.direction) > 1e-9:
         errors.append(f"{who}: direction is 0 0 0; expected a direction")
@@ -77,7 +78,7 @@ def thruster_errors(thruster: ThrusterSpec) -> list[str]:
         curve = getattr(thruster, side)
         if curve is not None and not 1 <= len(curve) <= N_CURVE:
             errors.append(
-                f"{who}: {_words(side)} has {len(curve)} coefficients; expected 1 to {N_CURVE}"
+                f"{who}: {words(side)} has {len(curve)} coefficients; expected 1 to {N_CURVE}"
             )
     if thruster.power is None and thruster.power_backward is not None:
         errors.append(f"{who}: power backward is given without power")
@@ -87,21 +88,22 @@ def thruster_errors(thruster: ThrusterSpec) -> list[str]:
         ends = getattr(thruster, name)
         if ends is not None and not (ends[0] <= 0.0 <= ends[1] and ends[0] < ends[1]):
             errors.append(
-                f"{who}: {name} are {_list(ends)}; expected least <= 0 <= greatest, not both 0"
+                f"{who}: {name} are {listed(ends)}; expected least <= 0 <= greatest, not both 0"
             )
-    errors += _beyond_limits(who, thruster)
+    errors += beyond_limits(who, thruster)
     if abs(thruster.torque) > 2.0 * thruster.radius > 0.0:
         errors.append(
             f"{who}: torque is {thruster.torque:g} per thrust; expected at most the propeller's "
             f"diameter, {2.0 * thruster.radius:g} [m]"
         )
+    errors += _advance_errors(who, thruster.advance)
     return errors or _thrust_errors(who, thruster)
 
 
 def drive_errors(drive: JointDrive) -> list[str]:
     """Everything that is wrong with the numbers of a joint's drive."""
     who = f"joint {drive.name!r}"
-    return _no_numbers(who, drive) or _beyond_limits(who, drive)
+    return number_errors(who, drive) or beyond_limits(who, drive)
 
 
 def density_errors(density: float) -> list[str]:
@@ -122,6 +124,7 @@ def vehicle_errors(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[
     for kind, names in (
         ("link", links_named),
         ("thruster", [thruster.name for thruster in vehicle.thrusters]),
+        ("fin", [fin.name for fin in vehicle.fins]),
         ("joint", [drive.name for drive in vehicle.joints]),
     ):
         errors += [
@@ -132,48 +135,19 @@ def vehicle_errors(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[
         errors += body_errors(body)
     for thruster in vehicle.thrusters:
         errors += thruster_errors(thruster)
+    for fin in vehicle.fins:
+        errors += fin_errors(fin)
     for drive in vehicle.joints:
         errors += drive_errors(drive)
     places = [("", link) for link in links_named]
     places += [(f"thruster {one.name!r}: ", one.link) for one in vehicle.thrusters]
+    places += [(f"fin {one.name!r}: ", one.link) for one in vehicle.fins]
     for who, link in places:
         if link not in known:
             errors.append(
                 f"{who}the robot has no link {link!r}.{choices(link, known, called='Links')}"
             )
     return errors + density_errors(vehicle.density)
-
-
-def _no_numbers(who: str, spec: BodyHydrodynamics | ThrusterSpec | JointDrive) -> list[str]:
-    """Say what is not finite, and which lengths are beyond those of any vehicle."""
-    errors = []
-    for each in dataclasses.fields(spec):
-        numbers = _numbers_of(spec, each.name)
-        if not all(math.isfinite(number) for number in numbers):
-            errors.append(
-                f"{who}: {_words(each.name)} is {_list(numbers)}; expected finite numbers"
-            )
-        elif each.name in LENGTHS and any(abs(number) > MAX_LENGTH for number in numbers):
-            errors.append(
-                f"{who}: {_words(each.name)} is {_list(numbers)}; expected none beyond "
-                f"{MAX_LENGTH:g} (metres, not millimetres) [m]"
-            )
-    return errors
-
-
-def _beyond_limits(who: str, spec: BodyHydrodynamics | ThrusterSpec | JointDrive) -> list[str]:
-    """Say which numbers are beyond the limits that their fields declare."""
-    return [
-        f"{who}: {_words(field.name)} is {_list(numbers)}; expected {field.expected}"
-        for field in fields_of(type(spec))
-        if not all(map(field.allows, numbers := _numbers_of(spec, field.name)))
-    ]
-
-
-def _numbers_of(spec: BodyHydrodynamics | ThrusterSpec | JointDrive, field: str) -> list[float]:
-    value = getattr(spec, field)
-    values = value if isinstance(value, tuple) else (value,)
-    return [one for one in values if isinstance(one, int | float)]
 
 
 def _mass_errors(who: str, added: Array) -> list[str]:
@@ -197,7 +171,7 @@ def _mass_errors(who: str, added: Array) -> list[str]:
 def _drag_errors(who: str, name: str, drag: Array) -> list[str]:
     if min(np.diag(drag)) < 0.0:
         return [
-            f"{who}: {_words(name)} has the diagonal {_list(np.diag(drag))}; "
+            f"{who}: {words(name)} has the diagonal {listed(np.diag(drag))}; "
             "expected none below 0 (drag opposes motion with positive coefficients)"
         ]
     driving = driving_motion(DRAG[name], drag)
@@ -207,10 +181,38 @@ def _drag_errors(who: str, name: str, drag: Array) -> list[str]:
     share = bearable_share(DRAG[name], drag)
     bearable = f"at most {share:.2f} times as large" if share > 0.0 else "0 where that is 0"
     return [
-        f"{who}: {_words(name)} drives the body: at the velocity "
-        f"{_list(np.round(motion, 3) + 0.0)} [m/s, rad/s] it gives it {power:.3g} W; expected drag "
-        f"that only takes energy: entries beside this diagonal {bearable}"
+        f"{who}: {words(name)} drives the body: at the velocity "
+        f"{listed(np.round(motion, 3) + 0.0)} [m/s, rad/s] it gives it {power:.3g} W; expected "
+        f"drag that only takes energy: entries beside this diagonal {bearable}"
     ]
+
+
+def _lift_errors(who: str, lift: Array) -> list[str]:
+    if min(np.diag(lift)) >= 0.0:
+        return []
+    return [
+        f"{who}: body lift has the diagonal {listed(np.diag(lift))}; expected none below 0 (lift "
+        "opposes motion across the hull with positive coefficients)"
+    ]
+
+
+def _advance_errors(who: str, advance: Numbers) -> list[str]:
+    """Say what is wrong with the thrust over the advance ratio."""
+    if not advance:
+        return []
+    if len(advance) % 2 or not 4 <= len(advance) <= 2 * MAX_POINTS:
+        return [
+            f"{who}: advance has {len(advance)} numbers; expected 2 to {MAX_POINTS} pairs of "
+            "advance ratio and thrust coefficient"
+        ]
+    ratios, factors = np.reshape(advance, (-1, 2)).T
+    if ratios[0] != 0.0 or not np.all(np.diff(ratios) > 0.0):
+        return [f"{who}: advance has the ratios {listed(ratios)}; expected 0 first, rising"]
+    if not factors[0] > 0.0:
+        return [f"{who}: advance has KT {factors[0]:g} at rest; expected > 0"]
+    if np.any(np.diff(factors) > 0.0):
+        return [f"{who}: advance has the KT {listed(factors)}; expected none above the one before"]
+    return []
 
 
 def _thrust_errors(who: str, thruster: ThrusterSpec) -> list[str]:
@@ -267,15 +269,7 @@ def _inertia_errors(who: str, inertia: Numbers) -> list[str]:
         ]
     if principal[2] > (principal[0] + principal[1]) * (1.0 + 1e-6):
         return [
-            f"{who}: inertia has the principal moments {_list(principal)}; no body can have one "
+            f"{who}: inertia has the principal moments {listed(principal)}; no body can have one "
             "above the sum of the two others"
         ]
     return []
-
-
-def _words(name: str) -> str:
-    return name.replace("_", " ")
-
-
-def _list(values: Iterable[float]) -> str:
-    return " ".join(f"{value:g}" for value in values)

@@ -23,6 +23,7 @@ from .columns import (
     BY_SPEED,
     CENTRE,
     LAW,
+    LIFT,
     LINEAR,
     QUADRATIC,
     REACH,
@@ -250,13 +251,15 @@ def full_force(
     Leaves added mass + step times the slope of the drag (its symmetric part), (6, 6), in ``work``
     from ``at`` on.
     """
+    surge = abs(nu[0])
     for i in range(6):
         force, momentum = 0.0, 0.0
         for j in range(6):
             added = table[ADDED + 6 * i + j]
-            linear = table[LINEAR + 6 * i + j]
+            linear = table[LINEAR + 6 * i + j] + table[LIFT + 6 * i + j] * surge
             steep = table[QUADRATIC + 6 * i + j] * abs(nu[j])
-            mirrored = table[LINEAR + 6 * j + i] + 2.0 * table[QUADRATIC + 6 * j + i] * abs(nu[i])
+            mirrored = table[LINEAR + 6 * j + i] + table[LIFT + 6 * j + i] * surge
+            mirrored += 2.0 * table[QUADRATIC + 6 * j + i] * abs(nu[i])
             slope = 0.5 * (linear + 2.0 * steep + mirrored)
             work[at + 6 * i + j] = added + step * slope
             momentum += added * nu[j]

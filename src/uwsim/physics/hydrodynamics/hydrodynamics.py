@@ -30,12 +30,15 @@ class Hydrodynamics:
         self.thrusters = tuple(
             int(i)
             for i in range(model.nactuator)
-            if model.nuser_actuator == c.THRUSTER_COLUMNS
-            and model.actuator_user[i, c.IS_THRUSTER] == 1.0
+            if model.nuser_actuator == c.ACTUATOR_COLUMNS
+            and model.actuator_user[i, c.ROLE] == c.PROPELLER
         )
         """Actuator ids of the thrusters, in the order of the model."""
+        in_flow = _bodies_in_flow(model)
         self.bodies = tuple(
-            int(i) for i in range(1, model.nbody) if model.body_user[i, c.KIND] != c.DRY
+            int(i)
+            for i in range(1, model.nbody)
+            if model.body_user[i, c.KIND] != c.DRY or i in in_flow
         )
         """Body ids that the water acts on."""
         self._controls = model.actuator_ctrladr[list(self.thrusters)]  # (n,) places in ctrl
@@ -136,6 +139,23 @@ class Hydrodynamics:
         """Let a thruster lose a part of its thrust: 0 healthy, 1 dead."""
         data.userdata[c.WATER_COLUMNS * self.model.nbody + self.thrusters[index]] = loss
 
+    def turn_fin(self, data: mujoco.MjData, name: str, angle: float) -> None:
+        """Let a fin turn to an angle, by its actuator's name [rad]."""
+        data.userdata[c.WATER_COLUMNS * self.model.nbody + self._fin(name)] = angle
+
+    def fin_angle(self, data: mujoco.MjData, name: str) -> float:
+        """How far a fin is turned now [rad]."""
+        return float(data.act[self.model.actuator_actadr[self._fin(name)]])
+
+    def stop_fin(self, data: mujoco.MjData, name: str) -> None:
+        """Put a fin at the angle 0, at once."""
+        self.turn_fin(data, name, 0.0)
+        data.act[self.model.actuator_actadr[self._fin(name)]] = 0.0
+
+    def _fin(self, name: str) -> int:
+        """The actuator of a fin."""
+        return int(self.model.actuator(name).id)
+
     def thruster(self, name: str) -> int:
         """Number of a thruster among the thrusters, by its actuator's name."""
         names = [self.model.actuator(i).name for i in self.thrusters]
@@ -206,10 +226,21 @@ def install(model: mujoco.MjModel) -> Hydrodynamics:
     return Hydrodynamics(model)
 
 
+def _bodies_in_flow(model: mujoco.MjModel) -> set[int]:
+    """Bodies whose fins or propellers feel how the water moves."""
+    if model.nuser_actuator != c.ACTUATOR_COLUMNS:
+        return set()
+    rows = model.actuator_user
+    feels = (rows[:, c.ROLE] == c.FIN) | (
+        (rows[:, c.ROLE] == c.PROPELLER) & (rows[:, c.N_ADVANCE] > 0.0)
+    )
+    return set(model.site_bodyid[model.actuator_trnid[feels, 0]].tolist())
+
+
 def _check(model: mujoco.MjModel) -> None:
     if model.nuser_body != c.BODY_COLUMNS or model.body_user[0, c.MAGIC] != c.MAGIC_NUMBER:
         raise NoWater("The model has no hydrodynamics; call prepare() before compiling it.")
-    if model.nuserdata < c.WATER_COLUMNS * model.nbody + model.nactuator:
+    if model.nuserdata < c.WATER_COLUMNS * model.nbody + 2 * model.nactuator:
         raise NoWater(
             f"The model has {model.nuserdata} numbers of userdata for {model.nbody} bodies and "
             f"{model.nactuator} actuators; call prepare() last, after every body was added."

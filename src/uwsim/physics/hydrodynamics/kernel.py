@@ -23,40 +23,31 @@ After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), 
 The equations of one body are in `equations`; here is where the numbers lie.
 
 Not modelled: the momentum of water shed when the submerged fraction changes, memory of waves,
-ground effect, flow of one body over another, thrust lost to inflow.
+ground effect, flow of one body over another.
 """
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 
 from ...jit import njit
 from . import fields as f
 from .columns import (
-    BACKWARD,
+    ACTUATOR_COLUMNS,
     BODY_COLUMNS,
-    CURVE_TERMS,
-    DEAD_ZONE,
     DISPLACED,
     DRY,
-    FORWARD,
+    FIN,
     FULL,
-    IS_THRUSTER,
     KIND,
-    LAG,
     MAGIC,
     MAGIC_NUMBER,
-    MAX_THRUST,
-    MIN_THRUST,
-    RADIUS,
+    PROPELLER,
+    ROLE,
     SURFACE,
     THETA,
-    THRUSTER_COLUMNS,
-    TORQUE,
     WATER_COLUMNS,
-)  # fmt: skip
+)
 from .equations import (
     add_lift,
     buoyancy,
@@ -78,8 +69,10 @@ from .equations import (
     to_body,
     wet_part,
 )
+from .fins import add_fin
 from .free_bodies import keep_energy
 from .memory import Floats, Ints64, floats, ints, real, small, word
+from .thrusters import add_thrust
 
 _WET = 1e-300
 """Stands in the world's composite inertia, which nobody reads and MuJoCo clears with every M."""
@@ -125,7 +118,7 @@ def add_water(m: int, d: int, at: Ints64) -> None:
     floats(word(d + at[f.CRB]), 1)[0] = _WET
     _bias(m, d, at, work)
     _bodies(m, d, at, step, work, True)
-    _thrusters(m, d, at, work, 0.5 * step)
+    _actuators(m, d, at, work, 0.5 * step)
     _sum_up(m, at, work)
     cdof = floats(word(d + at[f.CDOF]), 6 * nv)
     dof_body = ints(word(m + at[f.DOF_BODY]), nv)
@@ -193,7 +186,7 @@ def water_wrenches(m: int, d: int, at: Ints64, wrenches: Floats) -> None:
             for i in range(3):
                 work[f.ROW * body + f.BIAS + 3 + i] += gravity[i]
     _bodies(m, d, at, 0.0, work, False)
-    _thrusters(m, d, at, work, 0.5 * real(m + at[f.TIMESTEP]))
+    _actuators(m, d, at, work, 0.5 * real(m + at[f.TIMESTEP]))
     _sum_up(m, at, work)
     for body in range(nbody):
         for i in range(6):
@@ -232,72 +225,17 @@ def _sum_up(m: int, at: Ints64, work: Floats) -> None:
 
 
 @njit
-def _thrusters(m: int, d: int, at: Ints64, work: Floats, ahead: float) -> None:
-    """Add the thrust of every thruster in the water, by its rotor some time ahead."""
-    if word(m + at[f.NUSER_ACTUATOR]) != THRUSTER_COLUMNS:
+def _actuators(m: int, d: int, at: Ints64, work: Floats, ahead: float) -> None:
+    """Add the forces of all thrusters and fins, by their state some time ahead."""
+    if word(m + at[f.NUSER_ACTUATOR]) != ACTUATOR_COLUMNS:
         return
-    n, nbody = word(m + at[f.NACTUATOR]), word(m + at[f.NBODY])
-    for i in range(n):
-        table = floats(word(m + at[f.ACTUATOR_USER]) + 8 * THRUSTER_COLUMNS * i, THRUSTER_COLUMNS)
-        if table[IS_THRUSTER] == 0.0:
-            continue
-        state = small(word(m + at[f.ACTUATOR_ACT]) + 4 * i)
-        control = small(word(m + at[f.ACTUATOR_CTRL]) + 4 * i)
-        command = real(word(d + at[f.CTRL]) + 8 * control)
-        if state >= 0:
-            rotor = real(word(d + at[f.ACT]) + 8 * state)
-            command = rotor + share_of_lag(table[LAG], ahead) * (command - rotor)
-        limits = floats(word(m + at[f.ACTUATOR_RANGE]) + 16 * control, 2)
-        loss = real(word(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * nbody + i))
-        thrust = (1.0 - loss) * curve(table, min(max(command, limits[0]), limits[1]))
-        site = small(word(m + at[f.ACTUATOR_TARGET]) + 8 * i)
-        body = small(word(m + at[f.SITE_BODY]) + 4 * site)
-        place = floats(word(d + at[f.SITE_XPOS]) + 24 * site, 3)
-        axes = floats(word(d + at[f.SITE_XMAT]) + 72 * site, 9)
-        surface = real(word(m + at[f.BODY_USER]) + 8 * SURFACE)
-        surface += real(word(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * body + 6))
-        wet = 0.5 + 0.5 * (surface - place[2]) / table[RADIUS]
-        thrust *= min(max(wet, 0.0), 1.0)
-        root = small(word(m + at[f.BODY_ROOT]) + 4 * body)
-        com = floats(word(d + at[f.COM]) + 24 * root, 3)
-        fx, fy, fz = thrust * axes[0], thrust * axes[3], thrust * axes[6]
-        rx, ry, rz = place[0] - com[0], place[1] - com[1], place[2] - com[2]
-        base = f.ROW * body
-        to = base + f.WRENCH
-        work[base + f.TOUCHED] = 1.0
-        work[to] += ry * fz - rz * fy + table[TORQUE] * fx
-        work[to + 1] += rz * fx - rx * fz + table[TORQUE] * fy
-        work[to + 2] += rx * fy - ry * fx + table[TORQUE] * fz
-        work[to + 3] += fx
-        work[to + 4] += fy
-        work[to + 5] += fz
-
-
-@njit
-def share_of_lag(time_constant: float, time: float) -> float:
-    """How far a first-order lag comes in a time, of the way to its input, 0..1."""
-    if time_constant <= 0.0:
-        return 1.0
-    x = time / time_constant
-    if x < 0.01:
-        return x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)))  # quickly, to 1e-12
-    return -math.expm1(-x)
-
-
-@njit
-def curve(table: Floats, command: float) -> float:
-    """Thrust [N] of a command: dead zone, polynomial of its sign, saturation."""
-    x = abs(command) - table[DEAD_ZONE]
-    if x <= 0.0:
-        return 0.0
-    first = FORWARD if command > 0.0 else BACKWARD
-    thrust = 0.0
-    for i in range(CURVE_TERMS - 1, -1, -1):
-        thrust = (thrust + table[first + i]) * x
-    if command < 0.0:
-        thrust = -thrust
-    limited: float = min(max(thrust, table[MIN_THRUST]), table[MAX_THRUST])
-    return limited
+    tables = word(m + at[f.ACTUATOR_USER])
+    for i in range(word(m + at[f.NACTUATOR])):
+        table = floats(tables + 8 * ACTUATOR_COLUMNS * i, ACTUATOR_COLUMNS)
+        if table[ROLE] == PROPELLER:
+            add_thrust(m, d, at, i, table, ahead, work)
+        elif table[ROLE] == FIN:
+            add_fin(m, d, at, i, table, ahead, work)
 
 
 @njit

@@ -7,6 +7,7 @@ coefficients; published derivatives (``X_udot``, ``X_u``) mostly carry the other
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -31,7 +32,11 @@ N_CURVE = 9
 MIN_RADIUS = 0.001
 """Of a propeller [m]."""
 SLOWEST_ROTOR = 60.0
-"""Longest lag of a thruster [s]."""
+"""Longest lag of a thruster or a fin [s]."""
+LARGEST_FIN = 1000.0
+"""No fin has a larger planform [m2]."""
+STEEPEST_LIFT = 6.29
+"""Lift slope of a thin foil of endless span, 2 pi [1/rad]."""
 LIQUIDS = (100.0, 20000.0)
 """Least and greatest density of what a vehicle may swim in: liquid hydrogen has 71, mercury 13 534
 [kg/m3]."""
@@ -62,6 +67,9 @@ class BodyHydrodynamics:
     """6 or 36: force per relative velocity [N s/m, N s, N m s]."""
     quadratic_damping: Numbers = (0.0,) * 6
     """6 or 36: force = coefficient |v_j| v_j of the column's velocity [N s2/m2, ...]."""
+    body_lift: Numbers = (0.0,) * 6
+    """6 or 36: force = coefficient |u| v_j with the surge u and the column's velocity; the lift of
+    a slender hull (-Y_uv, -N_uv, ...) without the part of the added mass [kg/m, kg, kg m]."""
     volume: float = element(default=0.0, minimum=0.0)
     """Water displaced when fully submerged [m3]."""
     centre_of_buoyancy: Triple = ZERO
@@ -121,10 +129,73 @@ class ThrusterSpec:
     efficiency: float | None = element(default=None, above=0.0, maximum=BEST_EFFICIENCY)
     """From the battery to the ideal propeller of that radius (`uwsim.physics.actuation.power`);
     without it and without ``power``: 0.4 [1]."""
+    advance: Numbers = ()
+    """Pairs of the advance ratio J = V / (n D) and the thrust coefficient KT, from J = 0 on, up to
+    12: thrust falls by KT(J) / KT(0), linear between the pairs and beyond, so that two are a line.
+    Without: thrust is that at rest [1, 1]."""
+    wake: float = element(default=0.0, minimum=0.0, maximum=0.99)
+    """Wake fraction: share by which the water at the propeller is slower than the vehicle [1]."""
     power: Numbers | None = None
     """What it draws instead: c1 |T| + c2 |T|^2 + ... of its thrust T, up to nine [W]."""
     power_backward: Numbers | None = None
     """The same for T < 0; without: as forward [W]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FinSpec:
+    """A control surface: a foil that turns about its span; see `fins`."""
+
+    name: str = element(attribute=True)
+    """Its name; the actuator's too."""
+    link: str = element(attribute=True)
+    """The link it is fixed to."""
+    position: Triple = ZERO
+    """Of its centre of pressure, in the link's frame [m]."""
+    axis: Triple = (0.0, 0.0, 1.0)
+    """Along the span, in the link's frame; it turns right-handed about it [1]."""
+    chord: Triple = (1.0, 0.0, 0.0)
+    """Where its leading edge points at the angle 0, in the link's frame [1]."""
+    area: float = element(above=0.0, maximum=LARGEST_FIN)
+    """Of its planform [m2]."""
+    aspect_ratio: float | None = element(default=None, above=0.0)
+    """Effective, span squared / area; gives what is missing of ``lift_slope`` and
+    ``induced_drag`` [1]."""
+    lift_slope: float | None = element(default=None, above=0.0, maximum=STEEPEST_LIFT)
+    """Of the lift coefficient over the angle of attack, below the stall; without:
+    1 / (1 / (1.8 pi) + 1 / (pi AR)) with the aspect ratio AR [1/rad]."""
+    stall: float = element(default=0.3, above=0.0, maximum=1.57)
+    """Angle of attack from which the flow separates [rad]."""
+    drag: float = element(default=0.01, minimum=0.0)
+    """Drag coefficient without lift [1]."""
+    induced_drag: float | None = element(default=None, minimum=0.0)
+    """Drag coefficient per lift coefficient squared, below the stall; without: 1 / (0.9 pi AR), or
+    0 [1]."""
+    plate_drag: float = element(default=1.2, minimum=0.0)
+    """Force coefficient of the separated flow, across the foil [1]."""
+    coefficients: Numbers = ()
+    """Instead of the formula: rows of angle of attack [rad], lift and drag coefficient, up to 12,
+    rising. A foil of which only angles from 0 on are given is symmetric [rad, 1, 1]."""
+    limits: TwoNumbers = (-0.35, 0.35)
+    """Least and greatest angle; 0 0 for one that is fixed [rad]."""
+    rate: float | None = element(default=None, above=0.0)
+    """Greatest speed of its servo; without: any [rad/s]."""
+    time_constant: float = element(default=0.0, minimum=0.0, maximum=SLOWEST_ROTOR)
+    """First-order lag of its servo [s]."""
+
+    @property
+    def slope(self) -> float:
+        """Of the lift, given or by the aspect ratio [1/rad]; 0 without either."""
+        if self.lift_slope is not None:
+            return self.lift_slope
+        ratio = self.aspect_ratio
+        return 0.0 if ratio is None else 1.0 / (1.0 / (1.8 * math.pi) + 1.0 / (math.pi * ratio))
+
+    @property
+    def induced(self) -> float:
+        """Drag coefficient per lift coefficient squared, given or by the aspect ratio [1]."""
+        if self.induced_drag is not None:
+            return self.induced_drag
+        return 0.0 if self.aspect_ratio is None else 1.0 / (0.9 * math.pi * self.aspect_ratio)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,6 +226,8 @@ class VehicleHydrodynamics:
     """One a link, at most."""
     thrusters: tuple[ThrusterSpec, ...] = element("thruster", default=())
     """In the order of the command vector."""
+    fins: tuple[FinSpec, ...] = element("fin", default=())
+    """Control surfaces, in the order of the vector of their angles."""
     joints: tuple[JointDrive, ...] = element("joint", default=())
     """Joints whose drives are known, one each, at most; any other is as `JointDrive` has it."""
     files: tuple[Path, ...] = field(default=(), compare=False, metadata={"path": True})
@@ -179,6 +252,7 @@ class VehicleHydrodynamics:
                 added_mass=_times(share, body.added_mass),
                 linear_damping=_times(share, body.linear_damping),
                 quadratic_damping=_times(share, body.quadratic_damping),
+                body_lift=_times(share, body.body_lift),
             )
             for body in self.bodies
         )

@@ -9,10 +9,12 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from ...geometry import quaternion_from_rotation
 from ...linear import length
 from . import columns as c
 from .checks import body_errors, density_errors, thruster_errors
-from .spec import BadHydrodynamics, BodyHydrodynamics, ThrusterSpec, matrix
+from .fin_checks import fin_errors
+from .spec import BadHydrodynamics, BodyHydrodynamics, FinSpec, ThrusterSpec, matrix
 
 _SHAPES = {
     "sphere": c.SPHERE, "ellipsoid": c.ELLIPSOID, "box": c.BOX, "cylinder": c.CYLINDER,
@@ -27,6 +29,7 @@ def prepare(
     spec: mujoco.MjSpec,
     bodies: Mapping[str, BodyHydrodynamics],
     thrusters: Mapping[str, tuple[str, ThrusterSpec]] | None = None,
+    fins: Mapping[str, tuple[str, FinSpec]] | None = None,
     *,
     surface: float = 0.0,
     density: float = 1000.0,
@@ -39,18 +42,19 @@ def prepare(
         spec: the whole scene.
         bodies: name of a body in ``spec`` -> what the water does to it.
         thrusters: name of the actuator to make -> the body it sits on, and its spec.
+        fins: the same of the fins.
         surface: height of the still water's surface in W [m].
         density: of the water [kg/m3].
 
     Raises:
         BadHydrodynamics: with every error.
     """
-    propellers = thrusters or {}
-    _check(spec, bodies, propellers, density)
+    propellers, foils = thrusters or {}, fins or {}
+    _check(spec, bodies, propellers, foils, density)
     spec.nuser_body = c.BODY_COLUMNS
-    spec.nuser_actuator = max(spec.nuser_actuator, c.THRUSTER_COLUMNS)
-    if spec.nuser_actuator != c.THRUSTER_COLUMNS:
-        raise BadHydrodynamics([f"nuser_actuator must be at most {c.THRUSTER_COLUMNS}"])
+    spec.nuser_actuator = max(spec.nuser_actuator, c.ACTUATOR_COLUMNS)
+    if spec.nuser_actuator != c.ACTUATOR_COLUMNS:
+        raise BadHydrodynamics([f"nuser_actuator must be at most {c.ACTUATOR_COLUMNS}"])
     water = np.zeros(c.BODY_COLUMNS)
     water[[c.MAGIC, c.SURFACE, c.DENSITY]] = c.MAGIC_NUMBER, surface, density
     spec.worldbody.userdata = water
@@ -58,15 +62,18 @@ def prepare(
         _prepare_body(spec.body(name), body, density)
     for name, (link, thruster) in propellers.items():
         _add_thruster(spec, name, spec.body(link), thruster)
-    spec.nuserdata = c.WATER_COLUMNS * len(spec.bodies) + len(spec.actuators)
+    for name, (link, fin) in foils.items():
+        _add_fin(spec, name, spec.body(link), fin)
+    spec.nuserdata = c.WATER_COLUMNS * len(spec.bodies) + 2 * len(spec.actuators)
 
 
 def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]:
-    """The columns of a body, (128,)."""
+    """The columns of a body, (160,)."""
     row = np.zeros(c.BODY_COLUMNS)
     linear, quadratic = matrix(body.linear_damping), matrix(body.quadratic_damping)
-    added = matrix(body.added_mass)
+    added, lift = matrix(body.added_mass), matrix(body.body_lift)
     is_full = any(np.any(m - np.diag(np.diag(m))) for m in (added, linear, quadratic))
+    is_full = is_full or bool(np.any(lift))
     row[c.KIND] = c.FULL if is_full else c.DIAGONAL
     row[c.THETA] = body.implicitness
     row[c.LAW] = _LAWS[body.drag_law]
@@ -80,6 +87,7 @@ def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]
     row[c.ADDED : c.ADDED + 36] = (0.5 * (added + added.T)).ravel()
     row[c.LINEAR : c.LINEAR + 36] = linear.ravel()
     row[c.QUADRATIC : c.QUADRATIC + 36] = quadratic.ravel()
+    row[c.LIFT : c.LIFT + 36] = lift.ravel()
     return row
 
 
@@ -92,9 +100,9 @@ def _reach(shape: str, size: tuple[float, ...]) -> float:
 
 
 def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:
-    """The columns of a thruster, (32,)."""
-    row = np.zeros(c.THRUSTER_COLUMNS)
-    row[c.IS_THRUSTER] = 1.0
+    """The columns of a thruster, (68,)."""
+    row = np.zeros(c.ACTUATOR_COLUMNS)
+    row[c.ROLE] = c.PROPELLER
     row[c.DEAD_ZONE] = thruster.dead_zone
     row[c.MIN_THRUST], row[c.MAX_THRUST] = thruster.saturation or (-math.inf, math.inf)
     row[c.TORQUE], row[c.RADIUS], row[c.LAG] = (
@@ -103,6 +111,22 @@ def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:
     backward = thruster.forward if thruster.backward is None else thruster.backward
     row[c.FORWARD : c.FORWARD + len(thruster.forward)] = thruster.forward
     row[c.BACKWARD : c.BACKWARD + len(backward)] = backward
+    row[c.WAKE], row[c.N_ADVANCE] = thruster.wake, len(thruster.advance) // 2
+    row[c.ADVANCE : c.ADVANCE + len(thruster.advance)] = thruster.advance
+    return row
+
+
+def fin_row(fin: FinSpec) -> npt.NDArray[np.float64]:
+    """The columns of a fin, (68,)."""
+    row = np.zeros(c.ACTUATOR_COLUMNS)
+    row[c.ROLE] = c.FIN
+    row[c.MIN_ANGLE], row[c.MAX_ANGLE] = fin.limits
+    row[c.RATE], row[c.LAG] = fin.rate or math.inf, fin.time_constant
+    row[c.AREA], row[c.SLOPE], row[c.STALL] = fin.area, fin.slope, fin.stall
+    row[c.DRAG], row[c.INDUCED], row[c.PLATE] = fin.drag, fin.induced, fin.plate_drag
+    row[c.N_COEFFICIENTS] = len(fin.coefficients) // 3
+    row[c.IS_EVEN] = float(all(angle >= 0.0 for angle in fin.coefficients[::3]))
+    row[c.COEFFICIENTS : c.COEFFICIENTS + len(fin.coefficients)] = fin.coefficients
     return row
 
 
@@ -110,12 +134,15 @@ def _check(
     spec: mujoco.MjSpec,
     bodies: Mapping[str, BodyHydrodynamics],
     thrusters: Mapping[str, tuple[str, ThrusterSpec]],
+    fins: Mapping[str, tuple[str, FinSpec]],
     density: float,
 ) -> None:
     errors = density_errors(density)
     errors += [error for body in bodies.values() for error in body_errors(body)]
     errors += [error for _, one in thrusters.values() for error in thruster_errors(one)]
-    for name in (*bodies, *(link for link, _ in thrusters.values())):
+    errors += [error for _, one in fins.values() for error in fin_errors(one)]
+    links = [link for link, _ in (*thrusters.values(), *fins.values())]
+    for name in (*bodies, *links):
         if name == "world" or spec.body(name) is None:
             errors.append(f"the model has no body {name!r} that the water could act on")
     if spec.option.density or spec.option.viscosity:
@@ -162,6 +189,26 @@ def _add_thruster(
         actuator.dyntype = mujoco.mjtDyn.mjDYN_FILTEREXACT
         actuator.dynprm[0] = thruster.time_constant
     actuator.userdata = thruster_row(thruster)
+
+
+def _add_fin(spec: mujoco.MjSpec, name: str, body: mujoco.MjsBody, fin: FinSpec) -> None:
+    """A site with the chord along x and the span along z, and an actuator whose state is its angle.
+
+    MuJoCo integrates the state, whose speed the kernel sets; the kernel makes the force, too.
+    """
+    span = np.array(fin.axis) / math.hypot(*fin.axis)
+    across = np.cross(span, fin.chord)
+    across /= length(across)
+    axes = np.stack([np.cross(across, span), across, span], axis=1)
+    quat = quaternion_from_rotation(axes).tolist()
+    body.add_site(name=name, pos=list(fin.position), quat=quat)
+    actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_SITE)
+    actuator.gear = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    actuator.gaintype = mujoco.mjtGain.mjGAIN_FIXED
+    actuator.gainprm[0] = 0.0
+    actuator.biastype = mujoco.mjtBias.mjBIAS_NONE
+    actuator.dyntype = mujoco.mjtDyn.mjDYN_INTEGRATOR
+    actuator.userdata = fin_row(fin)
 
 
 def _quat_to(direction: tuple[float, float, float]) -> list[float]:
