@@ -13,7 +13,8 @@ from uwsim.algorithms import ALGORITHMS
 from uwsim.assets.bundled import bundled
 from uwsim.benchmark.measures import MEASURES
 from uwsim.cli import main
-from uwsim.cli.list import KINDS, first_line, head_comment, limit_in, without_title
+from uwsim.cli.descriptions import first_line, head_comment, without_title
+from uwsim.cli.list import KINDS, limit_in
 from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.runs.tables import bundled_tables

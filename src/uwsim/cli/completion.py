@@ -11,6 +11,8 @@ import shlex
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
+from .descriptions import head_comment
+
 VARIABLE = "_UWSIM_COMPLETE"
 """Set when it is the shell that asks."""
 
@@ -57,7 +59,6 @@ def one_of(names: Iterable[str]) -> Callable[[str], list[tuple[str, str]]]:
 
 def _bundled(kind: str, incomplete: str) -> list[tuple[str, str]]:
     from ..assets.bundled import bundled
-    from .list import head_comment
 
     return _matching({n: head_comment(p) for n, p in bundled(kind).items()}, incomplete)
 
