@@ -173,14 +173,14 @@ def taken(result: Result, directory: Path, level: float, seed: int | None = None
     """One level of a run, from the logs in its directory."""
     names = ("centroid", "objectCentered", "offset")
     logs = {name: load_log(directory / f"measure-{name}.csv") for name in names}
-    height = float(dict(map(tuple, result.run["settings"])).get(f"{HALF}.resh", 480))
+    height = float(dict(result.run.settings or ()).get(f"{HALF}.resh", 480))
     focal = height / 2.0 / math.tan(FOVY / 2.0)
     return track(result, logs, level=level, focal=focal, seed=seed)
 
 
 def loop_of(result: Result) -> Loop:
     """The gains recorded in a result."""
-    parameters = result.run["parameters"]
+    parameters = result.run.parameters
     return Loop(kp=float(parameters["kp"]), ki=float(parameters.get("ki", 0.0)))
 
 
@@ -206,13 +206,13 @@ def sweep_figure(folder: Path, directories: Sequence[Path]) -> None:
     known = set()
     for directory in directories:
         result = load(directory)
-        name = str(result.run["algorithm"]).upper()
+        name = str(result.run.algorithm).upper()
         if loops.setdefault(name, loop_of(result)) != loop_of(result):
             raise SystemExit(f"{directory}: other gains than the results of {name} before it.")
-        seeds = result.numbers("seed") if result.run["repeats"] > 1 else [None] * len(result.rows)
+        seeds = result.numbers("seed") if result.run.repeats > 1 else [None] * len(result.rows)
         for level, seed in zip(result.numbers("current"), seeds, strict=True):
             assert level is not None
-            which = name, level, result.run["seed"] if seed is None else seed
+            which = name, level, result.run.seed if seed is None else seed
             if which in known:
                 continue
             known.add(which)

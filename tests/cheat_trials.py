@@ -31,6 +31,7 @@ from tests.played import DATA, make_plan
 from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, floats
+from uwsim.results.inputs import Inputs
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import Outcome, run_each
 from uwsim.runs.executors.processes import ProcessExecutor
@@ -224,7 +225,7 @@ def bench_of(folder: Path, algorithm: type[Holds], *, seed: int, length: float) 
     )
     name = algorithm.__name__
     plan = replace(plan, algorithm_name=name, seed=seed, is_blind=True)
-    return Run(plan=plan, out=folder / name, inputs={}, renderer="none")
+    return Run(plan=plan, out=folder / name, inputs=Inputs(), renderer="none")
 
 
 def trial(folder: Path, cheats: Sequence[type[Holds]], *, seed: int, length: float) -> Outcome:
@@ -236,7 +237,7 @@ def trial(folder: Path, cheats: Sequence[type[Holds]], *, seed: int, length: flo
 
 def by_name(outcome: Outcome) -> dict[str, Result]:
     """Name of an algorithm -> its result; without rows, where it never started."""
-    return {str(result.run["algorithm"]): result for result in outcome.results}
+    return {str(result.run.algorithm): result for result in outcome.results}
 
 
 def errors(results: dict[str, Result]) -> list[str]:

@@ -8,8 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from uwsim.analysis.comparison import Entry
+from uwsim.results.inputs import Inputs
 from uwsim.results.result import Cell, Column, Missing, Result
 from uwsim.results.result_file import save
+from uwsim.results.run_info import RunInfo
 
 Values = Mapping[float, Sequence[float | None]]
 """Fog -> the value of each seed; None: lost."""
@@ -42,17 +44,19 @@ def made(algorithm: str, values: Values, *, seed: int = 0) -> Result:
                 missing.append(Missing(row=len(rows), column="total", why="lost at 3.1 s"))
             status = "ok" if value is not None else "lost"
             rows.append((repeat, seed + repeat, fog, value, value, status, 2.0 * (i + 1)))
-    run = {
-        "seed": seed,
-        "mode": "independent",
-        "algorithm": algorithm,
-        "parameters": {"levels": 3.0},
-        "settings": (),
-        "compatibility": (),
-        "timestep": (0.002, "s"),
-        "version": "0.1.0",
-    }
-    return Result(inputs=INPUTS, run=run, columns=columns, rows=tuple(rows), missing=tuple(missing))
+    run = RunInfo(
+        seed=seed,
+        mode="independent",
+        algorithm=algorithm,
+        parameters={"levels": 3.0},
+        settings=(),
+        compatibility=(),
+        timestep=(0.002, "s"),
+        version="0.1.0",
+    )
+    return Result(
+        inputs=Inputs.of(INPUTS), run=run, columns=columns, rows=tuple(rows), missing=tuple(missing)
+    )
 
 
 def noisy(
@@ -70,7 +74,7 @@ def entries(*results: Result) -> tuple[Entry, ...]:
     return tuple(
         Entry(name=name, source=f"{name}.result", result=result, sha256="00" * 32)
         for result in results
-        if (name := str(result.run["algorithm"]))
+        if (name := str(result.run.algorithm))
     )
 
 
@@ -78,6 +82,6 @@ def saved(directory: Path, *results: Result) -> list[str]:
     """Results in directories named by their algorithms."""
     paths = []
     for result in results:
-        paths.append(str(directory / f"{result.run['algorithm']}.result"))
+        paths.append(str(directory / f"{result.run.algorithm}.result"))
         save(result, Path(paths[-1]))
     return paths

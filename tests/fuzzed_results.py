@@ -153,7 +153,7 @@ def read_for_verify(sound: Sound, directory: Path) -> None:
     units = finished(directory, plan, stored)
     printable(head(stored, directory, len(units), len(plan.units())))
     if units:
-        made_otherwise(stored, directory, bench.head(units[0])["run"])
+        made_otherwise(stored, directory, bench.info)
         verify(directory, stored, bench, units, executor=Copies(sound))
 
 

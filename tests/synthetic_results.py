@@ -7,7 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from uwsim.results.inputs import Inputs
 from uwsim.results.result import Cell, Column, ImageStream, Missing, Result
+from uwsim.results.run_info import RunInfo
 
 S, SIGMA, D, ZNCC = 30.8, 5.1, 1.304, 0.5
 F_STAR = math.sqrt(math.log(S * math.sqrt(1 / ZNCC**2 - 1) / SIGMA)) / D
@@ -57,22 +59,22 @@ def visibility(
             measured = (corners, corners, corners * 1.6, 60, centroid, corners + centroid)
             rows.append((*lead, fog, *measured, "ok", 2.0 * (i + 1)))
     return Result(
-        inputs={
-            "benchmark": ("visibility.xml", "sha256:" + "3f" * 32),
-            "scene": ("visibility-scene.xml", "sha256:" + "a0" * 32),
-            "assets": {"objects/blackbox_uib_trimesh.osg": "sha256:" + "77" * 32},
-        },
-        run={
-            "seed": seeds[0],
-            "repeat": len(seeds),
-            "mode": "sequential",
-            "algorithm": algorithm,
-            "parameters": {"threshold": 0.5, "levels": 3},
-            "timestep": (0.002, "s"),
-            "version": "0.1.0",
-            "physics": "mujoco 4.0.0",
-            "renderer": "moderngl 5.12, llvmpipe (LLVM 15.0.6, 256 bits)",
-        },
+        inputs=Inputs(
+            benchmark=("visibility.xml", "sha256:" + "3f" * 32),
+            scene=("visibility-scene.xml", "sha256:" + "a0" * 32),
+            assets={"objects/blackbox_uib_trimesh.osg": "sha256:" + "77" * 32},
+        ),
+        run=RunInfo(
+            seed=seeds[0],
+            repeats=len(seeds),
+            mode="sequential",
+            algorithm=algorithm,
+            parameters={"threshold": 0.5, "levels": 3},
+            timestep=(0.002, "s"),
+            version="0.1.0",
+            physics="mujoco 4.0.0",
+            renderer="moderngl 5.12, llvmpipe (LLVM 15.0.6, 256 bits)",
+        ),
         columns=tuple(columns),
         rows=tuple(rows),
         missing=tuple(missing),

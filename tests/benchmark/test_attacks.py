@@ -15,6 +15,7 @@ from tests.played import INIT, TIME, make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.errors import NotAllowed
 from uwsim.messages import Float32MultiArray, PoseStamped, floats, header
+from uwsim.results.inputs import Inputs
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.processes import ProcessExecutor
@@ -133,7 +134,7 @@ def bench_of(folder: Path, algorithm: type[Attacker]) -> Run:
     )
     name = algorithm.__name__
     plan = replace(plan, algorithm_name=name, parameters={"immortal": str(folder / "immortal")})
-    return Run(plan=plan, out=folder / name, inputs={}, renderer="none")
+    return Run(plan=plan, out=folder / name, inputs=Inputs(), renderer="none")
 
 
 def reasons(result: Result) -> list[str | None]:

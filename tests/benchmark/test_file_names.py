@@ -7,6 +7,7 @@ from tests.synthetic_results import visibility
 from uwsim.analysis.plots import draw_plots
 from uwsim.assets.bundled import bundled
 from uwsim.cli.bench import folders_of
+from uwsim.results.inputs import Inputs
 from uwsim.results.result import Column, Result
 
 
@@ -29,7 +30,7 @@ def test_measures_that_are_alike_in_80_letters_have_a_plot_each(tmp_path: Path) 
         *(Column(name=name, kind="measure") for name in names),
     )
     result = Result(
-        inputs={}, run=visibility().run, columns=columns, rows=((0.0, 1.0, 2.0, 3.0),) * 2
+        inputs=Inputs(), run=visibility().run, columns=columns, rows=((0.0, 1.0, 2.0, 3.0),) * 2
     )
     plots = draw_plots(result, tmp_path)
     assert len({plot.name for plot in plots}) == len(plots) == 4

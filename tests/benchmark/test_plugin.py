@@ -180,7 +180,7 @@ def test_a_benchmark_of_nothing_but_own_parts_is_played_by_two_workers(folder: P
     assert result.values("murk") == (0.0, 0.5)
     assert result.columns[0].unit == "1/m"
     assert result.numbers("steps") == (100.0, 100.0)  # on at its first step: 0.1 s / 2 ms, twice
-    assert result.inputs["plugins"] == (("parts.py", read_plugin(folder / "parts.py").sha256),)
+    assert result.inputs.plugins == (("parts.py", read_plugin(folder / "parts.py").sha256),)
 
 
 def test_a_file_that_uses_a_plugin_says_so_when_it_was_not_given(
@@ -227,7 +227,8 @@ def test_a_plan_brings_its_plugins_to_a_process_that_has_never_seen_them(folder:
 
 
 def test_a_result_without_plugins_does_not_mention_them(folder: Path) -> None:
-    assert set(hash_inputs(plan_of("visibility"))[0]) == {"benchmark", "scene", "assets"}
+    inputs, _ = hash_inputs(plan_of("visibility"))
+    assert set(inputs.stored()) == {"benchmark", "scene", "assets"}
 
 
 @pytest.mark.parametrize(

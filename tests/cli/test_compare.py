@@ -66,7 +66,7 @@ def test_another_experiment_is_refused_in_one_line_and_forced_with_a_warning(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     other = noisy("ecc", 1.2, n=8, salt=3)
-    save(replace(other, run={**other.run, "timestep": (0.001, "s")}), Path("ecc.result"))
+    save(replace(other, run=replace(other.run, timestep=(0.001, "s"))), Path("ecc.result"))
     assert main(["compare", two[0], "ecc.result"]) == 2
     error = one_line(capsys)
     assert "not of one experiment: timestep: 0.002 s in esm.result, 0.001 s in ecc.result" in error

@@ -11,6 +11,8 @@ import pytest
 
 from uwsim.envelope import Asked, Envelope, Evaluation, Range, parse_criterion, search
 from uwsim.envelope.plot import draw
+from uwsim.results.inputs import Inputs
+from uwsim.results.run_info import RunInfo
 
 CRITERION = parse_criterion("corners > 5", ["corners"])
 Law = Callable[[int, float], float | None]
@@ -43,8 +45,8 @@ def envelope(
         ),
         found=found,
         evaluations=tuple(made[key] for key in sorted(made, key=lambda k: k[::-1])),
-        inputs={"benchmark": ("b.xml", "sha256:0")},
-        run={"algorithm": "esm"},
+        inputs=Inputs(benchmark=("b.xml", "sha256:0")),
+        run=RunInfo(algorithm="esm"),
     )  # fmt: skip
 
 

@@ -24,8 +24,10 @@ from uwsim.benchmark.updaters import levels
 from uwsim.currents import Place, UwsimSinusoidSpec
 from uwsim.errors import ResultError
 from uwsim.geometry import Array
+from uwsim.results.inputs import Inputs
 from uwsim.results.log import Log, load_log
 from uwsim.results.result import Result
+from uwsim.results.run_info import RunInfo
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan_request import PlanRequest
@@ -112,7 +114,7 @@ def test_only_whole_periods_after_thirty_seconds_count() -> None:
 
 def test_a_level_that_is_not_in_the_logs_is_reported() -> None:
     log = Log(measure="offset", header=("current [m/s]", "time [s]", "total", "x", "y"))
-    result = Result(inputs={}, run={}, columns=(), rows=(), facts={"d": (2.2, "m")})
+    result = Result(inputs=Inputs(), run=RunInfo(), columns=(), rows=(), facts={"d": (2.2, "m")})
     names = ("centroid", "objectCentered", "offset")
     with pytest.raises(ResultError, match=r"no level current=0.1"):
         track(result, dict.fromkeys(names, log), level=0.1, focal=514.7)

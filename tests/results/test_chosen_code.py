@@ -24,6 +24,7 @@ from uwsim.results.provenance import (
     save_beginning,
     save_provenance,
 )
+from uwsim.results.run_info import RunInfo
 from uwsim.verify.environment import made_otherwise
 
 OLD = {"numpy": ["OLD_X86"], "OpenBLAS": ["Katmai"]}
@@ -108,7 +109,7 @@ def test_verify_names_what_was_chosen_otherwise_and_nothing_where_it_was_the_sam
     tmp_path: Path,
 ) -> None:
     result = made("esm", {0.0: [1.0]})
-    run = {"version": "0.1.0"}
+    run = RunInfo(version="0.1.0")
     save_provenance({**machine(), "cpu": "abacus"}, tmp_path)
     assert made_otherwise(result, tmp_path, run) == {}
     said = made_otherwise(result, begun_elsewhere(tmp_path), run)

@@ -16,7 +16,7 @@ from scipy.io import netcdf_file
 from uwsim.errors import ResultError
 from uwsim.files.input_files import recorded
 from uwsim.results import journal
-from uwsim.results.inputs import differing, files_by_role, without_algorithm
+from uwsim.results.inputs import Inputs, differing
 from uwsim.runs.inputs_read import inputs_of
 from uwsim.runs.make_plan import make_plan
 from uwsim.runs.plan import Plan
@@ -122,7 +122,7 @@ def _plan(algorithm: str = "own_tracker:Tracker") -> Plan:
     return make_plan(PlanRequest(benchmark="b.xml", algorithm=algorithm, seed=0, repeat=1))
 
 
-def _inputs(algorithm: str = "own_tracker:Tracker") -> dict[str, object]:
+def _inputs(algorithm: str = "own_tracker:Tracker") -> Inputs:
     plan = _plan(algorithm)
     with recorded() as files:
         simulation = Simulation(plan.scene)
@@ -159,14 +159,11 @@ SOURCES = ["own_parts/__init__.py", "own_parts/filter.py", "own_parts/numbers.py
 
 def test_every_file_that_is_read_is_among_the_inputs(folder: Path) -> None:
     inputs = _inputs()
-    assert list(inputs) == ["benchmark", "scene", "assets", "algorithm"]
-    assert {role: list(inputs[role]) for role in ("assets", "algorithm")} == {  # type: ignore[call-overload]
-        "assets": ASSETS,
-        "algorithm": SOURCES,
-    }
+    assert list(inputs.stored()) == ["benchmark", "scene", "assets", "algorithm"]
+    assert (list(inputs.assets or ()), list(inputs.algorithm or ())) == (ASSETS, SOURCES)
     assert str(folder) not in str(inputs)
-    assert "algorithm" not in without_algorithm(inputs)
-    assert "algorithm" not in _inputs("p")
+    assert "algorithm" not in inputs.without_algorithm().stored()
+    assert "algorithm" not in _inputs("p").stored()
 
 
 def test_a_file_that_was_changed_is_named(folder: Path) -> None:
@@ -185,11 +182,12 @@ def test_a_file_that_was_changed_is_named(folder: Path) -> None:
 def test_inputs_are_compared_as_json_has_them_and_as_python_has_them() -> None:
     stored = {"scene": ("a.xml", "sha256:1"), "plugins": (("p.py", "sha256:2"),), "assets": {}}
     now = {"scene": ["a.xml", "sha256:1"], "plugins": [["p.py", "sha256:3"]], "assets": {"x": "y"}}
-    assert list(files_by_role(stored)) == [
+    before, after = Inputs.of(stored), Inputs.of(now)
+    assert list(before.files()) == [
         ("scene", "a.xml", "sha256:1"),
         ("plugins", "p.py", "sha256:2"),
     ]
-    assert differing(stored, now) == [
+    assert differing(before, after) == [
         "plugins p.py is another file now (2 then, 3 now)",
         "x was not used then",
     ]

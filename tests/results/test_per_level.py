@@ -6,16 +6,18 @@ import csv
 import io
 
 from tests.synthetic_results import one_level, visibility
+from uwsim.results.inputs import Inputs
 from uwsim.results.per_level import per_level, rows_by_level, seeds_of, success_per_level
 from uwsim.results.result import Column, Missing, Result
+from uwsim.results.run_info import RunInfo
 from uwsim.results.summary import summary_text
 from uwsim.statistics import mean_interval, rate
 
 
 def two_seeds() -> Result:
     return Result(
-        inputs={},
-        run={},
+        inputs=Inputs(),
+        run=RunInfo(),
         columns=(
             Column(name="seed", kind="run"),
             Column(name="fog", kind="level", unit="1/m"),
@@ -49,7 +51,9 @@ def test_success_is_what_ended_ok_with_exact_limits_and_its_seeds() -> None:
 
 def test_a_row_without_seed_or_status_has_those_of_the_run_or_none() -> None:
     assert set(seeds_of(visibility(seeds=(7,)))) == {7}
-    bare = Result(inputs={}, run={}, columns=(Column(name="none", kind="level"),), rows=((1.0,),))
+    bare = Result(
+        inputs=Inputs(), run=RunInfo(), columns=(Column(name="none", kind="level"),), rows=((1.0,),)
+    )
     assert success_per_level(bare)[0].success is None
     assert seeds_of(bare) == (None,)
 

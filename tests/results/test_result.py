@@ -13,8 +13,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from uwsim.errors import ResultError, UnknownName
+from uwsim.results.inputs import Inputs
 from uwsim.results.result import MAX_VALUE, Column, ImageStream, Missing, Result, SavedImage
 from uwsim.results.result_file import dumps, load, loads, save
+from uwsim.results.run_info import RunInfo
 
 COLUMNS = (
     Column(name="fog", kind="level", unit="1/m"),
@@ -28,8 +30,8 @@ COLUMNS = (
 
 def make(**changes: object) -> Result:
     result = Result(
-        inputs={"benchmark": ["a.xml", "sha256:00"], "assets": {"b.osg": "sha256:11"}},
-        run={"seed": 7, "parameters": {"threshold": 0.5}, "timestep": [0.002, "s"]},
+        inputs=Inputs(benchmark=("a.xml", "sha256:00"), assets={"b.osg": "sha256:11"}),
+        run=RunInfo(seed=7, parameters={"threshold": 0.5}, timestep=(0.002, "s")),
         columns=COLUMNS,
         rows=((0.0, 1.83, 1.79, 1.83, "ok", 2.0), (1.2, None, None, None, "lost", 4.0)),
         missing=(
@@ -166,3 +168,11 @@ def test_columns_are_asked_for_by_name() -> None:
     assert make().fact("sigma") is None
     with pytest.raises(UnknownName, match="Did you mean 'corners'"):
         make().values("corner")
+
+
+def test_what_a_run_says_that_this_version_does_not_know_is_kept() -> None:
+    result = make()
+    other = replace(result, run=replace(result.run, others={"host": "abacus"}))
+    assert loads(dumps(other)) == other
+    assert '"host": "abacus"' in dumps(other)
+    assert result.run.stored() == {k: v for k, v in other.run.stored().items() if k != "host"}

@@ -9,7 +9,9 @@ import pytest
 from rich.console import Console
 
 from tests.synthetic_results import WHY, nested, nothing_measured, one_level, visibility
+from uwsim.results.inputs import Inputs
 from uwsim.results.result import Column, Result
+from uwsim.results.run_info import RunInfo
 from uwsim.results.table import (
     exact_decimals,
     lines,
@@ -66,8 +68,8 @@ def test_one_level_and_nested_levels_have_tables() -> None:
 
 def test_markup_in_a_name_is_shown_not_obeyed() -> None:
     result = Result(
-        inputs={},
-        run={},
+        inputs=Inputs(),
+        run=RunInfo(),
         columns=(Column(name="fog", kind="level"), Column(name="[red]m[/red]", kind="measure")),
         rows=((0.0, 1.0),),
     )
@@ -95,8 +97,8 @@ def wide_and_failing(seeds: tuple[int, ...] = (1,)) -> Result:
     measures = tuple(Column(name=name, kind="measure", unit="px") for name in names)
     runs = (Column(name="repeat", kind="run"),)
     return Result(
-        inputs={},
-        run={},
+        inputs=Inputs(),
+        run=RunInfo(),
         columns=(
             *runs,
             Column(name="fog", kind="level", unit="1/m"),
@@ -160,5 +162,5 @@ def test_a_sum_of_pixels_is_in_pixels(expression: str, unit: str) -> None:
         Column(name="c", kind="measure", unit="m"),
         total,
     )
-    result = Result(inputs={}, run={}, columns=columns, rows=())
+    result = Result(inputs=Inputs(), run=RunInfo(), columns=columns, rows=())
     assert unit_of(result, total) == unit

@@ -13,6 +13,7 @@ from tests.played import INIT, make_plan
 from uwsim.bus import Node
 from uwsim.errors import RunFailed
 from uwsim.files.input_files import InputFile, hash_of
+from uwsim.results.inputs import Inputs
 from uwsim.runs.executors.executor import run_each
 from uwsim.runs.input_watch import Watch, watchable
 from uwsim.runs.run import Run
@@ -38,7 +39,7 @@ def test_a_row_is_kept_only_while_all_files_are_as_they_were(tmp_path: Path) -> 
     plan = make_plan(tmp_path, Edits, LEVELS, start=INIT)
     plan = replace(plan, parameters={"path": str(tmp_path / "box.png")})
     files = watchable([file_of(tmp_path / "box.png")])
-    bench = Run(plan=plan, out=tmp_path / "out", inputs={}, renderer="none", files=files)
+    bench = Run(plan=plan, out=tmp_path / "out", inputs=Inputs(), renderer="none", files=files)
     outcome = run_each([bench])
     [(_, error)] = outcome.failures
     assert isinstance(error, RunFailed)

@@ -19,16 +19,18 @@ from uwsim.benchmark.measures import (
     Reconstruction3DSpec,
     TimeSpec,
 )
+from uwsim.results.inputs import Inputs
 from uwsim.results.log import Log
 from uwsim.results.result import Column, Result
+from uwsim.results.run_info import RunInfo
 from uwsim.runs.uwsim_files import dat_text, data_text, detail_names, save_dat, save_data
 
 CORNERS = EuclideanNormSpec(
     name="corners", ground_truth=ConstantSpec(values=(1.0, 2.0)), target="t"
 )
 RESULT = Result(
-    inputs={},
-    run={},
+    inputs=Inputs(),
+    run=RunInfo(),
     columns=(
         Column(name="iteration", kind="level"),
         Column(name="fog", kind="level", unit="1/m"),
@@ -67,8 +69,8 @@ REBUILT = Reconstruction3DSpec(
     name="cloud", target="b", topic="t", from_="f", detailed_results_to_globals=True
 )
 RECONSTRUCTION = Result(
-    inputs={},
-    run={},
+    inputs=Inputs(),
+    run=RunInfo(),
     columns=(
         Column(name="light", kind="level"),
         Column(name="taskTime", kind="measure", unit="s"),
@@ -119,8 +121,8 @@ def test_a_reconstruction_without_points_is_no_error_in_the_original() -> None:
 def test_a_missing_path_cancels_a_missing_estimate_in_the_original() -> None:
     path = PathFollowingSpec(name="path", target="g")
     result = Result(
-        inputs={},
-        run={},
+        inputs=Inputs(),
+        run=RunInfo(),
         columns=(
             Column(name="none", kind="level"),
             Column(name="corners", kind="measure", unit="px"),
@@ -148,8 +150,8 @@ def test_a_missing_path_cancels_a_missing_estimate_in_the_original() -> None:
 def measured(spec: MeasureSpec, value: float | None, *others: float | None) -> Result:
     """A row with a measure and a distance called d, and their sum as the score."""
     return Result(
-        inputs={},
-        run={},
+        inputs=Inputs(),
+        run=RunInfo(),
         columns=(
             Column(name="none", kind="level"),
             Column(name=spec.name, kind="measure"),

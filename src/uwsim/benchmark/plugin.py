@@ -374,6 +374,6 @@ def check_bound(
             live.close()
 
 
-def hashes(plugins: Sequence[Plugin]) -> list[list[str]]:
+def hashes(plugins: Sequence[Plugin]) -> tuple[tuple[str, str], ...]:
     """Return name and hash of each plugin, in the order of their names."""
-    return sorted([plugin.name, plugin.sha256] for plugin in plugins)
+    return tuple(sorted((plugin.name, plugin.sha256) for plugin in plugins))

@@ -141,7 +141,7 @@ def verify(
     run = replayed_run(stored, directory, places.overrides())
     n_whole, units = sample.choose(run, stored)
     n_levels = sum(len(trial.levels) for trial in units)
-    others = made_otherwise(stored, directory, run.head(units[0])["run"])
+    others = made_otherwise(stored, directory, run.info)
     for line in others.values():
         typer.echo(printable(line))
     raise_from_now_on()
@@ -173,13 +173,12 @@ def head(stored: Result, directory: Path, n_whole: int, n_units: int) -> str:
     """Say what is verified, and that its files are there."""
     run = stored.run
     names = [named_input(stored, kind)[0] for kind in ("benchmark", "scene")]
-    others = stored.inputs.get("assets", {})
-    n_others = len(others) if isinstance(others, Mapping) else 0
+    n_others = len(stored.inputs.assets or {})
     finished = count(n_units, "unit")
     if n_whole < n_units:
         finished = f"{n_whole} of {finished} finished"
     return printable(
-        f"{directory}: {run.get('algorithm')}, seed {run.get('seed')}, {run.get('mode')}, "
+        f"{directory}: {run.algorithm}, seed {run.seed}, {run.mode}, "
         f"{count(len(stored.rows), 'row')}, {finished}\n"
         f"files: the same ({', '.join(names)} and {n_others} more)"
     )

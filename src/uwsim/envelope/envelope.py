@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..results.atomic_file import write_text
-from ..results.result import Json
+from ..results.inputs import Inputs
+from ..results.run_info import RunInfo
 from ..statistics import Median, fewest_for_median, median_interval, rate
 from .criterion import reasons
 from .evaluate import Evaluation
@@ -57,9 +58,9 @@ class Envelope:
     """The breaking point of each seed."""
     evaluations: tuple[Evaluation, ...]
     """Every run, by level and seed."""
-    inputs: Json
+    inputs: Inputs
     """Names and hashes of the files read."""
-    run: Json
+    run: RunInfo
     """What was played, and with what."""
 
     @property
@@ -147,8 +148,8 @@ class Envelope:
         asked, median = self.asked, self.median
         return {
             "format": FORMAT,
-            "inputs": self.inputs,
-            "run": self.run,
+            "inputs": self.inputs.stored(),
+            "run": self.run.stored(),
             "over": asked.over,
             "unit": None if asked.unit == "1" else asked.unit,
             "until": asked.until,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..runs.executors.executor import Executor, OnLevel
-from ..runs.plan import Trial
 from ..runs.run import Run
 from .envelope import Asked, Envelope
 from .evaluate import Evaluations
@@ -35,11 +36,5 @@ def find(
         found=found,
         evaluations=tuple(runs.made[key] for key in sorted(runs.made, key=lambda k: k[::-1])),
         inputs=run.inputs,
-        run=_described(run),
+        run=replace(run.info, seed=None, repeats=None, levels=None),
     )
-
-
-def _described(run: Run) -> dict[str, object]:
-    """Return ``run`` as results have it; seeds and levels stand elsewhere."""
-    head = run.head(Trial(index=0, repeat=0, seed=0, levels=(), is_alone=True))
-    return {k: v for k, v in head["run"].items() if k not in ("seed", "repeats", "levels")}

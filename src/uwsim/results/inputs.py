@@ -8,7 +8,11 @@ currents, the user's own functions, recordings; ``algorithm`` is the source of o
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+from .stored_record import StoredRecord
 
 ASSETS = "assets"
 """The role of what scene and benchmark name."""
@@ -20,24 +24,45 @@ NAMED = 6
 """So many differences are said one by one."""
 
 
-def without_algorithm(inputs: Mapping[str, object]) -> dict[str, object]:
-    """Return what two algorithms of one experiment have in common."""
-    return {role: files for role, files in inputs.items() if role != ALGORITHM}
+@dataclass(frozen=True, kw_only=True)
+class Inputs(StoredRecord):
+    """Names and hashes of the files read; None where a result does not say."""
+
+    KEY: ClassVar[str] = "inputs"
+
+    benchmark: tuple[str, str] | None = None
+    """Name and hash of the benchmark."""
+    scene: tuple[str, str] | None = None
+    """Name and hash of the scene."""
+    assets: Mapping[str, str] | None = None
+    """Name -> hash of what scene and benchmark name."""
+    plugins: tuple[tuple[str, str], ...] | None = None
+    """Name and hash of each plugin."""
+    algorithm: Mapping[str, str] | None = None
+    """Name -> hash of an algorithm's sources."""
+
+    @property
+    def title(self) -> str:
+        """Name of the benchmark without its ending; ``benchmark`` where there is none."""
+        return "benchmark" if self.benchmark is None else self.benchmark[0].removesuffix(".xml")
+
+    def files(self) -> Iterator[tuple[str, str, str]]:
+        """Yield role, name and hash of every input."""
+        for role in ("benchmark", "scene"):
+            if (file := getattr(self, role)) is not None:
+                yield (role, *file)
+        yield from ((ASSETS, *file) for file in (self.assets or {}).items())
+        yield from (("plugins", *file) for file in self.plugins or ())
+        yield from ((ALGORITHM, *file) for file in (self.algorithm or {}).items())
+
+    def without_algorithm(self) -> Inputs:
+        """Return what two algorithms of one experiment have in common."""
+        return replace(self, algorithm=None)
 
 
-def files_by_role(inputs: Mapping[str, object]) -> Iterator[tuple[str, str, str]]:
-    """Yield role, name and hash of every input, as a result or a unit's file has them."""
-    for role, value in inputs.items():
-        if isinstance(value, Mapping):
-            yield from ((role, str(name), str(digest)) for name, digest in value.items())
-        elif isinstance(value, Sequence) and not isinstance(value, str):
-            pairs = value if all(_is_pair(each) for each in value) else [value]
-            yield from ((role, str(pair[0]), str(pair[1])) for pair in pairs if _is_pair(pair))
-
-
-def differing(before: Mapping[str, object], now: Mapping[str, object]) -> list[str]:
+def differing(before: Inputs, now: Inputs) -> list[str]:
     """Say which inputs differ, a line each; nothing where all are the same."""
-    then, today = ({(r, n): d for r, n, d in files_by_role(each)} for each in (before, now))
+    then, today = ({(r, n): d for r, n, d in each.files()} for each in (before, now))
     messages = []
     for role, name in dict.fromkeys([*then, *today]):
         old, new = then.get((role, name)), today.get((role, name))
@@ -58,12 +83,3 @@ def differing(before: Mapping[str, object], now: Mapping[str, object]) -> list[s
 def short_hash(digest: object) -> str:
     """Return the first digits of a hash."""
     return str(digest).removeprefix("sha256:")[:SHORT]
-
-
-def _is_pair(value: object) -> bool:
-    """Whether it is a name and a hash."""
-    return (
-        isinstance(value, list | tuple)
-        and len(value) == 2
-        and all(isinstance(part, str) for part in value)
-    )

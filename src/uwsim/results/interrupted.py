@@ -8,12 +8,16 @@ the first line of a unit's file says of the run.
 from __future__ import annotations
 
 import shlex
-from importlib import resources
 from pathlib import Path
 
+from ..errors import ResultError
+from .command import bench_words
 from .directory import CONTROL
+from .inputs import Inputs
 from .journal import FOLDER, Record, head_of
 from .provenance import load_provenance
+from .run_info import RunInfo
+from .stored_shapes import HEAD
 
 ENVELOPE = "envelope.json"
 """What `uwsim envelope` writes in its own directory."""
@@ -49,22 +53,19 @@ def resuming(directory: Path) -> str | None:
     if isinstance(typed, list) and typed:
         words = [str(word) for word in typed if word not in ("--overwrite", "--resume")]
         return shlex.join(["uwsim", *words, "--resume"])
-    first = next(iter(heads.values()))
-    run, inputs = _mapping(first.get("run")), _mapping(first.get("inputs"))
-    words = ["uwsim", "bench", _benchmark(inputs)]
-    for head in heads.values():
-        words += ["--algorithm", str(_mapping(head.get("run")).get("algorithm"))]
-    words += ["--seed", str(run.get("seed", 0))]
-    if run.get("repeats", 1) != 1:
-        words += ["--repeat", str(run["repeats"])]
-    words += ["--mode", str(run.get("mode"))]
-    for option, key in (("--set", "settings"), ("--level", "levels")):
-        for pair in _pairs(run.get(key)):
-            words += [option, "=".join(pair)]
-    if isinstance(names := run.get("compatibility"), list) and names:
-        words += ["--compat", ",".join(map(str, names))]
-    for name, _ in _pairs(inputs.get("plugins")):
-        words += ["--plugin", name]
+    try:
+        for name, head in heads.items():
+            HEAD(head, name)
+    except ResultError:
+        return None
+    runs = [RunInfo.of(_mapping(head.get("run"))) for head in heads.values()]
+    inputs = Inputs.of(_mapping(next(iter(heads.values())).get("inputs")))
+    words = bench_words(
+        runs[0],
+        inputs,
+        algorithms=[str(run.algorithm) for run in runs],
+        repeats=1 if runs[0].repeats is None else runs[0].repeats,
+    )
     return shlex.join([*words, "--out", str(directory), "--resume"])
 
 
@@ -84,18 +85,5 @@ def _head(directory: Path) -> Record | None:
     return None
 
 
-def _benchmark(inputs: Record) -> str:
-    """The benchmark's file; by its bare name where it is bundled."""
-    given = inputs.get("benchmark")
-    name = str(given[0]) if isinstance(given, list) and given else "BENCHMARK"
-    folder = Path(str(resources.files("uwsim"))) / "data" / "benchmarks"
-    return Path(name).stem if (folder / name).is_file() else name
-
-
 def _mapping(value: object) -> Record:
     return value if isinstance(value, dict) else {}
-
-
-def _pairs(value: object) -> list[tuple[str, str]]:
-    pairs = value if isinstance(value, list) else []
-    return [(str(p[0]), str(p[1])) for p in pairs if isinstance(p, list) and len(p) == 2]

@@ -15,7 +15,7 @@ from typing import Any
 
 from ..errors import ReplayDiffers, ResultError
 from .chosen_code import other_code
-from .inputs import differing
+from .inputs import Inputs, differing
 from .provenance import codes_of, load_provenance
 from .stored_shapes import END, HEAD, ROW
 
@@ -187,7 +187,7 @@ class Journal:
 
 def _other_run(found: Record, head: Record) -> str:
     """Say what of a head is not that of this run."""
-    messages = differing(_part(found, "inputs"), _part(head, "inputs"))
+    messages = differing(*(Inputs.of(_part(each, "inputs")) for each in (found, head)))
     before, now = (
         {**_part(each, "run"), **{k: v for k, v in each.items() if k not in ("inputs", "run")}}
         for each in (found, head)

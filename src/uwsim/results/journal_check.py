@@ -105,17 +105,14 @@ def read_journals(directory: Path) -> Journals:
 
 def _n_ended(result: Result) -> int:
     """How many units a result says are finished."""
-    match result.run.get("units"):
-        case (int(ended), _):
-            return ended
-    return 0
+    return 0 if result.run.units is None else result.run.units[0]
 
 
 def _keys(result: Result) -> Iterator[Key]:
     names = [column.name for column in result.columns]
     levels = [i for i, column in enumerate(result.columns) if column.kind == "level"]
     for row in result.rows:
-        seed = row[names.index("seed")] if "seed" in names else result.run.get("seed")
+        seed = row[names.index("seed")] if "seed" in names else result.run.seed
         yield (seed if isinstance(seed, int) else None, *(row[i] for i in levels))
 
 

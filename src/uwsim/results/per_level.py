@@ -48,8 +48,7 @@ def seeds_of(result: Result) -> tuple[int | None, ...]:
     """Return the seed of every row: the column ``seed``, else that of the run."""
     if any(column.name == "seed" for column in result.of_kind("run")):
         return tuple(None if v is None else round(v) for v in result.numbers("seed"))
-    seed = result.run.get("seed")
-    return (seed if isinstance(seed, int) else None,) * len(result.rows)
+    return (result.run.seed,) * len(result.rows)
 
 
 def per_level(result: Result, column: str, *, confidence: float = 0.95) -> list[LevelInterval]:

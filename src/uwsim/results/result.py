@@ -7,15 +7,16 @@ it.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from numbers import Integral, Real
 from pathlib import Path
 from typing import Literal, get_args
 
 from ..errors import ResultError, UnknownName
+from .checked_values import checked_values
+from .inputs import Inputs
+from .run_info import RunInfo
 
 MAX_VALUE = 1e60
 """No number of a row is larger: what is made of it, powers and sums, is still a float64."""
@@ -118,9 +119,9 @@ class Result:
     column; anything else is refused where the result is made, with ResultError.
     """
 
-    inputs: Json
-    """``benchmark`` and ``scene`` as (name, hash), ``assets`` as name -> hash."""
-    run: Json
+    inputs: Inputs
+    """Names and hashes of the files read."""
+    run: RunInfo
     """Seed, mode, algorithm, parameters, timestep, versions."""
     columns: tuple[Column, ...]
     """What the cells of a row mean."""
@@ -139,11 +140,10 @@ class Result:
     """Images kept for the report."""
 
     def __post_init__(self) -> None:
-        for name in ("inputs", "run", "facts"):
-            object.__setattr__(self, name, _checked_values(getattr(self, name), name))
+        object.__setattr__(self, "facts", checked_values(self.facts, "facts"))
         for name in ("columns", "missing", "variations", "image_streams", "images"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
-        object.__setattr__(self, "rows", _checked_values(self.rows, "rows"))
+        object.__setattr__(self, "rows", checked_values(self.rows, "rows"))
         _check_columns(self)
         _check_rows(self)
         _check_notes(self)
@@ -274,19 +274,3 @@ def _is_inside(file: object) -> bool:
 def _expect(truth: bool, otherwise: str) -> None:
     if not truth:
         raise ResultError(otherwise + ".")
-
-
-def _checked_values(value: object, at: str) -> object:
-    """Return the value as dicts, tuples, str, bool, int, float or None; all numbers finite."""
-    if value is None or isinstance(value, str | bool):
-        return value
-    if isinstance(value, Mapping):
-        return {str(k): _checked_values(v, f"{at}.{k}") for k, v in value.items()}
-    if isinstance(value, Integral):
-        return int(value)
-    if isinstance(value, Real):
-        _expect(math.isfinite(value), f"{at} is {float(value)}: nothing to measure is null")
-        return float(value)
-    if isinstance(value, Sequence):
-        return tuple(_checked_values(v, f"{at}[{i}]") for i, v in enumerate(value))
-    raise ResultError(f"{at} is {value!r}; expected text, a number, a list or an object.")

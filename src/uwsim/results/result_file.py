@@ -11,15 +11,17 @@ The format's history, newest first:
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TypeVar, cast
 
 from ..errors import ResultError, did_you_mean
 from .atomic_file import write_text
+from .inputs import Inputs
 from .interrupted import instead_of_a_result
 from .result import Column, ImageStream, Missing, Result, SavedImage, Variation
+from .run_info import RunInfo
 from .stored_shapes import RESULT
 
 FORMAT = "uwsim-result/1"
@@ -67,9 +69,9 @@ def dumps(result: Result) -> str:
     """Return the text of ``result.json``: one column, row or reason a line, floats exact."""
     parts = {
         "format": _json(FORMAT),
-        "inputs": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.inputs.items()]),
-        "run": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.run.items()]),
-        "facts": _block("{}", [f"{_json(k)}: {_json(v)}" for k, v in result.facts.items()]),
+        "inputs": _object(result.inputs.stored()),
+        "run": _object(result.run.stored()),
+        "facts": _object(result.facts),
         **_variations(result),
         "columns": _block("[]", [_json(_given(column)) for column in result.columns]),
         "rows": _block("[]", [_json(row) for row in result.rows]),
@@ -99,8 +101,8 @@ def loads(text: str) -> Result:
         raise ResultError(f"its format is {repr(found)[:60]}; this uwsim reads {FORMAT!r}.")
     RESULT({name: part for name, part in document.items() if part is not None}, "")
     result = Result(
-        inputs=_take(document, "inputs", dict),
-        run=_take(document, "run", dict),
+        inputs=Inputs.of(_take(document, "inputs", dict)),
+        run=RunInfo.of(_take(document, "run", dict)),
         columns=tuple(_take_each(document, "columns", Column)),
         rows=tuple(_take(document, "rows", list)),
         missing=tuple(_take_each(document, "missing", Missing)),
@@ -125,6 +127,10 @@ def _json(value: object) -> str:
 def _block(brackets: str, lines: Iterable[str]) -> str:
     text = ",\n    ".join(lines)
     return f"{brackets[0]}\n    {text}\n  {brackets[1]}" if text else brackets
+
+
+def _object(values: Mapping[str, object]) -> str:
+    return _block("{}", [f"{_json(key)}: {_json(value)}" for key, value in values.items()])
 
 
 def _variations(result: Result) -> dict[str, str]:

@@ -47,7 +47,6 @@ def control_of(run: Run) -> Run:
     from ..algorithms import load_algorithm
     from ..algorithms.tracker_node import INPUT
     from ..results.directory import CONTROL as FOLDER
-    from ..results.inputs import without_algorithm
 
     topic, usual = image_topic(run.plan), str(INPUT["image_topic"])
     is_usual = topic is None or topic.strip("/") == usual.strip("/")
@@ -58,5 +57,5 @@ def control_of(run: Run) -> Run:
         parameters={} if topic is None or is_usual else {"image_topic": topic},
         is_blind=True,
     )
-    inputs = without_algorithm(run.inputs)
+    inputs = run.inputs.without_algorithm()
     return Run(plan=plan, out=run.out / FOLDER, inputs=inputs, renderer="none", files=run.files)

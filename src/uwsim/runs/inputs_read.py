@@ -10,12 +10,12 @@ from ..benchmark.plugin_checks import files_of
 from ..benchmark.updaters import chain
 from ..files.input_files import InputFile, by_name, hash_of, portable, record
 from ..files.python_sources import sources_of
-from ..results.inputs import ALGORITHM
+from ..results.inputs import Inputs
 from ..simulation import Simulation
 from .plan import Plan
 
 
-def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> dict[str, object]:
+def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> Inputs:
     """Gather what a plan is made of; what was not read yet is recorded now.
 
     Args:
@@ -43,21 +43,21 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
         InputFile(name, f"sha256:{digest}")
         for name, digest in simulation.world.scenery.made_hashes.items()
     ]
-    return {
-        "benchmark": [benchmark.name, hash_of(benchmark)],
-        "scene": [scene.name, hash_of(scene)],
-        "assets": by_name(assets),
-        **({"plugins": hashes(plan.plugins)} if plan.plugins else {}),
-        **of_algorithm(plan),
-    }
+    return Inputs(
+        benchmark=(benchmark.name, hash_of(benchmark)),
+        scene=(scene.name, hash_of(scene)),
+        assets=by_name(assets),
+        plugins=hashes(plan.plugins) or None,
+        algorithm=of_algorithm(plan),
+    )
 
 
-def of_algorithm(plan: Plan) -> dict[str, object]:
-    """Hash and record the sources of a ``module:Class``, not those bundled or of a plugin."""
+def of_algorithm(plan: Plan) -> dict[str, str] | None:
+    """Hash and record the sources of a ``module:Class``; None if bundled or of a plugin."""
     module, colon, _ = plan.algorithm_name.partition(":")
     if not colon:
-        return {}
-    return {ALGORITHM: by_name(_hashed(sources_of(module)))}
+        return None
+    return by_name(_hashed(sources_of(module)))
 
 
 def _hashed(files: Mapping[str, Path]) -> list[InputFile]:

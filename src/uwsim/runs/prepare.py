@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ..benchmark.plugin import attribute_errors_to, check_bound
 from ..benchmark.unknown_names import unknown_names
 from ..errors import BenchmarkError, UwsimError
 from ..files.input_files import recorded
-from ..results.inputs import without_algorithm
+from ..results.inputs import Inputs
 from ..simulation import RendererPool, Simulation
 from .input_watch import watchable
 from .inputs_read import inputs_of, of_algorithm
@@ -37,18 +38,17 @@ def prepare_runs(plans: Sequence[Plan], out: Path, folders: Sequence[str]) -> li
         UwsimError: as `hash_inputs` does.
     """
     first = prepare_run(plans[0], out)
-    shared = without_algorithm(first.inputs)
     runs = []
     for plan, folder in zip(plans, folders or [""], strict=True):
         with recorded() as sources:
-            inputs = {**shared, **of_algorithm(plan)}
+            inputs = replace(first.inputs, algorithm=of_algorithm(plan))
         files = watchable([*first.files, *sources])
         run = Run(plan=plan, out=out / folder, inputs=inputs, renderer=first.renderer, files=files)
         runs.append(run)
     return runs
 
 
-def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[dict[str, object], str]:
+def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, str]:
     """Open the scene once: hash every file that is read, and name the renderer.
 
     Every name of the benchmark is looked up on the way, so that no name can fail later. Inside

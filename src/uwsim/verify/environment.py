@@ -8,6 +8,7 @@ from pathlib import Path
 from ..results.chosen_code import other_code
 from ..results.provenance import codes_of, load_provenance, machine
 from ..results.result import Result
+from ..results.run_info import RunInfo
 from .verify import ENVIRONMENT, Verification
 
 MEANS = {
@@ -36,9 +37,9 @@ PROMISES = {
 """What holds where that differs."""
 
 
-def made_otherwise(stored: Result, directory: Path, run: Mapping[str, object]) -> dict[str, str]:
+def made_otherwise(stored: Result, directory: Path, run: RunInfo) -> dict[str, str]:
     """Say what differs between how the result was made and how it is replayed, and what holds."""
-    pairs = {name: (stored.run.get(name), run.get(name)) for name in ENVIRONMENT}
+    pairs = {name: (getattr(stored.run, name), getattr(run, name)) for name in ENVIRONMENT}
     recorded, here = load_provenance(directory), machine()
     for name in ("system", "python", *(["cpu"] if "code" not in recorded else [])):
         if name in recorded:

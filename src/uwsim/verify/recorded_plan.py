@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..assets.bundled import bundled
 from ..errors import AssetNotFound, ResultError
+from ..results.inputs import Inputs, differing
 from ..runs.make_plan import make_plan
 from ..runs.plan_request import PlanRequest
 
 if TYPE_CHECKING:
     from ..results.result import Result
+    from ..results.run_info import RunInfo
     from ..runs.plan import Plan
 
 NOT_DRAWN = "none"
@@ -44,7 +46,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
         ResultError: the result does not say, or a file is not the one that was played.
         AssetNotFound: a file is nowhere.
     """
-    run = _Run(result.run)
+    run = result.run
     typed = typed_words(directory)
     benchmark = find_input(
         "benchmark",
@@ -58,18 +60,18 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
     scene = find_input(
         "scene", named_input(result, "scene"), overrides.scene, directory, overrides, typed
     )
-    is_blind = run.text("renderer") == NOT_DRAWN
-    settings = [f"{name}={value}" for name, value in run.pairs("settings")]
+    is_blind = _needed(run, "renderer") == NOT_DRAWN
+    settings = [f"{name}={value}" for name, value in run.settings or ()]
     request = PlanRequest(
         benchmark=str(benchmark),
         scene=str(scene),
-        algorithm=run.text("algorithm"),
-        seed=run.number("seed"),
-        repeat=run.number("repeats"),
-        mode=run.text("mode"),
-        levels=[f"{name}={value!r}" for name, value in run.pairs("levels")],
+        algorithm=_needed(run, "algorithm"),
+        seed=_needed(run, "seed"),
+        repeat=_needed(run, "repeats"),
+        mode=_needed(run, "mode"),
+        levels=[f"{name}={value!r}" for name, value in run.levels or ()],
         settings=[s for s in settings if not (is_blind and s.startswith("algorithm."))],
-        compat=list(run.names("compatibility")),
+        compat=run.compatibility or (),
         data_path=overrides.data_path,
         plugins=_plugins(result, overrides.plugins),
         no_code=overrides.no_code,
@@ -78,7 +80,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
     return replace(make_plan(request), is_blind=is_blind)
 
 
-def check_inputs(recorded: Mapping[str, Any], found: Mapping[str, Any]) -> None:
+def check_inputs(recorded: Inputs, found: Inputs) -> None:
     """Refuse to go on with other assets or another algorithm than those that were played.
 
     Benchmark, scene and plugins are found by their hashes.
@@ -86,11 +88,8 @@ def check_inputs(recorded: Mapping[str, Any], found: Mapping[str, Any]) -> None:
     Raises:
         ResultError: names each that differs.
     """
-    from ..results.inputs import ALGORITHM, ASSETS, differing
-
     before, now = (
-        {role: each[role] for role in (ASSETS, ALGORITHM) if role in each}
-        for each in (recorded, found)
+        Inputs(assets=each.assets, algorithm=each.algorithm) for each in (recorded, found)
     )
     if wrong := differing(before, now):
         raise ResultError(
@@ -172,11 +171,9 @@ def scene_named_by(benchmark: Path) -> list[str]:
 
 def _plugins(result: Result, overrides: Sequence[Path]) -> list[Path]:
     """Return the plugins that were used, in the order in which they were."""
-    recorded = result.inputs.get("plugins", ())
-    named = [entry for entry in _entries(recorded) if len(entry) == 2]
     hashes = {path: "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest() for path in overrides}
     found = []
-    for name, wanted in named:
+    for name, wanted in result.inputs.plugins or ():
         right = [path for path, digest in hashes.items() if digest == wanted]
         if not right:
             alike = [str(path) for path in overrides if path.name == name]
@@ -190,61 +187,21 @@ def _plugins(result: Result, overrides: Sequence[Path]) -> list[Path]:
     return found
 
 
-def _entries(value: object) -> list[tuple[str, ...]]:
-    return [tuple(map(str, entry)) for entry in value] if isinstance(value, list | tuple) else []
-
-
 def named_input(result: Result, kind: str) -> tuple[str, str]:
     """Return name and hash of the benchmark or the scene of a result; ResultError if not there."""
-    entry = result.inputs.get(kind)
-    if (
-        isinstance(entry, list | tuple)
-        and len(entry) == 2
-        and all(isinstance(e, str) for e in entry)
-    ):
-        return str(entry[0]), str(entry[1])
-    raise ResultError(f'The result does not name its {kind}: "inputs" has {entry!r} for it.')
+    file: tuple[str, str] | None = getattr(result.inputs, kind)
+    if file is None:
+        raise ResultError(f'The result does not name its {kind}: "inputs" lacks it.')
+    return file
 
 
 def _shortened(digest: str) -> str:
     return digest[: len("sha256:") + 12]
 
 
-class _Run:
-    """What ``run`` of a result says, with errors for what it does not."""
-
-    def __init__(self, run: Mapping[str, object]) -> None:
-        self._run = run
-
-    def text(self, name: str) -> str:
-        """A word."""
-        value = self._run.get(name)
-        if isinstance(value, str):
-            return value
-        raise self._error(name)
-
-    def number(self, name: str) -> int:
-        """A whole number."""
-        value = self._run.get(name)
-        if isinstance(value, int) and value >= 0:
-            return value
-        raise self._error(name)
-
-    def names(self, name: str) -> tuple[str, ...]:
-        """A list of words."""
-        value = self._run.get(name, ())
-        if isinstance(value, tuple):
-            return tuple(map(str, value))
-        raise self._error(name)
-
-    def pairs(self, name: str) -> list[tuple[str, Any]]:
-        """A list of pairs."""
-        value = self._run.get(name, ())
-        if isinstance(value, tuple) and all(isinstance(p, tuple) and len(p) == 2 for p in value):
-            return [(str(first), second) for first, second in value]
-        raise self._error(name)
-
-    def _error(self, name: str) -> ResultError:
-        return ResultError(
-            f'The result cannot be replayed: "run" has {self._run.get(name)!r} for {name}.'
-        )
+def _needed(run: RunInfo, name: str) -> Any:
+    """Return what ``run`` says; ResultError where it does not."""
+    value = getattr(run, name)
+    if value is None:
+        raise ResultError(f'The result cannot be replayed: "run" does not say its {name}.')
+    return value

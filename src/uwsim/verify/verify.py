@@ -184,11 +184,11 @@ def _head(result: Result, replayed: journal.Record) -> journal.Record:
 
     The parameters of a head are those given; result.json says those that the algorithm ran with.
     """
-    stored = json.loads(json.dumps(result.run))
+    stored = json.loads(json.dumps(result.run.stored()))
     run = {
         key: stored.get(key) if key != "parameters" else now for key, now in replayed["run"].items()
     }
-    return {**replayed, "inputs": json.loads(json.dumps(result.inputs)), "run": run}
+    return {**replayed, "inputs": json.loads(json.dumps(result.inputs.stored())), "run": run}
 
 
 def _check_head(

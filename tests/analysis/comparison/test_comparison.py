@@ -33,7 +33,9 @@ from uwsim.analysis.comparison.plots import curves, differences_plot, success
 from uwsim.analysis.comparison.sentences import sentences, told_apart
 from uwsim.analysis.comparison.terminal import drawn
 from uwsim.errors import ResultError, UnknownName
+from uwsim.results.inputs import Inputs
 from uwsim.results.result import Result
+from uwsim.results.run_info import RunInfo
 from uwsim.statistics import mean_interval, rate, repeats_needed, sign_flip
 
 EVIL = "<script>alert('x')</script>"
@@ -89,9 +91,9 @@ def test_without_a_seed_in_common_nothing_is_compared() -> None:
 
 
 def test_a_result_that_does_not_say_its_seed_cannot_be_paired() -> None:
-    bare = replace(one_level(), run={"algorithm": "esm"})
+    bare = replace(one_level(), run=RunInfo(algorithm="esm"))
     with pytest.raises(ResultError, match="does not say its seeds"):
-        compared(bare, replace(bare, run={"algorithm": "ic"}))
+        compared(bare, replace(bare, run=RunInfo(algorithm="ic")))
 
 
 # ---------------------------------------------------------------------------- of one experiment
@@ -111,8 +113,8 @@ def test_a_result_that_does_not_say_its_seed_cannot_be_paired() -> None:
 )
 def test_what_makes_another_experiment_is_named(change: dict[str, object], said: str) -> None:
     first, second = made("esm", {0.0: [1.0]}), made("ic", {0.0: [1.0]})
-    run = {**second.run, **change.get("run", {})}
-    other = replace(second, run=run, inputs=change.get("inputs", second.inputs))
+    run = replace(second.run, **change.get("run", {}))
+    other = replace(second, run=run, inputs=Inputs.of(change.get("inputs", INPUTS)))
     found = differences(entries(first, other))
     assert len(found) >= 1
     assert found[0].startswith(said)
@@ -120,7 +122,7 @@ def test_what_makes_another_experiment_is_named(change: dict[str, object], said:
 
 
 def with_files(result: Result, **roles: object) -> Result:
-    return replace(result, inputs={**INPUTS, **roles})
+    return replace(result, inputs=Inputs.of({**INPUTS, **roles}))
 
 
 def test_another_plugin_of_the_same_name_makes_another_experiment() -> None:
@@ -149,13 +151,13 @@ def test_another_source_of_one_algorithm_is_remarked() -> None:
 
 def test_parameters_and_settings_of_an_algorithm_make_no_other_experiment() -> None:
     first, second = made("esm", {0.0: [1.0]}), made("esm2", {0.0: [1.0]})
-    run = {**second.run, "parameters": {"levels": 1}, "settings": (("algorithm.levels", "1"),)}
+    run = replace(second.run, parameters={"levels": 1}, settings=(("algorithm.levels", "1"),))
     assert differences(entries(first, replace(second, run=run))) == ()
 
 
 def test_versions_and_unfinished_runs_are_remarked() -> None:
     first, second = made("esm", {0.0: [1.0]}), made("ic", {0.0: [1.0]})
-    other = replace(second, run={**second.run, "version": "0.2.0", "units": (3, 12)})
+    other = replace(second, run=replace(second.run, version="0.2.0", units=(3, 12)))
     assert remarks(entries(first, second)) == ()
     assert remarks(entries(first, other)) == (
         "played with different versions, version: 0.1.0 in esm.result, 0.2.0 in ic.result",
@@ -600,7 +602,7 @@ def test_a_level_named_like_a_number_of_the_comparison_does_not_replace_it_in_th
 @pytest.mark.parametrize("make", [visibility, nothing_measured, one_level, nested, frozen])
 def test_any_results_can_be_compared(make: Callable[[], Result], tmp_path: Path) -> None:
     first = make()
-    second = replace(first, run={**first.run, "algorithm": "other"})
+    second = replace(first, run=replace(first.run, algorithm="other"))
     page = write_comparison(compared(first, second), tmp_path)
     assert "compared on" in page.read_text()
 

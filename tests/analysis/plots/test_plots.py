@@ -31,6 +31,7 @@ from uwsim.analysis.plots import (
 )
 from uwsim.analysis.plots.drawing import MAX_NAMED
 from uwsim.errors import ResultError
+from uwsim.results.inputs import Inputs
 from uwsim.results.result import Column, Result
 
 
@@ -170,8 +171,8 @@ def test_very_long_names_leave_nothing_outside_the_figure() -> None:
         base,
         columns=columns,
         missing=(),
-        inputs={"benchmark": (f"{long}.xml", "sha256:0")},
-        run={**base.run, "algorithm": f"package:{long}"},
+        inputs=Inputs(benchmark=(f"{long}.xml", "sha256:0")),
+        run=replace(base.run, algorithm=f"package:{long}"),
     )
     for figure in (value_plot(result, long, control=frozen()), small_multiples(result)):
         renderer = FigureCanvasAgg(figure).get_renderer()
@@ -201,7 +202,7 @@ def test_a_comparison_shows_the_predicted_loss_of_those_that_have_one() -> None:
 
 
 def test_the_same_algorithm_twice_is_distinguished_by_its_seed() -> None:
-    second = replace(visibility(), run={**visibility().run, "seed": 2})
+    second = replace(visibility(), run=replace(visibility().run, seed=2))
     assert "esm, seed 2 (lost at 1.2)" in words(compare_plot([visibility(), second], "corners"))
 
 

@@ -25,10 +25,12 @@ from tests.synthetic_results import (
 from uwsim.analysis.report import render, write_report
 from uwsim.cli import main
 from uwsim.errors import ResultError
+from uwsim.results.inputs import Inputs
 from uwsim.results.log import Log, save_log
 from uwsim.results.provenance import save_provenance
 from uwsim.results.result import MAX_VALUE, Column, Missing, Result, SavedImage
 from uwsim.results.result_file import save
+from uwsim.results.run_info import RunInfo
 
 QUAD = (10.0, 10.0, 30.0, 10.0, 30.0, 20.0, 10.0, 20.0)
 EVIL = "<script>alert('x')</script>\"><img src=http://e.org/x onerror=alert(1)>"
@@ -123,8 +125,8 @@ def test_names_from_files_are_text_wherever_they_stand(tmp_path: Path) -> None:
     columns = [replace(c, unit=EVIL) if c.name == "centroid" else c for c in columns]
     rows = [(*row[:-2], EVIL if row[-2] == "lost" else row[-2], row[-1]) for row in base.rows]
     evil = Result(
-        inputs={"benchmark": (EVIL, EVIL), "assets": {EVIL: EVIL}},
-        run={EVIL: EVIL, "algorithm": EVIL, "mode": EVIL, "parameters": {EVIL: [EVIL]}},
+        inputs=Inputs(benchmark=(EVIL, EVIL), assets={EVIL: EVIL}),
+        run=RunInfo(algorithm=EVIL, mode=EVIL, parameters={EVIL: [EVIL]}, others={EVIL: EVIL}),
         columns=tuple(columns),
         rows=tuple(rows),
         missing=tuple(Missing(row=m.row, column="total", why=EVIL) for m in base.missing),
@@ -171,9 +173,9 @@ def test_a_vehicle_that_sways_is_no_static_scene_though_levels_end_at_one_phase(
     result = with_image(visibility(), tmp_path, 0, 5)
     result = replace(
         result,
-        run={**result.run, "mode": mode},
+        run=replace(result.run, mode=mode),
         facts=facts,
-        inputs={**result.inputs, "benchmark": (f"{name}.xml", "sha256:0")},
+        inputs=replace(result.inputs, benchmark=(f"{name}.xml", "sha256:0")),
     )
     text = page_of(result, tmp_path).text
     assert ("This scene cannot tell trackers apart" in text) == is_static
@@ -242,7 +244,10 @@ def test_a_prediction_beyond_everything_is_drawn_without_a_warning(tmp_path: Pat
 def test_letters_of_no_font_are_drawn_without_a_warning(tmp_path: Path) -> None:
     level = Column(name="none", kind="level")
     measure = Column(name="m", kind="measure", unit="\u7c73\x1b")
-    save(Result(inputs={}, run={}, columns=(level, measure), rows=((1.0, 2.0),)), tmp_path)
+    save(
+        Result(inputs=Inputs(), run=RunInfo(), columns=(level, measure), rows=((1.0, 2.0),)),
+        tmp_path,
+    )
     assert write_report(tmp_path, pdf=True).exists()
 
 
@@ -252,7 +257,9 @@ def test_a_result_with_no_rows_has_a_report(tmp_path: Path) -> None:
 
 
 def test_without_measures_there_is_still_a_report(tmp_path: Path) -> None:
-    bare = Result(inputs={}, run={}, columns=(Column(name="none", kind="level"),), rows=((1.0,),))
+    bare = Result(
+        inputs=Inputs(), run=RunInfo(), columns=(Column(name="none", kind="level"),), rows=((1.0,),)
+    )
     assert "1 level, one scene" in page_of(bare, tmp_path).text
 
 
@@ -279,7 +286,7 @@ def test_uwsim_report_of_nothing_is_one_clean_line(
 def test_parameters_are_written_as_people_write_them_and_empty_ones_not_at_all(
     tmp_path: Path,
 ) -> None:
-    said = {"parameters": {"levels": 3.0, "threshold": 0.25}, "notes": (), "levels": None}
+    said = RunInfo(parameters={"levels": 3.0, "threshold": 0.25}, notes=())
     page_of(replace(visibility(), run=said), tmp_path)
     text = (tmp_path / "report.html").read_text()
     assert "parameter levels</td><td>3</td>" in text
@@ -291,7 +298,7 @@ def test_parameters_are_written_as_people_write_them_and_empty_ones_not_at_all(
 def test_the_floor_is_what_the_run_has_measured_and_not_what_its_name_suggests(
     tmp_path: Path,
 ) -> None:
-    named = replace(visibility(), inputs={"benchmark": ("visibility-of-mine.xml", "sha256:0")})
+    named = replace(visibility(), inputs=Inputs(benchmark=("visibility-of-mine.xml", "sha256:0")))
     text = page_of(named, tmp_path).text
     assert "how much, this result does not say" in text
     assert "about 1 px" not in text
@@ -380,12 +387,12 @@ def test_the_command_is_given_as_typed_without_what_changes_nothing(tmp_path: Pa
 
 def test_without_provenance_the_command_is_put_together(tmp_path: Path) -> None:
     base = visibility(seeds=(1, 2))
-    run = {
-        **base.run,
-        "settings": [["vehicle[g].virtualCamera[c].std", 0.016]],
-        "levels": [["fog", 0.2]],
-        "compatibility": ["thresholds"],
-    }
+    run = replace(
+        base.run,
+        settings=(("vehicle[g].virtualCamera[c].std", "0.016"),),
+        levels=(("fog", 0.2),),
+        compatibility=("thresholds",),
+    )
     text = page_of(replace(base, run=run), tmp_path).text
     assert (
         "uwsim bench visibility --algorithm esm --seed 1 --repeat 2 --mode sequential "
@@ -397,7 +404,7 @@ def test_without_provenance_the_command_is_put_together(tmp_path: Path) -> None:
 
 def test_an_unfinished_result_says_so_first(tmp_path: Path) -> None:
     base = visibility()
-    text = page_of(replace(base, run={**base.run, "units": [1, 3]}), tmp_path).text
+    text = page_of(replace(base, run=replace(base.run, units=(1, 3))), tmp_path).text
     assert "Not finished: 1 of 3 parts are played." in text
     assert "Not finished" not in page_of(base, tmp_path).text
 

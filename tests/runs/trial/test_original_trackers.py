@@ -66,7 +66,7 @@ def test_a_tracker_gets_the_constant_corners_of_a_file(tmp_path: Path) -> None:
     assert main(["bench", str(FILES / "vision.xml"), *words, *chosen]) == 0
     result = load(out)
     assert result.values("status") == ("ok", "ok")
-    told = result.run["parameters"]["corners"]  # type: ignore[index]
+    told = result.run.parameters["corners"]  # type: ignore[index]
     assert told == "215 149 300 149 300 176 215 176"
     assert result.numbers("corners") == pytest.approx([0.0, 0.0], abs=1.0)
 

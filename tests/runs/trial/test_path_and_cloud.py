@@ -22,6 +22,7 @@ from uwsim.messages import (
     point_cloud,
 )
 from uwsim.messages import Pose as PoseMessage
+from uwsim.results.inputs import Inputs
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.run import Run
 from uwsim.scene.reader import read_scene
@@ -93,7 +94,7 @@ def test_the_status_an_algorithm_published_at_its_start_holds_for_every_level(
         tmp_path, Guides, TWICE, measures=MEASURES, function="<function>path</function>",
         scene=scene(),
     )  # fmt: skip
-    [result] = run_all([Run(plan=plan, out=tmp_path / "out", inputs={}, renderer="none")])
+    [result] = run_all([Run(plan=plan, out=tmp_path / "out", inputs=Inputs(), renderer="none")])
     assert result.values("status") == ("ok", "ok")
     for level in range(2):
         assert result.numbers("goal")[level] == pytest.approx(3.0)

@@ -84,10 +84,10 @@ def _entry(entry: Entry, column: str) -> Fields:
         "directory": entry.source,
         "sha256": entry.sha256,
         **{
-            key: _json_values(run.get(key))
+            key: _json_values(getattr(run, key))
             for key in ("algorithm", "parameters", "version", "mode")
         },
-        "inputs": _json_values(entry.result.inputs),
+        "inputs": _json_values(entry.result.inputs.stored()),
         "levels": [
             {
                 "level": list(at.level),

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...errors import ResultError
-from ...results.inputs import ALGORITHM, files_by_role, short_hash
+from ...results.inputs import ALGORITHM, short_hash
 from ...results.journal_check import check_rows
 from ...results.result import Column, Result
 from ...results.result_file import file_of, load
@@ -106,12 +106,12 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
     """Say what does not forbid a comparison and is worth knowing."""
     found = []
     for what in ("version", "physics", "renderer", "numpy"):
-        values = [str(entry.result.run.get(what, "unknown")) for entry in entries]
+        values = [getattr(entry.result.run, what) or "unknown" for entry in entries]
         if len(set(values)) > 1 and not (what == "renderer" and "none" in values):
             found.append(f"played with different versions, {what}: {_who(entries, values)}")
     for entry in entries:
-        units = entry.result.run.get("units")
-        if isinstance(units, tuple) and len(units) == 2 and units[0] != units[1]:
+        units = entry.result.run.units
+        if units is not None and not entry.result.run.is_finished:
             found.append(f"{entry.name} is not finished: {units[0]} of {units[1]} units played")
     for what in dict.fromkeys(entry.unchecked for entry in entries if entry.unchecked):
         sources = [entry.source for entry in entries if entry.unchecked == what]
@@ -140,21 +140,13 @@ def same_images(first: Result, second: Result) -> tuple[int, int] | None:
 # ---------------------------------------------------------------------------- what is held equal
 
 
-def _file(result: Result, what: str) -> str:
-    value = result.inputs.get(what)
-    if isinstance(value, tuple) and len(value) == 2:
-        return f"{value[0]} {short_hash(value[1])}"
-    return "unknown"
+def _file(file: tuple[str, str] | None) -> str:
+    return "unknown" if file is None else f"{file[0]} {short_hash(file[1])}"
 
 
 def _scene_settings(result: Result) -> str:
-    given = result.run.get("settings")
-    pairs = given if isinstance(given, tuple) else ()
-    of_scene = [
-        f"{pair[0]}={pair[1]}"
-        for pair in pairs
-        if isinstance(pair, tuple) and len(pair) == 2 and not str(pair[0]).startswith("algorithm.")
-    ]
+    given = result.run.settings or ()
+    of_scene = [f"{path}={value}" for path, value in given if not path.startswith("algorithm.")]
     return " ".join(of_scene) or "none"
 
 
@@ -164,11 +156,11 @@ def _words(value: object) -> str:
 
 
 _EXPERIMENT: dict[str, Callable[[Result], str]] = {
-    "benchmark": lambda result: _file(result, "benchmark"),
-    "scene": lambda result: _file(result, "scene"),
-    "mode": lambda result: _words(result.run.get("mode")),
-    "timestep": lambda result: _words(result.run.get("timestep")),
-    "compatibility": lambda result: _words(result.run.get("compatibility")),
+    "benchmark": lambda result: _file(result.inputs.benchmark),
+    "scene": lambda result: _file(result.inputs.scene),
+    "mode": lambda result: _words(result.run.mode),
+    "timestep": lambda result: _words(result.run.timestep),
+    "compatibility": lambda result: _words(result.run.compatibility),
     "settings of the scene": _scene_settings,
 }
 """What must be equal -> how a result says it."""
@@ -177,7 +169,7 @@ _EXPERIMENT: dict[str, Callable[[Result], str]] = {
 def _said_of_files(entries: Sequence[Entry], role: str, what: str) -> list[str]:
     """Name every file of a role that is not the same in all results."""
     tables = [
-        {name: digest for of, name, digest in files_by_role(entry.result.inputs) if of == role}
+        {name: digest for of, name, digest in entry.result.inputs.files() if of == role}
         for entry in entries
     ]
     found = []

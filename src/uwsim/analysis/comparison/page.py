@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from ... import __version__
-from ...results.inputs import files_by_role
 from ...results.per_level import rows_by_level, success_per_level
 from ...results.result import Result
 from ...statistics import Interval
@@ -63,15 +62,13 @@ def render(comparison: Comparison, plots: Sequence[Path]) -> str:
             }
             for entry in comparison.entries
         ],
-        inputs=[*files_by_role(comparison.entries[0].result.inputs)],
+        inputs=[*comparison.entries[0].result.inputs.files()],
         version=__version__,
     )
 
 
 def _title(comparison: Comparison) -> str:
-    benchmark = comparison.entries[0].result.inputs.get("benchmark")
-    name = str(benchmark[0]) if isinstance(benchmark, tuple) and benchmark else "benchmark"
-    return name.removesuffix(".xml")
+    return comparison.entries[0].result.inputs.title
 
 
 def _lead(comparison: Comparison) -> str:
@@ -124,13 +121,12 @@ def _about(result: Result) -> list[tuple[str, str]]:
     """What differs from result to result: parameters, seeds, versions."""
     run = result.run
     seeds = sorted({s for at in success_per_level(result) for s in at.seeds if s is not None})
-    parameters = run.get("parameters")
-    pairs = parameters.items() if isinstance(parameters, Mapping) else ()
+    versions = {"mode": run.mode, "version": run.version, "renderer": run.renderer}
     return [
-        ("algorithm", str(run.get("algorithm", ""))),
-        *((f"parameter {name}", _word(value)) for name, value in pairs),
+        ("algorithm", run.algorithm or ""),
+        *((f"parameter {name}", _word(value)) for name, value in (run.parameters or {}).items()),
         ("seeds", " ".join(map(str, seeds))),
-        *((name, _word(run[name])) for name in ("mode", "version", "renderer") if name in run),
+        *((name, value) for name, value in versions.items() if value is not None),
     ]
 
 

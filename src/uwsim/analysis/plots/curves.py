@@ -95,7 +95,7 @@ def label_of(result: Result, column: Column) -> str:
 
 def algorithm_of(result: Result) -> str:
     """Return the name of the algorithm a result is about."""
-    return str(result.run.get("algorithm") or "")
+    return result.run.algorithm or ""
 
 
 def repeats_of(result: Result) -> list[tuple[object, ...]]:

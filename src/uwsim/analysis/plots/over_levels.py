@@ -195,22 +195,22 @@ def _distinct_names(results: Sequence[Result]) -> list[str]:
     """Name results by their algorithm, and where that is not enough by their seed too."""
     names = [algorithm_of(result) or f"result {i + 1}" for i, result in enumerate(results)]
     return [
-        name if names.count(name) == 1 else f"{name}, seed {result.run.get('seed')}"
+        name if names.count(name) == 1 else f"{name}, seed {result.run.seed}"
         for name, result in zip(names, results, strict=True)
     ]
 
 
 def _origin(result: Result, *, with_algorithm: bool = True) -> tuple[str, str]:
     """What was played (file, algorithm, mode, seed, version), and what bands are."""
-    benchmark = result.inputs.get("benchmark")
+    benchmark, run = result.inputs.benchmark, result.run
     n_repeats = len(set(repeats_of(result)))
     seeds = f"{n_repeats} repeats from seed" if n_repeats > 1 else "seed"
     parts = [
-        cut(str(benchmark[0]), 28) if isinstance(benchmark, tuple) and benchmark else "",
+        "" if benchmark is None else cut(benchmark[0], 28),
         cut(algorithm_of(result), 28) if with_algorithm else "",
-        str(result.run.get("mode") or ""),
-        f"{seeds} {result.run.get('seed', '?')}",
-        f"uwsim {result.run.get('version', '?')}",
+        run.mode or "",
+        f"{seeds} {'?' if run.seed is None else run.seed}",
+        f"uwsim {run.version or '?'}",
     ]
     bands = "bands: 95 % intervals of the mean over repeats; hollow: not every repeat has a value"
     return " · ".join(part for part in parts if part), bands if n_repeats > 1 else ""

@@ -52,7 +52,7 @@ def is_static(result: Result) -> bool:
         return False
     if shift is not None:
         return True
-    is_known = result.run.get("mode") != "independent"
+    is_known = result.run.mode != "independent"
     return is_known and any(len(found) > 1 for found in quads.values())
 
 

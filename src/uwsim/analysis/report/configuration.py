@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ...results.chosen_code import names_text
+from ...results.command import bench_words
 from ...results.result import FLOOR, Result
 from ..plots import algorithm_of, repeats_of, written_unit
 
@@ -34,60 +35,37 @@ def command(result: Result, provenance: Mapping[str, object]) -> str:
     typed = provenance.get("command")
     if isinstance(typed, list) and typed:
         return shlex.join(["uwsim", *_of_the_result([str(word) for word in typed])])
-    run = result.run
-    words = ["uwsim", "bench", title(result)]
-    if algorithm_of(result):
-        words += ["--algorithm", algorithm_of(result)]
-    words += ["--seed", str(run.get("seed", 0))]
-    if (n_repeats := len(set(repeats_of(result)))) > 1:
-        words += ["--repeat", str(n_repeats)]
-    if run.get("mode"):
-        words += ["--mode", str(run["mode"])]
-    for option, key in (("--set", "settings"), ("--level", "levels")):
-        words += [word for pair in pairs_of(run.get(key)) for word in (option, pair)]
-    if names := _words(run.get("compatibility")):
-        words += ["--compat", ",".join(names)]
+    algorithm = algorithm_of(result)
+    words = bench_words(
+        result.run,
+        result.inputs,
+        algorithms=[algorithm] if algorithm else [],
+        repeats=max(1, len(set(repeats_of(result)))),
+    )
     return shlex.join(words)
-
-
-def title(result: Result) -> str:
-    """Return the benchmark's name, without its ending."""
-    benchmark = result.inputs.get("benchmark")
-    name = str(benchmark[0]) if isinstance(benchmark, tuple) and benchmark else "benchmark"
-    return name.removesuffix(".xml")
 
 
 def remarks(result: Result, unchecked: str | None = None) -> list[str]:
     """Say what a reader must know first: what is unfinished, left out, changed, not checked."""
     run, message = result.run, []
-    units = run.get("units")
-    if isinstance(units, tuple) and len(units) == 2 and units[0] != units[1]:
+    if run.units is not None and not run.is_finished:
         message.append(
-            f"Not finished: {units[0]} of {units[1]} parts are played. --resume goes on."
+            f"Not finished: {run.units[0]} of {run.units[1]} parts are played. --resume goes on."
         )
     if unchecked is not None:
         message.append(f"{unchecked[0].upper()}{unchecked[1:]}.")
-    if chosen := pairs_of(run.get("levels")):
+    if chosen := run.pairs_of_levels:
         message.append(f"Only these levels of the sweep were played: {', '.join(chosen)}.")
-    if settings := pairs_of(run.get("settings")):
+    if settings := run.pairs_of_settings:
         message.append(f"Changed for this run: {', '.join(settings)}.")
-    if names := _words(run.get("compatibility")):
+    if names := run.compatibility:
         message.append(f"Compatibility quirks: {', '.join(names)}.")
-    return message + [f"{note}." for note in _words(run.get("notes"))]
-
-
-def pairs_of(value: object) -> list[str]:
-    """Return ``name=value`` of (name, value) pairs."""
-    found = []
-    for pair in value if isinstance(value, tuple) else ():
-        if isinstance(pair, tuple) and len(pair) == 2:
-            found.append(f"{pair[0]}={_word(pair[1])}")
-    return found
+    return message + [f"{note}." for note in run.notes or ()]
 
 
 def settings(result: Result) -> list[tuple[str, str]]:
     """Return everything else that was said about the run."""
-    run = {name: value for name, value in result.run.items() if name not in SAID_ELSEWHERE}
+    run = {name: value for name, value in result.run.stored().items() if name not in SAID_ELSEWHERE}
     found = flat(run)
     return [(_setting(name), text) for name, text in found]
 
@@ -113,21 +91,6 @@ def machine(provenance: Mapping[str, object]) -> list[tuple[str, str]]:
     shown = {library: names_text(names) for library, names in _lists(code)}
     others = {name: _rounded(value) for name, value in provenance.items() if name not in CODE}
     return flat({**others, "code": shown})
-
-
-def hashes(inputs: Mapping[str, object]) -> list[tuple[str, str, str]]:
-    """Return (what, file, hash) of every input."""
-    found: list[tuple[str, str, str]] = []
-    for what, value in inputs.items():
-        if isinstance(value, Mapping):
-            found += [(what, str(name), str(digest)) for name, digest in value.items()]
-        elif isinstance(value, tuple) and value and all(isinstance(v, tuple) for v in value):
-            found += [entry for part in value for entry in hashes({what: part})]
-        elif isinstance(value, tuple) and len(value) == 2:
-            found.append((what, str(value[0]), str(value[1])))
-        else:
-            found.append((what, str(value), ""))
-    return found
 
 
 def facts(result: Result) -> list[tuple[str, str]]:
@@ -189,10 +152,6 @@ def _setting(name: str) -> str:
     if name.startswith("parameters."):
         return f"parameter {name.removeprefix('parameters.')}"
     return {"version": "uwsim"}.get(name, name)
-
-
-def _words(value: object) -> list[str]:
-    return [str(word) for word in value] if isinstance(value, tuple) else []
 
 
 def _word(value: object) -> str:

@@ -40,12 +40,10 @@ from .caveats import floor, is_static, optics
 from .configuration import (
     command,
     facts,
-    hashes,
     logs_text,
     machine,
     remarks,
     settings,
-    title,
     variations,
 )
 from .images import data_url, images_text, shown_images
@@ -107,7 +105,7 @@ def render(
     drawn = [plot for plot in plots if plot.stem != OVERVIEW and n_levels * n_repeats != 1]
     images = shown_images(result, directory)
     return template("report.html.j2").render(
-        title=title(result),
+        title=result.inputs.title,
         algorithm=algorithm_of(result) or "no algorithm",
         lead=_lead(result),
         remarks=remarks(result, unchecked),
@@ -131,7 +129,7 @@ def render(
         endings=found,
         breaks=breaks(result),
         settings=settings(result),
-        inputs=hashes(result.inputs),
+        inputs=list(result.inputs.files()),
         facts=facts(result),
         variations=variations(result),
         streams=[
@@ -148,7 +146,7 @@ def render(
         floor=floor(result),
         optics=optics(result, found),
         provenance=machine(provenance),
-        version=str(result.run.get("version", "?")),
+        version=result.run.version or "?",
     )
 
 
@@ -169,7 +167,7 @@ def _lead(result: Result) -> str:
     count = f"{len(levels)} level" + ("s" if len(levels) != 1 else "")
     if len(counts) > 1:
         count += f" ({' × '.join(map(str, counts))})"
-    mode = result.run.get("mode", "sequential")
+    mode = result.run.mode or "sequential"
     return f"{count}, {over}{many}; {mode}, {seeds_text(result)}."
 
 

@@ -1,0 +1,49 @@
+"""The command line that leads to a result, from what the result says of its run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+
+from .inputs import Inputs
+from .run_info import RunInfo
+
+
+def bench_words(
+    run: RunInfo, inputs: Inputs, *, algorithms: Sequence[str], repeats: int
+) -> list[str]:
+    """Return the words of ``uwsim bench ...``, without those that say where the result goes.
+
+    Args:
+        run: of one of the algorithms.
+        inputs: its inputs.
+        algorithms: what is tested; several are run together.
+        repeats: number of repeats.
+    """
+    words = ["uwsim", "bench", _benchmark(inputs)]
+    for name in algorithms:
+        words += ["--algorithm", name]
+    words += ["--seed", str(run.seed or 0)]
+    if repeats != 1:
+        words += ["--repeat", str(repeats)]
+    if run.mode:
+        words += ["--mode", run.mode]
+    for pair in run.pairs_of_settings:
+        words += ["--set", pair]
+    for pair in run.pairs_of_levels:
+        words += ["--level", pair]
+    if run.compatibility:
+        words += ["--compat", ",".join(run.compatibility)]
+    for name, _ in inputs.plugins or ():
+        words += ["--plugin", name]
+    return words
+
+
+def _benchmark(inputs: Inputs) -> str:
+    """The benchmark's file; by its bare name where it is bundled."""
+    if inputs.benchmark is None:
+        return "BENCHMARK"
+    name = inputs.benchmark[0]
+    folder = Path(str(resources.files("uwsim"))) / "data" / "benchmarks"
+    return Path(name).stem if (folder / name).is_file() else name

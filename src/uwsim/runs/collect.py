@@ -1,0 +1,199 @@
+"""Collecting a result: the rows on disk become one result and its logs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from ..benchmark.updaters import chain, swept_parameters
+from ..results.inputs import Inputs
+from ..results.journal import Record, Stored
+from ..results.log import TIME, Log
+from ..results.result import Cell, Column, ImageStream, Missing, Result, SavedImage, Variation
+from ..results.run_info import RunInfo
+from .plan import Plan, Trial
+from .trial.floor import largest
+
+
+def collect(
+    plan: Plan, inputs: Inputs, info: RunInfo, stored: Sequence[tuple[Trial, Stored]]
+) -> tuple[Result, list[Log], float]:
+    """Put together the rows on disk, in the order of the plan.
+
+    Args:
+        plan: what is executed.
+        inputs: names and hashes of the files read.
+        info: what is known before the run.
+        stored: each trial of the plan, and what is on disk of it.
+
+    Returns:
+        The result, its logs, and the length of all levels together [s].
+    """
+    records = [(trial, record) for trial, found in stored for record in found.rows]
+    columns = _columns(plan, [record for _, record in records])
+    began, simulated_s = _times(records)
+    ends = [(trial, found.end) for trial, found in stored if found.end is not None]
+    first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.parameters)}
+    result = Result(
+        inputs=inputs,
+        run=replace(
+            info,
+            parameters=first["parameters"],
+            units=(len(ends), len(stored)),
+            notes=tuple(dict.fromkeys(note for _, end in ends for note in end["notes"])),
+        ),
+        columns=tuple(columns),
+        rows=tuple(
+            _row(_lead(plan, trial, record), record, before, columns)
+            for (trial, record), before in zip(records, began, strict=True)
+        ),
+        missing=tuple(
+            Missing(row=row, column=name, why=why)
+            for row, (_, record) in enumerate(records)
+            for name, why in record["missing"].items()
+        ),
+        facts={**first["facts"], **largest(end["facts"] for _, end in ends)},
+        variations=variations_of(plan),
+        image_streams=tuple(each for trial, end in ends for each in _streams(trial, end)),
+        images=tuple(
+            _image(row, image)
+            for row, (_, record) in enumerate(records)
+            for image in record["pictures"]
+        ),
+    )
+    return result, _logs(plan, columns, records, began), simulated_s
+
+
+def _times(records: Sequence[tuple[Trial, Record]]) -> tuple[list[float], float]:
+    """Return when each level began, counted from its repeat's beginning, and the sum [s]."""
+    elapsed: dict[int, float] = {}
+    began = []
+    for trial, record in records:
+        began.append(elapsed.get(trial.repeat, 0.0))
+        elapsed[trial.repeat] = began[-1] + record["duration"]
+    return began, sum(elapsed.values())
+
+
+def _lead(plan: Plan, trial: Trial, record: Record) -> list[float | int]:
+    """Cells of repeat, seed and level, with which rows and samples begin."""
+    return [*([trial.repeat, trial.seed] if plan.repeats > 1 else []), *record["values"]]
+
+
+def _row(
+    lead: Sequence[float | int], record: Record, began: float, columns: Sequence[Column]
+) -> tuple[Cell, ...]:
+    cells: dict[str, Cell] = {
+        **{name: value for name, (value, _) in record["measures"].items()},
+        **{name: value for name, (value, _) in record["details"].items()},
+        "total": record["total"],
+        "status": record["status"],
+        "ended_at": began + record["duration"],
+    }
+    return (*lead, *(cells.get(column.name) for column in columns[len(lead) :]))
+
+
+def _logs(
+    plan: Plan,
+    columns: Sequence[Column],
+    records: Sequence[tuple[Trial, Record]],
+    began: Sequence[float],
+) -> list[Log]:
+    """Return the log of every measure that has one; none before the first row."""
+    if not records:
+        return []
+    levels = [column.label for column in columns if column.kind in ("run", "level")]
+    headers = records[0][1]["log_headers"]
+    return [
+        Log(
+            measure=spec.name,
+            header=(*levels, TIME, *headers[spec.name]),
+            samples=tuple(
+                (*_lead(plan, trial, record), before + sample[0], *sample[1:])
+                for (trial, record), before in zip(records, began, strict=True)
+                for sample in record["logs"].get(spec.name, ())
+            ),
+        )
+        for spec in plan.benchmark.measures
+        if spec.log is not None
+    ]
+
+
+def _streams(trial: Trial, end: Record) -> list[ImageStream]:
+    level = tuple(value for _, value in trial.levels[0].values) if trial.is_alone else None
+    return [
+        ImageStream(seed=trial.seed, level=level, topic=topic, frames=frames, sha256=sha256)
+        for topic, frames, sha256 in end["streams"]
+    ]
+
+
+def variations_of(plan: Plan) -> tuple[Variation, ...]:
+    """Gather what varies, over the seeds of the plan."""
+    seeds = [plan.seed + repeat for repeat in range(plan.repeats)]
+    by_seed = [plan.draws(seed) for seed in seeds]
+    return tuple(
+        Variation(
+            path=same[0].path,
+            unit=same[0].unit or "1",
+            drawn_from=same[0].drawn_from,
+            values=tuple((seed, draw.value) for seed, draw in zip(seeds, same, strict=True)),
+        )
+        for same in zip(*by_seed, strict=True)
+    )
+
+
+def _columns(plan: Plan, records: list[Record]) -> list[Column]:
+    """Name the columns; before the first row only those that are known without playing.
+
+    A measure's details are those of all rows together, and units those of the first row that has a
+    value: what a topic carries may not be known before something came.
+    """
+    updater = plan.benchmark.scene_updater
+    columns = [Column(name=name, kind="run") for name in ("repeat", "seed") if plan.repeats > 1]
+    columns += [
+        Column(name=name, kind="level", unit=_unit(spec.parameter_unit))
+        for name, spec in zip(swept_parameters(updater), chain(updater), strict=True)
+    ]
+    measures = _units(records, "measures")
+    details = _units(records, "details")
+    for measure, unit in measures.items():
+        columns.append(Column(name=measure, kind="measure", unit=_unit(unit)))
+        columns += [
+            Column(name=name, kind="detail", unit=_unit(detail_unit))
+            for name, detail_unit in details.items()
+            if name.startswith(f"{measure}.")
+        ]
+    return [
+        *columns,
+        Column(name="total", kind="score", expression=plan.benchmark.function.text),
+        Column(name="status", kind="status"),
+        Column(name="ended_at", kind="time", unit="s"),
+    ]
+
+
+def _units(records: list[Record], kind: str) -> dict[str, str]:
+    """Name -> unit of what all rows have of a kind, in the order of its first row."""
+    first: dict[str, tuple[bool, str]] = {}
+    for record in records:
+        for name, (value, unit) in record[kind].items():
+            if name not in first or (value is not None and not first[name][0]):
+                first[name] = (value is not None, unit)
+    return {name: unit for name, (_, unit) in first.items()}
+
+
+def _image(row: int, stored: Record) -> SavedImage:
+    """An image of a row as the result has it."""
+    return SavedImage(
+        row=row,
+        camera=stored["camera"],
+        file=stored["file"],
+        truth=_corners(stored["truth"]),
+        estimate=_corners(stored["estimate"]),
+    )
+
+
+def _corners(stored: Sequence[float] | None) -> tuple[float, ...] | None:
+    return None if stored is None else tuple(stored)
+
+
+def _unit(unit: str) -> str | None:
+    return None if unit == "1" else unit

@@ -1,0 +1,30 @@
+"""What a plan executes, as a result says it: ``run``."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+
+import numpy as np
+
+from .. import __version__
+from ..results.run_info import RunInfo
+from .plan import Plan
+
+
+def described(plan: Plan, renderer: str) -> RunInfo:
+    """Return what is executed, as far as it is known before it is."""
+    return RunInfo(
+        seed=plan.seed,
+        repeats=plan.repeats,
+        mode=plan.mode,
+        algorithm=plan.algorithm_name,
+        parameters=dict(sorted(plan.parameters.items())),
+        settings=plan.settings,
+        levels=plan.chosen,
+        compatibility=tuple(sorted(plan.compatibility)),
+        timestep=(plan.timestep, "s"),
+        version=__version__,
+        physics=f"mujoco {version('mujoco')}",
+        renderer=renderer,
+        numpy=np.__version__,
+    )
