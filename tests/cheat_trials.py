@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.played import DATA, make_plan
+from tests.short_trial import DATA, make_plan
 from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, floats

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.cheat_trials import CHEATS, GAINS, Bursts, Holds, bench_of, by_name, errors, trial
-from tests.played import rows_of
+from tests.short_trial import rows_of
 
 
 @pytest.mark.slow

@@ -92,10 +92,10 @@ OTHERS = {
 same, too, and takes minutes to compile: ``benchmarks/`` has it."""
 
 
-def witnessed(**variables: str) -> dict[str, str]:
+def hashes(**variables: str) -> dict[str, str]:
     """Play a little of everything in a process of its own, and return what came out, as hashes."""
     done = subprocess.run(
-        [sys.executable, "-m", "tests.witness_of_bytes"],
+        [sys.executable, "-m", "tests.byte_hashes"],
         cwd=PACKAGE.parent.parent,
         env={**os.environ, **variables},
         capture_output=True,
@@ -108,7 +108,7 @@ def witnessed(**variables: str) -> dict[str, str]:
 
 @pytest.fixture(scope="module")
 def here() -> dict[str, str]:
-    return witnessed()
+    return hashes()
 
 
 def has_avx512() -> bool:
@@ -124,7 +124,7 @@ def test_another_processor_finds_the_same_bytes(other: str, here: dict[str, str]
     if "newer" in other and not has_avx512():
         pytest.skip("this processor has no AVX-512")
 
-    there = witnessed(**OTHERS[other])
+    there = hashes(**OTHERS[other])
 
     assert {name for name in here if here[name] != there[name]} == set()
     assert len(here) > 10

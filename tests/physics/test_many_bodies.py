@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.physics.water_models import FAR_BELOW, free_body, set_options
-from tests.simulation.simulated import SCENE, make, run
+from tests.simulation.girona500 import SCENE, make, run
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, callback, prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import install
 from uwsim.scene.object import PhysicsSpec

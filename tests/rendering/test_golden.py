@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from tests.rendering.rendering_models import ball, block, placed, plate
+from tests.rendering.models import ball, block, placed, plate
 from uwsim.assets.mesh import Texture
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import Renderer

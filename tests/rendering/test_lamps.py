@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.rendering.rendering_models import ball, block, placed, plate
+from tests.rendering.models import ball, block, placed, plate
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.lamp import Lamp
 from uwsim.rendering.renderer import Renderer

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.rendering.rendering_models import plate
+from tests.rendering.models import plate
 from uwsim.assets import painted
 from uwsim.assets.mesh import Model, Texture
 from uwsim.geometry import Intrinsics, Pose

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.rendering.rendering_models import ball, block, placed, plate
+from tests.rendering.models import ball, block, placed, plate
 from uwsim.assets.mesh import Model, Texture
 from uwsim.errors import UnknownName
 from uwsim.geometry import Intrinsics, Pose, rotation_from_rpy

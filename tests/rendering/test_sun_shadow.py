@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.rendering.rendering_models import ball, block, placed, plate
+from tests.rendering.models import ball, block, placed, plate
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water, sun_direction

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.rendering.rendering_models import placed, plate
+from tests.rendering.models import placed, plate
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import (

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.played import INIT, make_plan
+from tests.short_trial import INIT, make_plan
 from uwsim.bus import Node
 from uwsim.errors import RunFailed
 from uwsim.files.input_files import InputFile, hash_of

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import SCENE
+from tests.simulation.girona500 import SCENE
 from uwsim.compatibility import COMPATIBILITY, compatibility
 from uwsim.geometry import rotation_x, rotation_z
 from uwsim.scene.reader import read_scene

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import SCENE, TWIST, command, make, position, run, set_current
+from tests.simulation.girona500 import SCENE, TWIST, command, make, position, run, set_current
 from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.errors import UnknownName
 from uwsim.messages import Bool

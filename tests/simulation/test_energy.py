@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import make, run
+from tests.simulation.girona500 import make, run
 from uwsim.benchmark.measures import Energy, EnergySpec
 from uwsim.devices.thruster_fault import ThrusterFaultSpec
 from uwsim.errors import UnknownName

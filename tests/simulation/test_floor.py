@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import SCENE, run
+from tests.simulation.girona500 import SCENE, run
 from uwsim.assets import load_model
 from uwsim.cli.check import diagnostics_of
 from uwsim.errors import SceneError

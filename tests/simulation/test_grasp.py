@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import SCENE, run
+from tests.simulation.girona500 import SCENE, run
 from uwsim.geometry import Pose, quaternion_from_rotation
 from uwsim.messages import JointState, Point, Quaternion, header
 from uwsim.messages import Pose as PoseMessage

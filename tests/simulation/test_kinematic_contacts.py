@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.simulation.simulated import SCENE, TWIST, command, make, position, set_current
+from tests.simulation.girona500 import SCENE, TWIST, command, make, position, set_current
 from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.messages import Bool

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import make, position, run, set_current, vector
+from tests.simulation.girona500 import make, position, run, set_current, vector
 from uwsim.messages import Float64MultiArray, MultiArrayLayout, Twist, TwistStamped, header
 from uwsim.simulation import Simulation
 from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import SCENE, vector
+from tests.simulation.girona500 import SCENE, vector
 from uwsim.messages import Twist, TwistStamped, header
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation

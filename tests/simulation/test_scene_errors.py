@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.simulation.simulated import SCENE
+from tests.simulation.girona500 import SCENE
 from uwsim.cli.check import diagnostics_of
 from uwsim.errors import SceneError
 from uwsim.scene.reader import read_scene

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import SCENE, TWIST, run
+from tests.simulation.girona500 import SCENE, TWIST, run
 from uwsim.messages import JointState, header
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation

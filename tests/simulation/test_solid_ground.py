@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import SCENE, TWIST, make, position, run
+from tests.simulation.girona500 import SCENE, TWIST, make, position, run
 from uwsim.messages import Twist, TwistStamped, header
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
@@ -23,7 +23,7 @@ FLOOR_DEPTH = 4.81  # of the image on the floor of the tank [m]
 
 def dive(simulation: Simulation, seconds: float, speed: float = 0.5) -> float:
     """Tell the Girona 500 to dive, and return how deep its base came [m]."""
-    from tests.simulation.simulated import vector
+    from tests.simulation.girona500 import vector
 
     twist = Twist(linear=vector(0.0, 0.0, speed), angular=vector(0.0, 0.0, 0.0))
     simulation.bus.publisher("/twist", TwistStamped)(TwistStamped(header=header(0.0), twist=twist))
@@ -87,7 +87,7 @@ def test_two_simulated_vehicles_meet_in_open_water() -> None:
     )
     simulation.start()
     twist = TWIST.topic
-    from tests.simulation.simulated import vector
+    from tests.simulation.girona500 import vector
 
     message = TwistStamped(
         header=header(0.0), twist=Twist(linear=vector(0.8, 0, 0), angular=vector(0, 0, 0))

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import (
+from tests.simulation.girona500 import (
     command,
     heading_deg,
     make,

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import SCENE, TWIST, command, position, run
+from tests.simulation.girona500 import SCENE, TWIST, command, position, run
 from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.geometry import Pose
 from uwsim.scene.object import ObjectSpec, PhysicsSpec

@@ -10,7 +10,7 @@ import pytest
 
 from tests.bags import IMAGE, INFO, KINDS, sample_pixels, write_bag
 from tests.fakes import FakeWorld
-from tests.played import make_plan, rows_of, tank
+from tests.short_trial import make_plan, rows_of, tank
 from uwsim.benchmark.updaters import BagFogUpdaterSpec
 from uwsim.benchmark.updaters.bag_fog_updater import BagFogUpdater, fogged
 from uwsim.bus import Node

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.fakes import FakeWorld
-from tests.played import make_plan, rows_of
+from tests.short_trial import make_plan, rows_of
 from uwsim.benchmark.reader import check_benchmark
 from uwsim.benchmark.updaters import (
     SceneFogUpdaterSpec,

@@ -13,7 +13,7 @@ import pytest
 
 from tests.bags import IMAGE, INFO, write_bag
 from tests.fakes import FakeWorld
-from tests.played import make_plan, rows_of, tank
+from tests.short_trial import make_plan, rows_of, tank
 from uwsim.benchmark.updaters import (
     UPDATERS,
     ArmMoveUpdaterSpec,

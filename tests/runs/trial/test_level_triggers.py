@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.played import NEVER, make_plan, rows_of
+from tests.short_trial import NEVER, make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.compatibility import COMPATIBILITY
 from uwsim.errors import NeverStarted

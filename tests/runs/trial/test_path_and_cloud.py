@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.played import DATA, make_plan, rows_of
+from tests.short_trial import DATA, make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.geometry import Pose
 from uwsim.messages import Path as PathMessage

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.played import DATA, make_plan, rows_of
+from tests.short_trial import DATA, make_plan, rows_of
 from uwsim.bus import Inbox, Node
 from uwsim.messages import Float64MultiArray, MultiArrayLayout, String
 from uwsim.runs.trial.status import StatusMonitor

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from tests.fakes import FakeWorld
-from tests.played import DATA
 from tests.short_benchmark import run
+from tests.short_trial import DATA
 from uwsim.analysis.report import write_report
 from uwsim.benchmark.ground_truth import CornersFromCamera, FaceCorners
 from uwsim.benchmark.reader import check_benchmark, read_benchmark

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tests.hostile import ATTACKS, TOPIC, Attacker, Dies, Hangs, Honest, Patches
-from tests.played import INIT, TIME, make_plan, rows_of
+from tests.short_trial import INIT, TIME, make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.errors import NotAllowed
 from uwsim.messages import Float32MultiArray, PoseStamped, floats, header

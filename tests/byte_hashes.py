@@ -46,7 +46,7 @@ def scores() -> str:
     return hashlib.sha256(json.dumps(values).encode()).hexdigest()
 
 
-def witness(folder: Path) -> dict[str, str]:
+def hashes(folder: Path) -> dict[str, str]:
     found = {**dict(models()), "scores": scores()}
     fog = write_benchmark(folder, "0.5")
     for tracker in TRACKERS:
@@ -68,4 +68,4 @@ def short_currents(folder: Path) -> Path:
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as home:
         os.environ["XDG_CACHE_HOME"] = home
-        print(json.dumps(witness(Path(home))))
+        print(json.dumps(hashes(Path(home))))

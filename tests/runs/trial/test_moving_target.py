@@ -55,7 +55,7 @@ class Guesses:
 def test_guesses_published_in_a_burst_score_what_they_are_worth(tmp_path: Path) -> None:
     guesses, frozen = (
         blind(name, tmp_path / name[:4])["corners"]
-        for name in ("tests.runs.trial.test_moving:Guesses", "frozen")
+        for name in ("tests.runs.trial.test_moving_target:Guesses", "frozen")
     )
     assert guesses > 0.95 * frozen
 
@@ -92,7 +92,7 @@ class Blob:
 
 @pytest.mark.slow
 def test_in_clear_water_a_tracker_beats_a_blob_of_colour(tmp_path: Path) -> None:
-    blob = totals("tests.runs.trial.test_moving:Blob", tmp_path / "blob")[0.0]
+    blob = totals("tests.runs.trial.test_moving_target:Blob", tmp_path / "blob")[0.0]
     esm = totals("esm", tmp_path / "esm")[0.0]
     assert esm is not None
     assert blob is not None

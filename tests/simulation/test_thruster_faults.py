@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.simulation.simulated import command, heading_deg, make, position, run
+from tests.simulation.girona500 import command, heading_deg, make, position, run
 from uwsim.devices.thruster_fault import ThrusterFaultSpec
 from uwsim.errors import SceneError
 from uwsim.simulation import Simulation
