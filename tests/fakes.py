@@ -12,6 +12,7 @@ from uwsim import rng
 from uwsim.bus import Bus
 from uwsim.errors import AssetNotFound, UnknownName
 from uwsim.geometry import Intrinsics, Pose
+from uwsim.network import Network
 from uwsim.world import Actuators, Body, Box, Camera, Contact, Flow
 
 
@@ -106,6 +107,7 @@ class FakeWorld:
         self.world_from_localized = world_from_localized or Pose.identity()
         self.vehicles = vehicles
         self.bus = Bus()
+        self.network = Network(self.stream)
         self.fog: float | None = None
         self.fog_colour = (0.0, 0.05, 0.3)
         self.light_rate: float | None = None

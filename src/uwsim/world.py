@@ -17,6 +17,7 @@ import numpy.typing as npt
 from .acoustics import Material, SeaWater
 from .bus import Bus
 from .geometry import Intrinsics, Pose
+from .network import Network
 from .rays import Hits
 
 TIMESTEP = 0.002
@@ -172,6 +173,10 @@ class Stage(World, Protocol):
     @property
     def vehicles(self) -> tuple[str, ...]:
         """Names of the vehicles, in the file's order."""
+
+    @property
+    def network(self) -> Network:
+        """The packets between communication devices."""
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:

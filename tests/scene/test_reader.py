@@ -28,8 +28,9 @@ from uwsim.scene.urdf_reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
 from uwsim.schema import Diagnostics, Field, fields_of
 from uwsim.topics import INTERFACES
+from uwsim.topics.comms_device_ros import CustomCommsDeviceROSSpec
 from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
-from uwsim.topics.sensor_topic import CustomCommsDeviceROSSpec, EchoROSSpec, ProfilingSonarROSSpec
+from uwsim.topics.sensor_topic import EchoROSSpec, ProfilingSonarROSSpec
 from uwsim.topics.simulated_device_ros import SimulatedDeviceROSSpec
 
 EVERY = Path(__file__).parent / "every-element.xml"

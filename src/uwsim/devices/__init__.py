@@ -1,7 +1,8 @@
 """Devices: what acts, touches or talks, one file each."""
 
 from ..schema import NAMESPACE
-from .comms import AcousticCommsDeviceSpec, CustomCommsDeviceSpec
+from .acoustic_comms_device import AcousticCommsDeviceSpec
+from .custom_comms_device import CustomCommsDeviceSpec
 from .dredge_tool import DredgeToolSpec
 from .echo import EchoSpec
 from .force_sensor import ForceSensorSpec

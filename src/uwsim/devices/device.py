@@ -24,6 +24,9 @@ class DeviceVehicle(Vehicle, Carrier, Protocol):
 class DeviceSpec(abc.ABC):
     """A device that is simulated; the spec of one that is not has no ``bind``."""
 
+    is_left_out: ClassVar[bool] = False
+    """Whether the scene goes without it where what it names is not there, as in the original."""
+
     @abc.abstractmethod
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Device:
         """Find what it acts on; raises UnknownName if that is not there."""

@@ -1,9 +1,9 @@
 """A network of packets inside the process: acoustic modems and links described by delays."""
 
-from .channel import Channel, DelayChannel, Path, WaterChannel
+from .channel import AbsorptionModel, Channel, DelayChannel, Path, Sea, WaterChannel
 from .energy import EnergyModel
 from .events import NANOSECONDS, nanoseconds
-from .link_budget import AbsorptionModel, LinkBudget, bpsk_error_rate
+from .link_budget import LinkBudget, bpsk_error_rate
 from .mac import Mac, mac_kind
 from .modem import Modem, ModemSettings
 from .network import Network
@@ -28,6 +28,7 @@ __all__ = [
     "Packet",
     "Path",
     "RateErrors",
+    "Sea",
     "Unit",
     "WaterChannel",
     "bpsk_error_rate",

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Literal, Protocol
 
-from ..acoustics import sound_speed
+from ..acoustics import ambient_noise, power_sum, sound_speed
+
+AbsorptionModel = Literal["thorp", "francoisGarrison"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,13 +42,38 @@ class DelayChannel:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Sea:
+    """What makes the noise of the sea."""
+
+    shipping: float
+    """From 0, few ships, to 1 [1]."""
+    wind_speed: float
+    """At the surface [m/s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class WaterChannel:
     """Sound in water of one temperature and salinity, along straight lines."""
 
-    temperature: float
+    temperature: float = 25.0
     """[degrees Celsius]."""
-    salinity: float
+    salinity: float = 35.0
     """[g/kg]."""
+    bandwidth: float = 4096.0
+    """In which receivers hear noise [Hz]."""
+    noise_level: float = 0.0
+    """Of the noise in 1 Hz besides that of the sea [dB re 1 uPa^2/Hz]."""
+    sea: Sea | None = None
+    """What makes the noise of the sea; None: it makes none."""
+    absorption: AbsorptionModel = "francoisGarrison"
+    """Whose formula."""
+
+    def noise_at(self, frequency: float) -> float:
+        """Return the level of all noise in 1 Hz at a ``frequency`` [Hz] [dB re 1 uPa^2/Hz]."""
+        if self.sea is None:
+            return self.noise_level
+        sea = ambient_noise(frequency, shipping=self.sea.shipping, wind_speed=self.sea.wind_speed)
+        return power_sum((self.noise_level, sea))
 
     def delay(self, path: Path) -> float:
         """Return how long sound travels, at the speed in the middle of its path [s]."""

@@ -17,12 +17,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 from ..acoustics import absorption, thorp_absorption
-from .channel import Path
-
-AbsorptionModel = Literal["thorp", "francoisGarrison"]
+from .channel import AbsorptionModel, Path, WaterChannel
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,6 +44,28 @@ class LinkBudget:
     """Of the water, for Francois and Garrison [degrees Celsius]."""
     salinity: float = 35.0
     """Of the water, for Francois and Garrison [g/kg]."""
+
+    @staticmethod
+    def in_water(
+        water: WaterChannel,
+        *,
+        source_level: float,
+        frequency: float,
+        spreading: float,
+        constant_loss: float,
+    ) -> LinkBudget:
+        """Return that of a sender in a channel; units are those of the fields."""
+        return LinkBudget(
+            source_level=source_level,
+            frequency=frequency,
+            bandwidth=water.bandwidth,
+            noise_level=water.noise_at(frequency),
+            spreading=spreading,
+            constant_loss=constant_loss,
+            absorption=water.absorption,
+            temperature=water.temperature,
+            salinity=water.salinity,
+        )
 
     def transmission_loss(self, path: Path) -> float:
         """Return what the signal loses on its way [dB]."""

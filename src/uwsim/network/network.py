@@ -14,15 +14,16 @@ the packet: one device more changes nothing of what the others draw.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
 
 from ..errors import UnknownName
 from ..linear import length
-from .channel import Path
+from .channel import Channel, Path
 from .events import EventQueue, nanoseconds
 from .modem import Modem, Waiting
 from .packet import EVERYONE, Packet, Reception
@@ -46,14 +47,21 @@ class Network:
     Args:
         stream: the random generator of a name.
         surface: height of the water surface in W [m].
+        channels: what devices send on, by name.
     """
 
     STATE = ("_modems", "_events", "_now")
     """What of it changes as time goes by."""
 
     def __init__(
-        self, stream: Callable[[str], np.random.Generator], *, surface: float = 0.0
+        self,
+        stream: Callable[[str], np.random.Generator],
+        *,
+        surface: float = 0.0,
+        channels: Mapping[str, Channel] = MappingProxyType({}),
     ) -> None:
+        self.channels = channels
+        """What devices send on, by name."""
         self._stream, self._surface = stream, surface
         self._modems: list[Modem] = []
         self._events: EventQueue[_Event | _Arrival] = EventQueue()

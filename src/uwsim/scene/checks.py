@@ -18,6 +18,7 @@ from ..topics.interface import VehiclePublisherSpec
 from ..topics.simulated_device_ros import SimulatedDeviceROSSpec
 from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from .angle_checks import MORE_THAN_A_TURN
+from .comms_checks import check_comms
 from .object import ObjectSpec
 from .spec import SceneSpec
 from .urdf import RobotSpec
@@ -54,6 +55,7 @@ def check_names(
     for interface in _interfaces(scene):
         _check_interface(interface, known, diagnostics)
     _check_sources(scene, diagnostics)
+    check_comms(scene, diagnostics)
     lamps = [lamp for vehicle in scene.vehicles if not vehicle.vr for lamp in vehicle.lamps]
     for lamp in lamps[MAX_LAMPS:]:
         diagnostics.error(

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import get_args
 
-from ..devices.comms import AcousticCommsChannelSpec, CustomCommsChannelSpec
+from ..devices.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..errors import BadSetting
 from ..geometry import Pose
 from ..schema import REQUIRED, Original, element

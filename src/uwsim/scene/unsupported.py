@@ -45,9 +45,7 @@ UNSUPPORTED: dict[tuple[str, str], str] = {
     ("simParams", "physicsSolver"): "physics of contacts",
     ("simParams", "showTrajectory"): "trajectories",
     ("UWSimScene", "nedOrigin"): "nedOrigin",
-    ("UWSimScene", "netTracingScript"): "communication",
-    ("UWSimScene", "CustomCommsChannel"): "communication",
-    ("UWSimScene", "AcousticCommsChannel"): "communication",
+    ("UWSimScene", "netTracingScript"): "netTracingScript",
     ("virtualCamera", "showpath"): "showpath",
     **{
         (parent, name): name
@@ -56,7 +54,6 @@ UNSUPPORTED: dict[tuple[str, str], str] = {
         if not _is_simulated(spec)
     },
     **{("vehicle", name): name for name in ("fdm", "tf")},
-    **{("vehicle", name): "communication" for name in ("CustomCommsDevice", "AcousticCommsDevice")},
 }
 """(parent, element) -> what it belongs to."""
 

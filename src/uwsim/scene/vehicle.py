@@ -18,7 +18,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from ..devices.comms import AcousticCommsDeviceSpec, CustomCommsDeviceSpec
+from ..devices.acoustic_comms_device import AcousticCommsDeviceSpec
+from ..devices.custom_comms_device import CustomCommsDeviceSpec
 from ..devices.dredge_tool import DredgeToolSpec
 from ..devices.echo import EchoSpec, SimulatedDevicesSpec
 from ..devices.force_sensor import ForceSensorSpec

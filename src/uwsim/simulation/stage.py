@@ -12,6 +12,7 @@ from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
 from ..errors import UnknownName
 from ..geometry import Array
+from ..network import Channel, Network, nanoseconds
 from ..sampling import SampleTimer
 from ..scene.spec import SceneSpec
 from ..sensors.sensor import Sensor
@@ -19,6 +20,7 @@ from ..topics.frames import Frame
 from ..topics.interface import Binds, Interface
 from ..world import Flow
 from .frames import object_frames, vehicle_frames
+from .vehicles import SceneVehicle
 from .water_motion import WaterMotion
 from .world import SceneWorld
 
@@ -35,7 +37,7 @@ class SceneStage(SceneWorld):
 
     STATE = (
         *("_bus", "state", "scenery", "touch", "_timers", "_pending"),
-        *("_vehicles", "_sensors", "devices", "interfaces"),
+        *("_vehicles", "_sensors", "devices", "interfaces", "network"),
     )
     """What of it changes as time goes by."""
 
@@ -52,6 +54,12 @@ class SceneStage(SceneWorld):
         self.water = WaterMotion(self.scene, place)
         """How its water moves."""
         self.files |= self.water.files
+        self.network = Network(
+            self.stream,
+            surface=self.scene.ocean_state.ocean_surface_height,
+            channels=_channels(self.scene),
+        )
+        """The packets between communication devices."""
         self._timers: list[SampleTimer] = []
         self._commands: list[tuple[Callable[[Any], None], Any]] = []
         self.devices = tuple(self._bound_devices())
@@ -64,13 +72,23 @@ class SceneStage(SceneWorld):
         for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
             for element, part in spec.parts():
                 if isinstance(part, DeviceSpec):
-                    device = part.bind(self, vehicle)
+                    device = self._bound_device(part, vehicle)
+                    if device is None:
+                        continue
                     yield device
                     if isinstance(device, Sensor):
                         self._sensors.setdefault((element, getattr(part, "name", "")), device)
                     if isinstance(device, MountedLamp) and not spec.vr:
                         lamps.append(device)
         self.scenery.hang(lamps)
+
+    def _bound_device(self, spec: DeviceSpec, vehicle: SceneVehicle) -> Device | None:
+        try:
+            return spec.bind(self, vehicle)
+        except UnknownName:
+            if spec.is_left_out:
+                return None
+            raise
 
     def _bound_interfaces(self) -> Iterator[Interface]:
         for spec in self.scene.ros_interfaces:
@@ -155,6 +173,17 @@ class SceneStage(SceneWorld):
         self._commands = [(interfaces[number].obey, message) for number, message in pending]
 
     def tick(self) -> None:
-        """Call what is due at the current step."""
+        """Let packets arrive, and call what is due at the current step."""
+        self.network.advance(nanoseconds(self.time))
         for timer in self._timers:
             timer.tick(self.step)
+
+
+def _channels(scene: SceneSpec) -> dict[str, Channel]:
+    """The channels of the network by name; of several of one name the first."""
+    channels: dict[str, Channel] = {}
+    for custom in scene.custom_comms_channels:
+        channels.setdefault(custom.name, custom.bind())
+    for acoustic in scene.acoustic_comms_channels:
+        channels.setdefault(acoustic.name, acoustic.bind())
+    return channels

@@ -37,6 +37,7 @@ from __future__ import annotations
 
 from ..schema import NAMESPACE
 from .arm_to_ros_joint_state import ArmToROSJointStateSpec
+from .comms_device_ros import AcousticCommsDeviceROSSpec, CustomCommsDeviceROSSpec
 from .contact_sensor_to_ros import ContactSensorToROSSpec
 from .depth_images import RangeCameraToPCLSpec, RangeImageSensorToROSImageSpec
 from .interface import InterfaceSpec
@@ -46,8 +47,6 @@ from .ros_odom_to_pat import ROSOdomToPATSpec
 from .ros_pose_to_pat import ROSPoseToPATSpec
 from .ros_twist_to_pat import ROSTwistToPATSpec
 from .sensor_topic import (
-    AcousticCommsDeviceROSSpec,
-    CustomCommsDeviceROSSpec,
     DVLSensorToROSSpec,
     EchoROSSpec,
     ForceSensorROSSpec,

@@ -41,7 +41,7 @@ class SensorTopicSpec(InterfaceSpec):
         types = [measured_by(parts[source]) for source in cls.sources]
         return next(({"topic": type_} for type_ in types if type_ is not None), {})
 
-    def bind(self, world: TopicWorld) -> SensorPublisher:
+    def bind(self, world: TopicWorld) -> Interface:
         """Publish the sensor from now on; raises UnknownName if it is not there."""
         sensor = world.sensor(self.name, self.sources)
         publish: Callable[[object], None] = world.bus.publisher(self.topic, self.carries()["topic"])
@@ -124,17 +124,3 @@ class ForceSensorROSSpec(SensorTopicSpec):
     """Publishes a force sensor as geometry_msgs/WrenchStamped."""
 
     sources: ClassVar[tuple[str, ...]] = ("ForceSensor",)
-
-
-@dataclass(frozen=True, kw_only=True)
-class CustomCommsDeviceROSSpec(SensorTopicSpec):
-    """Publishes the pose of a communication device."""
-
-    sources: ClassVar[tuple[str, ...]] = ("CustomCommsDevice",)
-
-
-@dataclass(frozen=True, kw_only=True)
-class AcousticCommsDeviceROSSpec(SensorTopicSpec):
-    """Publishes the pose of an acoustic modem."""
-
-    sources: ClassVar[tuple[str, ...]] = ("AcousticCommsDevice",)

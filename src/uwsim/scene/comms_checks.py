@@ -1,0 +1,75 @@
+"""What of the communication devices of a scene does not fit together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..devices.acoustic_comms_device import AcousticCommsDeviceSpec
+from ..devices.comms_channels import acoustic_channel, custom_channel
+from ..devices.comms_device import MacProtocolSpec
+from ..devices.custom_comms_device import CustomCommsDeviceSpec
+from ..expression import ScoreError
+from ..network import mac_kind
+from ..schema import Diagnostics
+from .spec import SceneSpec
+
+CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
+
+
+def check_comms(scene: SceneSpec, diagnostics: Diagnostics) -> None:
+    """Report formulas that cannot be read, and names and addresses that lead nowhere or twice."""
+    channels = {each.name for each in scene.custom_comms_channels}
+    channels |= {each.name for each in scene.acoustic_comms_channels}
+    names: dict[str, None] = {}
+    addresses: dict[tuple[str, int], str] = {}
+    for device in comms_devices(scene):
+        node = diagnostics.node_of(device)
+        if device.name in names:
+            said = f"two devices are called {device.name!r}: they share their topics"
+            diagnostics.warning(node, said)
+        names[device.name] = None
+        for channel in _channels_of(device):
+            if channel not in channels:
+                kind, _, number = channel.partition("/")
+                element = {"custom": "CustomCommsChannel", "acoustic": "AcousticCommsChannel"}[kind]
+                said = f"{device.name!r}: no <{element}> has the id {number}"
+                diagnostics.warning(node, f"{said}; one with the dediagnostics is used")
+        key = (_channels_of(device)[-1], device.mac)
+        if key in addresses:
+            said = f"{device.name!r} has the address {device.mac} of {addresses[key]!r}"
+            diagnostics.warning(node, f"{said}: both receive what is sent to it")
+        addresses.setdefault(key, device.name)
+        _check_protocol(device.mac_protocol, diagnostics)
+        if isinstance(device, CustomCommsDeviceSpec):
+            _check_formula(device, diagnostics)
+
+
+def comms_devices(scene: SceneSpec) -> Iterator[CommsDeviceSpec]:
+    """Every device of every vehicle, in the file's order."""
+    for vehicle in scene.vehicles:
+        yield from vehicle.custom_comms_devices
+        yield from vehicle.acoustic_comms_devices
+
+
+def _channels_of(device: CommsDeviceSpec) -> tuple[str, ...]:
+    if isinstance(device, AcousticCommsDeviceSpec):
+        return (acoustic_channel(device.channel_id),)
+    sends, listens = custom_channel(device.tx_channel_id), custom_channel(device.rx_channel_id)
+    return (sends,) if sends == listens else (sends, listens)
+
+
+def _check_protocol(protocol: MacProtocolSpec | None, diagnostics: Diagnostics) -> None:
+    if protocol is not None and mac_kind(protocol.name) is None:
+        known = "ALOHA, slottedALOHA, CSMA"
+        said = f"<macProtocol> is {protocol.name[:60]!r}; read as ALOHA; known: {known}"
+        diagnostics.warning(diagnostics.node_of(protocol), said)
+
+
+def _check_formula(device: CustomCommsDeviceSpec, diagnostics: Diagnostics) -> None:
+    model = device.rate_error_model
+    if model is None:
+        return
+    try:
+        model.parse()
+    except ScoreError as error:
+        diagnostics.error(diagnostics.node_of(model), f"<errorRateExpr>: {error.message}")

@@ -1,0 +1,59 @@
+"""Where communication devices are: their link's pose on a topic, their frame on ``/tf``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..devices.comms_device import CommsDevice
+from ..errors import UnknownName
+from ..messages import Pose, TFMessage
+from .frames import TF, transform
+from .interface import Interface, TopicWorld
+from .sensor_topic import SensorTopicSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class CommsDeviceROSSpec(SensorTopicSpec):
+    """An interface of a communication device."""
+
+    def bind(self, world: TopicWorld) -> CommsDevicePublisher:
+        """Publish from now on; raises UnknownName if the device is not there."""
+        device = world.sensor(self.name, self.sources)
+        if not isinstance(device, CommsDevice):
+            raise UnknownName("communication device", self.name, ())
+        publisher = CommsDevicePublisher(self.topic, device, world)
+        world.every(self.rate, publisher.publish)
+        return publisher
+
+
+@dataclass(frozen=True, kw_only=True)
+class CustomCommsDeviceROSSpec(CommsDeviceROSSpec):
+    """Publishes the link of a communication device as geometry_msgs/Pose, and its frame on /tf."""
+
+    sources: ClassVar[tuple[str, ...]] = ("CustomCommsDevice",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AcousticCommsDeviceROSSpec(CommsDeviceROSSpec):
+    """Publishes the link of an acoustic modem as geometry_msgs/Pose, and its frame on /tf."""
+
+    sources: ClassVar[tuple[str, ...]] = ("AcousticCommsDevice",)
+
+
+class CommsDevicePublisher(Interface):
+    """Publishes where a device is."""
+
+    def __init__(self, topic: str, device: CommsDevice, world: TopicWorld) -> None:
+        self._device, self._world = device, world
+        self._publish = world.bus.publisher(topic, Pose)
+        self._publish_frame = world.bus.publisher(TF, TFMessage)
+
+    def publish(self) -> None:
+        """Publish where it is now."""
+        device, time = self._device, self._world.time
+        self._publish(device.sample(time))
+        pose = device.parent_from_device
+        self._publish_frame(
+            TFMessage(transforms=[transform(device.parent_frame, device.frame, pose, time)])
+        )
