@@ -18,9 +18,6 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-import math
-import re
-import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,9 +25,8 @@ from typing import Any, TypeVar
 
 from lxml import etree
 
-from .. import expression
 from ..compatibility import COMPATIBILITY
-from ..errors import BadSetting, BenchmarkError, Diagnostic, did_you_mean
+from ..errors import BenchmarkError, Diagnostic, did_you_mean
 from ..scene.variation import check_variations
 from ..schema import (
     NAMESPACE,
@@ -44,35 +40,23 @@ from ..schema import (
     text_of,
 )
 from ..world import TIMESTEP
+from .element_names import name_of, place_of
 from .element_order import check_order
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
+from .name_checks import check_function, check_names
 from .plugin import PREFIX
-from .spec import MAX_TASK_DURATION, BenchmarkSpec, FunctionSpec
+from .spec import BenchmarkSpec
+from .sweep_checks import check_levels, warn_endless, warn_overridden, warn_still_water
 from .triggers import TRIGGERS, NeverSpec, TriggerSpec
 from .updater_settings import locate_in_benchmark, same_levels
 from .updaters import (
-    MAX_LEVELS,
-    STILL_WATER,
     UPDATERS,
-    CameraNoiseUpdaterSpec,
-    CurrentForceUpdaterSpec,
     NoneSpec,
-    SceneFogUpdaterSpec,
-    SceneLightUpdaterSpec,
     SceneUpdaterSpec,
-    chain,
-    interval,
-    swept_parameters,
 )
 from .warnings import never_started, too_short
 
-RESERVED = ("repeat", "seed", "total", "status", "ended_at")
-"""Columns of a result that no measure may be called by."""
-MAX_NAME_LENGTH = 100
-"""So many letters a measure may be called by."""
-SETTERS = (CameraNoiseUpdaterSpec, SceneFogUpdaterSpec, SceneLightUpdaterSpec)
-"""Updaters that set one value of the scene: of two in a nest, only the inner one has an effect."""
 OF_A_PLUGIN = ", nor of a plugin that was given (--plugin FILE.py)"
 
 T = TypeVar("T")
@@ -158,9 +142,9 @@ class _Reader:
             updater = self.updater(node)
             given["scene_updater"] = updater or NoneSpec()
         if updater is not None:
-            self.check_levels(updater)
-            self.warn_overridden(updater)
-            self.warn_still_water(updater)
+            check_levels(updater, self.diagnostics)
+            warn_overridden(updater, self.diagnostics)
+            warn_still_water(updater, self.diagnostics)
         given["compatibility"] = self.compatibility(root)
         spec = read(BenchmarkSpec, root, self.diagnostics, given=given)
         if spec is not None and updater is not None:
@@ -170,14 +154,14 @@ class _Reader:
                 find=locate_in_benchmark,
                 also=functools.partial(same_levels, spec),
             )
-        self.check_names(found, updater)
+        check_names(found, updater, self.diagnostics)
         function = None if spec is None else spec.function
         if function is not None:
-            self.check_function(root, function, found)
+            check_function(root, function, found, self.diagnostics)
         for node, message in too_short(self.diagnostics, found, updater, function, self.timestep):
             self.diagnostics.error(node, message)
         if spec is not None and updater is not None:
-            self.warn_endless(root, spec)
+            warn_endless(root, spec, self.diagnostics)
         if spec is not None:
             for place, message in never_started(root, spec):
                 self.diagnostics.warning(place, message)
@@ -187,7 +171,7 @@ class _Reader:
         """Read what stands in ``<measures>``, in the file's order."""
         found = []
         for node in self.children(box):
-            cls = self.measures.get(_name(node))
+            cls = self.measures.get(name_of(node))
             if cls is None:
                 self.unknown(node, box, self.measures)
             elif (spec := self.measure(cls, node)) is not None:
@@ -205,10 +189,10 @@ class _Reader:
         if spec.value not in cls.values:
             self.diagnostics.error(
                 node,
-                f"u:value is {spec.value!r}; the value of <{_name(node)}> is always its last",
+                f"u:value is {spec.value!r}; the value of <{name_of(node)}> is always its last",
             )
         for message in spec.errors():
-            self.diagnostics.error(self.place_of(node, message), message)
+            self.diagnostics.error(place_of(node, message), message)
         return spec
 
     def by_hand(self, cls: type, node: etree._Element) -> dict[str, Any]:
@@ -262,7 +246,7 @@ class _Reader:
         """Read ``<groundTruth>``, by its type."""
         placeholder = ConstantSpec(values=())
         kind = str(node.attrib.pop("type", "")).strip()
-        if not kind and {_name(child) for child in self.children(node)} == {"value"}:
+        if not kind and {name_of(child) for child in self.children(node)} == {"value"}:
             kind = "constant"
             self.diagnostics.warning(
                 node, "<groundTruth> without a type, as in 2013: read as constant"
@@ -287,75 +271,21 @@ class _Reader:
         for extra in nodes[1:]:
             self.diagnostics.error(
                 extra,
-                f"<{_name(extra)}> stands beside <{_name(nodes[0])}> in <sceneUpdater>; "
+                f"<{name_of(extra)}> stands beside <{name_of(nodes[0])}> in <sceneUpdater>; "
                 "only one may: nest it in a <sceneUpdater> of its own",
             )
         if not nodes:
             return None
         node = nodes[0]
-        cls = self.updaters.get(_name(node))
+        cls = self.updaters.get(name_of(node))
         if cls is None:
             self.unknown(node, box, self.updaters)
             return None
         spec = read(cls, node, self.diagnostics, given=self.by_hand(cls, node))
         wrong = [] if spec is None else list(spec.errors())
         for message in wrong:
-            self.diagnostics.error(self.place_of(node, message), message)
+            self.diagnostics.error(place_of(node, message), message)
         return None if wrong else spec
-
-    def place_of(self, node: etree._Element, message: str) -> etree._Element:
-        """Return the child that a message begins with, as ``<step> ...``; else the element."""
-        named = re.match(r"<(\w+)>", message)
-        child = None if named is None else node.find(named[1])
-        return node if child is None else child
-
-    def check_levels(self, outermost: SceneUpdaterSpec) -> None:
-        """Refuse a sweep that never ends, or a nest of them with too many levels."""
-        count = 1
-        for updater in chain(outermost):
-            node = self.diagnostics.node_of(updater)
-            values: tuple[float, ...] = ()
-            try:
-                values = updater.values()
-            except BadSetting as diagnostic:
-                self.diagnostics.error(node, str(diagnostic))
-            else:
-                if not values or not all(
-                    isinstance(value, int | float) and math.isfinite(value) for value in values
-                ):
-                    self.diagnostics.error(
-                        node, "a sweep needs at least one level, and finite values"
-                    )
-            count *= max(1, len(values))
-            if count > MAX_LEVELS:
-                self.diagnostics.error(node, f"with this, there are more than {MAX_LEVELS} levels")
-                return
-
-    def warn_overridden(self, outermost: SceneUpdaterSpec) -> None:
-        """Say where an updater has no effect: another within it sets the same value."""
-        around: list[SceneUpdaterSpec] = []
-        for updater in chain(outermost):
-            if isinstance(updater, SETTERS) and any(type(o) is type(updater) for o in around):
-                node = self.diagnostics.node_of(updater)
-                name = "" if node is None else _name(node)
-                self.diagnostics.warning(
-                    node, f"<{name}> within another: only the inner one's values have an effect"
-                )
-            around.append(updater)
-
-    def warn_still_water(self, outermost: SceneUpdaterSpec) -> None:
-        """Say where levels are over before their current flows."""
-        length, deepest = interval(outermost), chain(outermost)[-1]
-        for updater in chain(outermost):
-            if not isinstance(updater, CurrentForceUpdaterSpec) or length is None:
-                continue
-            if 0.0 < length + updater.settling_time <= STILL_WATER:
-                node = self.diagnostics.node_of(deepest)
-                self.diagnostics.warning(
-                    None if node is None else self.place_of(node, "<interval>"),
-                    f"<interval> {length:g} s: for {STILL_WATER:g} s after each change of the "
-                    "current the water is still, so such a level sees nothing of it",
-                )
 
     def compatibility(self, root: etree._Element) -> tuple[str, ...]:
         names = tuple(str(root.get(f"{{{NAMESPACE}}}compatibility", "")).replace(",", " ").split())
@@ -363,66 +293,6 @@ class _Reader:
         for name in [name for name in names if name not in known][:10]:
             self.diagnostics.unknown(root, f"u:compatibility names {name[:60]!r}", name, known)
         return names
-
-    def check_names(self, measures: list[MeasureSpec], updater: SceneUpdaterSpec | None) -> None:
-        """Names of measures are names in the function and columns of the result."""
-        columns = () if updater is None else swept_parameters(updater)
-        seen: dict[str, MeasureSpec] = {}
-        for spec in measures:
-            node = self.diagnostics.node_of(spec)
-            name = spec.name[:60]
-            if not (spec.name.isascii() and spec.name.isidentifier()):
-                self.diagnostics.error(
-                    node,
-                    f"the name {name!r} cannot stand in the function; "
-                    "expected letters, digits and _, no digit first",
-                )
-            elif len(spec.name) > MAX_NAME_LENGTH:
-                self.diagnostics.error(
-                    node,
-                    f"the name {name!r}... has {len(spec.name)} letters; at most "
-                    f"{MAX_NAME_LENGTH}, for files are called after it",
-                )
-            elif spec.name in seen:
-                first = self.diagnostics.node_of(seen[spec.name])
-                line = "" if first is None else f" (line {first.sourceline})"
-                self.diagnostics.error(node, f"another measure{line} is called {name!r}")
-            elif spec.name in RESERVED or spec.name in columns:
-                self.diagnostics.error(
-                    node, f"{name!r} is another column of the result; call it otherwise"
-                )
-            elif spec.name in expression.CONSTANTS or spec.name in expression.FUNCTIONS:
-                kind = "constant" if spec.name in expression.CONSTANTS else "function"
-                self.diagnostics.error(
-                    node, f"{name!r} is a {kind} of the language of scores; call it otherwise"
-                )
-            seen.setdefault(spec.name, spec)
-
-    def check_function(
-        self, root: etree._Element, function: FunctionSpec, measures: list[MeasureSpec]
-    ) -> None:
-        """Parse the function; a measure that has errors of its own may stand in it."""
-        names = [spec.name for spec in measures]
-        were_read = {self.diagnostics.node_of(spec) for spec in measures}
-        for name in root.iterfind("measures/*/name"):
-            if name.getparent() not in were_read:
-                names.append((name.text or "").strip())
-        try:
-            expression.parse(function.text, names)
-        except expression.ScoreError as error:
-            message = textwrap.shorten(error.message, 300, placeholder=" ...")
-            self.diagnostics.error(
-                root.find("function"),
-                f"<function>: {message} (column {error.column + 1})\n{error.pointed_at()}",
-            )
-
-    def warn_endless(self, root: etree._Element, spec: BenchmarkSpec) -> None:
-        deepest = chain(spec.scene_updater)[-1]
-        if deepest.seconds_per_level is None and isinstance(spec.stop_on, NeverSpec):
-            self.diagnostics.warning(
-                root.find("stopOn"),
-                f"no interval and no <stopOn>: it ends after {MAX_TASK_DURATION:g} s, in timeout",
-            )
 
     def children(self, box: etree._Element) -> list[etree._Element]:
         """The elements in a box that has nothing else in it."""
@@ -435,16 +305,11 @@ class _Reader:
         return list(box.iterchildren("*"))
 
     def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
-        name = _name(node)
+        name = name_of(node)
         message = (
             f"{shown_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
         )
         self.diagnostics.unknown(node, message + OF_A_PLUGIN * name.startswith(PREFIX), name, known)
-
-
-def _name(node: etree._Element) -> str:
-    """How a table has an element: ``distance``, or ``u:topSpeed`` for an extension."""
-    return str(node.tag).replace(f"{{{NAMESPACE}}}", "u:")
 
 
 def _take_out(node: etree._Element) -> None:
