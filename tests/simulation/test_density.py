@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from importlib import resources
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from uwsim.errors import SceneError
-from uwsim.scene.ocean_state import OceanStateSpec
+from uwsim.scene.ocean_state import OceanStateSpec, ProfileSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
@@ -17,10 +18,11 @@ from uwsim.simulation.bodies import read_robots
 from uwsim.simulation.dynamics import Search, read_dynamics
 
 SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
+PROFILE = ProfileSpec(depth=(0.0, 10.0), density=(1000.0, 1025.0))
 
 
 def two(ocean: OceanStateSpec, *, turned: bool = False) -> SceneSpec:
-    scene = read_scene(SCENE).nominal
+    scene = replace(read_scene(SCENE), vary=())
     girona = replace(scene.vehicles[0], virtual_cameras=())
     rexrov = VehicleSpec(name="rexrov", file="rexrov.urdf", dynamics="rexrov")
     vehicles = (rexrov, girona) if turned else (girona, rexrov)
@@ -61,3 +63,33 @@ def test_added_mass_and_drag_are_those_of_the_water_and_the_lift_is_reported() -
         diagnostic.message for diagnostic in search.found if diagnostic.severity == "warning"
     ]
     assert any("trimmed in 1000" in one and "N lighter here" in one for one in warnings)
+
+
+def test_a_profile_over_depth_is_the_water_and_the_lift_is_that_at_the_vehicles_depth() -> None:
+    profile = ProfileSpec(depth=(0.0, 10.0), temperature=(20.0, 5.0), salinity=(0.0, 35.0))
+    scene = two(OceanStateSpec(profile=profile))
+    assert densities(scene)["rexrov"] == pytest.approx(998.2063, abs=1e-3)
+    at_depth = profile.density_at(1.515)  # of the Girona 500
+    volume = sum(body.volume for body in read_dynamics(scene, read_robots(scene, ()))[0].bodies)
+    lift = 9.81 * (at_depth - 1000.0) * volume
+    said = [one.message for one in Search(scene, read_robots(scene, ()), ()).found]
+    assert any(f"it is {lift:.3g} N lighter here" in one for one in said)
+
+
+@pytest.mark.parametrize(
+    ("ocean", "said"),
+    [
+        (OceanStateSpec(density=1000.0, profile=PROFILE), "expected no other density"),
+        (OceanStateSpec(profile=replace(PROFILE, depth=(5.0, 2.0))), "expected 2 or more, rising"),
+        (OceanStateSpec(profile=replace(PROFILE, density=())), "expected one of <u:density> and"),
+        (
+            OceanStateSpec(profile=replace(PROFILE, density=(1.0e3,))),
+            "<u:density> has 1 numbers; expected 2, one for each depth",
+        ),
+    ],
+)
+def test_a_profile_that_says_nothing_or_too_much_is_an_error(
+    ocean: OceanStateSpec, said: str
+) -> None:
+    with pytest.raises(SceneError, match="<u:profile>: .*" + re.escape(said)):
+        densities(two(ocean))

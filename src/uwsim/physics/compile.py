@@ -357,8 +357,8 @@ def _add_water(
         for fin in vehicle.fins:
             fins[vehicle_fin(index, fin.name)] = (vehicle_body(index, fin.link), fin)
     density = next(iter(dynamics.values())).density
-    surface = scene.ocean_state.ocean_surface_height
-    prepare(spec, bodies, thrusters, fins, surface=surface, density=density)
+    surface, levels = scene.ocean_state.ocean_surface_height, scene.ocean_state.density_levels
+    prepare(spec, bodies, thrusters, fins, surface=surface, density=density, levels=levels)
 
 
 def _add_body(

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
 
 from ..acoustics import SeaWater
 from ..currents import CURRENTS, CurrentSpec
 from ..geometry import Triple
-from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED, Original, element
+from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED, Numbers, Original, element
 from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
@@ -23,6 +26,48 @@ class FogSpec:
     """At a distance d the share ``1 - exp(-(density d)^2)`` of what is there is lost [1/m]."""
     color: Triple = element(default=NIGHT_BLUE, parts="rgb", original=REQUIRED)
     """What replaces what cannot be seen [0..1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProfileSpec:
+    """A ``<u:profile>``: stratified water, linear between levels, constant above and below them."""
+
+    depth: Numbers = element(namespaced=True, minimum=0.0)
+    """Of the levels below the surface, rising, two or more [m]."""
+    density: Numbers = element(namespaced=True, default=(), minimum=100.0, maximum=20000.0)
+    """Of the water at each level [kg/m3]."""
+    temperature: Numbers = element(namespaced=True, default=(), minimum=-2.0, maximum=40.0)
+    """Instead of the density: temperature at each level, for EOS-80 [degrees Celsius]."""
+    salinity: Numbers = element(namespaced=True, default=(), minimum=0.0, maximum=42.0)
+    """Salinity at each level, with the temperature; without: 0 [g/kg]."""
+
+    @property
+    def levels(self) -> tuple[tuple[float, float], ...]:
+        """Depth [m] and density [kg/m3] of each level."""
+        densities = self.density or tuple(
+            map(sea_water_density, self.temperature, self.salinity or (0.0,) * len(self.depth))
+        )
+        return tuple(zip(self.depth, densities, strict=True))
+
+    def errors(self) -> list[str]:
+        """Say what is wrong with the levels."""
+        n = len(self.depth)
+        if n < 2 or any(b <= a for a, b in pairwise(self.depth)):
+            return [f"<u:depth> has {n} depths; expected 2 or more, rising [m]"]
+        if bool(self.density) == bool(self.temperature):
+            return ["expected one of <u:density> and <u:temperature>, a number for each depth"]
+        given = {"density": self.density, "temperature": self.temperature}
+        given["salinity"] = self.salinity
+        return [
+            f"<u:{name}> has {len(numbers)} numbers; expected {n}, one for each depth"
+            for name, numbers in given.items()
+            if numbers and len(numbers) != n
+        ]
+
+    def density_at(self, depth: float) -> float:
+        """Return the density at a depth [kg/m3]."""
+        depths, densities = zip(*self.levels, strict=True)
+        return float(np.interp(depth, depths, densities))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,6 +109,8 @@ class OceanStateSpec:
     """Of the water, for its density by EOS-80 [degrees Celsius]; 15 where only salinity is said."""
     salinity: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=42.0)
     """Of the water, for its density [g/kg]; 0 where only the temperature is said, 35 in the sea."""
+    profile: ProfileSpec | None = element(namespaced=True, default=None)
+    """Density over depth, instead of the three above."""
     currents: tuple[CurrentSpec, ...] = element(
         "current", namespaced=True, default=(),
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in CURRENTS.items()},
@@ -78,8 +125,15 @@ class OceanStateSpec:
         return SeaWater(warmth, fresh if self.salinity is None else self.salinity)
 
     @property
+    def density_levels(self) -> tuple[tuple[float, float], ...]:
+        """Depth [m] and density [kg/m3] of the levels of stratified water; none of uniform."""
+        return () if self.profile is None else self.profile.levels
+
+    @property
     def water_density(self) -> float | None:
-        """What the file says of the density [kg/m3]; None if nothing."""
+        """What the file says of the density at the surface [kg/m3]; None if nothing."""
+        if self.profile is not None:
+            return self.profile.density_at(0.0)
         if self.density is not None:
             return self.density
         if self.temperature is None and self.salinity is None:

@@ -141,7 +141,12 @@ class Search:
 
     def _settle_density(self) -> None:
         """Put all vehicles into one water: the scene's, or that which their sets agree about."""
-        density = self._scene.ocean_state.water_density
+        ocean = self._scene.ocean_state
+        if wrong := self._profile_errors():
+            for said in wrong:
+                self._say(f"<u:profile>: {said}", "oceanState", 0, f"{U}profile", 0)
+            return
+        density = ocean.water_density
         given = {index: one.density for index, one in self.dynamics.items()}
         if density is None and len(set(given.values())) > 1:
             message = " and ".join(
@@ -157,10 +162,20 @@ class Search:
             if density is not None and density != own:
                 self._trim(index, density)
 
+    def _profile_errors(self) -> list[str]:
+        ocean = self._scene.ocean_state
+        if ocean.profile is None:
+            return []
+        if (ocean.density, ocean.temperature, ocean.salinity) != (None, None, None):
+            return ["it gives the density; expected no other density, temperature or salinity"]
+        return ocean.profile.errors()
+
     def _trim(self, index: int, density: float) -> None:
         """Put a vehicle into other water than its set is for, and say what that does."""
         before = self.dynamics[index]
         self.dynamics[index] = before.in_water(density)
+        if self._scene.ocean_state.profile is not None:
+            density = self._scene.ocean_state.profile.density_at(self._depth(index))
         lift = 9.81 * (density - before.density) * sum(body.volume for body in before.bodies)
         name = self._scene.vehicles[index].name
         if abs(lift) >= MIN_LIFT:
@@ -171,6 +186,12 @@ class Search:
                 *("vehicle", index, f"{U}dynamics", 0),
                 severity="warning",
             )
+
+    def _depth(self, index: int) -> float:
+        """How deep a vehicle begins [m]."""
+        vehicle = self._scene.vehicles[index]
+        place = (self._scene.world_from_localized @ vehicle.localized_from_base).position
+        return self._scene.ocean_state.ocean_surface_height - float(place[2])
 
     def _refuse_scale(self, index: int, vehicle: VehicleSpec) -> None:
         """Masses, volumes and thrusts are those of the size that the files give."""

@@ -22,6 +22,7 @@ TURN = 8
 
 # the row of the world body: the water as a whole
 MAGIC, SURFACE, DENSITY = 0, 1, 2
+N_LEVELS, LEVELS = 3, 4  # of a profile: how many; depth [m] and density / DENSITY - 1 of each
 MAGIC_NUMBER = 0.0196_1998  # nobody else's body_user begins like this
 
 # the row of any other body

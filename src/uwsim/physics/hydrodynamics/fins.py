@@ -42,8 +42,9 @@ from .columns import (
     STALL,
     WATER_COLUMNS,
 )
-from .flow import push_at, site_of, velocity_at, water_density, wet_share
+from .flow import height_of, push_at, site_of, velocity_at, water_density, wet_share
 from .memory import Floats, Ints64, floats, real, small, word
+from .stratification import density_ratio
 from .thrusters import share_of_lag
 
 FADE = math.radians(10.0)
@@ -74,7 +75,8 @@ def add_fin(m: int, d: int, at: Ints64, i: int, table: Floats, ahead: float, wor
     if wet <= 0.0:
         return
     u, v, _ = velocity_at(m, d, at, site, body)
-    x, y = foil_force(table, angle + ahead * speed, u, v, wet * water_density(m, at))
+    density = water_density(m, at) * density_ratio(m, at, height_of(d, at, site))
+    x, y = foil_force(table, angle + ahead * speed, u, v, wet * density)
     push_at(m, d, at, site, body, (x, y, 0.0), 0.0, work)
 
 

@@ -66,9 +66,15 @@ def _from_felt(m: int, d: int, at: Ints64, place: Floats, body: int) -> Three:
 
 
 @njit
+def height_of(d: int, at: Ints64, site: int) -> float:
+    """Height of a site in W [m]."""
+    return real(word(d + at[f.SITE_XPOS]) + 8 * (3 * site + 2))
+
+
+@njit
 def wet_share(m: int, d: int, at: Ints64, site: int, body: int, reach: float) -> float:
     """How much of a thing that reaches so far [m] about a site is under water, 0..1."""
-    height = real(word(d + at[f.SITE_XPOS]) + 8 * (3 * site + 2))
+    height = height_of(d, at, site)
     surface = real(word(m + at[f.BODY_USER]) + 8 * SURFACE)
     surface += real(word(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * body + 6))
     return min(max(0.5 + 0.5 * (surface - height) / reach, 0.0), 1.0)

@@ -42,6 +42,7 @@ from .columns import (
     KIND,
     MAGIC,
     MAGIC_NUMBER,
+    N_LEVELS,
     PROPELLER,
     ROLE,
     SURFACE,
@@ -72,6 +73,7 @@ from .equations import (
 from .fins import add_fin
 from .free_bodies import keep_energy
 from .memory import Floats, Ints64, floats, ints, real, small, word
+from .stratification import density_ratio
 from .thrusters import add_thrust
 
 _WET = 1e-300
@@ -247,6 +249,7 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
     still = real(word(m + at[f.BODY_USER]) + 8 * SURFACE)
     gravity = floats(m + at[f.GRAVITY], 3)
     weight = 0.0 if (small(m + at[f.DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
+    is_stratified = real(word(m + at[f.BODY_USER]) + 8 * N_LEVELS) > 0.0
     scratch = f.ROW * nbody
     for body in range(1, nbody):
         table = floats(word(m + at[f.BODY_USER]) + 8 * BODY_COLUMNS * body, BODY_COLUMNS)
@@ -263,6 +266,10 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         wet, centre = wet_part(table, axes, still + water[6] - height)
         if wet <= 0.0:
             continue
+        if is_stratified:
+            x, y, z = centre
+            centre_height = height + axes[6] * x + axes[7] * y + axes[8] * z
+            wet *= density_ratio(m, at, centre_height)
         base = f.ROW * body
         work[base + f.TOUCHED] = 1.0
         step = theta_h * table[THETA]

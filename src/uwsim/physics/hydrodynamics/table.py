@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import mujoco
 import numpy as np
@@ -33,6 +33,7 @@ def prepare(
     *,
     surface: float = 0.0,
     density: float = 1000.0,
+    levels: Sequence[tuple[float, float]] = (),
 ) -> None:
     """Write hydrodynamics into a model that is about to be compiled.
 
@@ -44,7 +45,8 @@ def prepare(
         thrusters: name of the actuator to make -> the body it sits on, and its spec.
         fins: the same of the fins.
         surface: height of the still water's surface in W [m].
-        density: of the water [kg/m3].
+        density: of the water, for which the numbers of the bodies are [kg/m3].
+        levels: of water that is stratified, depth [m] and density [kg/m3], two or more, downwards.
 
     Raises:
         BadHydrodynamics: with every error.
@@ -57,6 +59,9 @@ def prepare(
         raise BadHydrodynamics([f"nuser_actuator must be at most {c.ACTUATOR_COLUMNS}"])
     water = np.zeros(c.BODY_COLUMNS)
     water[[c.MAGIC, c.SURFACE, c.DENSITY]] = c.MAGIC_NUMBER, surface, density
+    water[c.N_LEVELS] = len(levels)
+    for i, (depth, there) in enumerate(levels):
+        water[c.LEVELS + 2 * i : c.LEVELS + 2 * i + 2] = depth, there / density - 1.0
     spec.worldbody.userdata = water
     for name, body in bodies.items():
         _prepare_body(spec.body(name), body, density)
