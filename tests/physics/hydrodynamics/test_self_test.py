@@ -1,0 +1,29 @@
+"""A MuJoCo that steps otherwise than the kernel believes is refused, not misread."""
+
+from __future__ import annotations
+
+import mujoco
+import pytest
+
+from uwsim.physics.hydrodynamics import self_test
+from uwsim.physics.hydrodynamics.layout import MujocoChanged
+
+
+def test_this_mujoco_passes() -> None:
+    self_test.self_test.cache_clear()
+    self_test.self_test()
+
+
+def test_a_gyroscopic_term_that_is_not_undone_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With Euler MuJoCo has no such term: as if a new version had left it out."""
+    step2 = mujoco.mj_step2
+
+    def without_term(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
+        step2(model, data)
+
+    monkeypatch.setattr(mujoco, "mj_step2", without_term)
+    self_test.self_test.cache_clear()
+    with pytest.raises(MujocoChanged, match="does not agree with itself"):
+        self_test.self_test()
+    self_test.self_test.cache_clear()
