@@ -1,4 +1,4 @@
-"""Topics and services inside the process, and the door through which an algorithm enters.
+"""Topics and services inside the process, and the interface through which an algorithm uses them.
 
 A published message is given away: its arrays become read-only and it is delivered, in the order
 of publishing, when the simulation reaches the end of its step (`Bus.deliver`). What a callback
@@ -27,7 +27,7 @@ MAX_BYTES_KEPT = 256 * 2**20
 
 @runtime_checkable
 class Node(Protocol):
-    """All that an algorithm under test ever sees."""
+    """The interface of an algorithm under test: topics, services, timers, parameters."""
 
     @property
     def now(self) -> float:
@@ -35,7 +35,7 @@ class Node(Protocol):
 
     @property
     def parameters(self) -> Mapping[str, float | str]:
-        """What ``--set algorithm.name=value`` said; the algorithm has its own defaults."""
+        """The values of ``--set algorithm.name=value``; the algorithm has its own defaults."""
 
     @property
     def random(self) -> np.random.Generator:
@@ -51,21 +51,21 @@ class Node(Protocol):
         """Offer a service; ``type`` is the class of its request."""
 
     def call(self, name: str, request: object) -> object:
-        """Call a service and return its response; UnknownName when nobody serves it."""
+        """Call a service and return its response; UnknownName if it is not offered."""
 
     def every(self, period_s: float, callback: Callable[[], None]) -> None:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
 
 
 class Algorithm(Protocol):
-    """A program under test: it is started once and lives on callbacks alone."""
+    """A program under test: it is started once; from then on its callbacks are called."""
 
     def start(self, node: Node) -> None:
         """Subscribe, serve, call ``startBench``; from then on only callbacks."""
 
 
 class Inbox(Generic[M]):
-    """The messages of one topic that one reader has not looked at yet, and the last one.
+    """The messages of one topic that one reader has not taken yet, and the last one.
 
     One that is not looked into keeps the newest, at most `MAX_KEPT` of `MAX_BYTES_KEPT` together.
     """
@@ -228,11 +228,11 @@ class Bus:
         return publish
 
     def withhold(self, topic: str) -> None:
-        """Keep a topic from algorithms under test; observers of the run may hear it."""
+        """Hide a topic from algorithms under test; observers of the run may read it."""
         self._withheld.add(_without_slash(topic))
 
     def is_withheld(self, topic: str) -> bool:
-        """Whether a topic is kept from algorithms under test."""
+        """Whether a topic is hidden from algorithms under test."""
         return _without_slash(topic) in self._withheld
 
     def unread(self, topic: str) -> object | None:
@@ -241,17 +241,17 @@ class Bus:
         return None if entry is None or entry.unread is None else freeze(entry.unread)
 
     def message_type(self, topic: str) -> type | None:
-        """What ``topic`` carries; None while nobody has said."""
+        """The message type of ``topic``; None before the first reader or writer."""
         entry = self._topics.get(_without_slash(topic))
         return entry.type if entry else None
 
     def has_readers(self, topic: str) -> bool:
-        """Whether anybody would see a message on ``topic``."""
+        """Whether ``topic`` has a subscriber."""
         entry = self._topics.get(_without_slash(topic))
         return bool(entry and entry.readers)
 
     def unheard(self, topic: str) -> str | None:
-        """Say that nobody reads a topic, with the nearest that is read; None where one does."""
+        """Report that a topic has no subscriber, with the nearest that has; None if it has one."""
         read = [name for name, entry in self._topics.items() if entry.readers]
         return (
             None
@@ -260,7 +260,7 @@ class Bus:
         )
 
     def unsaid(self, topic: str) -> str | None:
-        """Say that nobody publishes on a topic, with the nearest that is; None where one does."""
+        """Report that a topic has no publisher, with the nearest that has; None if it has one."""
         published = [name for name, entry in self._topics.items() if entry.has_writers]
         if _without_slash(topic) in published:
             return None
@@ -297,7 +297,7 @@ class Bus:
         self._services.pop(_without_slash(name), None)
 
     def serves(self, name: str) -> bool:
-        """Whether somebody offers the service."""
+        """Whether the service is offered."""
         return _without_slash(name) in self._services
 
     def call(self, name: str, request: object) -> object:
@@ -319,7 +319,7 @@ class Bus:
         return handler(freeze(request))
 
     def deliver(self) -> None:
-        """Hand out everything that is due at the current step, in the order of publishing."""
+        """Deliver every message that is due at the current step, in the order of publishing."""
         if not self._due_now and not self._due_later:
             return
         if self._due_later:
@@ -362,7 +362,7 @@ class Bus:
 
 
 def _is_exactly(message: object, expected: type) -> bool:
-    """Whether it is of a class, and of no other that has been derived from it."""
+    """Whether the class of a message is exactly this one, not a derived one."""
     return type(message) is expected
 
 

@@ -1,4 +1,4 @@
-"""What a compiled function was compiled from: its code, what it calls, and the constants it names.
+"""A digest of the source of a compiled function: its code, the functions it calls, its constants.
 
 numba's own cache on disk watches only the file of the function. A constant from another module, or
 a function that is compiled in, may change without it.
@@ -36,7 +36,7 @@ def source_digest(function: FunctionType) -> str:
 
 
 def _named(function: FunctionType) -> Iterator[tuple[str, Any]]:
-    """What the names in a function's code stand for: globals, and attributes of modules."""
+    """The values of the global names in a function's code, and of attributes of modules."""
     code, names = function.__code__, function.__globals__
     modules = []
     for name in code.co_names:

@@ -1,4 +1,4 @@
-"""Environment variables for the libraries and processes of a while."""
+"""Environment variables that are set for the duration of a block."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 
 def not_chosen(variables: Mapping[str, str]) -> dict[str, str]:
-    """Return those of the variables that the user has not set himself."""
+    """Return those of the variables that the user has not set."""
     return {name: value for name, value in variables.items() if name not in os.environ}
 
 

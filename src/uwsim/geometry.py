@@ -1,4 +1,4 @@
-"""Poses, rotations and pinhole cameras: the numbers everything else is said in.
+"""Poses, rotations and pinhole cameras.
 
 Transforms are named ``a_from_b`` and map coordinates of frame b into frame a.
 Quaternions are wxyz.
@@ -104,7 +104,7 @@ def rotation_from_quaternion(wxyz: Array) -> Array:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pose:
-    """Where frame b stands in frame a: ``a_from_b``."""
+    """A rigid transform ``a_from_b``: position and orientation of frame b in frame a."""
 
     position: Array
     """Origin of b in a, (3,) [m]."""

@@ -1,4 +1,4 @@
-"""Ctrl-C in a command, and what else ends it: until there is something to keep, at once.
+"""Interruption of a command by Ctrl-C and signals: at once until there are results to keep.
 
 Python answers Ctrl-C by raising KeyboardInterrupt wherever it happens to be, and while libraries
 are loaded that is inside them: some turn it into another error, some print it and go on. So a
@@ -19,13 +19,13 @@ STATUS = 130
 
 
 def end_at_once() -> None:
-    """From now on Ctrl-C ends this process with one line; who ignores it goes on ignoring it."""
+    """From now on Ctrl-C ends this process with one line, unless SIGINT is ignored."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, _end)
 
 
 def raise_from_now_on() -> None:
-    """From now on whatever ended the process at once raises KeyboardInterrupt."""
+    """From now on the signals that ended the process at once raise KeyboardInterrupt."""
     if signal.getsignal(signal.SIGINT) is _end:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     for number in (signal.SIGTERM, signal.SIGHUP):
@@ -34,18 +34,18 @@ def raise_from_now_on() -> None:
 
 
 def hears() -> bool:
-    """Whether Ctrl-C reaches this process; else a KeyboardInterrupt is none of the user's."""
+    """Whether Ctrl-C reaches this process, so that a KeyboardInterrupt may be the user's."""
     return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 
 
 def is_of_user(error: BaseException) -> bool:
-    """Whether what was raised may be the user's Ctrl-C."""
+    """Whether an exception may be the user's Ctrl-C."""
     return isinstance(error, KeyboardInterrupt) and hears()
 
 
 @contextmanager
 def born_deaf() -> Iterator[None]:
-    """Keep Ctrl-C from the processes that are started in this block, for as long as they live.
+    """Start processes in this block that ignore Ctrl-C for as long as they run.
 
     For this process it waits until the block is left.
     """

@@ -1,4 +1,4 @@
-"""The one place where numba meets strict types: typed decorators with a cache on disk.
+"""Typed decorators for numba, with a cache on disk.
 
 numba's own cache hands whatever lies on the disk to pickle and the linker: a file that was cut off
 ends every command, one with a changed byte may compute something else. Here each signature has a
@@ -62,7 +62,7 @@ class HashedCache(FunctionCache):
         )
 
     def save_overload(self, sig: object, data: object) -> None:
-        """Keep compiled code, if it can be: a full disk or a folder that is gone ends nothing."""
+        """Store compiled code if possible: a full disk or a deleted folder is no error."""
         try:
             super().save_overload(sig, data)  # type: ignore[no-untyped-call]
         except OSError:
@@ -83,7 +83,7 @@ class Signatures:
         self._find_stamp = functools.cache(stamp)
 
     def load(self, key: object) -> object | None:
-        """Return what was compiled from this source for this key; None without it."""
+        """Return the code compiled from this source for this key; None if there is none."""
         data = disk_cache.read(self._file(key))
         if data is None:
             return None
@@ -91,7 +91,7 @@ class Signatures:
         return compiled if (stamp, kept_key) == (self._find_stamp(), key) else None
 
     def save(self, key: object, compiled: object) -> None:
-        """Keep what was compiled; it takes the place of what an older source was compiled to."""
+        """Store compiled code in place of that of an older source."""
         disk_cache.write(self._file(key), dumps((self._find_stamp(), key, compiled)))  # type: ignore[no-untyped-call]
 
     def flush(self) -> None:

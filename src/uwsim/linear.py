@@ -1,4 +1,4 @@
-"""Small linear algebra with the same bytes on every processor.
+"""Small linear algebra whose results have the same bytes on every processor.
 
 BLAS and LAPACK, which numpy's ``@``, ``dot`` and ``linalg`` call, choose their code by the
 processor: two machines add in different orders, and tracked for minutes such a difference of 1e-16
@@ -136,7 +136,7 @@ def _decomposed(matrix: Array) -> tuple[Array, Array, Array]:
 
 @njit
 def points_of(origins: Array, axes: Array, bodies: npt.NDArray[np.int64], points: Array) -> Array:
-    """Places of one point each of some bodies, (n, 3).
+    """World positions of one point of each of some bodies, (n, 3).
 
     Args:
         origins: of all bodies, (m, 3).

@@ -37,7 +37,7 @@ _LIST = re.compile(r"list\[(.*)\]")
 
 
 def unfit(message: object, of: str = "") -> str | None:
-    """Say which field of a message holds something else than its definition has there, or None.
+    """Report the first field of a message that does not fit its definition, or None.
 
     Lists and tuples given for arrays become arrays. ``of`` is the path to a message in
     another, with a dot behind it.

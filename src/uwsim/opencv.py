@@ -1,4 +1,4 @@
-"""OpenCV with the same bytes on every processor."""
+"""OpenCV set up so that its results have the same bytes on every processor."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def plain_opencv() -> Iterator[None]:
-    """Have OpenCV use the code that runs on every processor, in one thread's order.
+    """Have OpenCV use its generic code in one thread.
 
     It has several codes for most functions, and Intel's library for some, and chooses by the
     processor; their sums differ in the last bit. That is a switch of the whole process, so it is

@@ -1,4 +1,4 @@
-"""How fog is said: as a density, or as the length at which contrast has fallen so far."""
+"""Units of fog: a density, or the distance at which contrast has fallen to a given share."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 EXPONENT_SEEN = math.log(50.0)
-"""Of the contrast of 2 %, the least that is seen."""
+"""Exponent of the contrast threshold of 2 %, below which nothing is seen."""
 DENSITY = "density"
 LENGTHS: dict[str, Callable[[float], float]] = {
     "attenuationLength": lambda length: 1.0 / length,

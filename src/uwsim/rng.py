@@ -1,4 +1,4 @@
-"""Chance: one seed in, a generator for every name out."""
+"""Named random streams: one seed gives an independent generator for every name."""
 
 from __future__ import annotations
 

@@ -7,12 +7,12 @@ from collections.abc import Callable
 
 
 def sample_step(n: int, rate: float, timestep: float) -> int:
-    """Step at which sample ``n`` of a sensor with ``rate`` [Hz] is taken (DESIGN 4)."""
+    """Step at which sample ``n`` of a sensor with ``rate`` [Hz] is taken."""
     return math.ceil(n / (rate * timestep) - 1e-9)
 
 
 class SampleTimer:
-    """Calls something at the samples of a rate."""
+    """Calls a function at the samples of a rate."""
 
     STATE = ("_start", "_n_samples", "_due")
     """What of it changes as time goes by."""
@@ -23,7 +23,7 @@ class SampleTimer:
         self._due = start  # step of the next sample
 
     def tick(self, step: int) -> None:
-        """Call it, if its step has come."""
+        """Call the function if a sample is due at this step."""
         if step >= self._due:
             self._n_samples += 1
             self._due = self._start + sample_step(self._n_samples, self._rate, self._timestep)

@@ -1,4 +1,4 @@
-"""What topics and devices may ask of a vehicle and do to it: protocols only."""
+"""Protocols of a vehicle as topics and devices see it."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import Protocol
 from .geometry import Array, Pose
 
 MAX_COMMAND = 1e6
-"""A number of a command is taken as at most this: no vehicle gets there [m, m/s, rad/s, N, N m]."""
+"""Commands are clipped to this number, which no vehicle reaches [m, m/s, rad/s, N, N m]."""
 
 
 class Autopilot(Protocol):
-    """What steers a simulated vehicle; each command holds until the next of any kind."""
+    """The autopilot of a simulated vehicle; each command holds until the next of any kind."""
 
     def go_to(self, world_from_base: Pose) -> None:
         """Go to a place and stay there."""
@@ -28,7 +28,7 @@ class Autopilot(Protocol):
 
 
 class Servos(Protocol):
-    """What moves the joints of a simulated vehicle; joints by their number in the joint vector."""
+    """The joint servos of a simulated vehicle; joints by their number in the joint vector."""
 
     @property
     def velocities(self) -> Array:
@@ -36,7 +36,7 @@ class Servos(Protocol):
 
     @property
     def efforts(self) -> Array:
-        """What acts on them, (n,) [N m or N]."""
+        """Forces and torques at the joints, (n,) [N m or N]."""
 
     def aim(self, targets: Mapping[int, float]) -> None:
         """Bring these joints to [rad or m] and hold them there."""
@@ -72,11 +72,11 @@ class Vehicle(Protocol):
 
     @property
     def autopilot(self) -> Autopilot | None:
-        """What steers it; None if it is not simulated."""
+        """Its autopilot; None if it is not simulated."""
 
     @property
     def servos(self) -> Servos | None:
-        """What moves its joints; None if it is not simulated."""
+        """Its joint servos; None if it is not simulated."""
 
     @property
     def world_from_base(self) -> Pose:
@@ -91,20 +91,20 @@ class Vehicle(Protocol):
         """A copy of its joint vector, (n,) [rad or m]."""
 
     def place(self, world_from_base: Pose) -> None:
-        """Put it somewhere, at rest."""
+        """Set its pose, at rest."""
 
     def set_joints(self, values: Array) -> None:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
 
     def displacer(self, axis: int) -> Callable[[float], None]:
-        """Return what displaces it from its place in the file, at rest.
+        """Return a function that displaces it, at rest, from its place in the file.
 
         Along x, y, z of L [m] or about roll, pitch, yaw of its orientation [rad], by the number of
         the ``axis``. Several add up; it moves when the last of them is set.
         """
 
     def loss_setter(self, thruster: str) -> Callable[[float], None]:
-        """Return what sets the share of its thrust that a thruster loses [0..1].
+        """Return a function that sets the share of its thrust that a thruster loses [0..1].
 
         Of several setters of one thruster the greatest loss counts.
 

@@ -1,4 +1,4 @@
-"""What measures, triggers, updaters and sensors may see of the simulation: protocols only.
+"""Protocols of the simulation as measures, triggers, updaters and sensors see it.
 
 Positions are in W, the world frame inside (z up); ``world_from_localized`` leads to L, the frame
 of files, topics and results. Everything handed out is a copy.
@@ -26,7 +26,7 @@ TIMESTEP = 0.002
 
 @dataclass(frozen=True)
 class Box:
-    """An axis-aligned box in the frame of what it bounds."""
+    """An axis-aligned bounding box in the frame of its body."""
 
     lower: tuple[float, float, float]
     """Smallest coordinates [m]."""
@@ -74,7 +74,7 @@ class Camera(Protocol):
 
     @property
     def n_images(self) -> int | None:
-        """Images due on its topics so far, read or not; None: it has no topic."""
+        """Number of images due on its topics so far, read or not; None if it has no topic."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class Contact:
 
 
 class Actuators(Protocol):
-    """What drives a simulated vehicle: its thrusters, then the motors of its joints."""
+    """The actuators of a simulated vehicle: its thrusters, then the motors of its joints."""
 
     @property
     def thrusters(self) -> tuple[str, ...]:
@@ -103,7 +103,7 @@ class Actuators(Protocol):
         """Names of its joints, those that mimic included."""
 
     def powers(self) -> npt.NDArray[np.float64]:
-        """What the thrusters draw from the battery now, then the joints, (n,) [W]."""
+        """Electric power of the thrusters, then of the joints, (n,) [W]."""
 
 
 class Flow(Protocol):
@@ -111,7 +111,7 @@ class Flow(Protocol):
 
     @property
     def is_uniform(self) -> bool:
-        """Whether it is the same everywhere, but for whom it is meant."""
+        """Whether it is the same at every point."""
 
     def velocity(
         self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
@@ -125,7 +125,7 @@ class Flow(Protocol):
 
 
 class World(Protocol):
-    """What a measure or a trigger sees."""
+    """The simulation as a measure or a trigger sees it."""
 
     @property
     def step(self) -> int:
@@ -158,17 +158,17 @@ class World(Protocol):
         """Where a vehicle (all its links) or object touches others now; UnknownName if none."""
 
     def actuators(self, name: str) -> Actuators | None:
-        """What drives a vehicle; None if it is not simulated; UnknownName if there is none."""
+        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
 
     def camera(self, name: str) -> Camera:
         """Find a virtual camera; UnknownName if none."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """The random generator of that name under the run's seed (DESIGN 4)."""
+        """The random generator of that name under the run's seed."""
 
 
 class Stage(World, Protocol):
-    """What a scene updater sees: the world, and the setters it may call."""
+    """The simulation as a scene updater sees it: the world, and setters."""
 
     @property
     def vehicles(self) -> tuple[str, ...]:
@@ -180,7 +180,7 @@ class Stage(World, Protocol):
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
-        """What replaces what the water hides [0..1]."""
+        """Colour of the fog [0..1]."""
 
     def find(self, name: str, *, beside: str) -> Path:
         """Find a file that the file ``beside`` names; AssetNotFound says where it was sought."""
@@ -198,7 +198,7 @@ class Stage(World, Protocol):
         """Set joints by their number in the joint vector [rad or m], clamped to limits."""
 
     def set_current(self, current: Flow | None) -> None:
-        """Let the water move so, besides the scene's own currents; None: no more."""
+        """Add a flow to the currents of the scene; None removes it."""
 
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest; UnknownName if there is none."""
@@ -208,16 +208,16 @@ class Stage(World, Protocol):
 
 
 class Rays(Protocol):
-    """The surfaces of a scene as rays meet them."""
+    """Ray casting against the surfaces of a scene."""
 
     @property
     def materials(self) -> Sequence[Material]:
-        """What sonars find at each surface, by its number."""
+        """Acoustic material of each surface, by its number."""
 
     def cast(
         self, world_from_sensor: Pose, directions: npt.NDArray[np.float64], reach: float
     ) -> Hits:
-        """Send rays from the origin of a sensor; what each hits first.
+        """Cast rays from the origin of a sensor; returns the first hit of each.
 
         Args:
             world_from_sensor: where the sensor is.
@@ -227,7 +227,7 @@ class Rays(Protocol):
 
 
 class SensorWorld(World, Protocol):
-    """What a sensor sees: the world, light and sound."""
+    """The simulation as a sensor sees it: the world, light and sound."""
 
     @property
     def rays(self) -> Rays:
@@ -235,7 +235,7 @@ class SensorWorld(World, Protocol):
 
     @property
     def sea_water(self) -> SeaWater:
-        """The water that sound goes through."""
+        """The water as an acoustic medium."""
 
     @property
     def surface_height(self) -> float:
@@ -250,7 +250,7 @@ class SensorWorld(World, Protocol):
         random: np.random.Generator,
         grey: bool,
     ) -> npt.NDArray[np.uint8]:
-        """Draw what a camera would see now, with noise; row 0 is the top.
+        """Render the image of a camera, with noise; row 0 is the top.
 
         Args:
             world_from_camera: where the camera is; OpenGL axes.

@@ -1,4 +1,4 @@
-"""Devices: what acts, touches or talks, one file each."""
+"""Devices of vehicles: lamps, faults, grippers, communication; one file each."""
 
 from ..schema import NAMESPACE
 from .acoustic_comms_device import AcousticCommsDeviceSpec

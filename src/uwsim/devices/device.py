@@ -1,4 +1,4 @@
-"""What devices have in common: they are bound to the scene and their vehicle, and act in each step.
+"""The interface of devices: each is bound to the scene and its vehicle, and acts in each step.
 
 .. code-block:: text
 
@@ -17,7 +17,7 @@ from ..world import Stage
 
 
 class DeviceVehicle(Vehicle, Carrier, Protocol):
-    """A vehicle as its devices see it: they hang on its links, and act on it."""
+    """A vehicle as its devices see it: they are mounted on its links, and act on it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,11 +29,11 @@ class DeviceSpec(abc.ABC):
 
     @abc.abstractmethod
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Device:
-        """Find what it acts on; raises UnknownName if that is not there."""
+        """Find what the device acts on; raises UnknownName if there is none."""
 
 
 class Device:
-    """A device at work; each of its kind does what it has to in one of these."""
+    """A bound device; each kind implements one of these methods."""
 
     STATE: ClassVar[tuple[str, ...]] = ()
     """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
@@ -42,4 +42,4 @@ class Device:
         """Act before the forces, in the step that begins at ``time`` [s]."""
 
     def animate(self, time: float) -> None:
-        """Put what it moves where that is at ``time`` [s], the end of the step."""
+        """Move what the device animates to its pose at ``time`` [s], the end of the step."""

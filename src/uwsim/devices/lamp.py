@@ -21,7 +21,7 @@ from ..world import Body, Stage
 from .device import Device, DeviceSpec, DeviceVehicle
 
 MAX_LAMPS = 4
-"""So many lamps may shine in a scene."""
+"""Number of lamps that a scene may have."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +58,7 @@ class LampSpec(DeviceSpec):
     """Whether what stands in its light casts a shadow."""
 
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> MountedLamp:
-        """Hang it on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount the lamp on its link; raises UnknownName if the vehicle has no such link."""
         return MountedLamp(self, vehicle.mount(self))
 
 
@@ -72,5 +72,5 @@ class MountedLamp(Device):
 
     @property
     def world_from_lamp(self) -> Pose:
-        """Where it is now; it shines along -z."""
+        """The present pose of the lamp; it shines along -z."""
         return self._mount.world_from_body

@@ -1,4 +1,4 @@
-r"""sway: a vehicle that swings about its place, as if in a swell; an extension of the dialect.
+r"""sway: a vehicle that oscillates about its place, as in a swell; an extension of the dialect.
 
 .. code-block:: xml
 
@@ -47,7 +47,7 @@ class SwaySpec(DeviceSpec):
 
 
 class Sway(Device):
-    """A vehicle that swings along or about one axis."""
+    """A sinusoidal motion of a vehicle along or about one axis."""
 
     def __init__(self, spec: SwaySpec, displace: Callable[[float], None]) -> None:
         self._spec, self._displace = spec, displace
@@ -62,7 +62,7 @@ def displaced(
     orientation: Sequence[float],
     offsets: Iterable[tuple[int, float]],
 ) -> Pose:
-    """Return ``localized_from_base`` of a vehicle that is beside its place in the file.
+    """Return ``localized_from_base`` of a vehicle displaced from its place in the file.
 
     Args:
         position: its place in the file, in L [m].

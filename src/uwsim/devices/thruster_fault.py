@@ -31,7 +31,7 @@ class ThrusterFaultSpec(DeviceSpec):
     """Simulation time up to which; without it stays so [s]."""
 
     def acts(self, time: float) -> bool:
-        """Whether it is there at ``time`` [s]."""
+        """Whether the fault is present at ``time`` [s]."""
         return time >= self.start and (self.end is None or time < self.end)
 
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> ThrusterFault:
@@ -40,7 +40,7 @@ class ThrusterFaultSpec(DeviceSpec):
 
 
 class ThrusterFault(Device):
-    """A thruster that fails when the scene says so."""
+    """A thruster that fails at the times given in the scene."""
 
     def __init__(self, spec: ThrusterFaultSpec, lose: Callable[[float], None]) -> None:
         self._spec, self._lose = spec, lose

@@ -1,4 +1,4 @@
-"""The rendering room: models in, images through water out.
+"""Rendering: images of models seen through water.
 
 The modules are imported where they are used: `renderer` needs OpenGL, `noise` and `grey` numba,
 `water` only numpy.

@@ -1,4 +1,4 @@
-"""What is the same for everything in one image, as the shaders read it."""
+"""The uniform block of values that hold for a whole image."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FRAME = Block(
 
 
 class Frame:
-    """The buffer behind the block."""
+    """The buffer of the uniform block."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._values = np.zeros((), dtype=FRAME.dtype)

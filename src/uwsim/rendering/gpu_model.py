@@ -1,4 +1,4 @@
-"""Models on the graphics side: merged by texture, in pieces, uploaded once."""
+"""Models on the GPU: merged by texture, in pieces, uploaded once."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ class GpuModels:
         return batches
 
     def use(self, texture: Texture, unit: int, *, is_close: bool) -> None:
-        """Bind a texture; one that is close is looked up without its smaller copies."""
+        """Bind a texture; that of a close surface is sampled without mipmaps."""
         made = self._upload_texture(texture)
         made.use(unit)
         if is_close:
@@ -168,11 +168,11 @@ class GpuModels:
             self._with_copies.add(made.glo)
 
     def release(self, unit: int) -> None:
-        """Look up what is bound next as the texture itself says."""
+        """Unbind the sampler, so that the next texture is sampled by its own filter."""
         self._close[True].clear(unit)
 
     def _upload_texture(self, texture: Texture) -> moderngl.Texture:
-        """The texture on the graphics side; made once."""
+        """The texture on the GPU; uploaded once."""
         key = texture.name, id(texture.pixels)
         if key not in self._textures:
             height, width = texture.pixels.shape[:2]

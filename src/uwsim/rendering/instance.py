@@ -1,4 +1,4 @@
-"""Models that stand somewhere: their place, their bounds, and which of them a camera sees."""
+"""Instances of models: their poses, their bounds, and which of them are in view."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ STRIDE = 256
 
 
 class Instances:
-    """Models that stand somewhere in W; what follows from their places is reckoned for all at once.
+    """Instances of models in W; bounds and normals are computed for all of them at once.
 
     They are told by handles; arrays of them go by rows, in the order in which they were added.
     """
@@ -36,7 +36,7 @@ class Instances:
         self.clear()
 
     def clear(self) -> None:
-        """Take all of them away."""
+        """Remove all instances."""
         self.version += 1
         self._is_known = False  # whether it is known which batches there are
         self._rows: dict[int, int] = {}
@@ -60,14 +60,14 @@ class Instances:
         return handle
 
     def place(self, handle: int, world_from_model: Array) -> None:
-        """Stand one somewhere else; UnknownName if it is not there."""
+        """Set the pose of an instance; UnknownName if it is not there."""
         row = self._row(handle)
         if (self.world_from_model[row] != world_from_model).any():
             self.world_from_model[row] = world_from_model
             self.version += 1
 
     def remove(self, handle: int) -> None:
-        """Take one away; UnknownName if it is not there."""
+        """Remove an instance; UnknownName if it is not there."""
         row = self._row(handle)
         self.version += 1
         del self._rows[handle], self.ids[row], self.batches[row]
@@ -76,7 +76,7 @@ class Instances:
         self._is_known = False
 
     def without(self, hidden: frozenset[int]) -> list[int]:
-        """Rows of those whose ids are not hidden."""
+        """Rows of the instances whose ids are not hidden."""
         return [row for row, id in enumerate(self.ids) if id not in hidden]
 
     @property
@@ -87,13 +87,13 @@ class Instances:
 
     @property
     def is_mirrored(self) -> list[bool]:
-        """Whether the matrix turns left into right, for each."""
+        """Whether the matrix of each instance mirrors it."""
         self._follow()
         return self._is_mirrored
 
     @property
     def radii(self) -> Array:
-        """Half the longest side of the box around each one's spheres, (n,) [m]."""
+        """Half the longest side of the bounding box of each instance, (n,) [m]."""
         self._follow()
         return self._radii
 
@@ -105,27 +105,27 @@ class Instances:
         return np.flatnonzero(np.isin(self._owners, rows))
 
     def casting(self, rows: Sequence[int]) -> npt.NDArray[np.intp]:
-        """Numbers of the batches of rows that cast shadows: what is seen through casts none."""
+        """Numbers of the batches of rows that cast shadows; transparent ones cast none."""
         numbers = self.owned(rows)
         casting: npt.NDArray[np.intp] = numbers[self._is_opaque[numbers]]
         return casting
 
     @property
     def spheres(self) -> Array:
-        """Round each batch, in W: centre and radius, (m, 4) [m]."""
+        """Bounding spheres of the batches in W: centre and radius, (m, 4) [m]."""
         self._follow()
         return self._spheres
 
     @property
     def corners(self) -> Array:
-        """Of the box around each batch, in W, (m, 8, 3) [m]."""
+        """Corners of the bounding boxes of the batches in W, (m, 8, 3) [m]."""
         self._follow()
         return self._corners
 
     def needs_no_copies(
         self, numbers: Sequence[int], world_from_camera: Pose, intrinsics: Intrinsics
     ) -> list[bool]:
-        """Whether batches need no smaller copies of their textures (`minification`)."""
+        """Whether batches need no mipmaps of their textures (`minification`)."""
         self._follow()
         chosen = np.array(numbers, dtype=np.intp)
         found = needs_no_copies(
@@ -196,7 +196,7 @@ class Instances:
 
 
 class Slots:
-    """The buffer that tells the shaders where each instance stands in the camera's frame."""
+    """The buffer of the uniform blocks of all instances: poses in the camera's frame."""
 
     _DTYPE = np.dtype(
         {
@@ -212,7 +212,7 @@ class Slots:
         self._buffer = context.buffer(reserve=self._values.nbytes, dynamic=True)
 
     def fill(self, instances: Instances, camera_from_world: Array) -> None:
-        """Give every instance its slot: its row."""
+        """Write the block of every instance into the slot of its row."""
         n = len(instances.ids)
         if not n:
             return
@@ -228,7 +228,7 @@ class Slots:
         self._buffer.write(values.tobytes())
 
     def bind(self, slot: int) -> None:
-        """Let the next drawing stand where this slot says."""
+        """Bind the block of a slot for the next draw call."""
         self._buffer.bind_to_uniform_block(
             INSTANCE.binding, offset=slot * STRIDE, size=INSTANCE.dtype.itemsize
         )

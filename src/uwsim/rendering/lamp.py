@@ -28,10 +28,10 @@ from ..linear import product
 from .water import Colour
 
 MAX_HALF_ANGLE = math.radians(80.0)
-"""A wider cone does not fit the one image that its shadows are made of [rad]."""
+"""Greatest half angle: a wider cone does not fit one shadow map [rad]."""
 
 MIN_DISTANCE = 0.01
-"""What is nearer to the lamp is lit as if it were here [m]."""
+"""Smaller distances to the lamp are taken as this one [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +63,7 @@ class Lamp:
 
     @property
     def edge(self) -> tuple[float, float]:
-        """Cosine at the edge of the cone, and what takes the cosine beyond it to 0..1."""
+        """Cosine at the edge of the cone, and the factor that maps cosines beyond it to 0..1."""
         outer = math.cos(self.half_angle)
         inner = math.cos((1.0 - self.softness) * self.half_angle)
         return outer, 1.0 / max(inner - outer, 1e-5)

@@ -1,4 +1,4 @@
-"""The lamps of an image as the shaders read them, and their shadow maps.
+"""The uniform block of the lamps, and their shadow maps.
 
 All maps are tiles of one depth texture, so that the shaders need a single sampler. A tile is drawn
 anew only when its lamp or anything in the scene moved, and serves all cameras.
@@ -42,7 +42,7 @@ LAMPS = Block(
 
 
 class Lamps:
-    """The buffer behind the block, and the maps; made when the first lamp shines."""
+    """The buffer of the uniform block, and the shadow maps; made for the first lamp."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
@@ -67,7 +67,7 @@ class Lamps:
         casters: Sequence[int],
         version: object,
     ) -> None:
-        """Draw the maps that are no longer right.
+        """Draw the shadow maps that are out of date.
 
         Args:
             lamps: What shines, in the order of the tiles.
@@ -88,7 +88,7 @@ class Lamps:
                 self._draw(tile, lamp, instances, casters if lamp.casts_shadow else ())
 
     def fill(self, lamps: Sequence[Lamp], world_from_camera: Pose) -> None:
-        """Write what the shaders read and bind it."""
+        """Fill the uniform block and bind it."""
         values, camera_from_world = self._values, world_from_camera.inverse()
         for tile, lamp in enumerate(lamps):
             lamp_from_world = lamp.world_from_lamp.inverse()

@@ -1,4 +1,4 @@
-r"""Where a texture needs no smaller copies of itself: pixels there cover less than two texels.
+r"""Which surfaces need no mipmaps: those of which a pixel covers less than two texels.
 
 Blending the smaller copies (mip maps) of a texture is what a pixel of a large floor costs most of
 its time for in a software rasteriser. It matters where a pixel covers many texels. For a flat
@@ -30,7 +30,7 @@ def needs_no_copies(
     world_from_camera: Pose,
     intrinsics: Intrinsics,
 ) -> npt.NDArray[np.bool_]:
-    """Tell which pieces look right without the smaller copies of their textures, (m,).
+    """Return which pieces look right without mipmaps, (m,).
 
     Args:
         densities: texels along a metre at most, (m,) [1/m]; 0 without a texture.

@@ -35,7 +35,7 @@ _QUANTILES = gaussian_quantiles()
 
 
 def frame_key(rng: np.random.Generator) -> int:
-    """Draw the key of one frame; a frame that nobody reads draws it too, and throws it away."""
+    """Draw the random key of one frame; an unread frame draws it, too, and discards it."""
     return int(rng.integers(2**63))
 
 

@@ -1,4 +1,4 @@
-"""Large models in pieces, so that what is out of view, or out of a shadow's way, costs nothing."""
+"""Large models are split into pieces, so that those out of view are not drawn."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ MAX_PIECE_LENGTH = 2.0
 MAX_PIECES = 4
 """... unless there were more than so many along an axis."""
 MIN_TRIANGLES = 16
-"""A model with fewer is not cut."""
+"""A model with fewer triangles is not split."""
 FLAT = 0.02
-"""Of a flat piece, the sine of the angle between its normal and those of its triangles at most."""
+"""Sine of the greatest angle between a flat piece's normal and those of its triangles."""
 
 Triangles = npt.NDArray[np.uint32]
 
 
 def crosses(points: Array, triangles: Triangles) -> Array:
-    """Normals of triangles as long as twice their areas, (m, 3) [m2].
+    """Normals of triangles; their length is twice the area, (m, 3) [m2].
 
     Args:
         points: the vertices, (n, 3) [m].

@@ -1,4 +1,4 @@
-"""Shader files into programs: includes, switches, and a check that nothing is missing."""
+"""Compiles shader files into programs, with includes, switches and a check of the uniforms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a camera saw."""
+"""A rendered image: colour, range and ids."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..geometry import Intrinsics
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RenderedImage:
-    """Arrays of its own, row 0 at the top; None where a target was not asked for."""
+    """The arrays of one rendered image, row 0 at the top; None for targets not requested."""
 
     intrinsics: Intrinsics
     """The camera's pinhole."""

@@ -1,4 +1,4 @@
-"""The renderer: a scene in, images out. It knows nothing of topics, sensors or benchmarks.
+"""The renderer: instances of models in, images out.
 
 One forward pass draws colour, range and ids, whichever are asked for, through UWSim's water
 (`rendering.water`). What is seen through is blended over the rest, the farthest first. Not
@@ -47,7 +47,7 @@ class View:
     intrinsics: Intrinsics
     """The camera's pinhole."""
     water: Water
-    """What stands between."""
+    """The water between surfaces and camera."""
     light: Light
     """What lights the scene."""
     wanted: frozenset[str]
@@ -63,7 +63,7 @@ class View:
 
 
 class Renderer:
-    """Models placed in W, and images of them from anywhere.
+    """Renders instances of models from any camera pose.
 
     Use it from one thread; several may live in one process. `close` gives everything back.
 
@@ -110,7 +110,7 @@ class Renderer:
         self._instances.remove(handle)
 
     def clear(self) -> None:
-        """Take every instance out of the scene; what was uploaded stays, for whoever adds next."""
+        """Remove every instance; uploaded models stay on the GPU for later use."""
         self._instances.clear()
 
     def draw(
@@ -168,11 +168,11 @@ class Renderer:
         return image
 
     def close(self) -> None:
-        """Give the context and all that is in it back; the renderer is of no use afterwards."""
+        """Release the graphics context; the renderer cannot be used afterwards."""
         self._context.release()
 
     def _begin(self, view: View, world_from_camera: Pose) -> None:
-        """Draw, without waiting until it is done."""
+        """Issue the draw calls without waiting for them."""
         water, light, hidden, lamps = view.water, view.light, view.hidden, view.lamps
         rows = self._instances.without(hidden)
         clip = clip_from_camera(view.intrinsics)
@@ -198,7 +198,7 @@ class Renderer:
         world_from_camera: Pose,
         clip: Array,
     ) -> list[bool]:
-        """Bring the shadow map up to date; returns which of what is seen may lie in shadow."""
+        """Update the shadow map; returns which visible instances may be in shadow."""
         instances, sun = self._instances, sun_direction(view.light.sun)
         radii = instances.radii
         casters = instances.casting([row for row in rows if radii[row] <= MAX_CASTER_RADIUS])
@@ -215,7 +215,7 @@ class Renderer:
         world_from_camera: Pose,
         hidden: frozenset[int],
     ) -> None:
-        """Bring the lamps and their maps up to date."""
+        """Update the lamps and their shadow maps."""
         if self._lamps is None:
             self._lamps = Lamps(self._context)
         self._lamps.update(lamps, self._instances, seen, (self._instances.version, hidden))
@@ -225,7 +225,7 @@ class Renderer:
     def _draw_into(
         self, target: Targets, drawn: Sequence[tuple[int, bool, bool]], switches: Switches
     ) -> None:
-        """Draw near and small things first, terrain last, then the emptiness, then glass.
+        """Draw near and small instances first, terrain last, then the background, then glass.
 
         Args:
             target: Where to draw.
@@ -274,7 +274,7 @@ class Renderer:
         clear: Sequence[tuple[tuple[int, bool, bool], float]],
         switches: Switches,
     ) -> None:
-        """Blend what is seen through over the colours; range and ids are those of the nearest."""
+        """Blend transparent batches over the colours; range and ids are those of the nearest."""
         context, buffer, places = self._context, target.framebuffer, target.places
 
         def write(*, colour: bool, rest: bool) -> None:

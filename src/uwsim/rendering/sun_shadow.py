@@ -33,7 +33,7 @@ _TO_TEXTURE = np.array(
 
 
 class SunShadow:
-    """Which points the sun reaches, for the vehicles and objects of the scene.
+    """The shadow map of the sun.
 
     Terrain receives shadows and casts none: the walls of a tank would put all of it in the dark,
     where in truth the surface of the water scatters the light inward. Points farther from the
@@ -94,7 +94,7 @@ class SunShadow:
         context.polygon_offset = 0.0, 0.0
 
     def take_over(self) -> None:
-        """Become the target of drawing: what was drawn so far goes to the rasteriser's threads."""
+        """Bind the shadow map as the render target and flush earlier draw calls."""
         self._framebuffers[SMALL].use()
 
 
@@ -106,7 +106,7 @@ def reached(
     world_from_camera: Pose,
     clip_from_camera: Array,
 ) -> npt.NDArray[np.bool_]:
-    """Tell which of what is seen each caster may throw a shadow on, (seen, casters).
+    """Return on which visible instances each caster may cast a shadow, (seen, casters).
 
     By boxes as the sun sees them: one must overlap the other, and not lie behind all of it. Of
     what is seen only the part between its least and greatest depth in the image counts.
@@ -161,7 +161,7 @@ def _corner_rays(clip_from_camera: Array) -> Array:
 
 
 def _axes(sun: Array) -> tuple[Array, Array]:
-    """What is right and up for a camera that looks from the sun, (3,) each."""
+    """Right and up vectors of a camera that looks from the sun, (3,) each."""
     aside = np.cross(-sun, [0.0, 0.0, 1.0] if abs(sun[2]) < 0.9 else [1.0, 0.0, 0.0])
     aside /= length(aside)
     return aside, np.cross(aside, -sun)

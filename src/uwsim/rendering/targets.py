@@ -1,4 +1,4 @@
-"""What an image is drawn into: only the targets asked for."""
+"""The framebuffer of an image, with only the requested targets."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ T = TypeVar("T", bound=np.generic)
 
 
 class Targets:
-    """A framebuffer of one size with some of colour, range and ids."""
+    """A framebuffer of one size with some of the targets colour, range and ids."""
 
     def __init__(
         self, context: moderngl.Context, size: tuple[int, int], wanted: frozenset[str], store: str

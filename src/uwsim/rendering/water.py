@@ -72,7 +72,7 @@ class Water:
 
     @classmethod
     def of(cls, ocean: OceanStateSpec, compatibility: frozenset[str] = frozenset()) -> Water:
-        """Return the water that a scene describes."""
+        """Return the water of a scene file's ocean state."""
         return cls(
             fog=ocean.fog.density,
             fog_colour=ocean.fog.color,
@@ -84,7 +84,7 @@ class Water:
 
     @property
     def switches(self) -> tuple[tuple[str, int], ...]:
-        """What the shaders are compiled with."""
+        """The switches with which the shaders are compiled."""
         is_set = {
             "NO_FOG": self.fog == 0.0,
             "FOG_CLIP": self.fog > 0.0 and self.fog_distance == "clip",
@@ -100,7 +100,7 @@ class Water:
 
 @dataclass(frozen=True, kw_only=True)
 class Light:
-    """What lights the scene."""
+    """The light of the scene: the sun."""
 
     rate: float = 1.0
     """Scales all light; 1 is as usual."""
@@ -131,7 +131,7 @@ def clip_distance(
 def wet_share(
     world_z: npt.NDArray[np.float64], eye_z: float, water: Water
 ) -> npt.NDArray[np.float64]:
-    """Share of the way from an eye to points that lies under the surface, any shape, 0..1.
+    """Share of the path from the camera to points that is under water, any shape, 0..1.
 
     Args:
         world_z: z of the points in W [m].

@@ -1,4 +1,4 @@
-"""Sensors: what measures the scene, one file each."""
+"""Sensors, one file each."""
 
 from .dvl_sensor import DvlSensorSpec
 from .gps_sensor import GpsSensorSpec

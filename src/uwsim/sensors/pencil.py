@@ -1,4 +1,4 @@
-r"""A narrow beam as rays: a Gaussian pattern, half of the power at half of its width.
+r"""A narrow beam as rays with a Gaussian pattern: half of the power at half of its width.
 
 The ray on the axis has the weight 1, one at the angle :math:`\theta` from it
 :math:`2^{-(2 \theta / w)^2}` for a beam of the width w.

@@ -1,4 +1,4 @@
-"""What every sensor of a vehicle has: a name, a link it rides on, a place on that link."""
+"""The interface of sensors: name, link, pose on the link."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class SensorSpec:
 
 
 class Mounted(Protocol):
-    """Anything with a place on a link."""
+    """A part with a pose on a link."""
 
     @property
     def relative_to(self) -> str:
@@ -62,11 +62,11 @@ class MountedSensor(Mounted, Protocol):
 
 
 class Looking(Mounted, Protocol):
-    """What is mounted and looks somewhere."""
+    """A mounted part with a viewing direction."""
 
     @property
     def look_at(self) -> LookAt:
-        """Where it looks at the start, instead of ``orientation``."""
+        """Point or direction it looks at at the start, instead of ``orientation``."""
 
 
 class Carrier(Protocol):
@@ -86,7 +86,7 @@ class Carrier(Protocol):
 
 @runtime_checkable
 class Sensor(Protocol):
-    """A sensor at work."""
+    """A bound sensor."""
 
     STATE: ClassVar[tuple[str, ...]]
     """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""

@@ -117,7 +117,7 @@ class VirtualCameraSpec(SensorSpec):
 
 
 class VirtualCamera:
-    """A camera on a link: where it is, what it sees, what it says of itself.
+    """A bound camera: its pose, its images, its CameraInfo.
 
     Not modelled: exposure, motion blur, rolling shutter, lens distortion, refraction.
     """
@@ -156,7 +156,7 @@ class VirtualCamera:
         return self._mount.world_from_body
 
     def resize(self, intrinsics: Intrinsics) -> None:
-        """Give it another pinhole; who publishes its images does not know of that."""
+        """Replace its pinhole; interfaces that publish its images keep the old size."""
         self._intrinsics = intrinsics
 
     def capture(self) -> npt.NDArray[np.uint8]:
@@ -174,7 +174,7 @@ class VirtualCamera:
         return image(self.capture(), time=time, frame_id=self.frame_id)
 
     def skip(self) -> None:
-        """Let an image that nobody reads take its turn in the random stream."""
+        """Draw the random numbers of an image that nobody reads, without rendering it."""
         if self.std > 0.0:
             self._random.integers(2**63)
 

@@ -1,4 +1,4 @@
-"""Topics in and out of a scene: the elements of ``<rosInterfaces>``, one file each.
+"""Topics of a scene: the elements of ``<rosInterfaces>``, one file each.
 
 .. code-block:: xml
 

@@ -1,4 +1,4 @@
-"""The joints of a vehicle, on a topic.
+"""ArmToROSJointState: publishes the joints of a vehicle.
 
 As in the original the velocities of a vehicle that is not simulated are missing and its efforts
 are zero.

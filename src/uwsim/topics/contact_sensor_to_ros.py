@@ -1,4 +1,4 @@
-"""Whether a vehicle or object touches another, on a topic."""
+"""contactSensorToROS: publishes whether a vehicle or object is in contact."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class ContactSensorToROSSpec(InterfaceSpec):
 
 
 class ContactPublisher(Interface):
-    """Publishes whether something touches anything."""
+    """Publishes whether a body is in contact."""
 
     def __init__(self, name: str, topic: str, world: TopicWorld) -> None:
         self._name, self._topic, self._world = name, topic, world

@@ -1,4 +1,4 @@
-"""Depth cameras on topics."""
+"""Interfaces that publish depth cameras."""
 
 from __future__ import annotations
 

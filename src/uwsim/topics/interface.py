@@ -1,4 +1,4 @@
-"""What every element of ``<rosInterfaces>`` is, and what of the world it sees."""
+"""The interface of the elements of ``<rosInterfaces>``, and the world as they see it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ M = TypeVar("M")
 
 
 class TopicWorld(World, Protocol):
-    """What an interface sees: the world, its vehicles and sensors, and when to publish and act."""
+    """The world as an interface sees it: vehicles, sensors, frames, timers and commands."""
 
     @property
     def is_blind(self) -> bool:
@@ -30,7 +30,7 @@ class TopicWorld(World, Protocol):
         """Find a virtual camera; UnknownName if there is none."""
 
     def sensor(self, name: str, elements: tuple[str, ...]) -> Sensor:
-        """Find a sensor or device that publishes, read from one of these elements; UnknownName."""
+        """Find a sensor or device of one of these elements that publishes; UnknownName if none."""
 
     def is_touchable(self, name: str) -> bool:
         """Whether there is a vehicle or object of that name, with a shape that others touch."""
@@ -46,7 +46,7 @@ class TopicWorld(World, Protocol):
 
 
 class Interface:
-    """An interface at work: it publishes or listens by itself from the time it is bound."""
+    """A bound interface: it publishes or subscribes from the time it is bound."""
 
     STATE: ClassVar[tuple[str, ...]] = ()
     """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
@@ -54,10 +54,10 @@ class Interface:
 
 @runtime_checkable
 class Binds(Protocol):
-    """An interface that is simulated: what has no ``bind`` is read and does nothing."""
+    """The spec of a simulated interface; one without ``bind`` is read and has no effect."""
 
     def bind(self, world: TopicWorld) -> Interface:
-        """Find what it is about and start it; raises UnknownName if that is not there."""
+        """Find its vehicle or sensor and start it; raises UnknownName if there is none."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +76,7 @@ class InterfaceSpec:
 
     @classmethod
     def is_simulated(cls) -> bool:
-        """Whether it does anything."""
+        """Whether it is simulated."""
         return issubclass(cls, Binds)
 
 
@@ -94,7 +94,7 @@ class VehicleTopicSpec(InterfaceSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class VehiclePublisherSpec(VehicleTopicSpec):
-    """An interface that publishes something of a vehicle."""
+    """An interface that publishes a quantity of a vehicle."""
 
     rate: int = element(default=10, minimum=1)
     """How often [Hz]."""

@@ -1,4 +1,4 @@
-"""Where a vehicle is and how it moves, on a topic.
+"""PATToROSOdom: publishes the odometry of a vehicle.
 
 As in the original the frames have no name, the covariances are zero, and the twist of a vehicle
 that is not simulated is zero.

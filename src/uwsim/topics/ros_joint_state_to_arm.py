@@ -1,4 +1,4 @@
-"""The joints of a vehicle move as a topic says; those of a simulated one by their servos.
+"""ROSJointStateToArm: commands the joints of a vehicle, by servos if it is simulated.
 
 Positions, else velocities, else efforts. The joints of a vehicle that is not simulated are put
 there, clamped to their limits, or moved by one step of the velocities. Not modelled: that a

@@ -1,4 +1,4 @@
-"""A vehicle follows odometry: its pose, or where that is all zero its twist."""
+"""ROSOdomToPAT: moves a vehicle by odometry: by its pose or, where that is all zero, its twist."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
 
 
 class OdometryCommand(Interface):
-    """Puts a vehicle somewhere or moves it on, as a message has it."""
+    """Sets the pose of a vehicle or moves it by a twist."""
 
     STATE = ("_twist",)
     """What of it changes as time goes by."""

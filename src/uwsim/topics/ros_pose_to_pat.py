@@ -1,4 +1,4 @@
-"""A vehicle is put where a message says; a simulated one goes there."""
+"""ROSPoseToPAT: sets the pose of a vehicle; a simulated one moves there."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ class ROSPoseToPATSpec(VehicleTopicSpec):
 
 
 class PoseCommand(Interface):
-    """Puts a vehicle somewhere, or has its autopilot bring it there."""
+    """Sets the pose of a vehicle, or the goal of its autopilot."""
 
     def __init__(self, vehicle: Vehicle, world_from_localized: Pose) -> None:
         self._vehicle, self._world_from_localized = vehicle, world_from_localized
 
     def obey(self, pose: PoseMessage) -> None:
-        """Take a pose in L; a quaternion that is none is that of no rotation."""
+        """Take a pose in L; an invalid quaternion counts as no rotation."""
         p, q = pose.position, pose.orientation
         wxyz = np.array([q.w, q.x, q.y, q.z])
         largest = float(np.abs(wxyz).max())

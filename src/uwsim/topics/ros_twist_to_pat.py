@@ -1,4 +1,4 @@
-"""A vehicle moves by the twists of a topic; a simulated one holds the last.
+"""ROSTwistToPAT: moves a vehicle by twists; a simulated one holds the last.
 
 A velocity moves a vehicle that is not simulated by the time since the velocity before it on its
 interface (nothing for the first, or after more than 1 s). Time is simulation time, where the
@@ -50,7 +50,7 @@ class TwistCommand(Interface):
         self._vehicle, self._gap = vehicle, gap
 
     def obey(self, twist: Twist) -> None:
-        """Take a twist in the base's axes; one that is not finite is passed over."""
+        """Take a twist in the base's axes; one that is not finite is ignored."""
         time = self._gap.take()
         v, w = twist.linear, twist.angular
         numbers = np.array([v.x, v.y, v.z, w.x, w.y, w.z])

@@ -1,4 +1,4 @@
-"""Sensors on topics, at a rate: interfaces that differ only in what they publish.
+"""Interfaces that publish a sensor at a rate.
 
 What is published is what the sensor or device measures; where none of the elements that an
 interface may name is simulated (has a ``bind``), the interface is not either.
@@ -36,7 +36,7 @@ class SensorTopicSpec(InterfaceSpec):
 
     @classmethod
     def carries(cls) -> Mapping[str, type]:
-        """Return what its sources measure; they agree."""
+        """Return the message type of its sources."""
         parts = {local(tag): spec for tag, spec in {**SENSORS, **DEVICES}.items()}
         types = [measured_by(parts[source]) for source in cls.sources]
         return next(({"topic": type_} for type_ in types if type_ is not None), {})
@@ -59,7 +59,7 @@ class SensorPublisher(Interface):
         self._sensor, self._publish, self._clock = sensor, publish, clock
 
     def publish(self) -> None:
-        """Take a sample now and publish it, read or not: a random stream has its turns."""
+        """Take a sample and publish it, even if nobody reads it: the random stream advances."""
         self._publish(self._sensor.sample(self._clock()))
 
 

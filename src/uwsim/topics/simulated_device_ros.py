@@ -1,4 +1,4 @@
-"""The wrapper around the interfaces of devices that files of some years have."""
+"""SimulatedDeviceROS: the wrapper around interfaces of devices in some older files."""
 
 from __future__ import annotations
 

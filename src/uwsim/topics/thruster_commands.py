@@ -31,7 +31,7 @@ class AutopilotTopicSpec(VehicleTopicSpec):
     """Name of the vehicle; it has ``u:dynamics``."""
 
     def autopilot(self, world: TopicWorld) -> Autopilot:
-        """Find what steers the vehicle; raises UnknownName if it is not simulated."""
+        """Find the autopilot of the vehicle; raises UnknownName if it is not simulated."""
         autopilot = world.vehicle(self.vehicle_name).autopilot
         if autopilot is None:
             raise UnknownName("simulated vehicle", self.vehicle_name, ())
@@ -77,7 +77,7 @@ class ThrusterCommand(Interface):
             )
 
     def obey(self, message: Float64MultiArray) -> None:
-        """Take a value a thruster."""
+        """Take one value per thruster."""
         commands: Array = np.array(message.data, dtype=np.float64)  # (n,) [1]
         if np.isfinite(commands).all():
             self._autopilot.set_thrusters(commands)
@@ -123,7 +123,7 @@ class FinCommand(Interface):
             )
 
     def obey(self, message: Float64MultiArray) -> None:
-        """Take an angle a fin."""
+        """Take one angle per fin."""
         angles: Array = np.array(message.data, dtype=np.float64)  # (n,) [rad]
         if np.isfinite(angles).all():
             self._vehicle.turn_fins(angles)
@@ -149,7 +149,7 @@ class ROSWrenchToPATSpec(AutopilotTopicSpec):
 
 
 class WrenchCommand(Interface):
-    """Pushes a vehicle with its thrusters."""
+    """Applies a wrench to a vehicle by its thrusters."""
 
     def __init__(self, autopilot: Autopilot) -> None:
         self._autopilot = autopilot

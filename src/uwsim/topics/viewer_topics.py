@@ -1,4 +1,4 @@
-"""Topics whose messages the viewer shows."""
+"""Interfaces whose messages the viewer shows."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Images of a virtual camera on a topic, at a rate, and only when somebody reads them."""
+"""virtualCameraToROSImage: publishes a camera at a rate; images are rendered only if read."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ class WorldToROSTFSpec(InterfaceSpec):
 
 
 class FramePublisher(Interface):
-    """Publishes where frames are."""
+    """Publishes the transforms of frames."""
 
     def __init__(self, root: str, frames: Sequence[Frame], world: TopicWorld) -> None:
         self._root, self._frames, self._world = root, frames, world
