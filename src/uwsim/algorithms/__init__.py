@@ -31,7 +31,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
 
 
 def summary(algorithm: type[Algorithm]) -> str:
-    """What an algorithm is, in one line: the first of its docstring."""
+    """Return the first line of an algorithm's docstring."""
     return (algorithm.__doc__ or "").strip().partition("\n")[0]
 
 

@@ -31,7 +31,7 @@ class DirectTracker(Tracker):
 
     @staticmethod
     def remember(image: Grey, quad: Array, *, levels: int, method: Method) -> DirectTracker | str:
-        """Take a template; or say why there is nothing to follow."""
+        """Take a template, or return why the patch cannot be tracked."""
         templates: list[Template] = []
         for level, smaller in enumerate(pyramid(image, levels)):
             template = take_template(smaller, quad / 2.0**level)

@@ -46,7 +46,7 @@ class Ecc(TrackerNode):
 
 
 class EccTracker(Tracker):
-    """Raises the correlation from where it was; gives up on an image when OpenCV does.
+    """Maximises the correlation from the last estimate; fails on an image when OpenCV does.
 
     OpenCV compares the upright box around the quad, both images smoothed by a Gaussian of
     ``smoothing`` pixels. We smooth them before the patch is cut out: OpenCV would smooth the patch

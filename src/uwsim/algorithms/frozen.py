@@ -1,4 +1,4 @@
-"""``frozen``: the control. It looks at nothing."""
+"""``frozen``: the control, which ignores all images."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ class Frozen(TrackerNode):
         return Echo(quad)
 
     def loss_test(self) -> None:
-        """Nothing: it never looks, so it never knows."""
+        """None: it is never lost."""
 
 
 class Echo(Tracker):
-    """Gives the quad it was told last."""
+    """A tracker that returns the last quad given to it."""
 
     def __init__(self, quad: Array) -> None:
         self.place(quad)
 
     def place(self, quad: Array) -> None:
-        """Give ``quad`` from now on."""
+        """Return ``quad`` from now on."""
         self._estimate = Estimate(corners=quad, centroid=crossing(quad), zncc=1.0)
 
     def step(self, image: Grey) -> Estimate:
-        """Give the quad again."""
+        """Return the quad."""
         return self._estimate

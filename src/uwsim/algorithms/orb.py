@@ -24,7 +24,7 @@ MARGIN = 15
 
 
 class Orb(TrackerNode):
-    """ORB features found anew in every image, and a homography by MAGSAC++ (OpenCV)."""
+    """ORB features detected in every image, and a homography by MAGSAC++ (OpenCV)."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         **INPUT,
@@ -100,7 +100,7 @@ class OrbTracker(Tracker):
         return len(self._points)
 
     def place(self, quad: Array) -> None:
-        """Take ``quad`` for the last place; the next image is searched as a whole, as ever."""
+        """Set the last estimate to ``quad``; the next image is searched as a whole all the same."""
         self._homography = between(self._quad, quad)
 
     @plain_opencv()

@@ -1,4 +1,4 @@
-"""``scripted``: does on time what a benchmark waits for, and drives as it is told."""
+"""``scripted``: calls services and publishes at given times, and drives at a constant twist."""
 
 from __future__ import annotations
 
@@ -86,14 +86,14 @@ class Scripted:
 
 
 class Doer:
-    """Calls services and says yes on topics."""
+    """Calls services and publishes true on topics."""
 
     def __init__(self, node: Node, services: list[str], topics: list[str]) -> None:
         self._node, self._services = node, services
         self._say = [node.publisher(topic, Bool) for topic in topics]
 
     def __call__(self) -> None:
-        """Call and say."""
+        """Call the services and publish on the topics."""
         for service in self._services:
             with suppress(UnknownName):  # nobody waits for it just now
                 self._node.call(service, Empty())
@@ -121,7 +121,7 @@ def twist_of(text: str) -> Twist:
 
 
 def odometry(time: float, twist: Twist) -> Odometry:
-    """A message that says a twist to ``ROSOdomToPAT``: its pose is all zero."""
+    """A message with a twist for ``ROSOdomToPAT``: its pose is all zero."""
     upright = Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
     nowhere = Pose(position=Point(x=0.0, y=0.0, z=0.0), orientation=upright)
     return Odometry(

@@ -1,4 +1,4 @@
-"""What every tracker gives for an image, and the test that says it is lost."""
+"""The interface of trackers, and the test whether a tracker is lost."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .esm.pyramid import Grey
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """Where a tracker believes the patch is in an image."""
+    """A tracker's estimate of the patch in an image."""
 
     corners: Array
     """The corners in the order they were handed in, (4, 2) [px] from the top left corner."""
@@ -27,7 +27,7 @@ class Estimate:
 
 
 class Tracker(abc.ABC):
-    """A planar patch followed from image to image; knows nothing of the bus."""
+    """A tracker of a planar patch, independent of the bus."""
 
     @abc.abstractmethod
     def step(self, image: Grey) -> Estimate:
@@ -35,11 +35,11 @@ class Tracker(abc.ABC):
 
     @abc.abstractmethod
     def place(self, quad: Array) -> None:
-        """Take the patch to be at ``quad`` (4, 2) [px], a convex one; the template stays."""
+        """Set the estimate to the convex ``quad`` (4, 2) [px]; the template stays."""
 
 
 class LossTest:
-    """Says when a tracker is lost, instead of letting it wander.
+    """The test whether a tracker is lost.
 
     Lost is: a ZNCC below the threshold (or nothing found) on so many images in a row; or a quad
     that is not convex; or one that has left the image: its centre is outside, so about half of it

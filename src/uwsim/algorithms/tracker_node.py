@@ -1,4 +1,4 @@
-"""The wiring that all trackers share: images in, corners, centroid and status out.
+"""The node of all trackers: images in, corners, centroid and status out.
 
 It subscribes to the images, offers ``autoInit`` and, after the first image, calls
 ``startBench``. The template is the last image inside the first quad that ``autoInit`` hands in;
@@ -69,17 +69,17 @@ class TrackerNode(abc.ABC):
 
     @abc.abstractmethod
     def follow(self, image: Grey, quad: Array) -> Tracker | str:
-        """Remember ``quad`` (4, 2) [px] of ``image``; or say why it cannot be followed."""
+        """Take a template of ``quad`` (4, 2) [px], or return why it cannot be tracked."""
 
     def loss_test(self) -> LossTest | None:
-        """Make the test that says when it is lost; None for one that never is."""
+        """Make the test whether it is lost; None for one that never is."""
         return LossTest(
             zncc_threshold=self.number("zncc_threshold"),
             frames=max(int(self.number("lost_frames")), 1),
         )
 
     def start(self, node: Node) -> None:
-        """Take the parameters, go on the bus."""
+        """Read the parameters and connect to the bus."""
         self._parameters = chosen(self.PARAMETERS, node.parameters)
         self._quad = corners_of(self._parameters)
         self._node = node
@@ -146,7 +146,7 @@ class TrackerNode(abc.ABC):
         self._track()
 
     def _place(self, tracker: Tracker, message: Image, quad: Array) -> None:
-        """Go on from another place, with the template there is."""
+        """Set the estimate to another quad and keep the template."""
         if why := quad_error(quad, message.width, message.height):
             self._lose(f"autoInit: {why}")
             return

@@ -1,4 +1,4 @@
-"""Moving water: one file a current. Velocities of several add up."""
+"""Currents, one file each; velocities of several currents add up."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""constant: water that moves evenly.
+"""constant: a uniform, steady current.
 
 .. code-block:: xml
 
@@ -27,12 +27,12 @@ class ConstantSpec(CurrentSpec):
     """Of the water, in L [m/s]."""
 
     def bind(self, place: Place) -> Constant:
-        """Needs nothing of the scene."""
+        """Make the current; it needs nothing of the scene."""
         return Constant(self.velocity)
 
 
 class Constant(Current):
-    """The same velocity everywhere and always; no boundary layer, no turbulence."""
+    """A uniform, steady velocity; no boundary layer, no turbulence."""
 
     def __init__(self, velocity: tuple[float, float, float]) -> None:
         self._velocity = velocity

@@ -1,4 +1,4 @@
-"""What every current is: a velocity of the water at a place and a time."""
+"""The interface of currents: a velocity of the water at a point and a time."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ DIFFERENCE = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class Place:
-    """What a current may need to know of the scene it flows in."""
+    """The properties of a scene that a current may need."""
 
     stream: Callable[[str], np.random.Generator]
     """The random generator of a name."""
@@ -43,19 +43,19 @@ class Place:
 
 @dataclass(frozen=True, kw_only=True)
 class CurrentSpec(abc.ABC):
-    """What a file says about a current."""
+    """The spec of a current."""
 
     @abc.abstractmethod
     def bind(self, place: Place) -> Current:
-        """Find what it needs; raises UwsimError when that is not there."""
+        """Make the current; raises UwsimError if something it needs is missing."""
 
     @property
     def code(self) -> str:
-        """Python code of the user's own that it runs, ``module:function``; empty if none."""
+        """User-supplied Python code that it runs, ``module:function``; empty if none."""
         return ""
 
     def files(self, place: Place) -> Mapping[str, Path]:
-        """Return the files that it reads or runs, by the names that the scene has for them."""
+        """Return the files that it reads or runs, by their names in the scene file."""
         return {}
 
 
@@ -67,7 +67,7 @@ class Current(abc.ABC):
 
     @property
     def is_uniform(self) -> bool:
-        """Whether it is the same everywhere, but for whom it is meant."""
+        """Whether it is the same at every point."""
         return False
 
     @abc.abstractmethod

@@ -1,4 +1,4 @@
-"""A current that begins at some time, and counts its own time from there."""
+"""A current that starts at a given time, from which its own time counts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .current import Current
 
 
 class LateCurrent(Current):
-    """Nothing before ``began + delay``; then the current as of ``offset`` and the time since began.
+    """Zero before ``began + delay``; then the current at ``offset`` plus the time since began.
 
     The time since ``began`` is rounded to nanoseconds, so that a level gives the same numbers
     whether it is played alone or late in a sweep.

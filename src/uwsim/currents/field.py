@@ -1,4 +1,4 @@
-r"""field: water that moves as a file says, over x, y, z and time.
+r"""field: velocities from a file, over x, y, z and time.
 
 .. code-block:: xml
 
@@ -177,7 +177,7 @@ def read_netcdf(path: Path, data: bytes) -> Grid:
 def _convert(
     path: Path, arrays: dict[str, tuple[tuple[str, ...], Array]], units: Mapping[str, str]
 ) -> None:
-    """Turn all into metres, seconds and m/s, and every axis that falls into one that rises."""
+    """Convert to metres, seconds and m/s, and reverse every descending axis."""
     for name, (dimensions, values) in arrays.items():
         try:
             factor, counts_from_date = unit(name, units[name])
@@ -341,7 +341,7 @@ class Field(Current):
         return i, float(now - times[i]) / span, span
 
     def _around(self, points: Array) -> tuple[npt.NDArray[np.int64], Array]:
-        """The nodes around each point, and what each of them weighs there, (c, n)."""
+        """The nodes around each point and their interpolation weights, (c, n)."""
         node = np.zeros(len(points), dtype=np.int64)
         shares = np.empty((3, 2, len(points)))  # along x, y, z: of the lower and the upper node
         is_inside = np.ones(len(points), dtype=bool)

@@ -1,4 +1,4 @@
-r"""gaussMarkov: water that wanders about a mean.
+r"""gaussMarkov: a current that is a Gauss-Markov process about a mean.
 
 .. code-block:: xml
 

@@ -1,4 +1,4 @@
-r"""powerProfile, logProfile, layers: water whose speed changes with depth.
+r"""powerProfile, logProfile, layers: currents that depend on depth.
 
 .. code-block:: xml
 
@@ -122,7 +122,7 @@ class LayersSpec(CurrentSpec):
 
 
 class Profile(Current, abc.ABC):
-    """Steady water that knows nothing but depth."""
+    """A steady current that depends on depth alone."""
 
     def __init__(self, place: Place) -> None:
         self._place = place

@@ -1,4 +1,4 @@
-r"""pythonFunction: water that moves as the user's own function says.
+r"""pythonFunction: a current computed by a user-supplied function.
 
 .. code-block:: xml
 
@@ -34,7 +34,7 @@ Function = Callable[[Array, float, str], Sequence[float]]
 
 @dataclass(frozen=True, kw_only=True)
 class PythonFunctionSpec(CurrentSpec):
-    """A ``<u:pythonFunction>``: what a function of the user's own returns."""
+    """A ``<u:pythonFunction>``: the velocity that a user-supplied function returns."""
 
     function: str = element(namespaced=True)
     """``module:function``."""
@@ -69,7 +69,7 @@ class PythonFunctionSpec(CurrentSpec):
         return PythonFunction(self.function, function)
 
     def look(self) -> str:
-        """Look where the module is, running none of it.
+        """Locate the module without running it.
 
         Raises:
             BadSetting: it is not on Python's path.
@@ -104,7 +104,7 @@ class PythonFunctionSpec(CurrentSpec):
 
 
 def still(point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
-    """Water that does not move, in the place of a function that may not run."""
+    """Still water, in place of a function that may not run."""
     return 0.0, 0.0, 0.0
 
 

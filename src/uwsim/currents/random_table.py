@@ -1,4 +1,4 @@
-"""Random numbers that can be asked for in any order."""
+"""Random numbers with random access."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ BLOCK = 1024
 
 
 class Draws:
-    """Rows of random numbers, drawn in order and kept: row k is the same whoever asks first."""
+    """Rows of random numbers that do not depend on the order of access: drawn in order and kept."""
 
     def __init__(self, draw: Callable[[tuple[int, int]], npt.NDArray[np.float64]], width: int):
         self._draw, self._width = draw, width

@@ -1,4 +1,4 @@
-"""A current that one vehicle alone feels, as the original's benchmarks mean it."""
+"""A current that acts on one vehicle alone, as in the original's benchmarks."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .current import Current
 
 
 class TargetCurrent(Current):
-    """Another current where its target floats; still water for everything else."""
+    """A current for its target; still water for all other bodies."""
 
     def __init__(self, current: Flow, target: str) -> None:
         self._current, self._target = current, target

@@ -1,4 +1,4 @@
-r"""tidal: water that goes to and fro with the tide.
+r"""tidal: a current of tidal constituents.
 
 .. code-block:: xml
 

@@ -1,4 +1,4 @@
-"""Several currents at once."""
+"""The sum of several currents."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a NetCDF file's ``units`` are worth in metres, seconds and metres per second.
+"""Conversion of a NetCDF file's ``units`` to metres, seconds and metres per second.
 
 Names and spellings are those of UDUNITS, which the CF conventions (1.11, chapter 3.1) ask for.
 ``hours since 2000-01-01`` is a time of that unit, counted from a date.
@@ -41,7 +41,7 @@ EXPECTED = {
 
 
 def unit(name: str, text: str) -> tuple[float, bool]:
-    """Return what one of a variable's units is in SI units, and whether it counts from a date.
+    """Return a unit's factor to SI units, and whether it is a time since a date.
 
     Args:
         name: of the variable: ``t``, ``x``, ``y``, ``z``, ``u``, ``v`` or ``w``.

@@ -1,4 +1,4 @@
-r"""uwsimSinusoid: the current of UWSim's benchmarks, which swells and turns.
+r"""uwsimSinusoid: the current of UWSim's benchmarks, with sinusoidal speed and direction.
 
 .. code-block:: xml
 
@@ -30,7 +30,7 @@ RATE = 60.0
 
 @dataclass(frozen=True, kw_only=True)
 class UwsimSinusoidSpec(CurrentSpec):
-    """A ``<u:uwsimSinusoid>``: the current of UWSim's benchmarks, which swells and turns.
+    """A ``<u:uwsimSinusoid>``: the current of UWSim's benchmarks.
 
     A level of a ``<currentForceUpdater>`` is one.
     """
@@ -131,7 +131,7 @@ class UwsimSinusoid(Current):
         )
 
     def _factors(self, time: float) -> tuple[float, float, float]:
-        """What multiplies speed, theta and phi now."""
+        """The factors of speed, theta and phi at a time."""
         e = self._spec.random
         if e == 0.0:
             return 1.0, 1.0, 1.0

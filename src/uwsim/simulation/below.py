@@ -1,4 +1,4 @@
-"""What lies straight below a point: the surfaces of the scene that a plumb line meets."""
+"""Surfaces of the scene vertically below a point."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Below:
 
 
 def below_vehicle(world: SceneWorld, vehicle: str) -> tuple[Below, ...]:
-    """Return what lies straight below a vehicle's origin, the nearest first."""
+    """Return the surfaces vertically below a vehicle's origin, the nearest first."""
     index = world.vehicle_index(vehicle)
     parts = world.scenery.parts
     others = [part for part in parts if part.vehicle != index and not part.is_hidden]

@@ -30,7 +30,7 @@ class SceneBody:
 
     @property
     def name(self) -> str:
-        """The route it was asked for by."""
+        """The route by which it was looked up."""
         return self._name
 
     @property
@@ -56,7 +56,7 @@ def find_file(name: str, beside: str, data_path: tuple[Path, ...]) -> Path:
 
 
 def find_robot(name: str, beside: str, data_path: tuple[Path, ...]) -> Path:
-    """Find a robot file; where it is nowhere, the bundled one of the same file name stands for it.
+    """Find a robot file; if it is not found, the bundled one of the same file name replaces it.
 
     Raises:
         AssetNotFound: there is none of that name either; names every folder searched.
@@ -71,7 +71,7 @@ def find_robot(name: str, beside: str, data_path: tuple[Path, ...]) -> Path:
 
 
 def robot_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dict[str, Path]:
-    """Robot files that are nowhere, and the bundled ones that stand for them."""
+    """Robot files that are not found, and the bundled ones that replace them."""
     beside = Path(scene.path).parent if scene.path else None
     lost = {
         vehicle.file: bundled_robot(vehicle.file)
@@ -147,7 +147,7 @@ def name_bodies(
 def _box_of(
     parts: Sequence[Part], world_from_visual: Pose, world_from_link: npt.NDArray[np.float64]
 ) -> Box:
-    """Return the bounding box of all that is seen of a link, in its visual frame.
+    """Return the bounding box of all visuals of a link, in its visual frame.
 
     Args:
         parts: what is seen.
@@ -227,7 +227,7 @@ def touchable(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"]
 
 
 def untouchable(name: str, why: str) -> UwsimError:
-    """Say that contacts of what has that name cannot be asked for."""
+    """Report that the body of that name cannot have contacts."""
     return UwsimError(f"{name!r} cannot be touched: {why}.", name=name)
 
 

@@ -1,4 +1,4 @@
-"""Calls into an algorithm, counted where whoever employs this process can see them.
+"""Calls into an algorithm, counted in memory shared with the parent process.
 
 A process that dies takes with it what it knew. Its employer still sees the counter: an odd number
 says that the algorithm had been called and had not come back. Played again with that call cut out,
@@ -24,7 +24,7 @@ class Counter(Protocol):
 
 @dataclass(frozen=True)
 class Cut:
-    """The call that is not made, nor any after it."""
+    """The number of the first call that is no longer made."""
 
     call: int
     """Its number."""

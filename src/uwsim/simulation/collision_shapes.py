@@ -1,4 +1,4 @@
-"""Which bodies of a scene can be touched, and with what shapes.
+"""Collision shapes of the bodies of a scene.
 
 Every link of a vehicle, as the box around its collision geometry, else around what is seen of it,
 and the objects that `uwsim.scene.spec.SceneSpec.solid_objects` names. Where a vehicle is simulated,
@@ -40,7 +40,7 @@ def simulated_shapes(
     dynamics: Collection[int],
     data_path: tuple[Path, ...],
 ) -> dict[str, tuple[CollisionShape, ...]]:
-    """Make the shapes that the engine knows: none where it has nothing to simulate.
+    """Make the collision shapes of the engine; none where nothing is simulated.
 
     Args:
         scene: what the file says.
@@ -57,7 +57,7 @@ def simulated_shapes(
 
 
 def simulated_solids(scene: SceneSpec, dynamics: Collection[int]) -> Mapping[int, PhysicsSpec]:
-    """Objects that the engine knows, by their numbers: none where it has nothing to simulate."""
+    """Solid objects of the engine, by number; none where nothing is simulated."""
     if scene.has_uwsim_physics:
         return scene.solid_objects
     return scene.simulated_solids if dynamics else {}
@@ -122,7 +122,7 @@ def _stretches(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
 def _boxes(
     solid: VisualSpec, stretch: Array | None, robot: RobotSpec, data_path: tuple[Path, ...]
 ) -> list[CollisionShape]:
-    """What is touched of one shape of a link, in the link's frame."""
+    """The collision shape of one shape of a link, in the link's frame."""
     model, scale = visual_model(solid, Path(robot.path).parent, data_path)
     link_from_solid = Pose.from_rpy(solid.position, solid.rpy)
     solid_from_mesh = np.diag([*scale, 1.0])
@@ -139,7 +139,7 @@ def _boxes(
 def standing_faces(
     scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
 ) -> Array:
-    """Triangles of an object that stands fixed, as it is touched, in W, (n, 3, 3) [m].
+    """Collision triangles of a fixed object in W, (n, 3, 3) [m].
 
     Args:
         scene: what the file says.

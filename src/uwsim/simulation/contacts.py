@@ -1,4 +1,4 @@
-"""Who touches whom: what the engine found, or shapes laid over each other.
+"""Contacts between bodies: those of the engine, and overlaps of kinematic bodies.
 
 The engine knows contacts between simulated vehicles and objects with ``<physics>``. What it does
 not simulate is looked at by `uwsim.physics.kinematic_contacts`, from the first time that somebody
@@ -74,7 +74,7 @@ class Contacts:
             put_state(self._touching, state)
 
     def update(self, step: int) -> None:
-        """Take note of where everything is at a step; to be called at every one."""
+        """Record the poses of all bodies; to be called at every step."""
         self._step = step
         if self._touching is not None:
             self._touching.look(step)

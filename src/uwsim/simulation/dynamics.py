@@ -1,4 +1,4 @@
-"""What of a scene is simulated: the vehicles' hydrodynamics, and every name that belongs to it.
+"""Looks up the hydrodynamics of a scene's vehicles and every name that belongs to it.
 
 Looked up before anything is simulated, and wrong ones said all at once with their lines: sets and
 hydrodynamics files, thrusters that fail, interfaces that want a simulated vehicle, topics that two
@@ -52,7 +52,7 @@ def read_dynamics(
 
 
 class Search:
-    """Follows the names, and keeps what they lead to and what leads nowhere.
+    """Resolves the names, and collects what they refer to and those that are unknown.
 
     Args:
         scene: what the file says.
@@ -104,7 +104,7 @@ class Search:
                 self._name_massless(index, robot)
 
     def _weigh(self, index: int, name: str, robot: RobotSpec) -> None:
-        """Hold what a vehicle weighs against what it displaces."""
+        """Compare a vehicle's weight with its displacement."""
         dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
         place = ("vehicle", index, f"{U}dynamics", 0)
         given = {body.link: body.mass for body in dynamics.bodies}
@@ -126,7 +126,7 @@ class Search:
             )
 
     def _name_massless(self, index: int, robot: RobotSpec) -> None:
-        """Say which links weigh what the engine needs, because no file says what they weigh."""
+        """Warn of links without a mass, which get the engine's minimum."""
         dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
         given = {body.link: body.mass for body in dynamics.bodies}
         names = [one.name for one in robot.links if not (given.get(one.name) or one.mass)]
@@ -140,7 +140,7 @@ class Search:
             )
 
     def _settle_density(self) -> None:
-        """Put all vehicles into one water: the scene's, or that which their sets agree about."""
+        """Choose one density of water: the scene's, or that on which all sets agree."""
         ocean = self._scene.ocean_state
         if wrong := self._profile_errors():
             for said in wrong:
@@ -171,7 +171,7 @@ class Search:
         return ocean.profile.errors()
 
     def _trim(self, index: int, density: float) -> None:
-        """Put a vehicle into other water than its set is for, and say what that does."""
+        """Change a vehicle's set to another density of water, and report the effect."""
         before = self.dynamics[index]
         self.dynamics[index] = before.in_water(density)
         if self._scene.ocean_state.profile is not None:
@@ -226,7 +226,7 @@ class Search:
     def _no_autopilot(
         self, interface: AutopilotTopicSpec, vehicles: Mapping[str, VehicleSpec]
     ) -> str | None:
-        """Say why nothing takes the commands of an interface."""
+        """Report why an interface has no autopilot to command."""
         wanted = vehicles.get(interface.vehicle_name)
         if wanted is None:
             near = did_you_mean(interface.vehicle_name, vehicles)

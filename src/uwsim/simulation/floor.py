@@ -1,4 +1,4 @@
-"""What says ``<u:onFloor>`` is set on the ground before anything else is done with a scene.
+"""Places vehicles and objects with ``<u:onFloor>`` on the ground when a scene is opened.
 
 The ground is every object that stands fixed and can be touched, and ``terrain`` in any case; what
 is set on the ground carries nothing itself. A vehicle touches it with the boxes of its links, its
@@ -36,7 +36,7 @@ HULL = PhysicsSpec(collision_shape_type="trimesh")
 def set_on_floor(
     scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
 ) -> SceneSpec:
-    """Return the scene with everything that says ``u:onFloor`` in its place.
+    """Return the scene with every ``u:onFloor`` resolved to a pose.
 
     Args:
         scene: what the file says.
@@ -73,7 +73,7 @@ def set_on_floor(
 
 
 def ground_faces(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Array]:
-    """What carries in a scene: triangles in W, (n, 3, 3) [m], by the number of their object."""
+    """Triangles of the ground in W, (n, 3, 3) [m], by the number of their object."""
     faces = {}
     for i, thing in enumerate(scene.objects):
         is_fixed = thing.is_touched(in_water=True) and not thing.solid.is_loose
@@ -83,7 +83,7 @@ def ground_faces(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Arr
 
 
 class Floor:
-    """The ground of a scene, and what stands on it.
+    """The ground of a scene, and the poses of bodies at rest on it.
 
     Args:
         scene: what the file says.
@@ -112,7 +112,7 @@ class Floor:
         return np.concatenate(found)
 
     def body_of_object(self, index: int, world_from_object: Pose) -> Array:
-        """The shape with which an object stands, (n, 3, 3) [m]."""
+        """The collision triangles of an object, (n, 3, 3) [m]."""
         usual = PhysicsSpec() if self._scene.is_original_physics else HULL
         given = self._scene.objects[index].physics or usual
         physics = PhysicsSpec(
@@ -158,7 +158,7 @@ class Floor:
     def nothing_under(
         self, element: str, index: int, name: str, position: tuple[float, float, float]
     ) -> Diagnostic:
-        """Say that there is no ground."""
+        """Report that there is no ground below a body."""
         x, y, _ = position
         have = "no ground in this scene" if not len(self.ground) else "none there"
         return self._lines.diagnostic(

@@ -1,4 +1,4 @@
-"""How large a vehicle is: the boxes with which its links are touched, in the frame of its base."""
+"""Extent of a vehicle: the bounding boxes of its links in the frame of its base."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .collision_shapes import collision_shapes
 
 @dataclass(frozen=True, eq=False)
 class LinkBox:
-    """What a link takes up."""
+    """The bounding box of a link."""
 
     low: Array
     """Least corner in the base's frame, (3,) [m]."""

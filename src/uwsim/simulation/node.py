@@ -1,4 +1,4 @@
-"""The door of an algorithm that lives in this process."""
+"""The node of an algorithm that runs in this process."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _text(error: BaseException) -> str:
 
 
 class _Timer:
-    """Something that is due again and again."""
+    """A periodic timer."""
 
     def __init__(self, start: int, period: float, callback: Callable[[], None]) -> None:
         self._start, self._period, self.callback = start, period, callback  # [steps]
@@ -66,7 +66,7 @@ class _Timer:
         """Step from which on it is due."""
 
     def move_on(self) -> None:
-        """Make it due a period later."""
+        """Advance the due time by one period."""
         self._n_fired += 1
         self.due = self._start + math.ceil(self._n_fired * self._period - 1e-9)
 
@@ -120,7 +120,7 @@ class InProcessNode:
 
     @property
     def parameters(self) -> Mapping[str, float | str]:
-        """What the user set; the algorithm has its own defaults."""
+        """The parameters that the user set; the algorithm has its own defaults."""
         return self._parameters
 
     @property
@@ -173,11 +173,11 @@ class InProcessNode:
         return publish
 
     def unconnected(self) -> list[str]:
-        """A sentence for each of its topics that has no other end at present."""
+        """A sentence for each of its topics that has no publisher or no subscriber."""
         return self._ends({**self._heard, **self._published})
 
     def unfed(self) -> list[str]:
-        """A sentence for each topic that it subscribes to and nobody publishes at present."""
+        """A sentence for each topic that it subscribes to and that has no publisher."""
         return self._ends(self._heard)
 
     def _ends(self, topics: Mapping[str, Callable[[], str | None]]) -> list[str]:
@@ -195,7 +195,7 @@ class InProcessNode:
         self._close.append(lambda: self._bus.withdraw(name))
 
     def call(self, name: str, request: object) -> object:
-        """Call a service; UnknownName when nobody serves it."""
+        """Call a service; UnknownName if it is not offered."""
         self._check()
         return self._bus.call(name, request)
 
@@ -214,7 +214,7 @@ class InProcessNode:
                 self._guard(timer.callback)
 
     def close(self) -> None:
-        """Take the algorithm off the bus."""
+        """Disconnect the algorithm from the bus."""
         self._is_started = False
         for close in self._close:
             close()
@@ -243,7 +243,7 @@ class InProcessNode:
             raise error
 
     def _check(self, topic: str | None = None) -> None:
-        """Refuse what no algorithm may do with its node; that ends it, caught or not."""
+        """Refuse a forbidden use of the node; that ends the algorithm, caught or not."""
         if threading.get_ident() != self._thread:
             self._break_rule("it uses its node from a thread of its own")
         if not self._is_started:

@@ -1,4 +1,4 @@
-"""How much of an algorithm's may wait to be delivered."""
+"""Limits on the undelivered messages of an algorithm."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ MAX_BYTES = 256 * 2**20
 
 
 class Outbox:
-    """What an algorithm has published and nobody has had yet, by number and size."""
+    """Number and size of an algorithm's published messages that are not delivered yet."""
 
     def __init__(self) -> None:
         self._waiting: deque[tuple[int, int]] = deque()  # step of delivery, bytes
         self._n_bytes = 0
 
     def add(self, message: object, *, step: int, delay_steps: int) -> None:
-        """Take note of a message.
+        """Count a message.
 
         Raises:
             NotAllowed: it is one too many.

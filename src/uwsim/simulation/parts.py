@@ -1,4 +1,4 @@
-"""The models of a scene, each with whose it is and where it sits on that."""
+"""The models of a scene, each with its body and its pose on that body."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ THINNEST = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """One model of the scene and whose it is."""
+    """One model of the scene, with its body."""
 
     id: int
     """Number in segmentation images, from 1."""
@@ -49,7 +49,7 @@ class Part:
 def parts_of(
     scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
 ) -> list[Part]:
-    """All that is seen of a scene: what shows one link or object has one number and one name."""
+    """All visible models of a scene; those of one link or object share a number and a name."""
     parts: list[Part] = []
     number = 0
     for index, vehicle in enumerate(scene.vehicles):
@@ -91,7 +91,7 @@ def parts_of(
 
 
 def _worn(model: Model, thing: ObjectSpec) -> Model:
-    """An object's model with the clouds that the scene wants on it."""
+    """An object's model with its weathering."""
     weathering = thing.weathering
     if weathering is None:
         return model

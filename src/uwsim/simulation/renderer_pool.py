@@ -1,4 +1,4 @@
-"""Renderers lent to simulations that come one after the other.
+"""Renderers that are reused by one simulation after another.
 
 A new OpenGL context has to compile its shaders and take in every texture again, which costs as
 much as dozens of images. A pool belongs to whoever plays several simulations in one process.
@@ -19,7 +19,7 @@ class RendererPool:
         self._idle: list[Renderer] = []
 
     def acquire(self) -> Renderer:
-        """Return an empty renderer, made if none is idle.
+        """Return an empty renderer, a new one if none is idle.
 
         Raises:
             NoGraphics: no OpenGL context could be made.
@@ -27,11 +27,11 @@ class RendererPool:
         return self._idle.pop() if self._idle else Renderer()
 
     def release(self, renderer: Renderer) -> None:
-        """Take a renderer back; its models stay on the graphics side."""
+        """Take a renderer back; its models stay on the GPU."""
         renderer.clear()
         self._idle.append(renderer)
 
     def close(self) -> None:
-        """Give the graphics contexts of all idle renderers back."""
+        """Release the graphics contexts of all idle renderers."""
         while self._idle:
             self._idle.pop().close()

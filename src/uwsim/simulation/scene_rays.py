@@ -1,4 +1,4 @@
-"""What rays of sensors meet in a scene: all that cameras see, and what sound makes of it."""
+"""Ray casting against the visible models of a scene, with their acoustic materials."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class SceneRays:
 
 
 def _material(scene: SceneSpec, part: Part) -> MaterialName:
-    """What a part is made of, for sonars."""
+    """The acoustic material of a part."""
     if part.object is None:
         return "steel"
     thing = scene.objects[part.object]

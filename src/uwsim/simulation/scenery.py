@@ -1,4 +1,4 @@
-"""What a scene looks like: its models, its water, its light, and the renderer that draws them."""
+"""The visual side of a scene: models, water, light, and the renderer."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ ALL_TARGETS = frozenset({"colour", "range", "ids"})
 
 
 class Scenery:
-    """The models of a scene in its water; borrows a renderer when the first image is asked for.
+    """The models of a scene in its water; acquires a renderer for the first image.
 
     Args:
         scene: what the file says.
@@ -41,7 +41,7 @@ class Scenery:
     """
 
     STATE = ("water", "light")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,
@@ -70,13 +70,13 @@ class Scenery:
         self._lamps: tuple[Lamp, ...] = ()
 
     def hang(self, lamps: Iterable[MountedLamp]) -> None:
-        """Let these lamps shine; raises UwsimError if they are too many."""
+        """Set the lamps of the scene; raises UwsimError if there are too many."""
         self._mounted_lamps = tuple(lamps)
         if (n_lamps := len(self._mounted_lamps)) > MAX_LAMPS:
             raise UwsimError(f"{n_lamps} lamps shine in the scene; at most {MAX_LAMPS} may.")
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
-        """Where a part stands now, with its scale, (4, 4) [m]."""
+        """The present pose of a part, with its scale, (4, 4) [m]."""
         if part.vehicle is None:
             assert part.object is not None
             frame = self._state.object_pose(part.object).matrix
@@ -98,7 +98,7 @@ class Scenery:
         random: np.random.Generator,
         grey: bool,
     ) -> npt.NDArray[np.uint8]:
-        """Draw what a camera would see now, with noise, (h, w, 3) or (h, w) when ``grey``."""
+        """Render a camera's image, with noise, (h, w, 3) or (h, w) when ``grey``."""
         rendered = self._draw(
             world_from_camera,
             intrinsics,
@@ -116,7 +116,7 @@ class Scenery:
     def render_clean(
         self, world_from_camera: Pose, intrinsics: Intrinsics, *, fog: float | None = None
     ) -> RenderedImage:
-        """Draw a noise-free image with range and ids, as things stand, or at another fog."""
+        """Render a noise-free image with range and ids, optionally at another fog density."""
         water = self.water if fog is None else replace(self.water, fog=fog)
         return self._draw(world_from_camera, intrinsics, water)
 
@@ -129,7 +129,7 @@ class Scenery:
         hidden: frozenset[int] = frozenset(),
         fog: float | None = None,
     ) -> RenderedImage:
-        """Draw what a viewer sees who is no camera of the scene: ghosts, too, and air above water.
+        """Render the view of an observer: with ghosts, and with air above the water.
 
         Args:
             world_from_camera: where the viewer is; OpenGL axes.
@@ -157,7 +157,7 @@ class Scenery:
         colour: str = "uint8",
         hidden: frozenset[int] | None = None,
     ) -> RenderedImage:
-        """Draw what a camera sees, without the parts ``hidden``; None: without ghosts."""
+        """Render an image without the parts ``hidden``; None: without ghosts."""
         renderer = self._open()
         if not self._handles:
             self._handles = [renderer.add(part.model, part.id) for part in self.parts]
@@ -179,7 +179,7 @@ class Scenery:
 
     @property
     def renderer_name(self) -> str:
-        """What draws the images; makes the graphics context if there is none yet."""
+        """Name of the renderer; makes the graphics context if there is none yet."""
         return self._open().description
 
     @property
@@ -195,7 +195,7 @@ class Scenery:
         return {name: models[name] for name in sorted(models)}
 
     def redraw(self) -> None:
-        """Look up anew where everything is before the next image."""
+        """Update all poses before the next image."""
         self._drawn_version = -1
 
     def _open(self) -> Renderer:
@@ -204,7 +204,7 @@ class Scenery:
         return self._renderer
 
     def close(self) -> None:
-        """Give the renderer back."""
+        """Release the renderer."""
         if self._renderer is not None:
             self._pool.release(self._renderer)
             self._renderer = None
@@ -214,7 +214,7 @@ class Scenery:
 
 
 def _shining(lamp: MountedLamp) -> Lamp:
-    """The lamp as it shines now."""
+    """The lamp at its present pose."""
     spec = lamp.spec
     return Lamp(
         world_from_lamp=lamp.world_from_lamp,

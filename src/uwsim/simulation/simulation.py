@@ -1,4 +1,4 @@
-"""The simulation: one step after the other.
+"""The simulation and its step.
 
 .. code-block:: text
 
@@ -32,7 +32,7 @@ from .stage import SceneStage
 
 
 class Simulation:
-    """A scene that lives: the clock, the step, and the algorithms at its topics.
+    """A running scene: the clock, the step, and the attached algorithms.
 
     Args:
         scene: what the file says; what varies in it is drawn for the seed.
@@ -118,7 +118,7 @@ class Simulation:
             look()
 
     def watch(self, look: Callable[[], None]) -> None:
-        """Have ``look`` called at the end of every step."""
+        """Call ``look`` at the end of every step."""
         self._watchers.append(look)
 
     @property
@@ -209,7 +209,7 @@ class Simulation:
 
     @property
     def motion(self) -> Motion:
-        """Where everything is and how it moves, as numbers."""
+        """Positions and velocities of all bodies, as one row of numbers."""
         return self.world.state.motion
 
     def _publish(self) -> None:
@@ -223,13 +223,13 @@ class Simulation:
         bus.deliver()
 
     def _step_devices(self) -> None:
-        """Let devices act, in the step that begins."""
+        """Let devices act, at the start of the step."""
         time = self.time - self.timestep
         for device in self.world.devices:
             device.step(time)
 
     def _advect_kinematic(self) -> None:
-        """Carry kinematic vehicles with the water, as the original does."""
+        """Advect kinematic vehicles with the water, as the original does."""
         world = self.world
         if world.water.is_still:
             return
@@ -239,7 +239,7 @@ class Simulation:
             world.state.place_vehicle(index, moved)
 
     def _step_physics(self) -> None:
-        """Let the forces act on what is simulated, in the water as it moves now."""
+        """Advance the physics by one step, in the present flow of the water."""
         state, water = self.world.state, self.world.water
         if not state.is_dynamic:
             state.fall()
@@ -249,7 +249,7 @@ class Simulation:
         state.step(*motion)
 
     def _animate(self) -> None:
-        """Put what devices move where it is now."""
+        """Move what devices animate."""
         for device in self.world.devices:
             device.animate(self.time)
 
@@ -262,7 +262,7 @@ class Simulation:
         raises: bool = True,
         calls: Calls | None = None,
     ) -> InProcessNode:
-        """Let an algorithm in through its door and start it.
+        """Connect an algorithm to the bus and start it.
 
         What it raises comes out here and out of `advance`; without ``raises`` it is kept in the
         node's ``error``, and the algorithm is not called any more. ``calls`` counts those into it.
@@ -281,7 +281,7 @@ class Simulation:
         return node
 
     def save(self) -> bytes:
-        """Return the state as bytes, exact to the bit; `uwsim.simulation.snapshot` says of what.
+        """Return the state as bytes, exact to the bit; `uwsim.simulation.snapshot` lists its parts.
 
         Raises:
             UwsimError: an algorithm is attached: what it knows cannot be saved.
@@ -315,7 +315,7 @@ class Simulation:
         self.world.scenery.redraw()
 
     def close(self) -> None:
-        """Give back the graphics context and take the algorithms off the bus."""
+        """Release the graphics context and disconnect the algorithms."""
         for node in self._nodes:
             node.close()
         self.world.scenery.close()

@@ -1,4 +1,4 @@
-"""The world of a scene, and what scene updaters may change in it."""
+"""The world of a scene with the setters of scene updaters."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ class SceneStage(SceneWorld):
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
-        """What replaces what the water hides [0..1]."""
+        """Colour of the fog [0..1]."""
         return self.scenery.water.fog_colour
 
     def set_fog(self, density: float) -> None:
@@ -120,7 +120,7 @@ class SceneStage(SceneWorld):
             self.camera(name).std = std
 
     def set_current(self, current: Flow | None) -> None:
-        """Let the water move so, besides the scene's own currents; None: no more."""
+        """Add a flow to the currents of the scene; None removes it."""
         self.water.set(current)
 
     def joints(self, vehicle: str) -> Array:

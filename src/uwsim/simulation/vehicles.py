@@ -42,12 +42,12 @@ class SceneVehicle:
 
     @property
     def autopilot(self) -> Autopilot | None:
-        """What steers it; None if it is not simulated."""
+        """Its autopilot; None if it is not simulated."""
         return self._state.autopilot(self._index) if self._is_simulated else None
 
     @property
     def servos(self) -> Servos | None:
-        """What moves its joints; None if it is not simulated."""
+        """Its joint servos; None if it is not simulated."""
         return self._state.servos(self._index) if self._is_simulated else None
 
     @property
@@ -84,7 +84,7 @@ class SceneVehicle:
         return self._state.joints(self._index)
 
     def place(self, world_from_base: Pose) -> None:
-        """Put it somewhere, at rest."""
+        """Set its pose, at rest."""
         self._state.place_vehicle(self._index, world_from_base)
 
     def set_joints(self, values: Array) -> None:
@@ -98,7 +98,7 @@ class SceneVehicle:
         self.place(self._stand.world_from_localized @ localized_from_base)
 
     def displacer(self, axis: int) -> Callable[[float], None]:
-        """Return what displaces it along or about an axis; several add up, the last moves it."""
+        """Return a function that displaces it along or about an axis; displacements add up."""
         own = len(self._offsets)
         self._offsets.append((axis, 0.0))
 
@@ -110,7 +110,7 @@ class SceneVehicle:
         return displace
 
     def loss_setter(self, thruster: str) -> Callable[[float], None]:
-        """Return what sets the loss of a thruster [0..1]; of several the greatest counts."""
+        """Return a setter of the loss of a thruster [0..1]; of several the greatest counts."""
         if thruster not in self.thrusters:
             raise UnknownName("thruster", thruster, self.thrusters)
         number = self.thrusters.index(thruster)

@@ -1,4 +1,4 @@
-"""Views of a scene that no camera in it has: the viewer's, from above, round what matters."""
+"""Views of a scene for people: the viewer's, from above, and around its main bodies."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class View:
 
 @dataclass(frozen=True, eq=False)
 class Focus:
-    """What of a scene a view should show."""
+    """The part of a scene that a view should show."""
 
     ids: frozenset[int]
     """Numbers of the parts."""
@@ -100,7 +100,7 @@ def top_view(simulation: Simulation, size: Size) -> View:
 
 
 def orbit_view(simulation: Simulation, size: Size) -> View:
-    """From where the most of what matters is seen: from ahead, to starboard and above, if it can.
+    """A view around the focus that hides as little of it as possible.
 
     Places round it are tried one after the other, each with a small image of all there is and one
     of what matters alone.
@@ -119,7 +119,7 @@ def orbit_view(simulation: Simulation, size: Size) -> View:
 
 
 def focus_of(simulation: Simulation) -> Focus:
-    """Find what matters: the vehicles and what is near them; else the objects; else the ground."""
+    """Find the focus: the vehicles and what is near them; else the objects; else the ground."""
     shown = [
         (part, simulation.world.scenery.corners(part)) for part in simulation.world.scenery.parts
     ]
@@ -152,7 +152,7 @@ def focus_of(simulation: Simulation) -> Focus:
 
 
 def _share_seen(simulation: Simulation, focus: Focus, world_from_camera: Pose) -> float:
-    """How much of what matters is seen of what would be without the rest, 0..1."""
+    """Visible share of the focus, 0..1: 1 where nothing hides it."""
     lens = _lens(SKETCH, FIELD)
     rest = frozenset(part.id for part in simulation.world.scenery.parts) - focus.ids
     shares = []
@@ -169,7 +169,7 @@ def _share_seen(simulation: Simulation, focus: Focus, world_from_camera: Pose) -
 
 
 def _framing(focus: Focus, axes: Array, lens: Intrinsics) -> Pose:
-    """Stand so far off, with these axes in W, that all corners are in the image."""
+    """A view with these axes in W, so far off that all corners are in the image."""
     beside = product(focus.corners - focus.middle, axes)  # (n, 3): right, up, towards the eye [m]
     halves = np.array([lens.width / lens.fx, lens.height / lens.fy]) * 0.5 * FILLED  # (2,) [1]
     distance = float((np.abs(beside[:, :2]) / halves + beside[:, 2:]).max())

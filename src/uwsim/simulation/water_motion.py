@@ -1,4 +1,4 @@
-"""How the water of a scene moves: its own currents, and what scene updaters add."""
+"""The flow of a scene: its currents, and what scene updaters add."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class WaterMotion:
             self.files |= spec.files(place)
 
     def set(self, current: Flow | None) -> None:
-        """Let the water move so, besides the scene's own currents; None: no more."""
+        """Add a flow to the currents of the scene; None removes it."""
         self._is_still = current is None and not self._has_scene_current
         if current is None:
             self._flow = self._scene_current

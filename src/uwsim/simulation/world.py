@@ -1,4 +1,4 @@
-"""What is in a scene: bodies, cameras, topics; what measures, triggers and sensors see of it."""
+"""The world of a scene: bodies, cameras, topics, as measures, triggers and sensors see it."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ class SceneWorld:
 
     @cached_property
     def warnings(self) -> tuple[Diagnostic, ...]:
-        """What of the scene seems not to be meant, with the lines of the file."""
+        """Warnings about the scene, with the lines of the file."""
         scene = self._as_written
         doubts = doubts_about(scene, self.robots, self.dynamics, self._data_path)
         return (*angle_warnings(scene), *doubts)
@@ -155,7 +155,7 @@ class SceneWorld:
 
     @property
     def sea_water(self) -> SeaWater:
-        """The water that sound goes through."""
+        """The water as an acoustic medium."""
         return self.scene.ocean_state.sea_water
 
     @property
@@ -182,7 +182,7 @@ class SceneWorld:
         return self.touch.contacts(name)
 
     def actuators(self, name: str) -> Actuators | None:
-        """What drives a vehicle; None if it is not simulated; UnknownName if there is none."""
+        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
         return self.state.actuators(self.vehicle_index(name))
 
     def camera(self, name: str) -> VirtualCamera:
@@ -239,5 +239,5 @@ class SceneWorld:
         random: np.random.Generator,
         grey: bool,
     ) -> npt.NDArray[np.uint8]:
-        """Draw what a camera would see now, with noise, (h, w, 3) or (h, w) when ``grey``."""
+        """Render a camera's image, with noise, (h, w, 3) or (h, w) when ``grey``."""
         return self.scenery.render(world_from_camera, intrinsics, std=std, random=random, grey=grey)

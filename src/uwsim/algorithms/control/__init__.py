@@ -1,4 +1,4 @@
-"""Controllers as algorithms under test: they see a camera and say a twist."""
+"""Controllers as algorithms under test: images of a camera in, twists out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-r"""Keeping station over what a tracker follows, with nothing but the camera.
+r"""Visual station keeping over a tracked target.
 
 The error in metres, in the camera's axes, of the tracked centroid c from the principal point o is
 
@@ -46,7 +46,7 @@ PARAMETERS: Mapping[str, float | str] = {
 
 
 class Law(Protocol):
-    """A control law: errors in, speeds out."""
+    """A control law: position errors in, speeds out."""
 
     def step(self, error: Array, dt: float) -> Array:
         """Return surge and sway (2,) [m/s] for the error forward and to starboard (2,) [m].
@@ -57,7 +57,7 @@ class Law(Protocol):
 
 
 def speeds_of(returned: object, law: str) -> Array:
-    """Return the speeds (2,) [m/s] that a law said, as an array or any two numbers.
+    """Return the output of a control law, any two numbers, as speeds (2,) [m/s].
 
     Raises:
         ValueError: they are no two finite numbers.
@@ -73,7 +73,7 @@ def speeds_of(returned: object, law: str) -> Array:
 
 
 class StationKeeper:
-    """The control law alone: errors in, speeds out."""
+    """A PI control law with an anti-windup: position errors in, speeds out."""
 
     def __init__(self, *, kp: float, ki: float, limit: float) -> None:
         self._kp, self._ki, self._limit = kp, ki, limit
@@ -115,7 +115,7 @@ class ControllerNode:
         return dict(self._parameters)
 
     def start(self, node: Node) -> None:
-        """Take the parameters, go on the bus, start the tracker."""
+        """Read the parameters, connect to the bus, start the tracker."""
         self._parameters = chosen(self.PARAMETERS, node.parameters)
         self._node = node
         self._law = self.law()

@@ -1,4 +1,4 @@
-"""The door of an algorithm, seen by a part of it that has parameters of its own."""
+"""The node of an algorithm for a part of it that has parameters of its own."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ M = TypeVar("M")
 
 
 class NodeView:
-    """A `uwsim.bus.Node` that is another one but for its parameters."""
+    """A `uwsim.bus.Node` that delegates to another one and has its own parameters."""
 
     def __init__(self, node: Node, parameters: Mapping[str, float | str]) -> None:
         self._node, self._parameters = node, dict(parameters)

@@ -1,4 +1,4 @@
-r"""Bringing an image onto a template: ESM, and its first-order relatives.
+r"""Alignment of an image with a template: ESM, and its first-order relatives.
 
 With :math:`p` a template pixel, :math:`w` the warp and :math:`\hat H` the guess, the residual
 :math:`s_p(x) = I(w(\hat H e^{x}, p)) - I^*(p)` is linearised with
@@ -33,7 +33,7 @@ BLENDS = {"esm": (0.5, 0.5), "ic": (0.0, 1.0), "fc": (1.0, 0.0)}
 
 @dataclass(frozen=True, kw_only=True)
 class Method:
-    """Which linearisation, and when it is done."""
+    """Linearisation and stopping criteria of an alignment."""
 
     blend: str = "esm"
     """``esm``, ``ic`` or ``fc``."""
@@ -47,7 +47,7 @@ class Method:
 
 @dataclass(frozen=True, eq=False)
 class Alignment:
-    """Where an alignment ended."""
+    """The result of an alignment."""
 
     homography: Array
     """Sends template points to the image, (3, 3); the best seen on the way."""

@@ -1,4 +1,4 @@
-"""How alike template and image are: sums over the pixels of the patch, compiled."""
+"""Correlation of template and image: sums over the pixels of the patch, compiled."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What compiled code reads of a template."""
+"""The fields of a template that compiled code reads."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The patch a tracker remembers: the pixels of one image inside a quad, at one pyramid level.
+"""The template of a tracker: the pixels of one image inside a quad, at one pyramid level.
 
 The template is the image's own pixels, never resampled, so that its noise stays what the camera
 made it. A quad cuts every row of pixels in one run, which is all that has to be remembered of it.

@@ -1,1 +1,1 @@
-"""What of a scene cannot be meant: checks that need its bodies or its thrusters."""
+"""Checks of a scene for likely mistakes that need its bodies or its thrusters."""

@@ -1,4 +1,4 @@
-"""What of a scene seems not to be meant, each with its line and how to say that it is.
+"""Likely mistakes of a scene, each with its line and how a file accepts it.
 
 `uwsim check` says it, and `uwsim bench` and `uwsim render` before anything moves. All are warnings:
 no run is refused for them. `uwsim.scene.doubts` has their names.
@@ -37,7 +37,7 @@ def doubts_about(
     dynamics: Mapping[int, VehicleHydrodynamics],
     data_path: tuple[Path, ...] = (),
 ) -> list[Diagnostic]:
-    """Say everything about a scene that seems not to be meant.
+    """Report every likely mistake of a scene.
 
     Args:
         scene: what the file says.
@@ -63,7 +63,7 @@ def doubts_about(
 
 
 def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnostic]:
-    """The same of a scene that nobody has opened yet, and what is asked about its angles."""
+    """Report every likely mistake of a scene that is not open, those of its angles included."""
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(scene, robots, data_path)
     return [*angle_warnings(scene), *doubts_about(scene, robots, dynamics, data_path)]
@@ -76,7 +76,7 @@ def _of_vehicle(
     dynamics: Mapping[int, VehicleHydrodynamics],
     data_path: tuple[Path, ...],
 ) -> Iterator[tuple[VehicleDoubt, str, str]]:
-    """Each doubt about a vehicle, the element that it is said of, and what is said, if anything."""
+    """Each check of a vehicle: its name, the element concerned, and a message or nothing."""
     hull = None
     with suppress(UwsimError):  # said where models are checked
         hull = hull_of(scene, robots, index, data_path)
@@ -95,7 +95,7 @@ def _of_starts(
     robots: Mapping[int, RobotSpec],
     data_path: tuple[Path, ...],
 ) -> Iterator[tuple[Literal["vehicle", "object"], int, str]]:
-    """What begins at an odd place: its kind, its number, and what is said, if anything."""
+    """Each check of a start pose: kind, number, and a message or nothing."""
     loose = [index for index, solid in scene.solid_objects.items() if solid.is_loose]
     with suppress(UwsimError):  # said where models are checked
         starts = Starts(scene, robots, data_path)

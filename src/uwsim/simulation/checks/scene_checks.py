@@ -1,4 +1,4 @@
-"""Everything wrong, or worth asking about, with what of a scene is simulated."""
+"""Errors and warnings of the simulated parts of a scene."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .scene_lines import SceneLines
 
 
 def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Diagnostic]:
-    """Hold what of a scene is simulated against everything that is known about it.
+    """Check the simulated parts of a scene: names, numbers, thrusters and shapes.
 
     Args:
         scene: what the file says.
@@ -45,7 +45,7 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
 def _untouchable(
     scene: SceneSpec, dynamics: Collection[int], data_path: tuple[Path, ...]
 ) -> list[Diagnostic]:
-    """Say of which objects the engine can make no shape that is touched."""
+    """Report the objects of which the engine can make no collision shape."""
     lines, found = SceneLines(scene), []
     for index, physics in simulated_solids(scene, dynamics).items():
         try:

@@ -1,4 +1,4 @@
-"""Lines of a scene file, for what is found wrong after it was read."""
+"""Lines of a scene file for errors that are found after it was read."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ...schema import NAMESPACE, Diagnostics, parse
 
 
 class SceneLines:
-    """Finds the line of an element; reads the file again when it is first asked."""
+    """Finds the line of an element; reads the file again at the first look-up."""
 
     def __init__(self, scene: SceneSpec) -> None:
         self._path = scene.path

@@ -1,4 +1,4 @@
-"""What begins where it cannot stay: in or under the ground, or above the water.
+"""Warnings about start poses: in or under the ground, or above the water.
 
 Ground is what stands fixed and can be touched, each thing of it looked at alone. What a
 ``<u:accept>start</u:accept>`` stands in, what ``<u:onFloor>`` sets down and ghosts are not asked
@@ -25,7 +25,7 @@ MIN_RISE = 0.02
 
 
 class Starts:
-    """Where the things of a scene begin.
+    """The start poses of a scene's vehicles and objects.
 
     Args:
         scene: what the file says.
@@ -46,7 +46,7 @@ class Starts:
         }
 
     def of_vehicle(self, index: int) -> str:
-        """Say what is odd about where a vehicle begins."""
+        """Warn of the start pose of a vehicle."""
         vehicle = self._scene.vehicles[index]
         if vehicle.vr or vehicle.on_floor is not None:
             return ""
@@ -63,7 +63,7 @@ class Starts:
         return self._in_ground(body)
 
     def of_object(self, index: int) -> str:
-        """Say what is odd about where a loose object begins."""
+        """Warn of the start pose of a free object."""
         thing = self._scene.objects[index]
         if thing.on_floor is not None:
             return ""
@@ -71,7 +71,7 @@ class Starts:
         return self._in_ground(self._floor.body_of_object(index, world_from_object))
 
     def _in_ground(self, body: Array) -> str:
-        """Say in or under which ground a body, (n, 3, 3) [m], begins."""
+        """Warn of the ground in or under which a body, (n, 3, 3) [m], starts."""
         low, high = body.min(axis=(0, 1)), body.max(axis=(0, 1))
         for name, ground in self._grounds.items():
             rise = ground.rise(body)
@@ -94,7 +94,7 @@ class Starts:
         return ""
 
     def _up(self) -> str:
-        """Which way is up in the file's frame."""
+        """The vertical axis of the file's frame, upwards."""
         up = self._scene.world_from_localized.rotation[2]
         axis = int(np.argmax(np.abs(up)))
         return f"{'-' if up[axis] < 0.0 else ''}{'xyz'[axis]}"

@@ -1,4 +1,4 @@
-"""What the autopilots of a scene cannot do, said before anything moves."""
+"""Warnings about what the autopilots of a scene cannot do."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ HELD_BY = {SWAY: "sway", HEAVE: "depth (heave)", YAW: "heading (yaw)", SURGE: "s
 def thrust_said(
     scene: SceneSpec, index: int, robot: RobotSpec, dynamics: VehicleHydrodynamics
 ) -> str:
-    """Say which axes the thrusters of a simulated vehicle cannot drive; nothing without any."""
+    """Report the axes that the thrusters of a simulated vehicle cannot drive; empty if none."""
     return limits_said(allocation_of(scene, index, robot, dynamics))
 
 
 def allocation_of(
     scene: SceneSpec, index: int, robot: RobotSpec, dynamics: VehicleHydrodynamics
 ) -> Allocation:
-    """What the thrusters of a vehicle can do as it begins."""
+    """The thrust allocation of a vehicle at its start."""
     values = scene.vehicles[index].joint_values
     body = dynamics.body(robot.root)
     reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
@@ -48,14 +48,14 @@ def allocation_of(
 
 
 def righting(scene: SceneSpec, index: int, balance: Balance) -> float:
-    """With what moment per angle a vehicle rights itself as it begins [N m/rad]."""
+    """Hydrostatic stiffness of a vehicle at its start [N m/rad]."""
     vehicle = scene.vehicles[index]
     world_from_base = scene.world_from_localized @ vehicle.localized_from_base
     return balance.stiffness(world_from_base.rotation[2])
 
 
 def limits_said(found: Allocation) -> str:
-    """What thrusters cannot do, in words; nothing where they can do all."""
+    """Describe the limits of an allocation; empty where there are none."""
     if not found.wrenches.shape[1]:
         return "it has no thrusters: it drifts"
     missing = [axis for axis in WANTED if axis not in found.axes]
@@ -90,7 +90,7 @@ def _is_coupled(found: Allocation, axis: int) -> bool:
 
 
 def _together(found: Allocation, axis: int) -> str:
-    """Which driven axes an axis is bound to."""
+    """Report the driven axes to which an axis is coupled."""
     shares = product(found.wrenches[axis], found.share)  # of each driven axis
     bound = [AXES[a] for a, share in zip(found.axes, shares, strict=True) if abs(share) > 1e-3]
     return f"{AXES[axis]} comes only together with {' and '.join(bound)}"

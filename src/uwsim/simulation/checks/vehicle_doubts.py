@@ -62,7 +62,7 @@ class Candidate:
 
 
 def size_said(hull: Hull, robot: RobotSpec) -> str:
-    """Say that a vehicle is as large as a ship, or smaller than a hand."""
+    """Warn of a vehicle as large as a ship, or smaller than a hand."""
     if MIN_SIZE <= hull.size <= MAX_SIZE:
         return ""
     link, box = max(hull.links.items(), key=lambda each: float(each[1].extent.max()))
@@ -99,7 +99,7 @@ def candidate_of(
 
 
 def buoyancy_said(one: Candidate) -> str:
-    """Hold what a vehicle weighs against what it displaces, and that against its shape."""
+    """Compare a vehicle's weight with its displacement, and that with its shape."""
     mass, displaced = one.balance.mass, one.balance.displaced
     messages = []
     if abs(displaced - mass) > UNEVEN * max(displaced, mass):
@@ -119,7 +119,7 @@ def buoyancy_said(one: Candidate) -> str:
 
 
 def balance_said(one: Candidate) -> str:
-    """Say that it turns over."""
+    """Warn of a vehicle without static stability."""
     if one.height > -LOW or not one.balance.displaced > 0.0:
         return ""
     return (
@@ -130,7 +130,7 @@ def balance_said(one: Candidate) -> str:
 
 
 def places_said(one: Candidate) -> str:
-    """Say what lies far off the hull."""
+    """Warn of thrusters, sensors and centres that lie far off the hull."""
     if one.hull is None:
         return ""
     thrusters = thrusters_on_base(one.robot, one.dynamics.thrusters, one.joint_values)
@@ -153,7 +153,7 @@ def places_said(one: Candidate) -> str:
 
 
 def strength_said(one: Candidate) -> str:
-    """Say which thrusters no such vehicle has."""
+    """Warn of thrusters that are too strong for the vehicle."""
     strong = []
     for thruster in one.dynamics.thrusters:
         thrusts, _ = curve(thruster)
@@ -171,7 +171,7 @@ def strength_said(one: Candidate) -> str:
 
 
 def inertia_said(one: Candidate) -> str:
-    """Say which links turn otherwise than a body of their mass and size."""
+    """Warn of links whose inertia does not fit their mass and size."""
     messages = []
     for link, mass, body in _links(one):
         box = None if one.hull is None else one.hull.links.get(link.name)
@@ -195,7 +195,7 @@ def inertia_said(one: Candidate) -> str:
 
 
 def drag_said(one: Candidate) -> str:
-    """Say which links are too light for their drag."""
+    """Warn of links that are too light for their drag."""
     messages = []
     moving = {joint.child for joint in one.robot.joints if joint.moves} | {one.robot.root}
     for link, mass, body in _links(one):
