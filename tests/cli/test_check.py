@@ -130,6 +130,19 @@ def test_names_of_a_benchmark_that_its_scene_does_not_have_are_errors(
     assert f"{file}:10: No virtual camera" in said
 
 
+def test_a_wrong_name_is_reported_at_each_of_its_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (DATA / "benchmarks" / "visibility.xml").read_text()
+    file = tmp_path / "wrong.xml"
+    file.write_text(text.replace("<target>blackbox", "<target>blakbox"))
+    lines = [n for n, line in enumerate(file.read_text().splitlines(), 1) if "blakbox" in line]
+    assert len(lines) > 1
+    assert status(str(file)) == 2
+    said = capsys.readouterr().out
+    assert all(f"{file}:{n}: No body is called 'blakbox'" in said for n in lines)
+
+
 def test_a_benchmark_whose_scene_is_nowhere_is_an_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -100,9 +100,9 @@ class CornersFromCameraSpec(GroundTruthSpec):
 
     unit: ClassVar[str] = "px"
 
-    camera: str = element()
+    camera: str = element(refers_to="camera")
     """Name of the virtual camera."""
-    target: str
+    target: str = element(refers_to="body")
     """Route of the body whose corners are meant."""
     publish_on: str | None = element(default=None)
     """Service that is given the corners when the measure starts; None: nobody is told."""
@@ -122,9 +122,9 @@ class CentroidFromCameraSpec(GroundTruthSpec):
 
     unit: ClassVar[str] = "px"
 
-    camera: str = element()
+    camera: str = element(refers_to="camera")
     """Name of the virtual camera."""
-    target: str
+    target: str = element(refers_to="body")
     """Route of the body whose origin is meant."""
     publish_on: str | None = element(default=None)
     """Service that is given the centroid when the measure starts; None: nobody is told."""
@@ -144,9 +144,9 @@ class RelativeLocationSpec(GroundTruthSpec):
 
     unit: ClassVar[str] = "m"
 
-    from_: str = element("from")
+    from_: str = element("from", refers_to="body")
     """Route of the body in whose frame the location is given (``<from>``)."""
-    to: str
+    to: str = element(refers_to="body")
     """Route of the body whose origin is meant."""
 
     def bind(self, world: World, truth: str = "original") -> RelativeLocation:

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 from lxml import etree
 
 from ..errors import Diagnostic, UnknownName, UwsimError
-from ..schema import Diagnostics, parse
+from ..schema import Diagnostics, fields_of, parse
 from ..world import Stage
 from .measures import MeasureSpec
 from .spec import BenchmarkSpec
 from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec
-
-MAX_NAMES = 10
-"""Wrong names of one element that are said."""
 
 Part = MeasureSpec | TriggerSpec | SceneUpdaterSpec
 
@@ -34,8 +30,7 @@ def unknown_names(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic]:
     diagnostics = Diagnostics(benchmark.path)
     seen: set[tuple[int, str]] = set()
     for part, node in _places(benchmark, root):
-        for error in _wrong(part, stage):
-            place = _place(node, error.name)
+        for place, error in _wrong(part, node, stage):
             diagnostic = (int(str(place.sourceline)), str(error))
             if diagnostic not in seen:
                 seen.add(diagnostic)
@@ -79,36 +74,47 @@ def _place(node: etree._Element, name: str) -> etree._Element:
     return node if among is None else among
 
 
-def _wrong(part: Part, stage: Stage) -> Iterator[UwsimError]:
-    """What keeps a part from being bound: one error for each of its names that nothing has."""
-    spec: Any = part
-    for n in range(MAX_NAMES):
-        try:
-            live = spec.bind(stage)
-        except UnknownName as error:
-            yield error
-            if not error.known:
-                return
-            changed = _with(spec, error.name, error.known[0])
-            if changed == spec:
-                return
-            spec = changed
-        except UwsimError as error:
-            if n == 0:  # else it may be about what was put in the place of a wrong name
-                yield error
-            return
-        else:
-            live.close()
-            return
+def _wrong(
+    part: Part, node: etree._Element, stage: Stage
+) -> Iterator[tuple[etree._Element, UwsimError]]:
+    """What keeps a part from being bound, and where: its unknown names; else what it raises."""
+    unknown = [*_unknown(part, node, stage)]
+    if unknown:
+        yield from unknown
+        return
+    try:
+        part.bind(stage).close()
+    except UwsimError as error:
+        yield _place(node, error.name), error
 
 
-def _with(spec: Any, name: str, other: str) -> Any:
-    """Return a spec, and the specs in it, with ``other`` where it says ``name``."""
-    changes: dict[str, object] = {}
-    for field in dataclasses.fields(spec):
-        value = getattr(spec, field.name)
-        if value == name and field.name != "name":
-            changes[field.name] = other
-        elif dataclasses.is_dataclass(value) and not isinstance(value, Part):
-            changes[field.name] = _with(value, name, other)
-    return dataclasses.replace(spec, **changes)
+def _unknown(
+    spec: object, node: etree._Element, stage: Stage
+) -> Iterator[tuple[etree._Element, UwsimError]]:
+    """Look up what the fields of a spec, and of the specs in it, refer to."""
+    for field in fields_of(type(spec)):
+        value, child = getattr(spec, field.name), node.find(field.tag)
+        if value is None or child is None or isinstance(value, Part):
+            continue
+        if field.xml.refers_to is not None:
+            try:
+                LOOK_UP[field.xml.refers_to](stage, value)
+            except UnknownName as error:
+                yield child, error
+        elif dataclasses.is_dataclass(value):
+            yield from _unknown(value, child, stage)
+
+
+def _vehicle(stage: Stage, name: str) -> None:
+    if name not in stage.vehicles:
+        raise UnknownName("vehicle", name, stage.vehicles)
+
+
+LOOK_UP: dict[str, Callable[[Stage, str], object]] = {
+    "actuators": lambda stage, name: stage.actuators(name),
+    "body": lambda stage, name: stage.body(name),
+    "camera": lambda stage, name: stage.camera(name),
+    "contacts": lambda stage, name: stage.contacts(name),
+    "vehicle": _vehicle,
+}
+"""What a field refers to (`element`) -> the look-up, which raises UnknownName."""

@@ -51,6 +51,7 @@ class Xml:
     item: str | None = None
     choice: Mapping[str, type] | None = None
     original: Original = Original()
+    refers_to: str | None = None
     limits: Limits = dataclasses.field(default_factory=Limits)
 
 
@@ -65,6 +66,7 @@ def element(
     item: str | None = None,
     choice: Mapping[str, type] | None = None,
     original: Original = Xml.original,
+    refers_to: str | None = None,
     **limits: Unpack[Limits],
 ) -> Any:
     """Make a dataclass field whose XML form differs from what its name and type imply.
@@ -79,7 +81,8 @@ def element(
         item: the element is a list; this is the name of its items.
         choice: name -> spec of the children that the element may contain, in any number.
         original: how the original reads it.
+        refers_to: what of a scene it names (`uwsim.benchmark.unknown_names.LOOK_UP`): a ``body``.
         limits: ``minimum``, ``maximum``, ``above`` and ``below`` of a number.
     """
-    xml = Xml(name, attribute, text, namespaced, parts, item, choice, original, limits)
+    xml = Xml(name, attribute, text, namespaced, parts, item, choice, original, refers_to, limits)
     return dataclasses.field(default=default, metadata={"xml": xml})

@@ -23,7 +23,7 @@ WORST = 0.5
 class CollisionSpec(MeasureSpec):
     """A ``<collision>`` element of a benchmark file."""
 
-    target: str
+    target: str = element(refers_to="contacts")
     """Name of the vehicle or object."""
     stop_on_contact: bool = element(default=False, attribute=True, namespaced=True)
     """Whether the first contact ends the level, in status ``collision`` (``u:stopOnContact``)."""

@@ -45,7 +45,7 @@ class ControlSpec(MeasureSpec):
     JointState)."""
     axes: str = ""
     """Axes of the commands that count, separated by blanks; all when left out."""
-    target: str | None = element(default=None)
+    target: str | None = element(default=None, refers_to="body")
     """Route of the body whose error counts."""
     position: tuple[float, float, float] | None = None
     """Where the target should be, in L [m]."""

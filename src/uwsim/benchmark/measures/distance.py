@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from ...geometry import Array
 from ...linear import length
+from ...schema import element
 from ...world import Body, World
 from .measure import Measure, MeasureSpec
 
@@ -19,7 +20,7 @@ from .measure import Measure, MeasureSpec
 class DistanceSpec(MeasureSpec):
     """A ``<distance>`` element of a benchmark file."""
 
-    target: str
+    target: str = element(refers_to="body")
     """Name of the body to follow."""
 
     @property

@@ -40,7 +40,7 @@ class BatterySpec:
 class EnergySpec(MeasureSpec):
     """A ``<u:energy>`` element of a benchmark file."""
 
-    target: str
+    target: str = element(refers_to="actuators")
     """Name of the vehicle. Without ``<u:dynamics>`` it has no energy."""
     hotel_load: float = element(default=0.0, minimum=0.0)
     """What computers, sensors and lamps draw all the time [W]."""

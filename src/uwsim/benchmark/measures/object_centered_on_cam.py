@@ -13,6 +13,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...schema import element
 from ...world import World
 from ..ground_truth import CentroidFromCamera
 from ..metrics.signal import VALUES, Signal
@@ -25,9 +26,9 @@ class ObjectCenteredOnCamSpec(MeasureSpec):
 
     values: ClassVar[tuple[str, ...]] = VALUES
 
-    target: str
+    target: str = element(refers_to="body")
     """Route of the body whose origin is looked at."""
-    camera: str
+    camera: str = element(refers_to="camera")
     """Name of the virtual camera."""
 
     @property

@@ -42,11 +42,11 @@ class PathFollowingSpec(MeasureSpec):
     values: ClassVar[tuple[str, ...]] = VALUES
     error_flag: ClassVar[int] = -1
 
-    target: str
+    target: str = element(refers_to="body")
     """Route of the body."""
     topic: str | None = element(default=None)
     """Topic of the path (nav_msgs/Path); without one there is no path, and so no value."""
-    from_: str | None = element("from", default=None)
+    from_: str | None = element("from", default=None, refers_to="body")
     """Route of the body in whose frame the path is given; None: W, not L."""
 
     @property

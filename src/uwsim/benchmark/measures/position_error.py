@@ -36,7 +36,7 @@ class PositionErrorSpec(MeasureSpec):
 
     values: ClassVar[tuple[str, ...]] = VALUES
 
-    target: str
+    target: str = element(refers_to="body")
     """Route of the body."""
     position: tuple[float, float, float]
     """Where it should be, in L [m]."""

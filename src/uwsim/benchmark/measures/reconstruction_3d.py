@@ -40,11 +40,11 @@ MAX_NOTES = 5
 class Reconstruction3DSpec(MeasureSpec):
     """A ``<reconstruction3D>`` element of a benchmark file."""
 
-    target: str
+    target: str = element(refers_to="body")
     """Route of the body that is rebuilt."""
     topic: str
     """Topic of the clouds (sensor_msgs/PointCloud2)."""
-    from_: str | None = element("from", default=None, original=REQUIRED)
+    from_: str | None = element("from", default=None, original=REQUIRED, refers_to="body")
     """Route of the body in whose frame the clouds are given; without one they are in W, not L."""
     level_of_detail: float = element(default=0.003, above=0.0)
     """Cell size of the coverage [m]."""

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...linear import length
+from ...schema import element
 from ...world import Body, World
 from .trigger import Trigger, TriggerSpec
 
@@ -32,7 +33,7 @@ def threshold(length: float, world: World) -> float:
 class OnMoveSpec(TriggerSpec):
     """A trigger of type ``onMove``."""
 
-    target: str
+    target: str = element(refers_to="body")
     """Route of the body to watch."""
 
     def bind(self, world: World) -> OnMove:

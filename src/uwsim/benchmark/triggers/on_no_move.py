@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...linear import length
+from ...schema import element
 from ...world import Body, World
 from .on_move import MOVED, threshold
 from .trigger import Trigger, TriggerSpec
@@ -28,7 +29,7 @@ N_SAMPLES = 10
 class OnNoMoveSpec(TriggerSpec):
     """A trigger of type ``onNoMove``."""
 
-    target: str
+    target: str = element(refers_to="body")
     """Route of the body to watch."""
 
     def bind(self, world: World) -> OnNoMove:

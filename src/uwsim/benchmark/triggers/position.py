@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...linear import length
+from ...schema import element
 from ...world import Body, World
 from .on_move import threshold
 from .trigger import Trigger, TriggerSpec
@@ -28,7 +29,7 @@ NEAR = 0.3
 class PositionSpec(TriggerSpec):
     """A trigger of type ``position``."""
 
-    target: str
+    target: str = element(refers_to="body")
     """Route of the body to watch."""
     position: tuple[float, float, float]
     """The place, in L [m]."""

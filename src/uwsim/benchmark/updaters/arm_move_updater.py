@@ -40,7 +40,7 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
     """Levels between two arm positions."""
     interval: float = element(above=0.0)
     """Length of a level [s]."""
-    target: str
+    target: str = element(refers_to="vehicle")
     """Name of the vehicle."""
 
     def values(self) -> tuple[float, ...]:

@@ -87,7 +87,7 @@ class CurrentForceUpdaterSpec(SweepSpec):
     """Half-width of the uniform noise, relative."""
     step: float = element(above=0.0)
     """What each level adds [m/s]."""
-    target: str
+    target: str = element(refers_to="vehicle")
     """Name of the vehicle that is put back when a level begins."""
     publish_as_force: bool = element(default=False, attribute=True)
     """Whether the current is published as a force instead of moving the vehicle."""
