@@ -25,9 +25,9 @@ from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 scene = read_scene(find("visibility-scene.xml"))
 vehicle = scene.vehicles[0]
-first = vehicle.virtual_cameras[0]
+first = vehicle.parts[0]
 both = (first, dataclasses.replace(first, name="second"))
-vehicle = dataclasses.replace(vehicle, virtual_cameras=both)
+vehicle = dataclasses.replace(vehicle, parts=both)
 simulation = Simulation(dataclasses.replace(scene, vehicles=(vehicle,)))
 simulation.start()
 for _ in range(500):

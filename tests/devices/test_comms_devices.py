@@ -56,8 +56,7 @@ def scene_in(
                 name=name,
                 file=str(robot),
                 position=(apart * (number - 1), 0.0, -50.0),
-                custom_comms_devices=(device,) if is_custom else (),
-                acoustic_comms_devices=() if is_custom else (device,),
+                parts=(device,),
             )
         )
     scene = scene_of(vehicles[0], acoustic_comms_channels=(SEA,), **given)
@@ -231,8 +230,10 @@ def test_the_interface_publishes_the_links_visual_frame_and_the_frame_of_the_dev
         name="rov",
         file=str(robot),
         position=(5.0, 6.0, 7.0),
-        acoustic_comms_devices=(modem("modem", 1, **place),),
-        custom_comms_devices=(radio("radio", 2, tf_id="/rf", relative_tf_id="/mast"),),
+        parts=(
+            modem("modem", 1, **place),
+            radio("radio", 2, tf_id="/rf", relative_tf_id="/mast"),
+        ),
     )
     interfaces = (
         AcousticCommsDeviceROSSpec(name="modem", topic="/modem/pose", rate=5),

@@ -194,7 +194,7 @@ def test_where_a_camera_looks_can_be_set_from_the_command_line(tmp_path: Path) -
     scene = read_scene(file)
     for value, expected in (("down", "down"), ("1 2 3", (1.0, 2.0, 3.0))):
         found = apply_setting(scene, "vehicle.virtualCamera.lookAt", value)
-        assert found.vehicles[0].virtual_cameras[0].look_at == expected
+        assert found.vehicles[0].parts_of(VirtualCameraSpec)[0].look_at == expected
 
 
 OF_2013 = """<?xml version="1.0"?><!DOCTYPE UWSimScene SYSTEM "UWSimScene.dtd">

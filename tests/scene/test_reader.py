@@ -14,9 +14,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
+from uwsim.devices.comms import CustomCommsDeviceSpec
 
 from uwsim.cli.check import diagnostics_of
 from uwsim.currents import UwsimSinusoidSpec
+from uwsim.devices.echo import EchoSpec, SimulatedDevicesSpec
 from uwsim.errors import SceneError
 from uwsim.geometry import Pose
 from uwsim.scene import SceneSpec, read_scene
@@ -27,6 +29,10 @@ from uwsim.scene.sim_params import ShowTrajectorySpec
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
 from uwsim.schema import Diagnostics, Field, fields_of
+from uwsim.sensors.multibeam_sensor import MultibeamSensorSpec
+from uwsim.sensors.profiling_sonar import ProfilingSonarSpec
+from uwsim.sensors.structured_light_projector import StructuredLightProjectorSpec
+from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.topics import INTERFACES
 from uwsim.topics.comms_device_ros import CustomCommsDeviceROSSpec
 from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
@@ -164,7 +170,7 @@ def test_every_bundled_scene_is_without_errors_and_in_order(path: Path) -> None:
 def camera_in_l(scene: SceneSpec) -> tuple[np.ndarray, np.ndarray]:
     """Centre of the first camera in L [m], and the pixel of the second object's origin."""
     vehicle = scene.vehicles[0]
-    camera = vehicle.virtual_cameras[0]
+    camera = vehicle.parts_of(VirtualCameraSpec)[0]
     robot = read_urdf(DATA / "g500ARM5.urdf")
     base_from_link = link_poses(robot, vehicle.joint_values)[camera.relative_to]
     l_from_camera = (
@@ -264,7 +270,7 @@ def test_a_multibeam_of_2013_gets_angles(tmp_path: Path) -> None:
         ),
         tmp_path,
     )
-    beams = scene.vehicles[0].multibeam_sensors[0]
+    beams = scene.vehicles[0].parts_of(MultibeamSensorSpec)[0]
     assert (beams.init_angle, beams.final_angle, beams.angle_incr) == (-60, 60, 1)
     assert beams.n_beams == 121
 
@@ -279,7 +285,7 @@ def test_a_multibeam_of_2013_without_a_range_measures_as_far_as_those_of_the_ori
         ),
         tmp_path,
     )
-    beams = scene.vehicles[0].multibeam_sensors[0]
+    beams = scene.vehicles[0].parts_of(MultibeamSensorSpec)[0]
     assert (beams.n_beams, beams.range) == (121, 10)
     assert "10 m" in said[0]
 
@@ -308,10 +314,10 @@ def test_devices_and_their_topics_may_stand_in_wrappers_of_either_name(
         tmp_path,
     )
     vehicle = scene.vehicles[0]
-    wrapped = vehicle.simulated_devices.echo if vehicle.simulated_devices else ()
-    assert [sonar.name for sonar in vehicle.profiling_sonars] == ["p"]
-    assert [modem.dccomms_id for modem in vehicle.custom_comms_devices] == ["c"]
-    assert [echo.name for echo in (*vehicle.echos, *wrapped)] == ["e"]
+    wrapped = [echo for box in vehicle.parts_of(SimulatedDevicesSpec) for echo in box.echo]
+    assert [sonar.name for sonar in vehicle.parts_of(ProfilingSonarSpec)] == ["p"]
+    assert [modem.dccomms_id for modem in vehicle.parts_of(CustomCommsDeviceSpec)] == ["c"]
+    assert [echo.name for echo in (*vehicle.parts_of(EchoSpec), *wrapped)] == ["e"]
     interfaces = {type(interface) for interface in scene.ros_interfaces}
     assert {ProfilingSonarROSSpec, CustomCommsDeviceROSSpec} < interfaces
     assert interfaces & {EchoROSSpec, SimulatedDeviceROSSpec}
@@ -328,8 +334,8 @@ def test_several_wrappers_on_one_vehicle_are_read_as_one(tmp_path: Path) -> None
         tmp_path,
     )
     vehicle = scene.vehicles[0]
-    assert vehicle.simulated_devices is not None
-    assert {echo.name for echo in (*vehicle.echos, *vehicle.simulated_devices.echo)} == {"e", "f"}
+    (box,) = vehicle.parts_of(SimulatedDevicesSpec)
+    assert {echo.name for echo in (*vehicle.parts_of(EchoSpec), *box.echo)} == {"e", "f"}
     assert len(scene.ros_interfaces) == 2
 
 
@@ -340,7 +346,7 @@ def test_a_wrapper_with_echoes_alone_stays_as_the_original_has_it(tmp_path: Path
         tmp_path,
     )
     assert said == []
-    assert scene.vehicles[0].echos == ()
+    assert scene.vehicles[0].parts_of(EchoSpec) == ()
 
 
 CURRENT_OF_2013 = (
@@ -409,7 +415,7 @@ def test_a_comms_device_of_2017_becomes_a_custom_one(tmp_path: Path) -> None:
         ),
         tmp_path,
     )
-    device = scene.vehicles[0].custom_comms_devices[0]
+    device = scene.vehicles[0].parts_of(CustomCommsDeviceSpec)[0]
     assert (device.dccomms_id, device.mac, device.bitrate) == ("modem", 3, 100)
     assert device.intrinsic_delay == 2
     assert device.rate_error_model is not None
@@ -429,7 +435,7 @@ def test_physics_water_and_an_old_visible_are_dropped_with_a_warning(tmp_path: P
         tmp_path,
     )
     assert len(said) == 2
-    assert scene.vehicles[0].structured_light_projectors[0].laser
+    assert scene.vehicles[0].parts_of(StructuredLightProjectorSpec)[0].laser
 
 
 def test_a_scene_with_a_wrong_root_says_what_was_expected(tmp_path: Path) -> None:

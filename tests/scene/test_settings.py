@@ -164,7 +164,7 @@ def test_extreme_numbers_are_refused_on_the_command_line_too(setting: str, said:
             VehicleSpec(
                 name="v",
                 file="v.urdf",
-                virtual_cameras=(VirtualCameraSpec(name="c", relative_to="base"),),
+                parts=(VirtualCameraSpec(name="c", relative_to="base"),),
             ),
         ),
         objects=(ObjectSpec(name="o", file="o.obj"),),

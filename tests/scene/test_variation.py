@@ -9,11 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uwsim.devices.sway import SwaySpec
 from uwsim.errors import SceneError
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.scene.settings import apply_setting
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.variation import draw, varied
+from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.simulation import Simulation
 
 BASE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-scene.xml"
@@ -75,7 +77,7 @@ def test_a_value_has_one_stream_however_its_path_is_written(tmp_path: Path) -> N
     stds = [
         varied(scene(tmp_path, f"<u:uniform> {path} {bounds} </u:uniform>"), 7)
         .vehicles[0]
-        .virtual_cameras[0]
+        .parts_of(VirtualCameraSpec)[0]
         .std
         for path in (named, short)
     ]
@@ -99,7 +101,9 @@ def test_whole_numbers_are_drawn_whole_bounds_included(tmp_path: Path) -> None:
     whole = """<u:uniform> <u:path>vehicle.virtualCamera.resw</u:path>
       <u:low>320</u:low> <u:high>323</u:high> </u:uniform>"""
     spec = scene(tmp_path, whole)
-    found = [varied(spec, seed).vehicles[0].virtual_cameras[0].resw for seed in range(80)]
+    found = [
+        varied(spec, seed).vehicles[0].parts_of(VirtualCameraSpec)[0].resw for seed in range(80)
+    ]
     assert set(found) == {320, 321, 322, 323}
     assert all(type(width) is int for width in found)
     assert draw(spec, 0)[0].value == found[0]
@@ -109,7 +113,7 @@ def test_what_has_no_name_is_chosen_by_its_axis_or_number(tmp_path: Path) -> Non
     path = "<u:path>vehicle.sway[x].phase</u:path>"
     uniform = f"<u:uniform> {path} <u:low>-M_PI</u:low> <u:high>M_PI</u:high> </u:uniform>"
     spec = scene(tmp_path, uniform, vehicle=SWAY)
-    assert varied(spec, 1).vehicles[0].sways[0].phase != 0.5
+    assert varied(spec, 1).vehicles[0].parts_of(SwaySpec)[0].phase != 0.5
     [drawn] = draw(spec, 1)
     assert (drawn.path, drawn.unit) == ("vehicle[girona500].sway[x].phase", "rad")
     assert drawn.drawn_from == "uniform -3.14159 to 3.14159"

@@ -28,7 +28,7 @@ def make(
     data_path: tuple[Path, ...] = (),
 ) -> Simulation:
     scene = read_scene(SCENE).nominal
-    vehicle = change(replace(scene.vehicles[0], virtual_cameras=()))
+    vehicle = change(replace(scene.vehicles[0], parts=()))
     simulation = Simulation(
         replace(scene, vehicles=(vehicle,), objects=objects, ros_interfaces=interfaces),
         data_path=data_path,

@@ -22,8 +22,8 @@ PROFILE = ProfileSpec(depth=(0.0, 10.0), density=(1000.0, 1025.0))
 
 
 def two(ocean: OceanStateSpec, *, turned: bool = False) -> SceneSpec:
-    scene = replace(read_scene(SCENE), vary=())
-    girona = replace(scene.vehicles[0], virtual_cameras=())
+    scene = read_scene(SCENE).nominal
+    girona = replace(scene.vehicles[0], parts=())
     rexrov = VehicleSpec(name="rexrov", file="rexrov.urdf", dynamics="rexrov")
     vehicles = (rexrov, girona) if turned else (girona, rexrov)
     return replace(scene, vehicles=vehicles, ocean_state=ocean, ros_interfaces=())

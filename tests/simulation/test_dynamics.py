@@ -21,7 +21,7 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scen
 
 def make(velocity_loop: str = "water") -> Simulation:
     scene = read_scene(SCENE).nominal
-    vehicle = replace(scene.vehicles[0], velocity_loop=velocity_loop, virtual_cameras=())
+    vehicle = replace(scene.vehicles[0], velocity_loop=velocity_loop, parts=())
     simulation = Simulation(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=scene.ros_interfaces[1:])
     )
@@ -172,7 +172,7 @@ def test_a_step_that_the_physics_does_not_bear_is_refused(timestep: float) -> No
 
 def test_without_a_simulated_vehicle_a_step_may_be_long() -> None:
     scene = read_scene(SCENE).nominal
-    vehicle = replace(scene.vehicles[0], dynamics=None, virtual_cameras=())
+    vehicle = replace(scene.vehicles[0], dynamics=None, parts=())
     still = replace(scene, vehicles=(vehicle,), ros_interfaces=())
     Simulation(still, timestep=0.05, is_blind=True).close()
 
@@ -196,7 +196,7 @@ class Asked:
 
 def test_water_is_asked_only_where_it_acts() -> None:
     scene = read_scene(SCENE).nominal
-    vehicle = replace(scene.vehicles[0], virtual_cameras=())
+    vehicle = replace(scene.vehicles[0], parts=())
     simulation = Simulation(replace(scene, vehicles=(vehicle,)), is_blind=True)
     simulation.start()
     asked = Asked()

@@ -142,7 +142,7 @@ def test_a_dead_thruster_draws_nothing_and_half_a_thruster_a_third(
     def broken(spec: VehicleSpec) -> VehicleSpec:
         dead = ThrusterFaultSpec(thruster="surge_port")
         half = ThrusterFaultSpec(thruster="surge_starboard", loss=0.5)
-        return replace(spec, faults=(dead, half))
+        return replace(spec, parts=(dead, half))
 
     simulation = make(INTERFACES, change=broken)
     thrust(simulation, 0.4, 0.4, 0.0, 0.0, 0.0)

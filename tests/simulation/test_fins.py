@@ -16,7 +16,7 @@ from uwsim.simulation import Simulation
 
 def remus() -> Simulation:
     scene = replace(read_scene(bundled("scenes")["remus-scene"]), vary=())
-    vehicle = replace(scene.vehicles[0], virtual_cameras=())
+    vehicle = replace(scene.vehicles[0], parts=())
     commands = tuple(each for each in scene.ros_interfaces if not hasattr(each, "camera_name"))
     made = Simulation(replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=commands))
     made.start()

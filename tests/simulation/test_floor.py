@@ -59,7 +59,7 @@ def thing(x: float, y: float, z: float = 0.0, **changes: object) -> ObjectSpec:
 def opened(*objects: ObjectSpec, frame: SimParamsSpec = UP, rov: bool = False) -> Simulation:
     vehicles = ()
     if rov:
-        vehicles = (replace(read_scene(SCENE).vehicles[0], virtual_cameras=(), name="rov"),)
+        vehicles = (replace(read_scene(SCENE).vehicles[0], parts=(), name="rov"),)
     return Simulation(SceneSpec(sim_params=frame, objects=objects, vehicles=vehicles))
 
 
@@ -242,7 +242,7 @@ def test_a_vehicle_begins_with_its_lowest_link_on_the_floor(align: bool, tmp_pat
     scene = read_scene(SCENE).nominal
     vehicle = replace(
         scene.vehicles[0],
-        virtual_cameras=(),
+        parts=(),
         position=(2.0, 1.0, 0.0),
         on_floor=OnFloorSpec(align_to_slope=align, clearance=-0.003),
     )

@@ -29,7 +29,7 @@ class Grasp:
 
     def __init__(self, mass: float = 12.0, timestep: float = 0.002) -> None:
         scene = read_scene(SCENE).nominal
-        vehicle = replace(scene.vehicles[0], virtual_cameras=(), joint_values=(*ARM, OPEN))
+        vehicle = replace(scene.vehicles[0], parts=(), joint_values=(*ARM, OPEN))
         self.place = vehicle.localized_from_base
         robot = read_urdf(SCENE.parent / "g500ARM5.urdf")
         wrist = self.place @ link_poses(robot, [*ARM, OPEN])["part4_base"]

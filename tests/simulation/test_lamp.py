@@ -36,7 +36,7 @@ def night(*lamps: LampSpec, vr: bool = False) -> SceneSpec:
     return replace(
         scene,
         sim_params=replace(scene.sim_params, light_rate=0.0),
-        vehicles=(replace(vehicle, lamps=lamps, vr=vr),),
+        vehicles=(replace(vehicle, parts=(*vehicle.parts, *lamps), vr=vr),),
     )
 
 

@@ -42,8 +42,7 @@ def arm(folder: Path, scale: tuple[float, float, float], **given: object) -> Sce
         position=(1.0, 2.0, -3.0),
         orientation=(0.3, -0.2, 0.5),
         scale_factor=scale,
-        virtual_cameras=(CAMERA,),
-        lamps=(LampSpec(name="lamp", relative_to="rail", position=(0.1, 0.2, 0.3)),),
+        parts=(CAMERA, LampSpec(name="lamp", relative_to="rail", position=(0.1, 0.2, 0.3))),
     )
     return scene_of(vehicle, **given)
 

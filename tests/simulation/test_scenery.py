@@ -137,7 +137,7 @@ def test_two_vehicles_of_one_name_carry_their_own_cameras(tmp_path: Path) -> Non
             name="twin",
             file=file,
             position=(x, 0.0, 0.0),
-            virtual_cameras=(VirtualCameraSpec(name=f"eye{x}", relative_to="base"),),
+            parts=(VirtualCameraSpec(name=f"eye{x}", relative_to="base"),),
         )
         for x in (1.0, 5.0)
     )
@@ -155,7 +155,7 @@ def test_a_camera_that_looks_at_an_object_has_it_in_the_middle_of_its_image(
     )
     vehicle = VehicleSpec(
         name="r", file=file, orientation=(0.4, 0.3, 0.2), scale_factor=(2.0,) * 3,
-        virtual_cameras=(eye,),
+        parts=(eye,),
     )  # fmt: skip
     thing = ObjectSpec(name="thing", file="objects/blackbox", position=(4.0, 3.0, -2.0))
     simulation = begin(scene_of(vehicle, objects=(thing,)))

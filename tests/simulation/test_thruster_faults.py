@@ -12,7 +12,7 @@ from uwsim.simulation import Simulation
 
 
 def faulty(*faults: ThrusterFaultSpec) -> Simulation:
-    return make(change=lambda vehicle: replace(vehicle, faults=faults))
+    return make(change=lambda vehicle: replace(vehicle, parts=faults))
 
 
 def test_a_dead_thruster_turns_the_vehicle_until_it_works_again() -> None:

@@ -88,7 +88,7 @@ def test_a_sensor_is_published_as_soon_as_its_spec_has_a_bind(
     sensor = DepthSpec(name="depth", relative_to="base_link")
     topic = PressureSensorToROSSpec(name="depth", topic="/depth", rate=100)
     missing = PressureSensorToROSSpec(name="other", topic="/other")
-    vehicle = dataclasses.replace(scene.vehicles[0], pressure_sensors=(sensor,))
+    vehicle = dataclasses.replace(scene.vehicles[0], parts=(sensor,))
     assert not topic.is_simulated()
     monkeypatch.setitem(SENSORS, "pressureSensor", DepthSpec)
     assert topic.is_simulated()

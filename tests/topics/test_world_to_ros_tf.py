@@ -38,11 +38,9 @@ def scene_in(folder: Path, *, with_objects: bool = False) -> SceneSpec:
         file=str(robot),
         position=(10.0, 20.0, 3.0),
         orientation=(0.0, 0.0, math.pi / 2),
-        virtual_cameras=(
+        parts=(
             VirtualCameraSpec(name="bow", relative_to="arm", position=(0.0, 0.0, 0.1)),
-        ),
-        pressure_sensors=(PressureSensorSpec(name="depth", relative_to="base_link"),),
-        multibeam_sensors=(
+            PressureSensorSpec(name="depth", relative_to="base_link"),
             MultibeamSensorSpec(
                 name="fan", relative_to="base_link", init_angle=-60.0, final_angle=60.0,
                 angle_incr=1.0, range=10.0,

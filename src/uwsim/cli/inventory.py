@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..devices.lamp import LampSpec
+from ..devices.sway import SwaySpec
 from ..errors import Diagnostic
 from ..physics.hydrodynamics import FinSpec, VehicleHydrodynamics
 from ..scene.object import ObjectSpec
@@ -44,7 +46,7 @@ def inventory(
         "cameras": [
             _camera(scene, vehicle, camera)
             for vehicle in scene.vehicles
-            for camera in vehicle.virtual_cameras
+            for camera in vehicle.parts_of(VirtualCameraSpec)
         ],
         "objects": [_object(scene, thing) for thing in scene.objects],
         "topics": _topics(scene, simulation),
@@ -109,7 +111,7 @@ def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
         "thrusters": list(actuators.thrusters) if actuators is not None else [],
         "fins": [] if dynamics is None else [_fin(fin) for fin in dynamics.fins],
         "drag_laws": {} if dynamics is None else _drag_laws(dynamics),
-        "lamps": len(spec.lamps),
+        "lamps": len(spec.parts_of(LampSpec)),
         "below": _below(scene, spec, simulation),
     }
 
@@ -118,7 +120,7 @@ def _moves(scene: SceneSpec, spec: VehicleSpec) -> str:
     """How it moves, in a few words."""
     if spec.dynamics is not None:
         return f"simulated in water ({spec.dynamics})"
-    if spec.sways:
+    if spec.parts_of(SwaySpec):
         return "sways, kinematically"
     is_reported = any(
         getattr(interface, "vehicle_name", None) == spec.name and _listens(interface)

@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..schema import REQUIRED, element
 
@@ -25,6 +26,8 @@ class EchoSpec:
 @dataclass(frozen=True, kw_only=True)
 class SimulatedDevicesSpec:
     """A ``<simulatedDevices>``: an optional wrapper around devices."""
+
+    STANDS_ONCE: ClassVar[bool] = True
 
     echo: tuple[EchoSpec, ...] = ()
     """Echo devices."""

@@ -13,13 +13,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..schema import REQUIRED, element
 
 
 @dataclass(frozen=True, kw_only=True)
 class LedArraySpec:
-    """A ``<LedArray>``: topics ``<name>/red`` and ``<name>/green``."""
+    """A ``<LedArray>``: two signal lamps; topics ``<name>/red`` and ``<name>/green``."""
+
+    STANDS_ONCE: ClassVar[bool] = True
 
     name: str
     """Its name, which begins its topics."""

@@ -88,7 +88,8 @@ def _parts(spec: object) -> Iterator[object]:
 @functools.cache
 def _nested(cls: Hashable) -> tuple[str, ...]:
     assert isinstance(cls, type)
-    return tuple(field.name for field in fields_of(cls) if field.kind in ("spec", "choice"))
+    nested = (field.name for field in fields_of(cls) if field.kind in ("spec", "choice"))
+    return tuple(dict.fromkeys(nested))
 
 
 def _child(node: etree._Element, shown: str) -> etree._Element:

@@ -56,7 +56,8 @@ def check_names(
         _check_interface(interface, known, diagnostics)
     _check_sources(scene, diagnostics)
     check_comms(scene, diagnostics)
-    lamps = [lamp for vehicle in scene.vehicles if not vehicle.vr for lamp in vehicle.lamps]
+    drawn = [vehicle for vehicle in scene.vehicles if not vehicle.vr]
+    lamps = [lamp for vehicle in drawn for lamp in vehicle.parts_of(LampSpec)]
     for lamp in lamps[MAX_LAMPS:]:
         diagnostics.error(
             diagnostics.node_of(lamp), f"<u:lamp> {lamp.name!r}: more than {MAX_LAMPS} lamps"
@@ -82,7 +83,7 @@ def _check_links(
     is_its_own: bool,
 ) -> None:
     links = {link.name: None for link in robot.links}
-    for element, part in vehicle.parts():
+    for element, part in vehicle.all_parts():
         link = getattr(part, "relative_to", None) or getattr(part, "target", None)
         if link is None:
             continue
@@ -130,7 +131,7 @@ def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
         "object": {thing.name: None for thing in scene.objects},
     }
     for vehicle in scene.vehicles:
-        for element, part in vehicle.parts():
+        for element, part in vehicle.all_parts():
             name = str(getattr(part, "name", None) or getattr(part, "dccomms_id", ""))
             known.setdefault(element, {})[name] = None
     return known

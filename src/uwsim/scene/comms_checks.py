@@ -47,8 +47,8 @@ def check_comms(scene: SceneSpec, diagnostics: Diagnostics) -> None:
 def comms_devices(scene: SceneSpec) -> Iterator[CommsDeviceSpec]:
     """Every device of every vehicle, in the file's order."""
     for vehicle in scene.vehicles:
-        yield from vehicle.custom_comms_devices
-        yield from vehicle.acoustic_comms_devices
+        yield from vehicle.parts_of(CustomCommsDeviceSpec)
+        yield from vehicle.parts_of(AcousticCommsDeviceSpec)
 
 
 def _channels_of(device: CommsDeviceSpec) -> tuple[str, ...]:

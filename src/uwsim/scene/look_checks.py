@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
+from ..devices.object_picker import ObjectPickerSpec
 from ..schema import Diagnostics, uses_extensions
 from ..sensors.sensor import Looking, Mounted
 from ..sensors.virtual_camera import VirtualCameraSpec
@@ -42,7 +43,7 @@ def check_looks(
                 )
         if not uses_extensions(scene):
             _check_age(stand, diagnostics)
-    cameras = [spec.name for vehicle in scene.vehicles for spec in vehicle.virtual_cameras]
+    cameras = [spec.name for one in scene.vehicles for spec in one.parts_of(VirtualCameraSpec)]
     for name, count in Counter(cameras).items():
         if count > 1:
             diagnostics.warning(
@@ -52,14 +53,7 @@ def check_looks(
 
 def looking(vehicle: VehicleSpec) -> Iterator[Looking]:
     """Everything on a vehicle that looks somewhere."""
-    yield from vehicle.virtual_cameras
-    yield from vehicle.virtual_range_images
-    yield from vehicle.structured_light_projectors
-    yield from vehicle.range_sensors
-    yield from vehicle.multibeam_sensors
-    yield from vehicle.profiling_sonars
-    yield from vehicle.object_pickers
-    yield from vehicle.lamps
+    return (part for part in vehicle.parts if isinstance(part, Looking))
 
 
 def _looks(spec: Mounted, stand: Stand) -> str:
@@ -77,7 +71,7 @@ def _check_age(stand: Stand, diagnostics: Diagnostics) -> None:
     turned: list[Looking] = []
     n_right = 0
     for spec in looking(stand.vehicle):
-        if spec in stand.vehicle.object_pickers or stand.robot.link(spec.relative_to) is None:
+        if isinstance(spec, ObjectPickerSpec) or stand.robot.link(spec.relative_to) is None:
             continue
         is_up, was_up = (
             float(stand.looks(spec, visual=visual)[0][2]) > STEEP for visual in (False, True)

@@ -135,9 +135,10 @@ def locate(spec: Any, path: str) -> Place:
             kind = kinds[name]
             index = _index(current, [isinstance(entry, kind) for entry in current], name, chosen)
             name = f"{field.shown.removeprefix('u:')}.{name}"
-        elif field.kind == "spec" and field.repeated:
+        elif field.kind == "spec" and (field.repeated or field.is_member):
             name = field.shown.removeprefix("u:")
-            index = _index(current, [True] * len(current), name, chosen)
+            fits = [not field.is_member or isinstance(entry, field.type) for entry in current]
+            index = _index(current, fits, name, chosen)
         elif chosen is not None:
             raise BadSetting(f"<{name}> stands once; leave [{chosen}] out.")
         elif field.kind == "spec":

@@ -53,11 +53,11 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
 
 def _cameras(scene: SceneSpec) -> Iterator[VirtualCameraSpec | VirtualRangeImageSpec]:
     for vehicle in scene.vehicles:
-        yield from vehicle.virtual_cameras
-        yield from vehicle.virtual_range_images
+        yield from vehicle.parts_of(VirtualCameraSpec)
+        yield from vehicle.parts_of(VirtualRangeImageSpec)
 
 
 def _fans(scene: SceneSpec) -> Iterator[MultibeamSensorSpec | ProfilingSonarSpec]:
     for vehicle in scene.vehicles:
-        yield from vehicle.multibeam_sensors
-        yield from vehicle.profiling_sonars
+        yield from vehicle.parts_of(MultibeamSensorSpec)
+        yield from vehicle.parts_of(ProfilingSonarSpec)

@@ -16,32 +16,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeVar
 
-from ..devices.acoustic_comms_device import AcousticCommsDeviceSpec
-from ..devices.custom_comms_device import CustomCommsDeviceSpec
-from ..devices.dredge_tool import DredgeToolSpec
-from ..devices.echo import EchoSpec, SimulatedDevicesSpec
-from ..devices.force_sensor import ForceSensorSpec
-from ..devices.lamp import LampSpec
-from ..devices.led_array import LedArraySpec
-from ..devices.object_picker import ObjectPickerSpec
-from ..devices.sway import SwaySpec
-from ..devices.thruster_fault import ThrusterFaultSpec
+from ..devices import DEVICES
+from ..devices.echo import SimulatedDevicesSpec
 from ..geometry import ONE, ZERO, Pose, Triple
-from ..schema import MAX_DISTANCE, element, fields_of
-from ..sensors.dvl_sensor import DvlSensorSpec
-from ..sensors.gps_sensor import GpsSensorSpec
-from ..sensors.imu import ImuSpec
-from ..sensors.multibeam_sensor import MultibeamSensorSpec
-from ..sensors.pressure_sensor import PressureSensorSpec
-from ..sensors.profiling_sonar import ProfilingSonarSpec
-from ..sensors.range_sensor import RangeSensorSpec
-from ..sensors.structured_light_projector import StructuredLightProjectorSpec
-from ..sensors.virtual_camera import VirtualCameraSpec
-from ..sensors.virtual_range_image import VirtualRangeImageSpec
+from ..schema import MAX_DISTANCE, element
+from ..schema.names import local
+from ..sensors import SENSORS
 from .doubts import VehicleDoubt
 from .on_floor import OnFloorSpec
+
+T = TypeVar("T")
+
+ORDER = (
+    "virtualCamera", "structuredLightProjector", "rangeSensor", "objectPicker", "imu",
+    "pressureSensor", "gpsSensor", "dvlSensor", "virtualRangeImage", "multibeamSensor",
+    "ProfilingSonar", "simulatedDevices", "echo", "ForceSensor", "DredgeTool", "CustomCommsDevice",
+    "AcousticCommsDevice", "LedArray",
+)  # fmt: skip
+"""What the original lets a vehicle carry, in the order of its grammar."""
+_CARRIED: dict[str, type] = {**SENSORS, **DEVICES, "simulatedDevices": SimulatedDevicesSpec}
+PARTS: dict[str, type] = {
+    tag: _CARRIED[tag] for tag in (*ORDER, *(tag for tag in _CARRIED if tag not in ORDER))
+}
+"""Element -> spec of everything that a vehicle carries; extensions last."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,75 +78,29 @@ class VehicleSpec:
     scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6)
     """Scale of the whole vehicle along x, y, z of its base: of its meshes, the distances of its
     links, and what is mounted on them; a simulated vehicle has none [1]."""
-    virtual_cameras: tuple[VirtualCameraSpec, ...] = element("virtualCamera", default=())
-    """Colour cameras."""
-    structured_light_projectors: tuple[StructuredLightProjectorSpec, ...] = element(
-        "structuredLightProjector", default=()
-    )
-    """Lasers and lamps."""
-    range_sensors: tuple[RangeSensorSpec, ...] = element("rangeSensor", default=())
-    """Single rays."""
-    object_pickers: tuple[ObjectPickerSpec, ...] = element("objectPicker", default=())
-    """Pickers."""
-    imus: tuple[ImuSpec, ...] = element("imu", default=())
-    """Attitude."""
-    pressure_sensors: tuple[PressureSensorSpec, ...] = element("pressureSensor", default=())
-    """Depth."""
-    gps_sensors: tuple[GpsSensorSpec, ...] = element("gpsSensor", default=())
-    """Position at the surface."""
-    dvl_sensors: tuple[DvlSensorSpec, ...] = element("dvlSensor", default=())
-    """Velocity over ground."""
-    virtual_range_images: tuple[VirtualRangeImageSpec, ...] = element(
-        "virtualRangeImage", default=()
-    )
-    """Depth cameras."""
-    multibeam_sensors: tuple[MultibeamSensorSpec, ...] = element("multibeamSensor", default=())
-    """Fans of beams."""
-    profiling_sonars: tuple[ProfilingSonarSpec, ...] = element("ProfilingSonar", default=())
-    """Stepping sonars; not in the original grammar, though in its users' files."""
-    simulated_devices: SimulatedDevicesSpec | None = None
-    """An optional wrapper around devices."""
-    echos: tuple[EchoSpec, ...] = element("echo", default=())
-    """Echo devices."""
-    force_sensors: tuple[ForceSensorSpec, ...] = element("ForceSensor", default=())
-    """Wrench of contacts."""
-    dredge_tools: tuple[DredgeToolSpec, ...] = element("DredgeTool", default=())
-    """Uncover buried objects."""
-    custom_comms_devices: tuple[CustomCommsDeviceSpec, ...] = element(
-        "CustomCommsDevice", default=()
-    )
-    """Links described by delays."""
-    acoustic_comms_devices: tuple[AcousticCommsDeviceSpec, ...] = element(
-        "AcousticCommsDevice", default=()
-    )
-    """Acoustic modems."""
-    led_array: LedArraySpec | None = element("LedArray", default=None)
-    """Signal lamps."""
+    parts: tuple[object, ...] = element("", choice=PARTS, default=())
+    """Its sensors and devices, in the order of `PARTS`."""
     dynamics: str | None = element(namespaced=True, default=None)
     """Name of the hydrodynamic model, for example g500_physical; without it the vehicle is moved
     by commands alone."""
     velocity_loop: Literal["water", "ground"] = element(namespaced=True, default="water")
     """What the velocity loop of a simulated vehicle measures its speed against."""
-    sways: tuple[SwaySpec, ...] = element("sway", namespaced=True, default=())
-    """Sinusoids about its place, for a vehicle that nobody steers."""
-    faults: tuple[ThrusterFaultSpec, ...] = element("fault", namespaced=True, default=())
-    """Thrusters of a simulated vehicle that fail; of several on one the greatest loss counts."""
-    lamps: tuple[LampSpec, ...] = element("lamp", namespaced=True, default=())
-    """Lamps that light what cameras see."""
     on_floor: OnFloorSpec | None = element(namespaced=True, default=None)
     """Whether it begins on the ground."""
     accepts: tuple[VehicleDoubt, ...] = element("accept", namespaced=True, default=())
     """Warnings of `uwsim check` that do not apply here, because the value is intended; the
     section *Doubts* of the reference lists the names."""
 
-    def parts(self) -> Iterator[tuple[str, object]]:
+    def all_parts(self) -> Iterator[tuple[str, object]]:
         """Element name and spec of everything it carries, in the order of the grammar."""
-        for field in fields_of(VehicleSpec):
-            held = getattr(self, field.name)
-            if field.kind == "spec" and held is not None:
-                yield from ((field.shown, part) for part in (held if field.repeated else (held,)))
-        if self.simulated_devices is not None:
-            yield from (("echo", part) for part in self.simulated_devices.echo)
+        for part in self.parts:
+            yield next(local(tag) for tag, spec in PARTS.items() if isinstance(part, spec)), part
+        for box in self.parts_of(SimulatedDevicesSpec):
+            yield from (("echo", part) for part in box.echo)
+
+    def parts_of(self, kind: type[T]) -> tuple[T, ...]:
+        """Its sensors or devices of one kind."""
+        return tuple(part for part in self.parts if isinstance(part, kind))
 
     @property
     def localized_from_base(self) -> Pose:

@@ -79,7 +79,8 @@ def element(
         namespaced: it is an extension, ``u:name``.
         parts: names of a triple's elements, one letter each.
         item: the element is a list; this is the name of its items.
-        choice: name -> spec of the children that the element may contain, in any number.
+        choice: name -> spec of the children that the element may contain, in any number; with the
+            name "" the element that the spec is read from contains them, each as a field.
         original: how the original reads it.
         refers_to: what of a scene it names (`uwsim.benchmark.unknown_names.LOOK_UP`): a ``body``.
         limits: ``minimum``, ``maximum``, ``above`` and ``below`` of a number.

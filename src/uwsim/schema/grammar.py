@@ -9,6 +9,7 @@ import inspect
 import itertools
 import operator
 import re
+import sys
 import textwrap
 import types
 import typing
@@ -67,15 +68,30 @@ class Field:
     """The spec it belongs to."""
     words: tuple[str, ...] = ()
     """Words that a triple may hold instead of its elements."""
+    is_member: bool = False
+    """Whether it is a member of a choice without a name: those values that have its type."""
 
     @property
     def shown(self) -> str:
         """The name as a user writes it."""
         return local(self.tag)
 
+    def of(self, spec: object) -> Any:
+        """Its value in a spec."""
+        value = getattr(spec, self.name)
+        if not self.is_member:
+            return value
+        members = tuple(each for each in value if isinstance(each, self.type))
+        return members if self.repeated else next(iter(members), None)
+
     @property
     def doc(self) -> str:
-        """Its documentation string."""
+        """Its documentation string; of a member, what its spec or its module begins with."""
+        if self.is_member:
+            _, colon, meaning = (self.type.__doc__ or "").split("\n")[0].partition(": ")
+            module = sys.modules[self.type.__module__].__doc__ or ""
+            line = meaning if colon else module.split("\n")[0]
+            return line[:1].upper() + line[1:]
         return field_docs(self.owner).get(self.name, "")
 
     @property
@@ -125,16 +141,37 @@ def fields_of(cls: type) -> tuple[Field, ...]:
 def _fields_of(cls: Hashable) -> tuple[Field, ...]:
     assert isinstance(cls, type)
     hints = typing.get_type_hints(cls, include_extras=True)
-    return tuple(
+    fields = [
         _field(cls, field, hints[field.name])
         for field in dataclasses.fields(cls)
         if field.init and "path" not in field.metadata
-    )
+    ]
+    return tuple(part for field in fields for part in _members(field))
+
+
+def _members(field: Field) -> Iterator[Field]:
+    """The members of a choice without a name; any other field itself."""
+    if field.kind != "choice" or field.xml.name != "":
+        yield field
+        return
+    for tag, spec in field.type.items():
+        stands_once = getattr(spec, "STANDS_ONCE", False)
+        yield dataclasses.replace(
+            field,
+            tag=tag,
+            kind="spec",
+            type=spec,
+            repeated=not stands_once,
+            optional=stands_once,
+            xml=Xml(namespaced=tag.startswith("{")),
+            default=None if stands_once else (),
+            is_member=True,
+        )
 
 
 def _field(cls: type, field: dataclasses.Field[Any], hint: Any) -> Field:
     xml: Xml = field.metadata.get("xml") or Xml()
-    tag = xml.name or camel(field.name)
+    tag = camel(field.name) if xml.name is None else xml.name
     if xml.namespaced:
         tag = f"{{{NAMESPACE}}}{tag}"
     default: Any = field.default

@@ -41,10 +41,13 @@ def read(
     found = _children(cls, node, diagnostics)
     _read_attributes(table, node, values, diagnostics)
     for field in table:
-        if field.name in values or field.xml.attribute:
+        if field.name in (given or {}) or field.xml.attribute:
             continue
-        value = _read_field(field, node, found.get(field.name, []), diagnostics)
-        if value is not BAD:
+        value = _read_field(field, node, found.get(field.tag, []), diagnostics)
+        if field.is_member:
+            read_one = () if value is BAD else value if field.repeated else (value,)
+            values[field.name] = (*values.get(field.name, ()), *read_one)
+        elif value is not BAD:
             values[field.name] = value
     for field in table:
         if field.name not in values:
@@ -131,7 +134,7 @@ def _children(
             _misplaced(child, last[1], diagnostics)
         if not field.xml.namespaced:
             last = max(last, (index, field.shown))
-        here = found.setdefault(field.name, [])
+        here = found.setdefault(field.tag, [])
         if here and not (field.repeated and field.kind != "choice" and _repeats(field)):
             diagnostics.error(
                 child,

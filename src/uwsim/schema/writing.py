@@ -26,15 +26,15 @@ def uses_extensions(spec: object) -> bool:
     if not dataclasses.is_dataclass(spec) or isinstance(spec, type):
         return False
     return any(
-        (field.xml.namespaced and getattr(spec, field.name) != field.default)
-        or uses_extensions(getattr(spec, field.name))
+        (field.xml.namespaced and field.of(spec) != field.default)
+        or uses_extensions(field.of(spec))
         for field in fields_of(type(spec))
     )  # fmt: skip
 
 
 def _fill(node: etree._Element, spec: object) -> None:
     for field in fields_of(type(spec)):
-        value = getattr(spec, field.name)
+        value = field.of(spec)
         if value is None or (value == field.default and not field.xml.original.required):
             continue
         if field.xml.attribute:

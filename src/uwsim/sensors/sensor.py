@@ -61,6 +61,7 @@ class MountedSensor(Mounted, Protocol):
         """Its name."""
 
 
+@runtime_checkable
 class Looking(Mounted, Protocol):
     """A mounted part with a viewing direction."""
 

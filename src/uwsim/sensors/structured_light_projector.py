@@ -19,7 +19,7 @@ from .sensor import OPTICAL_AXES, LookAt, SensorSpec
 
 @dataclass(frozen=True, kw_only=True)
 class StructuredLightProjectorSpec(SensorSpec):
-    """A ``<structuredLightProjector>``: it shines an image along -z."""
+    """A ``<structuredLightProjector>``: a laser or lamp; it shines an image along -z."""
 
     frame_rpy: ClassVar[tuple[float, float, float]] = OPTICAL_AXES
 

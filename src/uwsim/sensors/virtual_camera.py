@@ -65,7 +65,7 @@ class CameraParametersSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class VirtualCameraSpec(SensorSpec):
-    """A ``<virtualCamera>``: axes as in OpenGL (x right, y up), it looks along -z.
+    """A ``<virtualCamera>``: a colour camera; axes as in OpenGL (x right, y up), it looks along -z.
 
     Without ``parameters``: square pixels, a centred axis, near 0.18 m, far 2000 m.
     """

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Literal
 
 from ..currents import Place, PythonFunctionSpec
+from ..devices.thruster_fault import ThrusterFaultSpec
 from ..errors import Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import MIN_MASS
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
@@ -22,6 +23,7 @@ from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..schema import NAMESPACE, Diagnostics
+from ..sensors.virtual_camera import VirtualCameraSpec
 from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
 from .bodies import find_file
@@ -205,7 +207,7 @@ class Search:
             )
 
     def _follow_thrusters(self, index: int, vehicle: VehicleSpec) -> None:
-        for number, fault in enumerate(vehicle.faults):
+        for number, fault in enumerate(vehicle.parts_of(ThrusterFaultSpec)):
             place = ("vehicle", index, f"{U}fault", number)
             if vehicle.dynamics is None:
                 self._say(
@@ -243,7 +245,9 @@ class Search:
 
     def _follow_interfaces(self) -> None:
         vehicles = {vehicle.name: vehicle for vehicle in reversed(self._scene.vehicles)}
-        cameras = {spec.name for one in self._scene.vehicles for spec in one.virtual_cameras}
+        cameras = {
+            spec.name for one in self._scene.vehicles for spec in one.parts_of(VirtualCameraSpec)
+        }
         carried: dict[str, tuple[type, str]] = {}
         for number, interface in enumerate(self._scene.ros_interfaces):
             place = ("rosInterfaces", 0, "*", number)

@@ -48,7 +48,7 @@ def vehicle_frames(
 
 
 def _sensors(vehicle: VehicleSpec) -> Iterator[MountedSensor]:
-    for _, part in vehicle.parts():
+    for _, part in vehicle.all_parts():
         if isinstance(part, MountedSensor):
             yield part
 

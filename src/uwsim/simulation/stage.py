@@ -70,7 +70,7 @@ class SceneStage(SceneWorld):
     def _bound_devices(self) -> Iterator[Device]:
         lamps: list[MountedLamp] = []
         for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
-            for element, part in spec.parts():
+            for element, part in spec.all_parts():
                 if isinstance(part, DeviceSpec):
                     device = self._bound_device(part, vehicle)
                     if device is None:

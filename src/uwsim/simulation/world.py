@@ -114,7 +114,7 @@ class SceneWorld:
         """Sensors by element and name; where two share both, the first has it."""
         sensors: dict[tuple[str, str], Sensor] = {}
         for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
-            for element, part in spec.parts():
+            for element, part in spec.all_parts():
                 # a sensor on a link that is not there is left out, as in the original
                 with suppress(UnknownName):
                     if isinstance(part, BindsSensor) and not isinstance(part, DeviceSpec):

@@ -42,7 +42,7 @@ def a_box_falls_on_a_slab() -> SceneSpec:
         scale_factor=(4.0, 4.0, 1.0),
         physics=PhysicsSpec(mass=0.0),
     )
-    vehicle = replace(scene.vehicles[0], virtual_cameras=())
+    vehicle = replace(scene.vehicles[0], parts=())
     return replace(scene, vehicles=(vehicle,), objects=(box, slab), ros_interfaces=())
 
 
@@ -145,7 +145,7 @@ def test_a_message_that_no_thruster_takes_is_the_algorithms_error(
 ) -> None:
     scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal
     interface = ROSThrustersToPATSpec(topic="/thrusters", vehicle_name="girona500")
-    vehicle = replace(scene.vehicles[0], virtual_cameras=())
+    vehicle = replace(scene.vehicles[0], parts=())
     scene = replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=(interface,))
     plan = make_plan(tmp_path, algorithm, REPEAT.replace("3<", "1.2<"), scene=scene)
     rows = rows_of(plan)
