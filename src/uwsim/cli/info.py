@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -60,8 +59,7 @@ def info(
         with wrong.kept():
             spec = apply_setting(spec, name, value)
     wrong.check()
-    nominal = dataclasses.replace(spec, vary=())
-    simulation = Simulation(nominal, data_path=folders, is_blind=True, runs_code=False)
+    simulation = Simulation(spec.nominal, data_path=folders, is_blind=True, runs_code=False)
     try:
         found = inventory(spec, simulation, diagnostics_of(path, data_path=folders))
     finally:

@@ -63,7 +63,7 @@ class Scenery:
         """The models of the scene and whose they are."""
         self.water = Water.of(scene.ocean_state, compatibility)
         """The water as it is now; scene updaters change its fog."""
-        self.light = Light(rate=scene.sim_params.light_rate, shadows=scene.has_sun_shadows)
+        self.light = Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene))
         """The sun as it shines now; scene updaters change its rate."""
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
         self._mounted_lamps: tuple[MountedLamp, ...] = ()
@@ -224,3 +224,9 @@ def _shining(lamp: MountedLamp) -> Lamp:
         intensity=spec.intensity,
         casts_shadow=spec.shadow,
     )
+
+
+def _has_sun_shadows(scene: SceneSpec) -> bool:
+    """Whether vehicles and objects cast the sun's shadow."""
+    asked = scene.sim_params.sun_shadow
+    return not scene.is_original if asked is None else asked
