@@ -50,7 +50,6 @@ def scene_in(
     vehicles = []
     for number, name in enumerate(("left", "right"), start=1):
         device = make(f"{name}_modem", number)
-        is_custom = isinstance(device, CustomCommsDeviceSpec)
         vehicles.append(
             VehicleSpec(
                 name=name,

@@ -120,14 +120,14 @@ class SceneSpec:
         return any(vehicle.dynamics is not None for vehicle in self.vehicles)
 
     @property
-    def _is_original_physics(self) -> bool:
+    def is_original_physics(self) -> bool:
         """Whether the original's physics is asked for: ``enablePhysics``, nothing in water."""
         return self.sim_params.enable_physics and not self.is_dynamic
 
     @property
     def has_uwsim_physics(self) -> bool:
         """Whether objects move by the original's physics."""
-        return self._is_original_physics and any(
+        return self.is_original_physics and any(
             physics.is_loose for physics in self.solid_objects.values()
         )
 
@@ -152,7 +152,7 @@ class SceneSpec:
         contacts. Nothing with ``u:solid`` 0.
         """
         objects = {i: thing for i, thing in enumerate(self.objects) if thing.is_solid is not False}
-        if self._is_original_physics:
+        if self.is_original_physics:
             return {i: thing.solid for i, thing in objects.items()}
         if solids := self.simulated_solids:
             return solids
