@@ -14,10 +14,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
-from uwsim.devices.comms import CustomCommsDeviceSpec
 
 from uwsim.cli.check import diagnostics_of
 from uwsim.currents import UwsimSinusoidSpec
+from uwsim.devices.custom_comms_device import CustomCommsDeviceSpec
 from uwsim.devices.echo import EchoSpec, SimulatedDevicesSpec
 from uwsim.errors import SceneError
 from uwsim.geometry import Pose
