@@ -1,4 +1,4 @@
-"""Assets: models by the names that scene files use, from files or made by us.
+"""Assets: models by the names that scene files use, from files or generated.
 
 `load_model` looks for the file (`find.py`), then for a file of the same stem that it can read,
 then for our stand-in of that relative name (`STAND_INS`).
@@ -109,7 +109,7 @@ def _stem(name: str) -> str:
 
 
 def unknown_model(name: str) -> Model:
-    """A labelled box of 0.3 m in the place of a model that is nowhere."""
+    """A labelled box of 0.3 m in place of a model that is not found."""
     label = PurePosixPath(plain_name(name).replace("\\", "/")).stem[:16] or "?"
     return Model(
         name=plain_name(name),

@@ -1,4 +1,4 @@
-"""Where the files named on the command line are: as given, or bundled under a bare name."""
+"""Paths of the files named on the command line: as given, or bundled under a bare name."""
 
 from __future__ import annotations
 

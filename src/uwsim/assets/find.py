@@ -1,4 +1,4 @@
-"""Where files are: the folders that a name is looked for in, in order.
+"""Search of files in an ordered list of folders.
 
 A name is looked for as given; beside the file that names it and in each of that file's parent
 folders, but the home folder and what is above it; in every data path; in ``~/.uwsim/data`` and
@@ -61,7 +61,7 @@ def folders_searched(*, beside: Path | None = None, data_path: tuple[Path, ...] 
 
 
 def _holds_homes(folder: Path) -> bool:
-    """Whether a folder is the user's home or above it: nobody means all of it."""
+    """Whether a folder is the user's home or above it, which is not searched recursively."""
     return folder == folder.parent or Path.home().is_relative_to(folder)
 
 
@@ -75,7 +75,7 @@ def find(name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] =
 
 
 def bundled_robot(name: str) -> Path | None:
-    """Our own robot file of that file name, whatever folder the name says; None without one."""
+    """The bundled robot file of that file name, in whatever folder; None if there is none."""
     wanted = plain_name(name).replace("\\", "/").rpartition("/")[2]
     own = (PACKAGE / folder / wanted for folder in ROBOTS)
     return next((path for path in own if wanted and _is(path, Path.is_file)), None)
@@ -122,7 +122,7 @@ def _paths(names: Sequence[str], searched: Sequence[Path]) -> Iterator[tuple[str
 
 
 def _is(path: Path, kind: Callable[[Path], bool]) -> bool:
-    """Whether the path is of that kind; names no file system can have are simply not there."""
+    """Whether the path is of that kind; a name that no file system can have does not exist."""
     try:
         return kind(path)
     except (OSError, ValueError):

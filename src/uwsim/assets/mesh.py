@@ -1,4 +1,4 @@
-"""Meshes and models: plain arrays, nothing that knows OpenGL or MuJoCo."""
+"""Meshes, textures and models as plain arrays."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..world import Box
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Texture:
-    """An image that is wrapped round a mesh."""
+    """A texture image."""
 
     name: str
     """Names the image; equal names mean equal pixels."""
@@ -47,7 +47,7 @@ class Mesh:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Model:
-    """What a file or a maker yields: meshes in one frame."""
+    """A model: meshes in one frame."""
 
     name: str
     """The name it was asked for by."""

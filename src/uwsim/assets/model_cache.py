@@ -1,4 +1,4 @@
-"""Models that uwsim makes itself, kept on disk between runs: making the tank takes half a second.
+"""Disk cache of generated models: generating the tank takes half a second.
 
 A kept model is found by the hash of everything that makes it: this package's sources and the
 versions of numpy and OpenCV. Nothing that could have been made otherwise is ever read back, nor
@@ -34,7 +34,7 @@ class NotKept(Exception):
 
 @cache
 def made(name: str) -> Model:
-    """Our model of that name in `STAND_INS`: made once, or read back as it was made."""
+    """The generated model of that name in `STAND_INS`, from the cache if possible."""
     file = _folder() / _key() / (name.replace("/", "-") + ".npz")
     try:
         return _read(name, file)
@@ -65,7 +65,7 @@ def _folder() -> Path:
 
 @cache
 def _key() -> str:
-    """Hash of all that our models depend on."""
+    """Hash of everything that generated models depend on."""
     digest = hashlib.sha256()
     package = Path(__file__).parent
     for source in sorted([*package.glob("*.py"), *package.glob("procedural/*.py")]):
@@ -98,7 +98,7 @@ def _write(file: Path, **arrays: Any) -> None:
 
 
 def _image(file: Path, texture: str) -> Path:
-    """Where a texture is kept: beside the models, for several of them share it."""
+    """Path of a texture, next to the models, several of which may share it."""
     return file.parent / ("texture-" + texture.replace("/", "-") + ".npz")
 
 
@@ -127,13 +127,13 @@ def _mesh(kept: Arrays, i: int, file: Path) -> Mesh:
 
 @cache
 def _texture(name: str, file: Path) -> Texture:
-    """One object a texture, however many meshes wear it: they are drawn together."""
+    """Share one texture object between all meshes that use it, so that they are drawn together."""
     kept = _arrays(file)
     return Texture(name=name, pixels=kept["pixels"], repeats=bool(kept["repeats"]))
 
 
 def _arrays(file: Path) -> Arrays:
-    """What `_write` wrote."""
+    """Read the arrays that `_write` wrote."""
     data = disk_cache.read(file)
     if data is None:
         raise NotKept

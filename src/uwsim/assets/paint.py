@@ -1,4 +1,4 @@
-"""The colour that a robot file gives a shape, put over what its mesh brings."""
+"""Colour of a robot file's material, applied to a mesh in place of its own."""
 
 from __future__ import annotations
 

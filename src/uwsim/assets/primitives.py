@@ -1,4 +1,4 @@
-"""The shapes a robot file can name without a mesh: box, cylinder and sphere, as in URDF."""
+"""Geometric primitives of URDF: box, cylinder and sphere."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The models that uwsim makes itself, by the names of UWSim's files without extension."""
+"""Generated replacements of UWSim's model files, by file name without extension."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .mesh import Mesh
 
 @dataclass(frozen=True)
 class StandIn:
-    """How a model is made, and what it is."""
+    """A generated model: its maker and its description."""
 
     make: Callable[[], tuple[Mesh, ...]]
     """Makes the meshes."""
@@ -19,7 +19,7 @@ class StandIn:
 
 
 def _modelled(module: str, maker: str) -> StandIn:
-    """A model by a maker in ``procedural/``, imported when it is first called."""
+    """A model by a function in ``procedural/``, imported at its first call."""
 
     def make() -> tuple[Mesh, ...]:
         from importlib import import_module

@@ -1,4 +1,4 @@
-r"""Weathering: the same model with clouds of light and dark on its textures, each pattern another.
+r"""Weathering: light and dark patches on the textures of a model, different for each pattern.
 
 .. math:: c' = c\,(1 + s\,n_k(u, v))
 

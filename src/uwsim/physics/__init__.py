@@ -1,4 +1,4 @@
-"""The physics room."""
+"""Physics: MuJoCo with hydrodynamics, actuators and contacts."""
 
 from __future__ import annotations
 

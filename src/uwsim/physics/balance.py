@@ -1,4 +1,4 @@
-r"""What a vehicle weighs and displaces as a whole, and how stiffly that holds it upright.
+r"""Weight, buoyancy and hydrostatic stiffness of a vehicle.
 
 A hull whose centre of buoyancy lies a height h above its centre of mass rights itself: leaning by
 an angle it feels the moment
@@ -41,7 +41,7 @@ class Balance:
 
     @property
     def buoyancy(self) -> float:
-        """What is left of it beyond the weight, upwards [N]."""
+        """Net buoyancy: buoyancy less weight, upwards [N]."""
         return GRAVITY * (self.displaced - self.mass)
 
     def stiffness(self, up: Array) -> float:

@@ -205,7 +205,7 @@ def _add_shapes(
     shapes: Sequence[CollisionShape],
     body_from_owner: Pose,
 ) -> None:
-    """Hang the shapes of the owner ``name`` on a body; those of one vehicle do not touch."""
+    """Add the collision shapes of ``name`` to a body; those of one vehicle do not collide."""
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = IMPRATIO
     kind, owner = name.split("/")[:2]
@@ -234,7 +234,7 @@ def _add_shapes(
 def _give_surface(
     spec: mujoco.MjSpec, name: str, shapes: Sequence[CollisionShape], physics: PhysicsSpec
 ) -> None:
-    """Give an object's shapes the friction and the bounce that the file says of them."""
+    """Set the friction and restitution of an object's shapes."""
     if physics.friction is None and physics.restitution is None:
         return
     for i in range(len(shapes)):
@@ -248,7 +248,7 @@ def _give_surface(
 
 
 def damping_ratio(restitution: float) -> float:
-    r"""Return the damping ratio of a contact's spring that throws back with a share of the speed.
+    r"""Return the damping ratio of a contact spring with a coefficient of restitution.
 
     A contact cannot pull, so that it ends when the force is 0 (Schwager and Poeschel, Granular
     Matter 9, 2007): with the ratio z
@@ -273,7 +273,7 @@ def _add_children(
     index: int,
     links: Mapping[str, LinkSpec],
 ) -> None:
-    """Hang the children of a link on its body; ``links`` is empty for a kinematic vehicle."""
+    """Add the child links of a link's body; ``links`` is empty for a kinematic vehicle."""
     for joint in robot.joints:
         if joint.parent != link:
             continue
@@ -303,14 +303,14 @@ def _add_children(
 
 
 def is_geared(joint: JointSpec, robot: RobotSpec) -> bool:
-    """Whether a joint is bound to another so that neither moves alone."""
+    """Whether a joint is coupled to another by a gear."""
     moving = [other.name for other in robot.joints if other.moves]
     is_bound = joint.mimic is not None and joint.mimic.joint in moving
     return is_bound and "slidercrank" not in joint.name
 
 
 def _add_gear(spec: mujoco.MjSpec, joint: str, leader: str, mimic: MimicSpec) -> None:
-    """Bind a joint that mimics to its leader by a stiff spring, as a linkage does."""
+    """Couple a joint that mimics to its leader by a stiff spring, as a linkage does."""
     stiffness, damping = GEAR
     gear = spec.add_tendon(
         name=f"{joint}/gear",

@@ -1,4 +1,4 @@
-"""Where bodies touch, as MuJoCo found it at the beginning of the last step.
+"""Contacts between bodies, as MuJoCo found them at the beginning of the last step.
 
 At the first step of a contact the approach speed is the one at which the two met; later ones are
 what is left of it while they press into each other.

@@ -1,4 +1,4 @@
-"""The faces of a mesh as few flat convex polygons: what a fixed trimesh is touched by.
+"""Decomposition of a mesh's surface into few flat convex polygons, for fixed trimeshes.
 
 Triangles that lie in one plane and share corners are a patch. A patch as large as its convex hull
 is one polygon. Any other is cut along the line of that edge of its border whose halves have the
@@ -74,13 +74,13 @@ def _corners(points: Array) -> Ints:
 
 
 def _groups(corners: Ints) -> list[list[int]]:
-    """Triangles that hang together by corners, in the mesh's order."""
+    """Triangles that are connected by corners, in the mesh's order."""
     everywhere = np.ones((len(corners), 1)), np.zeros((len(corners), 3, 1))
     return _grown(corners, *everywhere)
 
 
 def _patches(triangles: Array, normals: Array) -> list[list[int]]:
-    """Numbers of the triangles that lie in one plane and hang together, in the mesh's order."""
+    """Numbers of the coplanar triangles that are connected, in the mesh's order."""
     return _grown(_corners(triangles), normals, triangles)
 
 

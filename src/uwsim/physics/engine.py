@@ -1,4 +1,4 @@
-"""The state of the bodies: MuJoCo's data, given out as copies."""
+"""The physics engine of a scene: MuJoCo's model and data, read as copies."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ AUTOPILOT_PERIOD = 0.02
 
 
 class Engine:
-    """Where every link and object of a scene is, and how it moves.
+    """The physics engine of a scene: state, forces and step.
 
     Joint vectors hold the movable, non-mimic joints in UWSim's order; mimic joints follow.
     Vehicles with hydrodynamics are simulated, the others stay where they are put.
@@ -163,7 +163,7 @@ class Engine:
 
     @property
     def _engine(self) -> tuple[mujoco.MjData, Array, Array, Array]:
-        """What the engine keeps: its data, and what servos change in its model."""
+        """MuJoCo's data, and the model parameters that servos change."""
         model = self._model
         return (
             copy.copy(self._data),
@@ -208,7 +208,7 @@ class Engine:
         return tuple(numbers)
 
     def step(self, velocity: Array, acceleration: Array, rotation: Array | None = None) -> None:
-        """Let the forces act for one step.
+        """Advance all simulated bodies by one step.
 
         Args:
             velocity: of the water at each body that it acts on, in W, (n, 3) [m/s].
@@ -243,7 +243,7 @@ class Engine:
         self._moved()
 
     def fall(self) -> None:
-        """Let the original's physics act for one step, where the scene asks for it.
+        """Advance the original's physics by one step, if the scene uses it.
 
         Raises:
             RunFailed: the engine warned: what follows would not be true.
@@ -289,7 +289,7 @@ class Engine:
         return self._servos[index]
 
     def actuators(self, index: int) -> Actuators | None:
-        """Return what drives a vehicle; None if it is not simulated."""
+        """Return the actuators of a vehicle; None if it is not simulated."""
         if self._water is None or index not in self._dynamics:
             return None
         return Actuators(
@@ -336,7 +336,7 @@ class Engine:
         return self._twist(index, self.vehicle_pose(index))
 
     def place_vehicle(self, index: int, world_from_base: Pose) -> None:
-        """Put a vehicle somewhere, at rest."""
+        """Set the pose of a vehicle, at rest."""
         qpos = self._frees[index]
         qpos[:3] = world_from_base.position
         qpos[3:] = quaternion_from_rotation(world_from_base.rotation)
@@ -437,7 +437,7 @@ class Engine:
         return twist
 
     def _update_autopilot(self, index: int, autopilot: Autopilot, velocity: Array) -> None:
-        """Let an autopilot think and set its thrusters."""
+        """Update an autopilot and set the commands of its thrusters."""
         assert self._water is not None
         pose = self.vehicle_pose(index)
         twist = self._twist(index, pose)
@@ -469,7 +469,7 @@ class Engine:
 
 
 def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
-    """Put the water round the bodies of a model."""
+    """Install the hydrodynamics of a model."""
     from .hydrodynamics.hydrodynamics import install
 
     return install(model)

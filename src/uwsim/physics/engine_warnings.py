@@ -1,4 +1,4 @@
-"""What the engine warns of: it ends a run with one line, and never in a file of the user's folder.
+"""Warnings of the engine: each ends the run with a one-line error, and no log file is written.
 
 MuJoCo's own way is to print, to append to ``MUJOCO_LOG.TXT`` in the working folder, and to go on:
 with contacts left out, or from the beginning when a number grew beyond all bounds. Every warning
@@ -25,13 +25,13 @@ SINGULAR = int(mujoco.mjtWarning.mjWARN_INERTIA)
 
 
 def hush() -> None:
-    """Keep warnings off screen and disk in this process, unless somebody else listens to them."""
+    """Suppress MuJoCo's warnings in this process, unless another handler is installed."""
     if mujoco.get_mju_user_warning() is None:
         mujoco.set_mju_user_warning(_pass_over)
 
 
 def why_untrue(data: mujoco.MjData, time: float, timestep: float, names: list[str]) -> str:
-    """Say why what follows would not be true, once the engine has warned.
+    """Return why results would be invalid after a warning of the engine.
 
     Args:
         data: the engine's state.
@@ -61,7 +61,7 @@ def why_untrue(data: mujoco.MjData, time: float, timestep: float, names: list[st
 
 
 def speeds_of(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
-    """Which velocities make a speed together: first degree of freedom and how many, (n, 2)."""
+    """Degrees of freedom that form one speed: the first, and how many, (n, 2)."""
     parts = {mujoco.mjtJoint.mjJNT_FREE: (3, 3), mujoco.mjtJoint.mjJNT_BALL: (3,)}
     found = []
     for joint in range(model.njnt):
@@ -74,7 +74,7 @@ def speeds_of(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
 
 @njit
 def too_fast(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
-    """The first degree of freedom of a speed above `MAX_SPEED`, or that is no number; else -1.
+    """The first degree of freedom with a speed above `MAX_SPEED` or not finite; else -1.
 
     Args:
         velocities: of all degrees of freedom [m/s, rad/s].
@@ -93,7 +93,7 @@ def too_fast(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
 def say_too_fast(
     velocities: Array, speeds: npt.NDArray[np.int64], dof: int, time: float, names: list[str]
 ) -> str:
-    """Say which body is too fast, as `why_untrue` does."""
+    """Report which body is too fast, as `why_untrue` does."""
     row = next(i for i, first in enumerate(speeds[:, 0]) if first == dof)
     speed = math.hypot(*velocities[dof : dof + speeds[row, 1]].tolist())
     return (

@@ -1,4 +1,4 @@
-r"""Loose objects in water: mass, buoyancy and drag from a box.
+r"""Free objects in water: mass, buoyancy and drag from a box.
 
 The coefficients of an object are those of the box around its shape: drag
 :math:`\tfrac12\rho C_d A v|v|` on each pair of faces with :math:`C_d` = 1.05, added mass that of
@@ -65,7 +65,7 @@ def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape]
 def loose_hydrodynamics(
     name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float
 ) -> BodyHydrodynamics:
-    """What the water does to an object.
+    """The hydrodynamics of an object.
 
     Args:
         name: of its body in the model.

@@ -1,4 +1,4 @@
-r"""The ground from above: how high and how steep it is, and where a body comes to rest on it.
+r"""The ground: its height and slope, and the pose of a body at rest on it.
 
 The ground is triangles in W, z up. What stands on it is lowered straight down until it touches.
 Two sheets of triangles touch first at a corner of the one above a face of the other, or where two
@@ -39,7 +39,7 @@ CUBE_FACES = np.array(
 
 
 class Ground:
-    """Triangles that carry what stands on them.
+    """The triangles of the ground.
 
     Args:
         triangles: counter-clockwise from where they are seen, in W, (n, 3, 3) [m].
@@ -138,7 +138,7 @@ class Ground:
         return heights[hit], self._doubled[near][hit] > 0.0
 
     def _under(self, body: Array) -> tuple[Array, Array] | None:
-        """The faces that can carry a body, and twice their area seen from above.
+        """The faces below a body, and twice their horizontal area.
 
         They look up, and are no higher above the ground in its middle than it is high.
         """
@@ -204,7 +204,7 @@ def _cross(a: Array, b: Array) -> Array:
 
 
 def _upright(triangles: Array) -> tuple[Array, Array]:
-    """Those triangles that are no walls, and twice their area seen from above."""
+    """The triangles that are not vertical, and twice their horizontal area."""
     a, b, c = triangles[:, 0, :2], triangles[:, 1, :2], triangles[:, 2, :2]
     doubled = _cross(b - a, c - a)
     kept = np.abs(doubled) > 1e-12

@@ -1,4 +1,4 @@
-"""What bodies touch that are put somewhere instead of being simulated.
+"""Contacts of kinematic bodies, which have poses instead of forces.
 
 A vehicle without ``u:dynamics`` goes where it is told, through walls if need be, as in the
 original. Its shapes are laid over those of the objects wherever it is; nothing is pushed. It moves
@@ -25,7 +25,7 @@ MAX_JUMP = 1.0
 
 
 class KinematicContacts:
-    """Shapes laid over each other.
+    """Overlaps of the collision shapes of kinematic bodies.
 
     Args:
         shapes: what can be touched, by the name of its body: ``vehicle/0/base_link``, ``object/1``.
@@ -58,7 +58,7 @@ class KinematicContacts:
         self._is_stale = True
 
     def look(self, step: int) -> None:
-        """Take note of where everything is at a step; to be called at every one."""
+        """Record the poses of all bodies; to be called at every step."""
         self._step = step
         if (version := self._version()) == self._seen:
             return
@@ -109,7 +109,7 @@ class KinematicContacts:
 
 
 class _Mover:
-    """A body that jumps."""
+    """A kinematic body, with the velocity of its last displacement."""
 
     STATE = ("now", "_before", "_jumped_at", "_n_steps")
     """What of it changes as time goes by."""
@@ -122,7 +122,7 @@ class _Mover:
         self._n_steps = 0  # that its last jump took
 
     def look(self, step: int) -> bool:
-        """Take note of where it is; return whether it moved."""
+        """Record its pose; returns whether it moved."""
         pose = self._pose()
         is_there = np.array_equal(pose.position, self.now.position)
         if is_there and np.array_equal(pose.rotation, self.now.rotation):

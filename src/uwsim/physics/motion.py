@@ -1,4 +1,4 @@
-"""The motion of everything that can move, as one row of numbers: for fingerprints."""
+"""Positions and velocities of all movable bodies as one row of numbers, for fingerprints."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..geometry import Array
 
 
 class Motion:
-    """Position and velocity of every body that has joints, read as a copy.
+    """Generalised positions and velocities of every body that has joints, as a copy.
 
     Generalised coordinates: three and a quaternion (wxyz) for a body that is free, one for each
     joint; behind them the velocities. Bodies without a joint follow from these.

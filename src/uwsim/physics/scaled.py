@@ -1,4 +1,4 @@
-r"""A vehicle's ``scaleFactor``: what a scale above the tree of links does to all below it.
+r"""A vehicle's ``scaleFactor``: a scale at the root of the tree of links.
 
 The original scales the vehicle as a whole, L_T_B = T R S, so that a point p of a link K stands at
 
@@ -22,7 +22,7 @@ from .compile import vehicle_body
 
 
 class ScaledLinks:
-    """The links of one scaled vehicle in the engine: they stand apart as its joints turn.
+    """The link poses of one scaled vehicle in the engine.
 
     Args:
         model: of the scene; where the links stand on each other is changed here.
@@ -38,7 +38,7 @@ class ScaledLinks:
         }
 
     def follow(self, values: Array) -> None:
-        """Put every link where the scale puts it, for a joint vector (n,) [rad or m]."""
+        """Set the scaled pose of every link for a joint vector (n,) [rad or m]."""
         poses = link_poses(self._robot, values.tolist())
         positions = joint_positions(self._robot, values.tolist())
         for joint in self._robot.joints:

@@ -1,4 +1,4 @@
-"""What is touched: boxes, balls, cylinders and convex hulls made from meshes.
+"""Collision shapes: boxes, spheres, cylinders and convex hulls made from meshes.
 
 =================  ======================================================================
 collisionShapeType  shape
@@ -130,7 +130,7 @@ def _hull(points: Array) -> CollisionShape:
 
 
 def seen_from(up: Array, triangles: Array) -> Array:
-    """Triangles (n, 3, 3) of the ground, turned over if they are a sheet that looks down.
+    """Triangles (n, 3, 3) of the ground, flipped if they are a sheet that faces down.
 
     A closed mesh looks up as much as down and stays as it is.
     """
@@ -141,7 +141,7 @@ def seen_from(up: Array, triangles: Array) -> Array:
 
 
 def _plates(triangles: Array, name: str) -> tuple[CollisionShape, ...]:
-    """Slabs and prisms behind the faces of triangles (n, 3, 3) [m]."""
+    """Slabs and prisms below the faces of triangles (n, 3, 3) [m]."""
     faces = convex_faces(triangles)
     if len(faces) > MAX_PIECES:
         raise UwsimError(
@@ -156,7 +156,7 @@ def _plates(triangles: Array, name: str) -> tuple[CollisionShape, ...]:
 
 
 def _plate(face: Array, depth: float) -> CollisionShape:
-    """What stands behind a flat convex polygon, (k, 3) [m]: a slab if it is a rectangle."""
+    """The solid behind a flat convex polygon, (k, 3) [m]: a slab if it is a rectangle."""
     edges = np.roll(face, -1, axis=0) - face
     normal = np.cross(face[1:-1] - face[0], face[2:] - face[0]).sum(axis=0)
     normal /= length(normal)

@@ -1,4 +1,4 @@
-r"""The original's own physics: things that fall, roll and are pushed, without any water.
+r"""UWSim's own physics: objects that fall, roll and are pushed, without hydrodynamics.
 
 A scene with ``<enablePhysics> 1`` and no vehicle with ``u:dynamics`` is played by it, as the
 original's engine played it: gravity is that of ``<gravity>`` and 1 m/s² down where it is all zero,
@@ -29,7 +29,7 @@ HEAVY = 1e4
 
 
 class UwsimPhysics:
-    """Objects that forces move, among vehicles that are put somewhere.
+    """Free objects among kinematic vehicles, as in UWSim.
 
     Args:
         scene: what the file says; its ``has_uwsim_physics`` is true.
@@ -79,7 +79,7 @@ class UwsimPhysics:
 
 
 class _Damped:
-    """A loose object whose velocities fade."""
+    """A free object with UWSim's velocity damping."""
 
     def __init__(
         self, physics: PhysicsSpec, model: mujoco.MjModel, data: mujoco.MjData, joint: int
@@ -93,7 +93,7 @@ class _Damped:
         self._middle = model.body_ipos[body].copy()
 
     def slow_down(self) -> None:
-        """Take from its velocities what one step takes."""
+        """Damp its velocities for one step."""
         rotation = self._rotation.reshape(3, 3)
         turning = self._velocity[3:]
         of_middle = self._velocity[:3] + turned(rotation, np.cross(turning, self._middle))
@@ -103,7 +103,7 @@ class _Damped:
 
 
 class _Mover:
-    """A vehicle that jumps: all its joints together."""
+    """A kinematic vehicle with the speed of its last displacement."""
 
     STATE = ("_now", "_velocity", "_since", "_n_steps")
     """What of it changes as time goes by."""
@@ -120,7 +120,7 @@ class _Mover:
         self._n_steps = 0  # that it took
 
     def look(self) -> None:
-        """Take note of where it is, and give it the speed of its last jump."""
+        """Record its pose, and set the speed of its last displacement."""
         data, here = self._data, self._data.qpos[self._q].copy()
         self._since += 1
         if not np.array_equal(here, self._now):

@@ -1,4 +1,4 @@
-"""A vehicle's hydrodynamics file: what a URDF cannot say about a robot in water.
+"""Reads a vehicle's hydrodynamics file, which complements its URDF.
 
 .. code-block:: xml
 
@@ -65,7 +65,7 @@ class VehicleError(FileError):
 
 @dataclass
 class _Parts:
-    """What the files that were read so far have together."""
+    """The contents of all files read so far."""
 
     links: list[str] | None
     """What the robot has; None to take any."""
@@ -254,7 +254,7 @@ def _node_of(spec: object, diagnostics: Diagnostics) -> etree._Element:
 
 
 def _completed(body: BodyHydrodynamics, node: etree._Element) -> BodyHydrodynamics:
-    """The body, with the drag law that its numbers ask for where the file has none."""
+    """The body with its drag law, by default that which its numbers imply."""
     text = {name: (node.findtext(name) or "").strip() for name in ("dragLaw", "shape")}
     first = body.quadratic_damping[:3]
     is_isotropic = len(body.quadratic_damping) == 6 and len(set(first)) == 1 and first[0] > 0.0

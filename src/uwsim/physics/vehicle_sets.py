@@ -1,4 +1,4 @@
-"""Sets of hydrodynamics by name: the bundled ones, and those that lie beside a scene."""
+"""Hydrodynamics files by name: the bundled ones, and those next to a scene."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def bundled_folder() -> Path:
 
 
 def _own_sets(beside: Path | None) -> list[str]:
-    """Names of the hydrodynamics files that lie beside a scene."""
+    """Names of the hydrodynamics files next to a scene."""
     found = []
     with suppress(OSError):
         found_here = [] if beside is None else sorted(beside.parent.glob("*.xml"))

@@ -1,4 +1,4 @@
-r"""The engine's tree of boxes over the fixed shapes, cut where it pays most.
+r"""The engine's bounding volume tree over the fixed shapes, rebuilt by the surface area heuristic.
 
 MuJoCo halves its shapes at the median. The shapes of a tank or a wreck are large plates around a
 hollow, and halves of them overlap in the hollow, just where the vehicles are. Here a node is cut
@@ -56,7 +56,7 @@ def rebuild_world_tree(model: mujoco.MjModel) -> None:
 
 
 def _cut(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, Ints]:
-    """Share out the shapes of a node."""
+    """Split the shapes of a node."""
     middles = low[members] + high[members]
     orders = [members[np.argsort(middles[:, axis], kind="stable")] for axis in range(3)]
     if depth >= MAX_DEPTH:

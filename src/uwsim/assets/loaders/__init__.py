@@ -1,4 +1,4 @@
-"""Readers of mesh files: what trimesh reads, and what `osgconv` can turn into that."""
+"""Readers of mesh files: by trimesh, or converted by `osgconv` first."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def why_not_read(path: Path) -> str:
 def read_model(
     path: Path, *, name: str, within: tuple[Path, ...] = (), max_triangles: int | None = None
 ) -> Model:
-    """The model in a file; read once as long as no file that it is made of changes.
+    """The model in a file, cached until one of its files changes.
 
     Args:
         path: The file.

@@ -105,7 +105,7 @@ def _bytes(path: Path, name: str, original: Path | None) -> bytes:
 
 
 def _too_much(data: bytes, suffix: str) -> str:
-    """Say what a file asks for that is too much, before it is built; empty if nothing is."""
+    """Report which limit a file exceeds, before it is loaded; empty if none."""
     if suffix == ".dae":
         return collada_limits.too_much(data)
     return gltf_limits.too_much(data, suffix) if suffix in (".gltf", ".glb") else ""
@@ -128,7 +128,7 @@ def _is_text(data: bytes, suffix: str) -> bool:
 def _parts(
     path: Path, name: str, within: tuple[Path, ...], original: Path | None
 ) -> list[tuple[Any, Any]]:
-    """The meshes of a file where its nodes put them, and what each looks like."""
+    """The meshes of a file at the poses of its nodes, with their materials."""
     import trimesh
 
     beside = [path.parent, *([] if original is None else [original.parent])]
@@ -167,7 +167,7 @@ def _check_number(path: Path, n_triangles: int) -> None:
 
 
 def _moved(part: Any, transform: npt.NDArray[np.float64]) -> Any:
-    """A copy without its looks: those are not moved, and images not copied."""
+    """A transformed copy without materials, so that images are not copied."""
     import trimesh
 
     moved = trimesh.Trimesh(vertices=part.vertices, faces=part.faces, process=False)
@@ -176,7 +176,7 @@ def _moved(part: Any, transform: npt.NDArray[np.float64]) -> Any:
 
 
 def in_utf8(data: bytes, suffix: str) -> bytes:
-    """What is text in a mesh file or its materials, as UTF-8; other than that it is Latin-1.
+    """The text of a mesh or material file as UTF-8; otherwise it is read as Latin-1.
 
     Old modellers write the comments and names of their users' languages so.
     """

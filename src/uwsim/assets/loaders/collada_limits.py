@@ -1,4 +1,4 @@
-"""How much a Collada file may stand for, looked at before any of it is built.
+"""Limits of Collada files, checked before anything is loaded.
 
 A node may be an instance of another that holds instances itself: ten nodes of ten instances each
 are ten thousand million, in a file of a few kilobytes.
@@ -21,7 +21,7 @@ class _TooDeep(Exception):
 
 
 def too_much(data: bytes) -> str:
-    """Say what of a ``.dae`` file is too much; empty if nothing is.
+    """Report which limit a ``.dae`` file exceeds; empty if none.
 
     What is no XML at all, trimesh says.
     """
@@ -44,7 +44,7 @@ def too_much(data: bytes) -> str:
 
 
 class _Counts:
-    """What each node stands for, each counted once."""
+    """The size of each node with its instances, counted once."""
 
     def __init__(self, root: Element) -> None:
         self._nodes: dict[str, list[Element]] = {}

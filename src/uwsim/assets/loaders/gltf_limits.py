@@ -1,4 +1,4 @@
-"""How much a glTF file may ask for, looked at before any of it is built.
+"""Limits of glTF files, checked before anything is loaded.
 
 A header of a few bytes can stand for any amount of work: an accessor without data is that many
 zeros, and every node is an instance of a mesh.
@@ -22,7 +22,7 @@ HEAD = 20
 
 
 def too_much(data: bytes, suffix: str) -> str:
-    """Say what of a ``.gltf`` or ``.glb`` file is too much; empty if nothing is.
+    """Report which limit a ``.gltf`` or ``.glb`` file exceeds; empty if none.
 
     What is no such file at all, trimesh says.
     """

@@ -1,4 +1,4 @@
-"""What parts of a mesh file look like: their colours and images."""
+"""Materials of a mesh file: colours and textures."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FORMATS = ("BMP", "DDS", "GIF", "JPEG", "MPO", "PNG", "PPM", "SGI", "TGA", "TIFF
 
 
 def check_size(data: bytes, name: object) -> None:
-    """Refuse an image that Pillow does not open because of its size: trimesh would go without.
+    """Refuse an image that is too large for Pillow, which trimesh would silently leave out.
 
     Raises:
         AssetError: it is one.
@@ -44,7 +44,7 @@ Look = tuple[tuple[float, float, float], Texture | None]
 
 
 class Looks:
-    """The looks of the parts of one file; parts of one material share its image."""
+    """The materials of one file; parts of one material share its texture."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -52,7 +52,7 @@ class Looks:
         self._of_material: dict[int, tuple[Any, Look]] = {}
 
     def of(self, visual: Any) -> Look:
-        """Colour and image of what trimesh calls a visual.
+        """Colour and texture of a trimesh visual.
 
         Raises:
             AssetError: its image cannot be read, or is too large.

@@ -1,4 +1,4 @@
-"""Which line of an OBJ file is wrong, once reading it has failed."""
+"""Finds the wrong line of an OBJ file that could not be read."""
 
 from __future__ import annotations
 
@@ -67,5 +67,5 @@ def _is_index(text: str) -> bool:
 
 
 def _is_there(index: int, so_far: int, in_all: int) -> bool:
-    """Whether a number from 1, or one that counts back from here, is that of something."""
+    """Whether an index, from 1 or negative and relative, is valid."""
     return 1 <= index <= in_all if index >= 0 else -index <= so_far

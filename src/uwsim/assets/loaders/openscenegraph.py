@@ -25,7 +25,7 @@ def has_osgconv() -> bool:
 
 
 def without_osgconv(path: Path) -> str:
-    """Say what to install."""
+    """Return an error message that names what to install."""
     return (
         f"{path}: {path.suffix} files are read through osgconv, which is not installed. "
         "Install it with: sudo apt-get install openscenegraph"
@@ -34,7 +34,7 @@ def without_osgconv(path: Path) -> str:
 
 @contextmanager
 def converted(path: Path) -> Iterator[Path]:
-    """The file as OBJ, in a folder that is gone afterwards.
+    """Convert a file to OBJ in a temporary folder.
 
     Images inside the file are written out first; images beside it are found by their name.
 

@@ -1,4 +1,4 @@
-"""Files that a mesh file names: materials, images, buffers; they stay where the mesh is.
+"""Files that a mesh file names: materials, images, buffers; only those in its folder are read.
 
 A name is looked for beside the mesh, as it stands and by its last part alone: exporters write paths
 of their author's machine. What leads out of the folders that were named is an error.
@@ -14,7 +14,7 @@ from ...files.input_files import is_inside
 
 
 class References:
-    """What trimesh asks for the files that a mesh file names.
+    """The resolver with which trimesh opens the files that a mesh file names.
 
     Its readers of formats swallow errors: what was refused is kept, and raised by `check`.
 
@@ -44,7 +44,7 @@ class References:
     __getitem__ = get
 
     def check(self) -> None:
-        """Raise what was refused first, if anything."""
+        """Raise the first error, if any file was refused."""
         for error in self._refused:
             raise error
 

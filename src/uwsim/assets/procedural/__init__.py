@@ -1,1 +1,1 @@
-"""Makers: models and textures that uwsim makes itself, from formulas and named chance."""
+"""Procedural models and textures, from formulas and named random streams."""

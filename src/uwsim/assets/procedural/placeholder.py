@@ -1,4 +1,4 @@
-"""Labelled boxes: they stand for models that are not made yet, in about the right size."""
+"""Labelled boxes as placeholders of about the right size for models that do not exist yet."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ CREASE = 0.85
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """Triangles without sharing: simple to make, move and join."""
+    """Triangles without shared vertices: simple to make, move and join."""
 
     corners: Array
     """(m, 3, 3) [m]: triangle, corner, coordinate."""

@@ -156,7 +156,7 @@ def _wall_under_water() -> Texture:
 
 
 def tank() -> tuple[Mesh, ...]:
-    """The basin, what lies in it, and what stands round it."""
+    """The basin, the objects in it, and its surroundings."""
     wet, dry = _wall_under_water(), concrete("tank/cement", (0.66, 0.65, 0.62), size=256)
     (px, py), pz = IMAGE_SIZE, IMAGE_TOP
     floor_z = -4.85

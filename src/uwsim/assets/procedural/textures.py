@@ -1,4 +1,4 @@
-"""Images to wrap round shapes, painted from named chance: the same bytes in every run."""
+"""Procedural textures from named random streams: the same bytes in every run."""
 
 from __future__ import annotations
 

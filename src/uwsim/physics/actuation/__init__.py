@@ -1,1 +1,1 @@
-"""What drives a vehicle: thrusters, servos of joints, the autopilot, and the power they take."""
+"""Actuation of vehicles: thrusters, joint servos, autopilot, electric power."""

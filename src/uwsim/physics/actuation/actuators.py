@@ -1,4 +1,4 @@
-"""Actuators: what the thrusters and joints of a simulated vehicle do now, and what they draw.
+"""Actuators of a simulated vehicle: present thrusts, efforts and electric power.
 
 Read from the engine's state after a step, not integrated: the thrust that the rotors, as they
 turn now, give in the water around them, and the effort of the servos in that step. Joints that
@@ -111,7 +111,7 @@ class Actuators:
         return self._law.efforts(*self._motors)
 
     def powers(self) -> Array:
-        """What the thrusters draw now, then the joints, (n + m,) [W]."""
+        """Electric power of the thrusters, then of the joints, (n + m,) [W]."""
         self._refresh()
         return self._law.powers(self._tables, self._rotors, self._motors)
 

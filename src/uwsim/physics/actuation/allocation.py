@@ -1,4 +1,4 @@
-r"""Which axes the thrusters of a vehicle can drive, how far, and at what price.
+r"""Thrust allocation: the axes that a vehicle's thrusters drive, and their limits.
 
 One newton of thruster i along its direction d at the place r gives the force and moment
 :math:`(d, (r - r_0) \times d)` about the reference :math:`r_0`; they are the columns of the matrix
@@ -45,7 +45,7 @@ N_POINTS = 401
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Allocation:
-    """What thrusters do together."""
+    """The thrust allocation of a vehicle."""
 
     axes: tuple[int, ...]
     """The axes that are driven, rising."""
@@ -76,14 +76,14 @@ class Allocation:
         return -min(-full[0], self.most[axis]), min(full[1], self.most[axis])
 
     def full_reach(self, axis: int) -> tuple[float, float]:
-        """The same, however far the hull would lean."""
+        """The same without the limit on the heel of the hull."""
         return _reach(self.share[:, self.axes.index(axis)], self.least, self.greatest)
 
 
 def allocate(
     thrusters: Sequence[ThrusterSpec], reference: Array, stiffness: float = math.inf
 ) -> Allocation:
-    """Find what thrusters can do.
+    """Compute the allocation of some thrusters.
 
     Args:
         thrusters: places and directions in the base's frame.
@@ -191,7 +191,7 @@ def _allocation(
 
 
 def _moment(found: Allocation, axis: int) -> Array:
-    """Moments about roll and pitch, where these are not driven, that come with an axis, (6,)."""
+    """Moments about undriven roll and pitch that a force along an axis causes, (6,)."""
     moments = np.abs(product(found.wrenches, found.share[:, found.axes.index(axis)]))
     for other in range(6):
         if other not in (ROLL, PITCH) or other in found.axes:
@@ -200,7 +200,7 @@ def _moment(found: Allocation, axis: int) -> Array:
 
 
 def _reach(column: Array, least: Array, greatest: Array) -> tuple[float, float]:
-    """How far thrusts in this proportion go before the first is at its end, both ways."""
+    """Greatest multiple of a thrust distribution before the first thruster saturates, both ways."""
     ends = []
     for sign in (-1.0, 1.0):
         ways = sign * column

@@ -1,4 +1,4 @@
-r"""Autopilot: what a vehicle's own electronics do with a command.
+r"""Autopilot: the velocity, depth, heading and position loops of a vehicle.
 
 A command is held until the next, of whatever kind; what it takes over begins at the present place.
 
@@ -59,7 +59,7 @@ ALL = (0, 1, 2, 3, 4, 5)
 
 @dataclass(frozen=True, kw_only=True)
 class Gains:
-    """How hard the loops pull."""
+    """Gains of the control loops."""
 
     depth: float = 0.4
     """Heave wished for per depth error [1/s]."""
@@ -75,7 +75,7 @@ Mode = Literal["velocity", "position", "wrench", "thrusters"]
 
 
 class Autopilot:
-    """Velocity loops, holding of depth, heading and position of one vehicle."""
+    """The autopilot of one vehicle: velocity loops; depth, heading and position hold."""
 
     STATE = (
         "_wanted",
@@ -162,11 +162,11 @@ class Autopilot:
 
     @property
     def is_over_ground(self) -> bool:
-        """Whether it wants the velocity over ground now, whatever its loop."""
+        """Whether it needs the velocity over ground now."""
         return self._mode == "position"
 
     def hold(self, world_from_base: Pose) -> None:
-        """Hold depth and heading here, at rest, and forget the past."""
+        """Hold the present depth and heading, at rest, and reset the loops."""
         self._mode, self._takes_over = "velocity", False
         self._wanted[:] = 0.0
         self._model[:] = 0.0
@@ -192,7 +192,7 @@ class Autopilot:
         self._heading = world_from_base.rotation.copy()
 
     def push(self, force: Array, torque: Array) -> None:
-        """Share out a force [N] and a torque about the base's origin [N m], base axes."""
+        """Allocate a force [N] and a torque about the base's origin [N m], base axes."""
         self._mode, self.has_news = "wrench", True
         force, torque = np.clip([force, torque], -MAX_COMMAND, MAX_COMMAND)
         self._wrench = np.concatenate([force, torque - np.cross(self._reference, force)])

@@ -1,4 +1,4 @@
-"""What an autopilot's loops wish for and how thrusters give it, compiled (`autopilot`)."""
+"""Control loops and thrust allocation of an autopilot, compiled (`autopilot`)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Axes = npt.NDArray[np.int64]
 DEPTH, POSITION, HEADING, VELOCITY, INTEGRAL = range(5)
 """Places of the gains, as `loops` takes them."""
 MAX_SPEED = 0.5
-"""What position hold wishes for at most [m/s]."""
+"""Greatest speed that position hold commands [m/s]."""
 MAX_CLIMB_RATE = 0.3
 """What depth hold wishes for at most [m/s]."""
 STEEPEST_DIVE = 0.35
@@ -53,7 +53,7 @@ def loops(
     model: Array,
     integral: Array,
 ) -> Array:
-    """Return the thrusts that the loops on velocity, depth, heading and place ask for, (n,) [N].
+    """Return the thrusts that the velocity, depth, heading and position loops command, (n,) [N].
 
     Args:
         dt: time since the last call [s].
@@ -159,7 +159,7 @@ def loops(
 def within_reach(
     tau: Array, asked: Array, axes: Axes, share: Array, least: Array, greatest: Array
 ) -> Array:
-    """Return the thrusts for as much of surge and sway as the rest leaves room for, (n,) [N].
+    """Return the thrusts with surge and sway reduced to what the other axes leave, (n,) [N].
 
     Who cannot do all keeps upright first, and depth and heading: a pull that is cut off thruster
     by thruster would turn the vehicle over.

@@ -1,4 +1,4 @@
-r"""Power: what the thrusters and joints of a vehicle draw from its battery.
+r"""Electric power that the thrusters and joints of a vehicle draw from its battery.
 
 *Thruster.* A propeller that does not advance must give the water of its disc the power of momentum
 theory (Rankine and Froude; Carlton, *Marine Propellers and Propulsion*, ch. 8):
@@ -62,7 +62,7 @@ def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array
 
 
 def power_errors(thruster: ThrusterSpec) -> list[str]:
-    """Say where the power that a file gives would be below 0."""
+    """Report where the power that a file gives would be below 0."""
     errors = []
     for name, curve, forward in (
         ("power", thruster.power, True),

@@ -1,4 +1,4 @@
-"""What thrusters and joints do and draw, compiled: it is asked at every step (`power`)."""
+"""Thrusts, efforts and electric power, compiled because evaluated at every step (`power`)."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Motors = tuple[float, Ints, Array, Array, Array, Array, Array, Array, Array]
 
 @njit
 def thruster_power(table: Array, thrust: float) -> float:
-    """Return what a thruster draws at a thrust [N], in watts.
+    """Return the electric power of a thruster at a thrust [N], in watts.
 
     Args:
         table: forward and backward (2, 1 + n): scale of the law [W/N^1.5], coefficients of the
@@ -48,7 +48,7 @@ def thruster_power(table: Array, thrust: float) -> float:
 
 @njit
 def joint_power(efficiency: float, copper_loss: float, effort: float, speed: float) -> float:
-    """Return what a joint's motor draws, in watts, at [N m or N] and [rad/s or m/s]."""
+    """Return the electric power of a joint's motor [W] at [N m or N] and [rad/s or m/s]."""
     return max(0.0, effort * speed) / efficiency + copper_loss * effort**2
 
 
@@ -129,7 +129,7 @@ def efforts(
 
 @njit
 def powers(tables: Array, thrusters: Rotors, joints: Motors) -> Array:
-    """Return what the thrusters draw, then the joints, (n + m,) [W].
+    """Return the electric power of the thrusters, then of the joints, (n + m,) [W].
 
     Args:
         tables: of `thruster_power`, (n, 2, 1 + k).

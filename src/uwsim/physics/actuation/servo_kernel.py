@@ -1,4 +1,4 @@
-r"""What servos pull with, compiled: it is computed at every step.
+r"""Joint servos, compiled because evaluated at every step.
 
 .. math:: \tau = k_p (q_d - q) + k_d (\dot q_d - \dot q) + \tau_{load} + k_i \int (q_d - q)\,dt,
           \qquad |\tau| \le \tau_{max}

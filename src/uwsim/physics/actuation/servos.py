@@ -1,4 +1,4 @@
-"""The joints of a simulated vehicle: servos that hold, follow or let go.
+"""Joint servos of a simulated vehicle: position, velocity and effort control.
 
 A servo pulls its joint to a target (`servo_kernel`), with a stiffness and damping that follow from
 its strength, and carries what hangs on the joint. How strong it is and how fast its target moves at
@@ -86,12 +86,12 @@ class Servos:
 
     @property
     def efforts(self) -> Array:
-        """What acts on them, (n,) [N m or N]."""
+        """Forces and torques at the joints, (n,) [N m or N]."""
         acting: Array = self._data.qfrc_actuator[self._dofs] + self._data.qfrc_applied[self._dofs]
         return acting
 
     def put(self, values: Array) -> None:
-        """Put the joints somewhere, at rest, and hold them there."""
+        """Set the joints, at rest, and hold them there."""
         self.aim(dict(enumerate(values.tolist())))
         self._memory[:, TARGET] = self._memory[:, AIM]
         self._memory[:, INTEGRAL] = 0.0
@@ -117,7 +117,7 @@ class Servos:
         self._take_aim()
 
     def push(self, efforts: Mapping[int, float]) -> None:
-        """Let these joints go and act on them with [N m or N], as strong as their servos at most.
+        """Apply efforts [N m or N] to these joints, limited to the strength of their servos.
 
         The others keep what they do.
         """
@@ -129,14 +129,14 @@ class Servos:
         self._take_aim()
 
     def step(self, dt: float) -> None:
-        """Move the targets on by ``dt`` [s] and pull."""
+        """Advance the targets by ``dt`` [s] and set the servos' controls."""
         if self._moves_on:
             self._wanted = np.where(self._is_on, self._wanted + self._speeds * dt, self.positions)
             self._take_aim()
         self._law(dt, self._addresses, self._traits, self._memory, *self._engine)
 
     def _take_aim(self) -> None:
-        """Keep what is wanted within the limits, and let joints that mimic follow it."""
+        """Clamp the targets to the limits, and set those of joints that mimic."""
         positions = joint_positions(self._robot, self._wanted.tolist())
         self._memory[:, AIM] = [positions[name] for name in self._all]
         self._wanted = self._memory[self._vector, AIM]
