@@ -12,7 +12,7 @@ from uwsim.physics.free_objects import (
     loose_hydrodynamics,
     loose_link,
 )
-from uwsim.physics.shapes import MAX_PIECES, CollisionShape, bounds, shapes_of
+from uwsim.physics.shapes import MAX_PIECES, CollisionShape, bounds, convex_shapes, shapes_of
 from uwsim.scene.object import PhysicsSpec
 
 SAME = np.eye(4)
@@ -49,6 +49,26 @@ def test_a_box_is_made_of_the_scaled_and_moved_mesh() -> None:
     (box,) = shapes_of(primitive("box", (1.0, 2.0, 3.0)), placed, "box", is_fixed=False)
     assert box.size == pytest.approx((1.0, 1.0, 1.5))
     assert box.body_from_shape.position == pytest.approx([0.0, 0.0, 5.0])
+
+
+WEDGE = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+OUTWARDS = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+
+
+def test_a_convex_mesh_is_its_hull_and_a_box_stays_a_box() -> None:
+    shapes = convex_shapes(mesh_of(WEDGE, OUTWARDS), np.diag([2.0, 1.0, 1.0, 1.0]))
+    assert shapes is not None
+    assert [shape.kind for shape in shapes] == ["hull"]
+    assert shapes[0].corners == pytest.approx(np.array(WEDGE) * (2.0, 1.0, 1.0))
+    boxes = convex_shapes(primitive("box", (1.0, 2.0, 3.0)), SAME)
+    assert boxes is not None
+    assert [(shape.kind, shape.size) for shape in boxes] == [("box", (0.5, 1.0, 1.5))]
+
+
+def test_a_mesh_with_a_hollow_has_no_convex_shapes() -> None:
+    hollow = [*WEDGE, (0.2, 0.2, 0.2)]
+    triangles = [*OUTWARDS[:3], (1, 2, 4), (2, 3, 4), (3, 1, 4)]
+    assert convex_shapes(mesh_of(hollow, triangles), SAME) is None
 
 
 def test_a_cylinder_lies_along_the_longest_edge() -> None:

@@ -42,6 +42,10 @@ MAX_PIECES = 10_000
 """Plates of one fixed trimesh; with 4000 a scene opens in 3 s and takes 8000 steps/s."""
 THINNEST = 1e-3
 """Least edge of a box [m]."""
+BULGE = 0.01
+"""Of a mesh that counts as convex, share of its longest extent."""
+MAX_FACES = 1000
+"""Of a mesh that is touched as its own hull where it moves."""
 SQUARE = 1e-3
 """How far a rectangle may be from one: cosine of its corner, share of its edge."""
 OPEN = 0.5
@@ -102,6 +106,46 @@ def shapes_of(
             ),
         )
     return (box,)
+
+
+def convex_shapes(
+    model: Model, body_from_mesh: npt.NDArray[np.float64]
+) -> tuple[CollisionShape, ...] | None:
+    """Return the hull of each material of a model, a box's as box; None if one is not convex.
+
+    Args:
+        model: its meshes.
+        body_from_mesh: where they are on the body, with their scale, (4, 4) [m].
+    """
+    turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
+    hulls = []
+    for mesh in model.meshes:
+        points = placed(mesh.vertices.astype(np.float64), turn, shift)
+        if len(mesh.triangles) > MAX_FACES or not is_convex(points[mesh.triangles]):
+            return None
+        hulls.append(box_around(points) if _is_box(points) else _hull(points))
+    return tuple(hulls)
+
+
+def _is_box(points: Array) -> bool:
+    """Whether all points are corners of the box around them: flat pairs of boxes hold best."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    near = SQUARE * (high - low)
+    return bool(np.all((points - low <= near) | (high - points <= near)))
+
+
+def is_convex(triangles: Array) -> bool:
+    """Whether no corner of triangles (n, 3, 3) is in front of any by more than `BULGE`."""
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    sizes = np.linalg.norm(normals, axis=1)  # (n,) [m2]
+    has_area = sizes > 0.0
+    if not has_area.any():
+        return False
+    normals = normals[has_area] / sizes[has_area, None]
+    offsets = np.sum(normals * triangles[has_area, 0], axis=1)  # (n,) [m]
+    corners = triangles.reshape(-1, 3)
+    out = float((product(corners, normals.T) - offsets).max())
+    return out <= BULGE * float(np.ptp(corners, axis=0).max())
 
 
 def box_around(points: Array) -> CollisionShape:

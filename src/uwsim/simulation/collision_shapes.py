@@ -1,7 +1,8 @@
 """Collision shapes of the bodies of a scene.
 
-Every link of a vehicle, as the box around its collision geometry, else around what is seen of it,
-and the objects that `uwsim.scene.spec.SceneSpec.solid_objects` names. Where a vehicle is simulated,
+Every link of a vehicle, as the box around its collision geometry, else around what is seen of it;
+a finger, a link at the end of a chain that a joint moves, as its mesh where that is convex. And the
+objects that `uwsim.scene.spec.SceneSpec.solid_objects` names. Where a vehicle is simulated,
 or the scene asks for the original's physics, an object is loose if it has a mass and is not
 ``isKinematic``; elsewhere it stands still. Solid scenery without ``<physics>`` is its faces; of a
 mesh of more than `MAX_TRIANGLES` those of a simpler one. Not modelled: contacts of a vehicle with
@@ -22,7 +23,7 @@ from ..geometry import Array, Pose
 from ..linear import placed, product, turned
 from ..physics.compile import object_body, vehicle_body
 from ..physics.ground import triangles_of
-from ..physics.shapes import TRIMESHES, CollisionShape, seen_from, shapes_of
+from ..physics.shapes import TRIMESHES, CollisionShape, convex_shapes, seen_from, shapes_of
 from ..scene.kinematics import link_poses
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.spec import SceneSpec
@@ -92,12 +93,19 @@ def collision_shapes(
         )
     for index in vehicles:
         robot = robots[index]
+        fingers = _fingers(robot)
         stretches = _stretches(robot, scene.vehicles[index])
         for link in robot.links:
             boxes = [
                 box
                 for solid in link.solids
-                for box in _boxes(solid, stretches.get(link.name), robot, data_path)
+                for box in _solid_shapes(
+                    solid,
+                    stretches.get(link.name),
+                    robot,
+                    data_path,
+                    is_finger=link.name in fingers,
+                )
             ]
             if boxes:
                 shapes[vehicle_body(index, link.name)] = tuple(boxes)
@@ -119,8 +127,19 @@ def _stretches(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
     }
 
 
-def _boxes(
-    solid: VisualSpec, stretch: Array | None, robot: RobotSpec, data_path: tuple[Path, ...]
+def _fingers(robot: RobotSpec) -> set[str]:
+    """Links that a joint moves and that carry no other."""
+    parents = {joint.parent for joint in robot.joints}
+    return {joint.child for joint in robot.joints if joint.moves} - parents
+
+
+def _solid_shapes(
+    solid: VisualSpec,
+    stretch: Array | None,
+    robot: RobotSpec,
+    data_path: tuple[Path, ...],
+    *,
+    is_finger: bool,
 ) -> list[CollisionShape]:
     """The collision shape of one shape of a link, in the link's frame."""
     model, scale = visual_model(solid, Path(robot.path).parent, data_path)
@@ -130,9 +149,11 @@ def _boxes(
         turn = link_from_solid.rotation
         solid_from_mesh[:3, :3] = product(turn.T, product(stretch, turn)) * scale
         link_from_solid = Pose(turned(stretch, link_from_solid.position), turn)
+    shapes = convex_shapes(model, solid_from_mesh) if is_finger else None
+    if shapes is None:
+        shapes = shapes_of(model, solid_from_mesh, "box", is_fixed=False)
     return [
-        replace(shape, body_from_shape=link_from_solid @ shape.body_from_shape)
-        for shape in shapes_of(model, solid_from_mesh, "box", is_fixed=False)
+        replace(shape, body_from_shape=link_from_solid @ shape.body_from_shape) for shape in shapes
     ]
 
 
