@@ -37,20 +37,40 @@ BIG = 1e7
 """Numbers from here on are written with an exponent."""
 
 
+@dataclass(frozen=True)
+class CellText:
+    """A value as text, and its limits: ``1.83 [1.71, 1.99]``."""
+
+    value: str
+    """``1.83``; ``-`` where there is nothing."""
+    limits: str = ""
+    """``1.71, 1.99``; empty where there are none."""
+
+    def __str__(self) -> str:
+        return f"{self.value} [{self.limits}]" if self.limits else self.value
+
+
 @dataclass(frozen=True, kw_only=True)
 class LevelLine:
     """One level, as text."""
 
     level: tuple[float, ...]
     """The swept parameters."""
-    cells: tuple[str, ...]
-    """Level, measures, total, ended_at; ``-`` where there is nothing."""
+    cells: tuple[CellText, ...]
+    """Level, measures, total, ended_at."""
     status: str
-    """``ok``, ``lost``, ... or, over repeats, ``8 of 10 ok, 44 to 97 %``."""
+    """``ok``, ``lost``, ... or, over repeats, ``8 of 10 ok``."""
+    rate: str
+    """Limits of that rate: ``44 to 97 %``; empty without repeats."""
     ok: bool
     """Whether every repeat ended ``ok``."""
     why: str
     """The reasons, each once; over repeats: how many ended how."""
+
+    @property
+    def status_text(self) -> str:
+        """Status and rate: ``8 of 10 ok, 44 to 97 %``."""
+        return f"{self.status}, {self.rate}" if self.rate else self.status
 
 
 def shown_columns(result: Result) -> tuple[Column, ...]:
@@ -61,12 +81,12 @@ def shown_columns(result: Result) -> tuple[Column, ...]:
 def lines(result: Result) -> tuple[LevelLine, ...]:
     """Return the table's lines, a line a level; repeats are gathered."""
     levels = rows_by_level(result)
-    texts: list[list[str]] = []
+    texts: list[list[CellText]] = []
     for i, column in enumerate(shown_columns(result)):
         if column.kind == "level":
             numbers = [level[i] for level in levels]
             decimals = exact_decimals(numbers)
-            texts.append([number_text(value, decimals) for value in numbers])
+            texts.append([CellText(number_text(value, decimals)) for value in numbers])
         else:
             intervals = [entry.interval for entry in per_level(result, column.name)]
             decimals = sensible_decimals([i.mean for i in intervals if i.mean is not None])
@@ -76,6 +96,7 @@ def lines(result: Result) -> tuple[LevelLine, ...]:
             level=level,
             cells=tuple(text[n] for text in texts),
             status=_status(result, rows),
+            rate=_rate(result, rows),
             ok=all(status == "ok" for status in _statuses(result, rows)),
             why=_why(result, rows),
         )
@@ -93,10 +114,10 @@ def table(result: Result, *, width: int = 80) -> Table:
     columns = shown_columns(result)
     heads = [_head(result, column) for column in columns]
     wide = [
-        max([len(name), len(unit), *(len(line.cells[i]) for line in shown)])
+        max([len(name), len(unit), *(len(str(line.cells[i])) for line in shown)])
         for i, (name, unit) in enumerate(heads)
     ]
-    last = max([len("status"), *(len(line.status) for line in shown)])
+    last = max([len("status"), *(len(line.status_text) for line in shown)])
     fitting = _fitting(columns, wide, width - last)
     drawn = Table(box=None, pad_edge=False, header_style="bold", caption_justify="left")
     for i in fitting:
@@ -109,7 +130,7 @@ def table(result: Result, *, width: int = 80) -> Table:
         drawn.add_column(Text(""), overflow="fold")
     above = ""
     for line in shown:
-        cells = [*(line.cells[i] for i in fitting), line.status]
+        cells = [*(str(line.cells[i]) for i in fitting), line.status_text]
         if len(drawn.columns) > len(cells):
             cells.append("as above" if line.why and line.why == above else line.why)
             above = line.why
@@ -141,15 +162,15 @@ def unit_of(result: Result, column: Column) -> str:
     return added.pop() or "" if len(added) == 1 else ""
 
 
-def interval_text(interval: Interval, decimals: int) -> str:
+def interval_text(interval: Interval, decimals: int) -> CellText:
     """Return ``1.83 [1.71, 1.99]``, ``1.83`` without limits, ``-`` without values."""
     if interval.mean is None:
-        return GAP
+        return CellText(GAP)
     text = number_text(interval.mean, decimals)
     if interval.low is None or interval.high is None:
-        return text
+        return CellText(text)
     low, high = number_text(interval.low, decimals), number_text(interval.high, decimals)
-    return text if low == high == text else f"{text} [{low}, {high}]"
+    return CellText(text, "" if low == high == text else f"{low}, {high}")
 
 
 def rate_text(found: Rate) -> str:
@@ -186,7 +207,7 @@ def _notes(shown: Sequence[LevelLine], n_levels: int) -> list[str]:
     """One note for each run of lines with the same reason: ``1.20 to 1.30: tracker lost ...``."""
     notes = []
     for why, run in itertools.groupby(shown, key=lambda line: line.why):
-        at = [" ".join(line.cells[:n_levels]) for line in run]
+        at = [" ".join(map(str, line.cells[:n_levels])) for line in run]
         if why:
             notes.append(f"{at[0]} to {at[-1]}: {why}" if len(at) > 1 else f"{at[0]}: {why}")
     return notes
@@ -202,9 +223,13 @@ def _status(result: Result, rows: Sequence[int]) -> str:
     found = _statuses(result, rows)
     if len(found) < 2:
         return "".join(found)
-    n_ok = found.count("ok")
-    limits = rate(n_ok, len(found))
-    return f"{n_ok} of {len(found)} ok" + (f", {rate_text(limits)}" if limits else "")
+    return f"{found.count('ok')} of {len(found)} ok"
+
+
+def _rate(result: Result, rows: Sequence[int]) -> str:
+    found = _statuses(result, rows)
+    limits = rate(found.count("ok"), len(found)) if len(found) > 1 else None
+    return "" if limits is None else rate_text(limits)
 
 
 def _why(result: Result, rows: Sequence[int]) -> str:

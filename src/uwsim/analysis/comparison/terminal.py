@@ -198,7 +198,7 @@ def _line(
         n=str(d.difference.n),
         first=_mean(d.first, places),
         second=_mean(d.second, places),
-        difference=interval_text(d.difference, fine),
+        difference=str(interval_text(d.difference, fine)),
         g="-" if d.hedges_g is None else f"{d.hedges_g:.2f}",
         a="-" if d.superiority is None else f"{d.superiority:.2f}",
         p=p_text(d.p_holm),

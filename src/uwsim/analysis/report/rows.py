@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...results.result import Column, Result
-from ...results.table import exact_decimals, lines, shown_columns, unit_of
+from ...results.table import GAP, CellText, exact_decimals, lines, shown_columns, unit_of
 from ..plots import written_unit
 from .outcomes import kind_of
 
@@ -50,12 +50,11 @@ def level_rows(result: Result) -> list[TableRow]:
     above = ""
     outer: tuple[float, ...] | None = None
     for line in lines(result)[:MAX_LINES]:
-        status, _, rate = line.status.partition(" ok, ")
         found.append(
             TableRow(
-                cells=tuple(_split(cell) for cell in line.cells),
-                status=f"{status} ok" if rate else line.status,
-                rate=rate,
+                cells=tuple(_printed(cell) for cell in line.cells),
+                status=line.status,
+                rate=line.rate,
                 ok=line.ok,
                 why=_told_once(line.why, above),
                 begins=outer is not None and line.level[:-1] != outer,
@@ -95,11 +94,10 @@ def _told_once(why: str, above: str) -> str:
     return why
 
 
-def _split(cell: str) -> tuple[str, str]:
-    """``1.83 [1.71, 1.99]`` as value and interval; signs and gaps as they are printed."""
-    value, bracket, rest = cell.partition(" [")
-    value = "–" if value == "-" else value.replace("-", "−")
-    return value, (bracket.strip() + rest).replace("-", "−")
+def _printed(cell: CellText) -> tuple[str, str]:
+    """Value and interval, with signs and gaps as they are printed."""
+    value = "–" if cell.value == GAP else cell.value.replace("-", "−")
+    return value, f"[{cell.limits}]".replace("-", "−") if cell.limits else ""
 
 
 def _cell(result: Result, row: int, column: Column, decimals: int | None) -> tuple[str, str]:
