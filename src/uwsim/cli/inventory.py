@@ -123,7 +123,7 @@ def _moves(scene: SceneSpec, spec: VehicleSpec) -> str:
     if spec.parts_of(SwaySpec):
         return "sways, kinematically"
     is_reported = any(
-        getattr(interface, "vehicle_name", None) == spec.name and _listens(interface)
+        getattr(interface, "vehicle_name", None) == spec.name and interface.subscribes
         for interface in scene.ros_interfaces
     )
     return "kinematic: goes where messages put it" if is_reported else "stands still"
@@ -215,7 +215,7 @@ def _topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
     found = []
     for interface in scene.ros_interfaces:
         name = element_of(interface)
-        is_heard = _listens(interface)
+        is_heard = interface.subscribes
         for field in ("topic", "image_topic", "info_topic"):
             topic = getattr(interface, field, "")
             if not topic:
@@ -233,12 +233,6 @@ def _topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
                 }
             )
     return found
-
-
-def _listens(interface: InterfaceSpec) -> bool:
-    """Whether an interface takes messages; the others give some."""
-    name = type(interface).__name__
-    return name.startswith("ROS")
 
 
 def _of(interface: InterfaceSpec) -> str:

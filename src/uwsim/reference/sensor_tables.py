@@ -53,11 +53,10 @@ def _topics(*, simulated: bool) -> str:
     for tag, spec in INTERFACES.items():
         name = f"u:{local(tag)}" if tag.startswith("{") else tag
         summary = (spec.__doc__ or "").strip().split("\n")[0]
-        if not summary.startswith("Publishes"):
-            continue
-        if simulated is (limit_in("interfaces", name) == ""):
-            elements = {field.shown: field for field in fields_of(spec)}
-            topics = ", ".join(f"`{each}`" for each in elements if each.lower().endswith("topic"))
+        elements = {field.shown: field for field in fields_of(spec)}
+        topics = ", ".join(f"`{each}`" for each in elements if each.lower().endswith("topic"))
+        publishes = not spec.subscribes and (topics or spec.carries())
+        if publishes and simulated is (limit_in("interfaces", name) == ""):
             rate = f"{elements['rate'].default} Hz" if "rate" in elements else "-"
             rows.append((_linked(name), summary, topics or "-", rate))
     return _table(("element of `<rosInterfaces>`", "what it does", "topics", "default rate"), rows)

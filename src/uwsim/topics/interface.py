@@ -64,6 +64,8 @@ class Binds(Protocol):
 class InterfaceSpec:
     """An element of ``<rosInterfaces>``."""
 
+    subscribes: ClassVar[bool] = False
+    """Whether it takes messages; the others publish them."""
     sources: ClassVar[tuple[str, ...]] = ()
     """Elements of which it may name one; none: it names nothing."""
     messages: ClassVar[Mapping[str, type]] = {}

@@ -24,6 +24,8 @@ from .ros_twist_to_pat import Gap
 class ROSJointStateToArmSpec(VehicleTopicSpec):
     """Moves the joints of a vehicle by sensor_msgs/JointState."""
 
+    subscribes: ClassVar[bool] = True
+
     messages: ClassVar[Mapping[str, type]] = {"topic": JointState}
 
     def bind(self, world: TopicWorld) -> JointCommand:

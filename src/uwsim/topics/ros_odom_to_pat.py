@@ -21,6 +21,8 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
     twist.
     """
 
+    subscribes: ClassVar[bool] = True
+
     messages: ClassVar[Mapping[str, type]] = {"topic": Odometry}
 
     def bind(self, world: TopicWorld) -> OdometryCommand:

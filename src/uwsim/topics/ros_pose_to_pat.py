@@ -18,6 +18,8 @@ from .interface import Interface, TopicWorld, VehicleTopicSpec
 class ROSPoseToPATSpec(VehicleTopicSpec):
     """Moves a vehicle by geometry_msgs/Pose."""
 
+    subscribes: ClassVar[bool] = True
+
     messages: ClassVar[Mapping[str, type]] = {"topic": PoseMessage}
 
     def bind(self, world: TopicWorld) -> PoseCommand:

@@ -29,6 +29,8 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
     It goes on for the time since the message before; nothing is held after more than 1 s.
     """
 
+    subscribes: ClassVar[bool] = True
+
     messages: ClassVar[Mapping[str, type]] = {"topic": TwistStamped}
 
     def bind(self, world: TopicWorld) -> TwistCommand:

@@ -25,6 +25,8 @@ from .interface import Interface, TopicWorld, VehicleTopicSpec
 class AutopilotTopicSpec(VehicleTopicSpec):
     """An interface of a vehicle that must be simulated."""
 
+    subscribes: ClassVar[bool] = True
+
     topic: str = element(namespaced=True)
     """Name of the topic."""
     vehicle_name: str = element(namespaced=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..schema import element
 from .interface import InterfaceSpec
@@ -11,6 +12,8 @@ from .interface import InterfaceSpec
 @dataclass(frozen=True, kw_only=True)
 class ROSImageToHUDSpec(InterfaceSpec):
     """Shows images of a topic in the viewer."""
+
+    subscribes: ClassVar[bool] = True
 
     width: int = element(minimum=1)
     """Columns of the images [px]."""
@@ -33,6 +36,8 @@ class ROSImageToHUDSpec(InterfaceSpec):
 @dataclass(frozen=True, kw_only=True)
 class ROSPointCloudLoaderSpec(InterfaceSpec):
     """Shows sensor_msgs/PointCloud2 in the scene."""
+
+    subscribes: ClassVar[bool] = True
 
     topic: str
     """Name of the topic."""
