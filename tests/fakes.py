@@ -11,6 +11,7 @@ import numpy as np
 from uwsim import rng
 from uwsim.bus import Bus
 from uwsim.errors import AssetNotFound, UnknownName
+from uwsim.geodesy import Geodetic
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.network import Network
 from uwsim.world import Actuators, Body, Box, Camera, Contact, Flow
@@ -166,6 +167,13 @@ class FakeWorld:
         if not path.is_file():
             raise AssetNotFound(f"{name!r} is not beside {beside}.", name=name)
         return path
+
+    @property
+    def ned_origin(self) -> Geodetic:
+        return Geodetic(latitude=0.0, longitude=0.0)
+
+    def datagrams(self, port: int) -> Callable[[], Sequence[bytes]]:
+        return tuple
 
     def set_fog(self, density: float) -> None:
         self.fog = density

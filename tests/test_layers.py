@@ -12,6 +12,7 @@ PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
 GROUND = {
     "errors",
     "geometry",
+    "geodesy",
     "rng",
     "compatibility",
     "environment",

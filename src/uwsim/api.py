@@ -33,6 +33,7 @@ def load(
     timestep: float = TIMESTEP,
     settings: Mapping[str, Setting] | None = None,
     data_path: Sequence[str | Path] = (),
+    udp_address: str | None = None,
 ) -> Simulation:
     """Open a scene at step 0; its first messages go out with the first `advance`.
 
@@ -43,6 +44,8 @@ def load(
         settings: values of the scene to change, as ``--set`` names them:
             ``{"oceanState.fog.density": 0.4}``.
         data_path: more folders in which files are looked for.
+        udp_address: of this computer, at which vehicles with ``<fdm>`` take UDP packets, for
+            example ``127.0.0.1``; without it they take none, and the run can be repeated.
 
     Raises:
         UwsimError: a file, a name or a setting is wrong; names all errors of the file.
@@ -57,7 +60,9 @@ def load(
         scene = read_scene(scene_file(str(scene), folders))
     for path, value in (settings or {}).items():
         scene = apply_setting(scene, path, str(value))
-    return Simulation(scene, seed=seed, timestep=timestep, data_path=folders)
+    return Simulation(
+        scene, seed=seed, timestep=timestep, data_path=folders, udp_address=udp_address
+    )
 
 
 def bench(

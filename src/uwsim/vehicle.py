@@ -111,3 +111,11 @@ class Vehicle(Protocol):
         Raises:
             UnknownName: it has no such thruster.
         """
+
+
+def go_or_place(vehicle: Vehicle, world_from_base: Pose) -> None:
+    """Put a vehicle somewhere, at rest; a simulated one has its autopilot bring it there."""
+    if (autopilot := vehicle.autopilot) is not None:
+        autopilot.go_to(world_from_base)
+    else:
+        vehicle.place(world_from_base)

@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from .acoustics import Material, SeaWater
 from .bus import Bus
+from .geodesy import Geodetic
 from .geometry import Intrinsics, Pose
 from .network import Network
 from .rays import Hits
@@ -177,6 +178,16 @@ class Stage(World, Protocol):
     @property
     def network(self) -> Network:
         """The packets between communication devices."""
+
+    @property
+    def ned_origin(self) -> Geodetic:
+        """Where on Earth the origin of W is."""
+
+    def datagrams(self, port: int) -> Callable[[], Sequence[bytes]]:
+        """Return what returns the UDP packets that have come to a port since its last call.
+
+        There are none where the simulation takes none.
+        """
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:

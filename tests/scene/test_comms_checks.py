@@ -42,7 +42,11 @@ def test_devices_that_fit_together_are_simulated_without_a_word(tmp_path: Path) 
         ({"formula": "0.01*x"}, "error", "no variable is called 'x'"),
         ({"formula": "0.01*("}, "error", "ends too early"),
         ({"unit": "word"}, "error", "word"),
-        ({"channel": 4}, "warning", "no <CustomCommsChannel> has the id 4"),
+        (
+            {"channel": 4},
+            "warning",
+            "no <CustomCommsChannel> has the id 4; one with the defaults is used",
+        ),
         ({"protocol": "FAMA"}, "warning", "read as ALOHA; known: ALOHA, slottedALOHA, CSMA"),
         ({"mac": -1}, "error", "-1"),
     ],

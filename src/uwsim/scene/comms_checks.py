@@ -33,7 +33,7 @@ def check_comms(scene: SceneSpec, diagnostics: Diagnostics) -> None:
                 kind, _, number = channel.partition("/")
                 element = {"custom": "CustomCommsChannel", "acoustic": "AcousticCommsChannel"}[kind]
                 said = f"{device.name!r}: no <{element}> has the id {number}"
-                diagnostics.warning(node, f"{said}; one with the dediagnostics is used")
+                diagnostics.warning(node, f"{said}; one with the defaults is used")
         key = (_channels_of(device)[-1], device.mac)
         if key in addresses:
             said = f"{device.name!r} has the address {device.mac} of {addresses[key]!r}"

@@ -44,7 +44,6 @@ UNSUPPORTED: dict[tuple[str, str], str] = {
     ("simParams", "physicsSubSteps"): "physics of contacts",
     ("simParams", "physicsSolver"): "physics of contacts",
     ("simParams", "showTrajectory"): "trajectories",
-    ("UWSimScene", "nedOrigin"): "nedOrigin",
     ("UWSimScene", "netTracingScript"): "netTracingScript",
     ("virtualCamera", "showpath"): "showpath",
     **{
@@ -53,7 +52,6 @@ UNSUPPORTED: dict[tuple[str, str], str] = {
         for name, spec in parts.items()
         if not _is_simulated(spec)
     },
-    **{("vehicle", name): name for name in ("fdm", "tf")},
 }
 """(parent, element) -> what it belongs to."""
 
@@ -62,7 +60,7 @@ FALL = (("simParams", "enablePhysics"), ("simParams", "gravity"))
 LIMITS = ("minLinearLimit", "maxLinearLimit", "minAngularLimit", "maxAngularLimit")
 """Of an object's physics; not simulated."""
 
-OFF = {"disableShaders": "0", "enablePhysics": "0", "fdm": "-1", "showpath": "0"}
+OFF = {"disableShaders": "0", "enablePhysics": "0", "showpath": "0"}
 """An element with this text asks for nothing."""
 
 

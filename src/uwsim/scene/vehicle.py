@@ -20,6 +20,8 @@ from typing import Literal, TypeVar
 
 from ..devices import DEVICES
 from ..devices.echo import SimulatedDevicesSpec
+from ..devices.fdm import FdmSpec
+from ..devices.tf import TfSpec
 from ..geometry import ONE, ZERO, Pose, Triple
 from ..schema import MAX_DISTANCE, element
 from ..schema.names import local
@@ -44,18 +46,6 @@ PARTS: dict[str, type] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class TfSpec:
-    """A ``<tf>``: the vehicle follows a ROS frame."""
-
-    tf_id: str
-    """The frame it follows."""
-    position: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
-    """Of the vehicle in that frame [m]."""
-    orientation: Triple = element(default=ZERO, parts="rpy")
-    """Of the vehicle in that frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-
-
-@dataclass(frozen=True, kw_only=True)
 class VehicleSpec:
     """A ``<vehicle>``: a robot and its sensors; dynamic if and only if ``dynamics`` is given."""
 
@@ -63,8 +53,9 @@ class VehicleSpec:
     """Its name: node, topic target, prefix of its frames."""
     file: str
     """Its URDF file."""
-    fdm: int = -1
-    """UDP port on which a flight dynamics model sends poses; -1 is off."""
+    fdm: int = element(default=-1, minimum=-1, maximum=65535)
+    """UDP port to which a flight dynamics model sends poses; -1 and 0 are off. A benchmark takes
+    none, a simulation in Python at its ``udp_address``."""
     tf: TfSpec | None = None
     """The ROS frame it follows."""
     vr: bool = False
@@ -93,6 +84,10 @@ class VehicleSpec:
 
     def all_parts(self) -> Iterator[tuple[str, object]]:
         """Element name and spec of everything it carries, in the order of the grammar."""
+        if self.fdm > 0:
+            yield "fdm", FdmSpec(port=self.fdm)
+        if self.tf is not None:
+            yield "tf", self.tf
         for part in self.parts:
             yield next(local(tag) for tag, spec in PARTS.items() if isinstance(part, spec)), part
         for box in self.parts_of(SimulatedDevicesSpec):

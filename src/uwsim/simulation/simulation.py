@@ -318,7 +318,7 @@ class Simulation:
         """Release the graphics context and disconnect the algorithms."""
         for node in self._nodes:
             node.close()
-        self.world.scenery.close()
+        self.world.close()
 
     def __enter__(self) -> Self:
         return self

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -11,14 +12,16 @@ from ..currents import Place
 from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
 from ..errors import UnknownName
+from ..geodesy import Geodetic
 from ..geometry import Array
 from ..network import Channel, Network, nanoseconds
 from ..sampling import SampleTimer
-from ..scene.spec import SceneSpec
+from ..scene.spec import NedOriginSpec, SceneSpec
 from ..sensors.sensor import Sensor
 from ..topics.frames import Frame
 from ..topics.interface import Binds, Interface
 from ..world import Flow
+from .datagrams import Datagrams
 from .frames import object_frames, vehicle_frames
 from .vehicles import SceneVehicle
 from .water_motion import WaterMotion
@@ -32,6 +35,7 @@ class SceneStage(SceneWorld):
 
     Args:
         scene: what the file says.
+        udp_address: of this computer, at which ``<fdm>`` takes packets; None: it takes none.
         options: those of `SceneWorld`.
     """
 
@@ -41,7 +45,7 @@ class SceneStage(SceneWorld):
     )
     """What of it changes as time goes by."""
 
-    def __init__(self, scene: SceneSpec, **options: Any) -> None:
+    def __init__(self, scene: SceneSpec, *, udp_address: str | None = None, **options: Any) -> None:
         super().__init__(scene, **options)
         path = self.scene.path
         place = Place(
@@ -60,6 +64,7 @@ class SceneStage(SceneWorld):
             channels=_channels(self.scene),
         )
         """The packets between communication devices."""
+        self._datagrams = Datagrams(udp_address)
         self._timers: list[SampleTimer] = []
         self._commands: list[tuple[Callable[[Any], None], Any]] = []
         self.devices = tuple(self._bound_devices())
@@ -96,6 +101,21 @@ class SceneStage(SceneWorld):
             with suppress(UnknownName):
                 if spec.is_simulated() and isinstance(spec, Binds):
                     yield spec.bind(self)
+
+    @property
+    def ned_origin(self) -> Geodetic:
+        """Where on Earth the origin of W is."""
+        origin = self.scene.ned_origin or NedOriginSpec()
+        return Geodetic(latitude=math.radians(origin.lat), longitude=math.radians(origin.lon))
+
+    def datagrams(self, port: int) -> Callable[[], Sequence[bytes]]:
+        """Return what returns the UDP packets that have come to a port since its last call."""
+        return self._datagrams.open(port)
+
+    def close(self) -> None:
+        """Give back the graphics context and close the ports."""
+        self.scenery.close()
+        self._datagrams.close()
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:

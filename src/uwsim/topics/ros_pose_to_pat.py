@@ -10,7 +10,7 @@ import numpy as np
 
 from ..geometry import Pose, rotation_from_quaternion
 from ..messages import Pose as PoseMessage
-from ..vehicle import MAX_COMMAND, Vehicle
+from ..vehicle import MAX_COMMAND, Vehicle, go_or_place
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 
@@ -48,8 +48,4 @@ class PoseCommand(Interface):
         localized_from_base = Pose(
             np.clip(position, -MAX_COMMAND, MAX_COMMAND), rotation_from_quaternion(wxyz / largest)
         )
-        world_from_base = self._world_from_localized @ localized_from_base
-        if (autopilot := self._vehicle.autopilot) is not None:
-            autopilot.go_to(world_from_base)
-        else:
-            self._vehicle.place(world_from_base)
+        go_or_place(self._vehicle, self._world_from_localized @ localized_from_base)

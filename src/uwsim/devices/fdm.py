@@ -1,0 +1,126 @@
+"""A vehicle goes where a flight dynamics model says, by UDP: FlightGear's ``net_fdm``.
+
+.. code-block:: xml
+
+    <nedOrigin> <lat>41.775</lat> <lon>3.033</lon> </nedOrigin>
+    <vehicle> <name>bluerov2</name> <file>bluerov2.urdf</file> <fdm>5503</fdm> </vehicle>
+
+The first bytes of a packet, all big-endian; what follows is not read:
+
+======  ========  =========  ===================================
+offset  type      field      meaning
+======  ========  =========  ===================================
+0       uint32    version    24
+4       uint32    padding    not read
+8       float64   longitude  [rad]
+16      float64   latitude   [rad]
+24      float64   altitude   above the ellipsoid [m]
+32      float32   agl        above ground, not read [m]
+36      float32   phi        roll [rad]
+40      float32   theta      pitch [rad]
+44      float32   psi        yaw [rad]
+======  ========  =========  ===================================
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geodesy import Geodetic
+from ..geometry import Pose, rotation_from_rpy
+from ..vehicle import MAX_COMMAND, Vehicle, go_or_place
+from ..world import Stage
+from .device import Device, DeviceSpec, DeviceVehicle
+from .tf import HeardFrames
+
+LAYOUT = struct.Struct(">II3d4f")
+VERSION = 24
+"""FlightGear's ``FG_NET_FDM_VERSION``."""
+NED_FRAME = "local_origin_ned"
+"""Frame of ROS that says where north, east and down count from, when it is on ``/tf``."""
+WORLD_FROM_NED = Pose(np.zeros(3), np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]]))
+"""W is east, north, up."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FdmSpec(DeviceSpec):
+    """A ``<fdm>``: the UDP port of a vehicle."""
+
+    port: int
+    """Of the packets."""
+
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> FdmInput:
+        """Take packets from now on, where the simulation takes any."""
+        return FdmInput(
+            vehicle,
+            stage.datagrams(self.port),
+            stage.ned_origin,
+            HeardFrames(stage.bus),
+            stage.world_from_localized,
+        )
+
+
+def read_packet(data: bytes, origin: Geodetic) -> Pose | None:
+    """Return ``ned_from_vehicle`` of a packet; None where it is short, foreign or senseless."""
+    if len(data) < LAYOUT.size:
+        return None
+    version, _, longitude, latitude, altitude, _, roll, pitch, yaw = LAYOUT.unpack_from(data)
+    numbers = (longitude, latitude, altitude, roll, pitch, yaw)
+    if version != VERSION or not all(map(math.isfinite, numbers)):
+        return None
+    if abs(latitude) > math.pi / 2 or abs(longitude) > 2.0 * math.pi or abs(altitude) > MAX_COMMAND:
+        return None
+    if max(abs(roll), abs(pitch), abs(yaw)) > 4.0 * math.pi:
+        return None
+    place = Geodetic(latitude=latitude, longitude=longitude, altitude=altitude)
+    position = origin.north_east_down(place)
+    if float(np.abs(position).max()) > MAX_COMMAND:
+        return None
+    return Pose(position, rotation_from_rpy(roll, pitch, yaw))
+
+
+class FdmInput(Device):
+    """Puts a vehicle where the newest packet says; one that is simulated goes there.
+
+    Args:
+        vehicle: the vehicle.
+        receive: returns the packets that have come since the last call, oldest first.
+        origin: where north, east and down count from.
+        frames: what has been on ``/tf``.
+        world_from_localized: W from L.
+    """
+
+    STATE = ("_frames", "n_taken", "n_dropped")
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        receive: Callable[[], Sequence[bytes]],
+        origin: Geodetic,
+        frames: HeardFrames,
+        world_from_localized: Pose,
+    ) -> None:
+        self._vehicle, self._receive, self._origin = vehicle, receive, origin
+        self._frames, self._world_from_localized = frames, world_from_localized
+        self.n_taken, self.n_dropped = 0, 0
+        """Packets that could be read, and those that could not."""
+
+    def step(self, time: float) -> None:
+        """Take the packets that have come since the last step."""
+        poses = [read_packet(data, self._origin) for data in self._receive()]
+        sound = [pose for pose in poses if pose is not None]
+        self.n_taken += len(sound)
+        self.n_dropped += len(poses) - len(sound)
+        if sound:
+            go_or_place(self._vehicle, self._world_from_ned() @ sound[-1])
+
+    def _world_from_ned(self) -> Pose:
+        localized_from_ned = self._frames.find(NED_FRAME)
+        if localized_from_ned is None:
+            return WORLD_FROM_NED
+        return self._world_from_localized @ localized_from_ned

@@ -1,0 +1,74 @@
+r"""Latitude, longitude and altitude on the ellipsoid of WGS84, and the local north, east and down.
+
+National Imagery and Mapping Agency, TR8350.2, 1997: with the semi-major axis a, the square of the
+eccentricity :math:`e^2 = f (2 - f)` and the radius of curvature :math:`N = a / \sqrt{1 - e^2
+\sin^2 \varphi}`,
+
+.. math::
+
+    x &= (N + h) \cos\varphi \cos\lambda \\
+    y &= (N + h) \cos\varphi \sin\lambda \\
+    z &= ((1 - e^2) N + h) \sin\varphi .
+
+The local frame is a plane that touches the ellipsoid at its origin: at 10 km from there it is 8 m
+above it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .geometry import Array
+from .linear import turned_back
+
+SEMI_MAJOR_AXIS = 6378137.0
+"""Of the ellipsoid [m]."""
+FLATTENING = 1.0 / 298.257223563
+"""Of the ellipsoid [1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Geodetic:
+    """A place on Earth."""
+
+    latitude: float
+    """[rad]."""
+    longitude: float
+    """[rad]."""
+    altitude: float = 0.0
+    """Above the ellipsoid [m]."""
+
+    @property
+    def earth_centred(self) -> Array:
+        """Its coordinates in the frame that turns with the Earth, (3,) [m]."""
+        sine, cosine = math.sin(self.latitude), math.cos(self.latitude)
+        e2 = FLATTENING * (2.0 - FLATTENING)
+        curvature = SEMI_MAJOR_AXIS / math.sqrt(1.0 - e2 * sine * sine)
+        level = (curvature + self.altitude) * cosine
+        return np.array(
+            [
+                level * math.cos(self.longitude),
+                level * math.sin(self.longitude),
+                ((1.0 - e2) * curvature + self.altitude) * sine,
+            ]
+        )
+
+    @property
+    def axes(self) -> Array:
+        """North, east and down as columns in the Earth's frame, (3, 3)."""
+        sine, cosine = math.sin(self.latitude), math.cos(self.latitude)
+        east, north = math.sin(self.longitude), math.cos(self.longitude)
+        return np.array(
+            [
+                [-sine * north, -east, -cosine * north],
+                [-sine * east, north, -cosine * east],
+                [cosine, 0.0, -sine],
+            ]
+        )
+
+    def north_east_down(self, place: Geodetic) -> Array:
+        """Return where another place is in the local frame of this one, (3,) [m]."""
+        return turned_back(self.axes, place.earth_centred - self.earth_centred)
