@@ -9,6 +9,7 @@ publishes in turn is delivered in the same step: computing takes no simulation t
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections import deque
 from collections.abc import Callable, Mapping
 from typing import Any, Generic, Protocol, TypeVar, runtime_checkable
@@ -336,6 +337,13 @@ class Bus:
             f"More than {MAX_MESSAGES_PER_STEP} messages in one step: two callbacks answer each "
             f"other without end, the last on topic {topic!r}."
         )
+
+    @property
+    def next_delivery(self) -> float:
+        """The step at which `deliver` has something to hand out; inf where nothing waits."""
+        if self._due_now:
+            return self.step
+        return min((post[0] for post in self._due_later), default=math.inf)
 
     @property
     def topics(self) -> dict[str, str]:

@@ -55,6 +55,8 @@ def _named(function: FunctionType) -> Iterator[tuple[str, Any]]:
 def _constant(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"{value.dtype}{value.shape}{value.tobytes().hex()}"
+    if isinstance(value, np.dtype):
+        return repr(value)
     if isinstance(value, bool | int | float | complex | str | bytes | tuple | None):
         return repr(value)
     return str(getattr(value, "__name__", type(value).__qualname__))

@@ -14,17 +14,18 @@ def sample_step(n: int, rate: float, timestep: float) -> int:
 class SampleTimer:
     """Calls a function at the samples of a rate."""
 
-    STATE = ("_start", "_n_samples", "_due")
+    STATE = ("_start", "_n_samples", "due")
     """What of it changes as time goes by."""
 
     def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
         self._start, self._rate, self._timestep, self._call = start, rate, timestep, call
         self._n_samples = 0
-        self._due = start  # step of the next sample
+        self.due = start
+        """Step of the next sample."""
 
     def tick(self, step: int) -> None:
         """Call the function if a sample is due at this step."""
-        if step >= self._due:
+        if step >= self.due:
             self._n_samples += 1
-            self._due = self._start + sample_step(self._n_samples, self._rate, self._timestep)
+            self.due = self._start + sample_step(self._n_samples, self._rate, self._timestep)
             self._call()

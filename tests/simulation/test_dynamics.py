@@ -180,7 +180,7 @@ def test_without_a_simulated_vehicle_a_step_may_be_long() -> None:
 class Asked:
     """Still water that remembers where it was asked about."""
 
-    is_uniform = True
+    is_uniform = False
 
     def __init__(self) -> None:
         self.points: list[list[float]] = []
@@ -203,6 +203,7 @@ def test_water_is_asked_only_where_it_acts() -> None:
     simulation.world.set_current(asked)
     simulation.advance()
     assert asked.names == {"girona500"}
-    assert len(asked.points) == 2 * len(read_vehicle(vehicle_sets()["g500_physical"]).bodies)
+    # velocity, acceleration, and the velocity at six points around for the shear
+    assert len(asked.points) == 8 * len(read_vehicle(vehicle_sets()["g500_physical"]).bodies)
     away = np.linalg.norm(np.array(asked.points) - vehicle.position, axis=1)
     assert away.max() < 2.0

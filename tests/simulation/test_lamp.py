@@ -64,7 +64,7 @@ def test_the_light_goes_with_the_vehicle() -> None:
     simulation = Simulation(night(LAMP))
     before = brightness(simulation)
     state = simulation.world.state
-    higher = Pose(np.array([0.0, 0.0, 0.5]), np.eye(3)) @ state.vehicle_pose(0)
+    higher = Pose(np.array([0.0, 0.0, 0.5]), np.eye(3)) @ state.poses.vehicle(0)
     state.place_vehicle(0, higher)
     after = brightness(simulation)
     # The floor was 1.4 m below and is now 1.9 m: about (1.4 / 1.9)^2 of the light.

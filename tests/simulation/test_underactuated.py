@@ -123,8 +123,8 @@ def test_a_torpedo_with_a_stern_thruster_alone_lets_go_what_it_cannot_hold(
 def test_what_was_let_go_does_not_wind_up(tmp_path: Path) -> None:
     simulation = torpedo(tmp_path, STERN)
     drive(simulation, 0.5, 30.0)
-    autopilot = simulation.world.state.autopilot(0)
-    assert autopilot._integral[1:] == pytest.approx(np.zeros(5), abs=0.0)
+    autopilot = simulation.world.state.actuation[0].autopilot
+    assert autopilot._state["integral"][0, 1:] == pytest.approx(np.zeros(5), abs=0.0)
 
 
 def test_a_small_lever_of_the_heave_thruster_is_borne_by_the_hull(tmp_path: Path) -> None:
@@ -219,7 +219,7 @@ def test_weight_and_righting_of_a_vehicle_with_an_arm_are_those_of_the_engine() 
     vehicle = read_vehicle(find_vehicle("g500_physical"))
     balance = balance_of(simulation.world.robots[0], vehicle, scene.vehicles[0].joint_values)
     mujoco.mj_forward(model, data)
-    base = simulation.world.state._bases[0]
+    base = simulation.world.state.poses.base(0)
     rotation = data.xmat[base].reshape(3, 3).copy()
     world = data.xpos[base] + rotation @ balance.centre_of_mass
     # the engine gives 10 g to each link without a mass

@@ -60,7 +60,7 @@ def bluerov(current: Current) -> Simulation:
     )
     simulation.start()
     simulation.world.set_current(current)
-    simulation.world.state.autopilot(0).push(np.zeros(3), np.zeros(3))  # adrift
+    simulation.world.state.actuation[0].autopilot.push(np.zeros(3), np.zeros(3))  # adrift
     return simulation
 
 
@@ -77,13 +77,14 @@ def test_a_neutral_ball_goes_round_in_an_eddy() -> None:
     simulation = bluerov(Linear(EDDY))
     state = simulation.world.state
     frame = simulation.world.world_from_localized
-    base = state.vehicle_pose(0)
+    base = state.poses.vehicle(0)
     state.place_vehicle(0, replace(base, position=frame.transform(np.array([[2.0, 0, 3.0]]))[0]))
-    state._free_velocities[0][:3] = frame.rotation @ [0.0, 0.2, 0.0]
-    state._free_velocities[0][3:] = base.rotation.T @ frame.rotation @ [0.0, 0.0, 0.1]
+    velocity = state._data.qvel[state._free_dofs[0] : state._free_dofs[0] + 6]
+    velocity[:3] = frame.rotation @ [0.0, 0.2, 0.0]
+    velocity[3:] = base.rotation.T @ frame.rotation @ [0.0, 0.0, 0.1]
     for _ in range(round(5.0 / simulation.timestep)):
         simulation.advance()
-    place = frame.inverse().transform(state.vehicle_pose(0).position[None])[0]
+    place = frame.inverse().transform(state.poses.vehicle(0).position[None])[0]
     assert np.hypot(*place[:2]) == pytest.approx(2.0, abs=0.01)
 
 

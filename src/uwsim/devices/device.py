@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 import abc
+import math
 from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
@@ -40,6 +41,14 @@ class Device:
 
     def step(self, time: float) -> None:
         """Act before the forces, in the step that begins at ``time`` [s]."""
+
+    def rests_until(self, time: float) -> float:
+        """Return the time before which it does nothing new, after the step at ``time`` [s].
+
+        Until then several steps may be taken at once, for all of which it is asked once.
+        """
+        rests = type(self).step is Device.step and type(self).animate is Device.animate
+        return math.inf if rests else time
 
     def animate(self, time: float) -> None:
         """Move what the device animates to its pose at ``time`` [s], the end of the step."""

@@ -9,6 +9,7 @@ r"""fault: a thruster that fails at a given time; an extension of the dialect.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -48,3 +49,8 @@ class ThrusterFault(Device):
     def step(self, time: float) -> None:
         """Set the loss of the step that begins at ``time`` [s]."""
         self._lose(self._spec.loss if self._spec.acts(time + 1e-9) else 0.0)
+
+    def rests_until(self, time: float) -> float:
+        """Return when it begins or ends next [s]."""
+        ends = (self._spec.start, self._spec.end)
+        return min((end for end in ends if end is not None and end > time), default=math.inf)

@@ -39,6 +39,9 @@ class EventQueue(Generic[T]):
         self._n_added += 1
         heapq.heappush(self._heap, _Entry(time, rank, self._n_added, event))
 
+    def __len__(self) -> int:
+        return len(self._heap)
+
     def take(self, until: int) -> tuple[int, T] | None:
         """Take out the next event and its time, if that is not after ``until`` [ns]."""
         if not self._heap or self._heap[0].time > until:

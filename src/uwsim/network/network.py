@@ -72,6 +72,11 @@ class Network:
         """Time up to which everything has happened [ns]."""
         return self._now
 
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is on its way or waits to be sent."""
+        return not self._events
+
     def join(self, modem: Modem) -> Callable[[bytes, int], None]:
         """Let a device take part; returns ``send(data, destination)``."""
         number = len(self._modems)

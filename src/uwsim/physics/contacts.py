@@ -6,7 +6,8 @@ what is left of it while they press into each other.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from typing import Literal
 
 import mujoco
 import numpy as np
@@ -14,7 +15,65 @@ import numpy.typing as npt
 
 from ..geometry import Array
 from ..linear import dot
+from ..scene.spec import SceneSpec
 from ..world import Contact
+
+
+class EngineContacts:
+    """Contacts that MuJoCo found in the last step.
+
+    Args:
+        scene: what the file says.
+        model: of the scene.
+        data: its state.
+        shapes: names of the bodies that have shapes.
+    """
+
+    STATE = ("hold",)
+    """What of it changes as time goes by."""
+
+    def __init__(
+        self,
+        scene: SceneSpec,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        shapes: Collection[str],
+    ) -> None:
+        self._model, self._data = model, data
+        owners = [owner_of(model.geom(i).name) for i in range(model.ngeom)]
+        self._owners = np.array(owners)
+        self._names = [name_of(scene, owner) for owner in owners]
+        self._touchable = frozenset(owner_of(name) for name in shapes)
+        self.hold = False
+        """Whether the engine's contacts are those of its state."""
+
+    def of(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
+        """Where a vehicle or object touches others; None if it has no shape to be touched."""
+        owner = f"{kind}/{index}"
+        if owner not in self._touchable:
+            return None
+        if not self.hold:
+            return []
+        return contacts_of(self._model, self._data, self._owners == owner, self._names)
+
+
+def owner_of(name: str) -> str:
+    """``vehicle/1`` or ``object/1``, what the body or shape of that name belongs to."""
+    return "/".join(name.split("/")[:2])
+
+
+def name_of(scene: SceneSpec, owner: str) -> str:
+    """How the scene calls it."""
+    kind, _, index = owner.partition("/")
+    if kind == "vehicle":
+        return scene.vehicles[int(index)].name
+    return scene.objects[int(index)].name if kind == "object" else ""
+
+
+def body_name(scene: SceneSpec, body: str) -> str:
+    """How the scene calls a body of the model: ``girona500/part0``, an object's name."""
+    link = body.split("/")[2:]
+    return "/".join([name_of(scene, owner_of(body)), *link])
 
 
 def contacts_of(

@@ -8,11 +8,14 @@ is also counted in the state, where `why_untrue` reads it after each step.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import NoReturn
 
 import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from ..errors import RunFailed
 from ..geometry import Array
 from ..jit import njit
 
@@ -28,6 +31,36 @@ def hush() -> None:
     """Suppress MuJoCo's warnings in this process, unless another handler is installed."""
     if mujoco.get_mju_user_warning() is None:
         mujoco.set_mju_user_warning(_pass_over)
+
+
+class StepCheck:
+    """Checks of a step: RunFailed names the body and the time.
+
+    Args:
+        model: the engine's.
+        data: its state.
+        names: what the scene calls each body of the model.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, names: Sequence[str]) -> None:
+        self._data, self._timestep = data, model.opt.timestep
+        self._names = [names[body] for body in model.dof_bodyid]
+        self.counters = data.warning.number
+        """The engine's, one for each kind of warning."""
+        self.speeds = speeds_of(model)
+        """Which velocities make a speed together, (n, 2): see `speeds_of`."""
+
+    def end_if_warned(self, step: int) -> None:
+        """Raise RunFailed if the engine has warned in a step."""
+        if any(self.counters.tolist()):
+            self.fail(step, -1)
+
+    def fail(self, step: int, dof: int) -> NoReturn:
+        """Raise RunFailed: the engine has warned, or a degree of freedom is too fast."""
+        time = step * self._timestep
+        if dof < 0:
+            raise RunFailed(why_untrue(self._data, time, self._timestep, self._names))
+        raise RunFailed(say_too_fast(self._data.qvel, self.speeds, dof, time, self._names))
 
 
 def why_untrue(data: mujoco.MjData, time: float, timestep: float, names: list[str]) -> str:

@@ -120,9 +120,9 @@ def name_bodies(
             bodies.setdefault(name, SceneBody(name, pose, box))
 
     for index, vehicle in enumerate(scene.vehicles):
-        add([vehicle.name], partial(state.vehicle_pose, index), None)
+        add([vehicle.name], partial(state.poses.vehicle, index), None)
         for link in robots[index].links:
-            pose = partial(state.link_pose, index, link.name)
+            pose = partial(state.poses.link, index, link.name)
             names = [f"{vehicle.name}/{link.name}", link.name]
             add(names, pose, None)
             seen = [f"{name}@visual" for name in names]
@@ -130,17 +130,17 @@ def name_bodies(
                 add(seen, pose, None)
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
-            pose = partial(state.mounted_pose, index, link.name, link_from_visual)
+            pose = partial(state.poses.mounted, index, link.name, link_from_visual)
             shown = [part for part in parts if (part.vehicle, part.link) == (index, link.name)]
-            add(seen, pose, _box_of(shown, pose(), state.link_frame(index, link.name)))
+            add(seen, pose, _box_of(shown, pose(), state.poses.link_frame(index, link.name)))
     for index, thing in enumerate(scene.objects):
         mesh, box = thing.object_from_mesh, boxes.get(index)
         if box is not None and "box-scale" not in compatibility:
             box = scaled_box(box, mesh.rotation, thing.scale_factor)
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
         object_from_mesh = Pose(origin, mesh.rotation)
-        pose = partial(_attached, partial(state.object_pose, index), object_from_mesh)
-        add([thing.name], pose().copy if state.is_fixed(index) else pose, box)
+        pose = partial(_attached, partial(state.poses.object, index), object_from_mesh)
+        add([thing.name], pose().copy if state.poses.is_fixed(index) else pose, box)
     return bodies
 
 

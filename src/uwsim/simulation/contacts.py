@@ -73,6 +73,11 @@ class Contacts:
         if state is not None:
             put_state(self._touching, state)
 
+    @property
+    def is_laid(self) -> bool:
+        """Whether shapes are laid over each other at every step."""
+        return self._touching is not None
+
     def update(self, step: int) -> None:
         """Record the poses of all bodies; to be called at every step."""
         self._step = step
@@ -107,10 +112,10 @@ class Contacts:
         for body in shapes:
             kind, number, *link = body.split("/")
             poses[body] = (
-                partial(state.link_pose, int(number), "/".join(link))
+                partial(state.poses.link, int(number), "/".join(link))
                 if kind == "vehicle"
-                else partial(state.object_pose, int(number))
+                else partial(state.poses.object, int(number))
             )
         names = {f"vehicle/{i}": vehicle.name for i, vehicle in enumerate(scene.vehicles)}
         names |= {f"object/{i}": thing.name for i, thing in enumerate(scene.objects)}
-        return KinematicContacts(shapes, poses, names, lambda: state.version, self._timestep)
+        return KinematicContacts(shapes, poses, names, lambda: state.poses.version, self._timestep)

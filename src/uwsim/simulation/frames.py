@@ -33,9 +33,9 @@ def vehicle_frames(
     localized_from_world = scene.world_from_localized.inverse()
     for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
         robot = robots[index]
-        yield Frame("", spec.name, _in(localized_from_world, partial(state.vehicle_pose, index)))
+        yield Frame("", spec.name, _in(localized_from_world, partial(state.poses.vehicle, index)))
         yield Frame(spec.name, f"{spec.name}/{robot.root}", Pose.identity)
-        links = {link.name: partial(state.link_pose, index, link.name) for link in robot.links}
+        links = {link.name: partial(state.poses.link, index, link.name) for link in robot.links}
         for joint in robot.joints:
             parent, child = f"{spec.name}/{joint.parent}", f"{spec.name}/{joint.child}"
             yield Frame(parent, child, _between(links[joint.parent], links[joint.child]))

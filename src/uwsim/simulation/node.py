@@ -213,6 +213,11 @@ class InProcessNode:
                 timer.move_on()
                 self._guard(timer.callback)
 
+    @property
+    def next_tick(self) -> float:
+        """The step at which `tick` calls a timer; inf without any."""
+        return min((timer.due for timer in self._timers), default=math.inf)
+
     def close(self) -> None:
         """Disconnect the algorithm from the bus."""
         self._is_started = False

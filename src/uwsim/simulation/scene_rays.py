@@ -69,15 +69,15 @@ class SceneRays:
         return RayScene([fixed, *(surfaces for _, surfaces in self._moving)])
 
     def _is_fixed(self, part: Part) -> bool:
-        return part.object is not None and self._state.is_fixed(part.object)
+        return part.object is not None and self._state.poses.is_fixed(part.object)
 
     def _frame(self, vehicle: int | None, link: str, thing: int | None) -> Callable[[], Array]:
         """What says where a link or an object is, (4, 4) [m]."""
         state = self._state
         if vehicle is not None:
-            return lambda: state.link_frame(vehicle, link)
+            return lambda: state.poses.link_frame(vehicle, link)
         assert thing is not None
-        return lambda: state.object_pose(thing).matrix
+        return lambda: state.poses.object(thing).matrix
 
 
 def _material(scene: SceneSpec, part: Part) -> MaterialName:

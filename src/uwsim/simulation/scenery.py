@@ -79,9 +79,9 @@ class Scenery:
         """The present pose of a part, with its scale, (4, 4) [m]."""
         if part.vehicle is None:
             assert part.object is not None
-            frame = self._state.object_pose(part.object).matrix
+            frame = self._state.poses.object(part.object).matrix
         else:
-            frame = self._state.link_frame(part.vehicle, part.link)
+            frame = self._state.poses.link_frame(part.vehicle, part.link)
         return product(frame, part.frame_from_mesh)
 
     def corners(self, part: Part) -> Array:
@@ -161,11 +161,11 @@ class Scenery:
         renderer = self._open()
         if not self._handles:
             self._handles = [renderer.add(part.model, part.id) for part in self.parts]
-        if self._drawn_version != self._state.version:
+        if self._drawn_version != self._state.poses.version:
             for part, handle in zip(self.parts, self._handles, strict=True):
                 renderer.place(handle, self.world_from_mesh(part))
             self._lamps = tuple(map(_shining, self._mounted_lamps))
-            self._drawn_version = self._state.version
+            self._drawn_version = self._state.poses.version
         return renderer.draw(
             world_from_camera,
             intrinsics,

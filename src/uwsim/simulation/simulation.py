@@ -30,6 +30,9 @@ from .node import InProcessNode
 from .snapshot import packed, put_state, state_of, unpacked
 from .stage import SceneStage
 
+MAX_RUN = 1000
+"""Steps that are taken at once at most: Ctrl-C is heard after them."""
+
 
 class Simulation:
     """A running scene: the clock, the step, and the attached algorithms.
@@ -102,20 +105,50 @@ class Simulation:
             return
         if not 0.0 <= seconds < math.inf:
             raise BadSetting(f"advance({seconds!r}): expected a time >= 0 [s].")
-        for _ in range(round(seconds / self.timestep)):
-            self._advance()
+        left = round(seconds / self.timestep)
+        while left > 0:
+            left -= self._advance(left)
 
-    def _advance(self) -> None:
+    def _advance(self, wanted: int = 1) -> int:
+        """Take a step, and of those wanted after it all that nothing comes between; how many."""
         self.bus.step += 1
         self.world.apply_commands()
         self._step_devices()
         self._advect_kinematic()
-        self._step_physics()
+        n = self._n_alone(wanted) if wanted > 1 else 1
+        self._step_physics(n)
         self._animate()
         self.world.touch.update(self.step)
         self._publish()
         for look in self._watchers:
             look()
+        return n
+
+    def _n_alone(self, wanted: int) -> int:
+        """How many steps from this one on the forces may act alone, of those wanted.
+
+        In the step after them a command, a sample, a timer or a device may be due; observers,
+        water that is not the same everywhere and what drifts with it have to do in every step.
+        """
+        world, now = self.world, self.step
+        if (
+            self._watchers
+            or world.touch.is_laid
+            or not world.state.is_dynamic
+            or not world.water.is_uniform
+            or (self._drifting and not world.water.is_still)
+        ):
+            return 1
+        due = min(
+            self.bus.next_delivery,
+            world.next_tick,
+            min((each.timer.due for each in self.images.values()), default=math.inf),
+            min((node.next_tick for node in self._nodes), default=math.inf),
+        )
+        began = self.time - self.timestep
+        rests = min((device.rests_until(began) for device in world.devices), default=math.inf)
+        n = min(wanted, MAX_RUN, due - now + 1, (rests - began) // self.timestep - 1)
+        return max(1, int(n))
 
     def watch(self, look: Callable[[], None]) -> None:
         """Call ``look`` at the end of every step."""
@@ -215,7 +248,7 @@ class Simulation:
     def _publish(self) -> None:
         bus = self.bus
         for images in self.images.values():
-            images.tick(bus.step)
+            images.timer.tick(bus.step)
         self.world.tick()
         bus.deliver()
         for node in self._nodes:
@@ -234,19 +267,24 @@ class Simulation:
         if world.water.is_still:
             return
         for index, vehicle in self._drifting:
-            here = world.state.vehicle_pose(index)
+            here = world.state.poses.vehicle(index)
             moved = world.water.carried(here, self.time, self.timestep, vehicle.name)
             world.state.place_vehicle(index, moved)
 
-    def _step_physics(self) -> None:
-        """Advance the physics by one step, in the present flow of the water."""
+    def _step_physics(self, n: int) -> None:
+        """Advance the physics by some steps, in the flow of the water at their times."""
         state, water = self.world.state, self.world.water
         if not state.is_dynamic:
             state.fall()
             return
-        middle = self.time - 0.5 * self.timestep  # of the step, where forces act
-        motion = water.at(state.submerged_positions(), middle, self._wet_names)
-        state.step(*motion)
+        first, half = self.step, 0.5 * self.timestep  # forces act in the middle of a step
+        times = [(first + k) * self.timestep - half for k in range(n)]
+        motion = water.during(state.submerged_positions, times, self._wet_names)
+        before = state.n_steps
+        try:
+            state.step(n, motion)
+        finally:
+            self.bus.step = first + max(0, state.n_steps - before - 1)
 
     def _animate(self) -> None:
         """Move what devices animate."""

@@ -192,6 +192,13 @@ class SceneStage(SceneWorld):
         interfaces: list[Any] = list(self.interfaces)
         self._commands = [(interfaces[number].obey, message) for number, message in pending]
 
+    @property
+    def next_tick(self) -> float:
+        """The step at which `tick` calls something; inf where nothing waits."""
+        if not self.network.is_idle:
+            return self.step
+        return min((timer.due for timer in self._timers), default=math.inf)
+
     def tick(self) -> None:
         """Let packets arrive, and call what is due at the current step."""
         self.network.advance(nanoseconds(self.time))

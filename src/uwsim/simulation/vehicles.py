@@ -8,6 +8,7 @@ from functools import partial
 from ..devices.sway import displaced
 from ..errors import UnknownName
 from ..geometry import Array, Pose
+from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
 from ..scene.mounts import Stand, link_from_frame
 from ..scene.spec import SceneSpec
@@ -43,35 +44,35 @@ class SceneVehicle:
     @property
     def autopilot(self) -> Autopilot | None:
         """Its autopilot; None if it is not simulated."""
-        return self._state.autopilot(self._index) if self._is_simulated else None
+        return self._actuation.autopilot if self._actuation else None
 
     @property
     def servos(self) -> Servos | None:
         """Its joint servos; None if it is not simulated."""
-        return self._state.servos(self._index) if self._is_simulated else None
+        return self._actuation.servos if self._actuation else None
 
     @property
-    def _is_simulated(self) -> bool:
-        return self._state.is_simulated(self._index)
+    def _actuation(self) -> VehicleActuation | None:
+        return self._state.actuation.get(self._index)
 
     @property
     def thrusters(self) -> tuple[str, ...]:
         """Names of its thrusters as in its hydrodynamics file; none if it is not simulated."""
-        return self._state.thrusters(self._index)
+        return self._actuation.thrusters if self._actuation else ()
 
     @property
     def fins(self) -> tuple[str, ...]:
         """Names of its fins as in its hydrodynamics file; none if it is not simulated."""
-        return self._state.fins(self._index)
+        return self._actuation.fins if self._actuation else ()
 
     def turn_fins(self, angles: Array) -> None:
         """Let its fins turn to these angles, (n,) [rad]."""
-        self._state.turn_fins(self._index, angles)
+        self._state.actuation[self._index].turn_fins(angles)
 
     @property
     def world_from_base(self) -> Pose:
         """Where its base is now."""
-        return self._state.vehicle_pose(self._index)
+        return self._state.poses.vehicle(self._index)
 
     @property
     def velocity(self) -> Array:
@@ -120,7 +121,7 @@ class SceneVehicle:
 
         def lose(loss: float) -> None:
             self._losses[number][own] = loss
-            self._state.set_loss(self._index, number, max(self._losses[number]))
+            self._state.actuation[self._index].set_loss(number, max(self._losses[number]))
 
         return lose
 
@@ -133,7 +134,7 @@ class SceneVehicle:
             spec, visual=visual
         )
         pose: Callable[[], Pose] = partial(
-            self._state.mounted_pose, self._index, link, link_from_part
+            self._state.poses.mounted, self._index, link, link_from_part
         )
         return SceneBody(f"{self.name}/{link}", pose, None)
 

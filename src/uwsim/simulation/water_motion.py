@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -54,6 +54,35 @@ class WaterMotion:
     def is_still(self) -> bool:
         """Whether the water does not move at all."""
         return self._is_still
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it moves the same everywhere, or not at all."""
+        return self._is_still or self._flow.is_uniform
+
+    def during(
+        self, positions: Callable[[], Array], times: Sequence[float], vehicles: Sequence[str]
+    ) -> Array | None:
+        """Return how the water moves at some points at some times, in W; None if it is still.
+
+        Args:
+            positions: where the points are now, in W, (n, 3) [m]; several times take water that
+                is uniform.
+            times: [s].
+            vehicles: as `at` takes them.
+
+        Returns:
+            Velocity [m/s], acceleration [m/s2] and rotation [rad/s], (times, n, 9).
+        """
+        if self._is_still:
+            return None
+        points = np.zeros((len(vehicles), 3)) if self._flow.is_uniform else positions()
+        found = np.zeros((len(times), len(vehicles), 9))
+        for row, time in zip(found, times, strict=True):
+            row[:, 0:3], row[:, 3:6], rotation = self.at(points, time, vehicles)
+            if rotation is not None:
+                row[:, 6:9] = rotation
+        return found
 
     def at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
         r"""Return how the water moves, in W.

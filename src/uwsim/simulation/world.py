@@ -183,7 +183,8 @@ class SceneWorld:
 
     def actuators(self, name: str) -> Actuators | None:
         """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
-        return self.state.actuators(self.vehicle_index(name))
+        actuation = self.state.actuation.get(self.vehicle_index(name))
+        return None if actuation is None else actuation.actuators()
 
     def camera(self, name: str) -> VirtualCamera:
         """Find a virtual camera."""

@@ -51,7 +51,7 @@ class ImagePublisher(Interface):
     algorithms that do not look at them.
     """
 
-    STATE = ("n_frames", "last", "_timer")
+    STATE = ("n_frames", "last", "timer")
     """What of it changes as time goes by."""
 
     def __init__(
@@ -73,9 +73,8 @@ class ImagePublisher(Interface):
         self._publish_image = world.bus.publisher(spec.image_topic, Image)
         self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
         self._digest = hashlib.sha256()
-        self._timer = SampleTimer(0, float(spec.rate), world.timestep, self.publish)
-        self.tick = self._timer.tick
-        """Publish at this step if a sample is due."""
+        self.timer = SampleTimer(0, float(spec.rate), world.timestep, self.publish)
+        """Publishes at the steps at which a sample is due."""
 
     @property
     def sha256(self) -> str:

@@ -432,17 +432,6 @@ def test_two_bodies_feel_their_own_water() -> None:
     )
 
 
-def test_a_setter_of_currents_writes_where_they_are_set_one_by_one() -> None:
-    model = free_body(full_water(), mass=20.0)
-    water = install(model)
-    flow = np.random.default_rng(0).uniform(-1.0, 1.0, (2, 1, 3))  # [m/s], [m/s2]
-    at_once, one_by_one = mujoco.MjData(model), mujoco.MjData(model)
-    water.current_setter(at_once, np.array([1]))(flow[0], flow[1])
-    water.set_current(one_by_one, flow[0], flow[1], body=1)
-    assert at_once.userdata.any()
-    assert (at_once.userdata == one_by_one.userdata).all()
-
-
 def test_somebody_elses_callback_is_not_thrown_out() -> None:
     models = [free_body(full_water(), mass=20.0) for _ in range(2)]
     install(models[0])

@@ -42,15 +42,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from ...geometry import Array, Pose
 from ...linear import pseudo_inverse
 from ...vehicle import MAX_COMMAND
 from ..hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
-from .allocation import N_POINTS, ROLL, allocate, curve
+from .allocation import ROLL, Allocation, allocate, curve
+from .records import AUTOPILOT, AUTOPILOT_STATE, POSITION, THRUSTER, THRUSTERS, VELOCITY, WRENCH
 
 USUAL = (0, 1, 2, 4, 5)
 """Surge, sway, heave, pitch and yaw: of a commanded wrench where thrusters do not reach roll."""
@@ -71,24 +72,31 @@ class Gains:
 
 MIN_LAG = 0.08
 """Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
-Mode = Literal["velocity", "position", "wrench", "thrusters"]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Seat:
+    """Where the engine keeps what an autopilot reads and sets."""
+
+    place: int
+    """Of the base in ``qpos``."""
+    dof: int
+    """Of the base among the degrees of freedom."""
+    body: int
+    """The base."""
+    controls: Sequence[int]
+    """Of the thrusters in ``ctrl``."""
+    is_over_ground: bool
+    """Whether velocities are those over ground."""
 
 
 class Autopilot:
-    """The autopilot of one vehicle: velocity loops; depth, heading and position hold."""
+    """The autopilot of one vehicle: velocity loops; depth, heading and position hold.
 
-    STATE = (
-        "_wanted",
-        "_model",
-        "_integral",
-        "_mode",
-        "has_news",
-        "_takes_over",
-        "_target",
-        "_heading",
-        "_wrench",
-        "_commands",
-    )
+    It takes the commands; `autopilot_kernel.steer` does what they ask for.
+    """
+
+    STATE = ("_state", "_commands")
     """What of it changes as time goes by."""
 
     def __init__(
@@ -96,6 +104,7 @@ class Autopilot:
         vehicle: VehicleHydrodynamics,
         link: str,
         mass: float,
+        seat: Seat,
         gains: Gains | None = None,
         *,
         stiffness: float = math.inf,
@@ -107,140 +116,113 @@ class Autopilot:
             vehicle: its hydrodynamics.
             link: its base.
             mass: of the whole vehicle with its arm [kg].
+            seat: where the engine keeps it.
             gains: how hard the loops pull.
             stiffness: with which the hull rights itself [N m/rad].
             thrusters: in the base's frame; without those of the set, all on the base.
         """
-        from . import autopilot_kernel
-
-        self._law = autopilot_kernel
-        body = vehicle.body(link)
-        gains = gains or Gains()
-        lag = max([MIN_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
-        held = [gains.depth, gains.position, gains.heading]
-        self._lag = 2.5 * lag
-        self._gains = np.array([*held, 0.32 / lag, 0.032 / lag**2])  # the last in [1/s], [1/s2]
-        added = matrix(body.added_mass) if body else np.zeros((6, 6))
-        own = [mass, mass, mass, *(body.inertia[:3] if body and body.inertia else (1.0,) * 3)]
-        self._reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
-        self._traits = (
-            np.array(own) + np.diag(added),  # (6,) [kg, kg m2]
-            np.diag(added).copy(),
-            np.diag(matrix(body.linear_damping)).copy() if body else np.zeros(6),
-            np.diag(matrix(body.quadratic_damping)).copy() if body else np.zeros(6),
-            self._reference,
-        )
         thrusters = vehicle.thrusters if thrusters is None else thrusters
+        body = vehicle.body(link)
+        self._reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
         self.allocation = allocate(thrusters, self._reference, stiffness)
         """What the thrusters can do."""
-        found = self.allocation
-        self._axes = np.array(found.axes, dtype=np.int64)
-        self._reached, self._share = found.reached, found.share  # (k, n), (n, k)
-        self._drives, self._most = found.drives, found.most  # (6,)
-        self._least, self._greatest = found.least, found.greatest  # (n,) [N]
-        # a wrench that is commanded is given as nearly as thrusters can, whatever comes with it
-        asked = ALL if ROLL in found.axes else USUAL
-        self._asked = np.array(asked, dtype=np.int64)
-        rows = np.ascontiguousarray(found.wrenches[list(asked)])
-        self._nearest = np.ascontiguousarray(pseudo_inverse(rows, rcond=1e-6))  # (n, k)
-        curves = [curve(thruster) for thruster in thrusters]
-        self._curves = (
-            np.array([thrusts for thrusts, _ in curves]).reshape(-1, N_POINTS),
-            np.array([commands for _, commands in curves]).reshape(-1, N_POINTS),
-        )
-        self._wanted = np.zeros(6)  # [m/s, rad/s]
-        self._model = np.zeros(6)  # the velocity that is followed [m/s, rad/s]
-        self._integral = np.zeros(6)
-        self._mode: Mode = "velocity"
-        self.has_news = False
-        """Whether forces or thrusts were commanded that it has not given yet."""
-        self._takes_over = False  # whether depth and heading are still to be taken from the pose
-        self._target = np.zeros(3)  # position and height to hold, W [m]
-        self._heading = np.eye(3)  # world_from_base whose yaw is to be held
-        self._wrench = np.zeros(6)  # force and moment about the reference [N, N m]
+        self._autopilot = _autopilot_record(vehicle, link, mass, gains or Gains(), self.allocation)
+        for name in ("place", "dof", "body", "is_over_ground"):
+            self._autopilot[name] = getattr(seat, name)
+        self._thrusters = _thruster_records(thrusters, self.allocation, self._autopilot)
+        self._thrusters["control"] = seat.controls
+        self._state = np.zeros(1, AUTOPILOT_STATE)
+        self._state["heading"] = np.eye(3)
         self._commands = np.zeros(len(vehicle.thrusters))
 
     @property
-    def is_over_ground(self) -> bool:
-        """Whether it needs the velocity over ground now."""
-        return self._mode == "position"
+    def addresses(self) -> tuple[int, int, int, int, int]:
+        """Of its records: what it knows, its state, its thrusters, its commands; how many."""
+        records = (self._autopilot, self._state, self._thrusters, self._commands)
+        knows, state, thrusters, commands = (each.ctypes.data for each in records)
+        return knows, state, thrusters, commands, len(self._thrusters)
 
     def hold(self, world_from_base: Pose) -> None:
         """Hold the present depth and heading, at rest, and reset the loops."""
-        self._mode, self._takes_over = "velocity", False
-        self._wanted[:] = 0.0
-        self._model[:] = 0.0
-        self._integral[:] = 0.0
-        self._target[2] = world_from_base.position[2]
-        self._heading = world_from_base.rotation.copy()
+        state = self._state
+        state["mode"], state["takes_over"] = VELOCITY, False
+        for name in ("wanted", "model", "integral"):
+            state[name] = 0.0
+        state["target"][:, 2] = world_from_base.position[2]
+        state["heading"] = world_from_base.rotation
 
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Take a twist [m/s, rad/s] in the base frame; it is held until the next."""
-        if self._mode != "velocity":
-            self._mode, self._takes_over = "velocity", True
-            self._integral[:] = 0.0
-        self._wanted[:] = np.clip([*linear, *angular], -MAX_COMMAND, MAX_COMMAND)
+        self._change_to(VELOCITY, takes_over=True)
+        self._state["wanted"] = np.clip([*linear, *angular], -MAX_COMMAND, MAX_COMMAND)
 
     def go_to(self, world_from_base: Pose) -> None:
         """Go to a place and its heading, and stay there; roll and pitch are not followed."""
-        if self._mode != "position":
-            self._mode = "position"
-            self._integral[:] = 0.0
-        self._takes_over = False
-        self._wanted[:] = 0.0
-        self._target = np.clip(world_from_base.position, -MAX_COMMAND, MAX_COMMAND)
-        self._heading = world_from_base.rotation.copy()
+        self._change_to(POSITION, takes_over=False)
+        self._state["takes_over"] = False
+        self._state["wanted"] = 0.0
+        self._state["target"] = np.clip(world_from_base.position, -MAX_COMMAND, MAX_COMMAND)
+        self._state["heading"] = world_from_base.rotation
 
     def push(self, force: Array, torque: Array) -> None:
         """Allocate a force [N] and a torque about the base's origin [N m], base axes."""
-        self._mode, self.has_news = "wrench", True
+        self._state["mode"], self._state["has_news"] = WRENCH, True
         force, torque = np.clip([force, torque], -MAX_COMMAND, MAX_COMMAND)
-        self._wrench = np.concatenate([force, torque - np.cross(self._reference, force)])
+        moment = torque - np.cross(self._reference, force)
+        self._state["wrench"] = np.concatenate([force, moment])
 
     def set_thrusters(self, commands: Array) -> None:
         """Pass the commands of the thrusters on, (n,) [1]."""
-        self._mode, self.has_news = "thrusters", True
-        self._commands = commands.copy()
+        self._state["mode"], self._state["has_news"] = THRUSTERS, True
+        self._commands[:] = commands
 
-    def commands(self, world_from_base: Pose, velocity: Array, dt: float) -> Array:
-        """Return the commands of the thrusters, (n,) [1].
+    def _change_to(self, mode: int, *, takes_over: bool) -> None:
+        if self._state["mode"][0] != mode:
+            self._state["mode"] = mode
+            if takes_over:
+                self._state["takes_over"] = True
+            self._state["integral"] = 0.0
 
-        Args:
-            world_from_base: where the base is.
-            velocity: of the base, relative to water or ground, base axes, (6,) [m/s, rad/s].
-            dt: time since the last call [s].
-        """
-        self.has_news = False
-        if self._mode == "thrusters":
-            return self._commands
-        if self._mode == "wrench":
-            forces = self._law.shared(self._wrench, self._asked, self._nearest)
-            return self._law.commands(forces, *self._curves)
-        if self._takes_over:
-            self._takes_over = False
-            self._model[:] = velocity
-            self._target[2] = world_from_base.position[2]
-            self._heading = world_from_base.rotation.copy()
-        forces = self._law.loops(
-            dt,
-            self._lag,
-            self._mode == "position",
-            self._gains,
-            world_from_base.position,
-            world_from_base.rotation,
-            velocity,
-            self._wanted,
-            self._target,
-            self._heading,
-            *self._traits,
-            self._axes,
-            self._share,
-            self._reached,
-            self._least,
-            self._greatest,
-            self._drives,
-            self._most,
-            self._model,
-            self._integral,
-        )
-        return self._law.commands(forces, *self._curves)
+
+def _autopilot_record(
+    vehicle: VehicleHydrodynamics, link: str, mass: float, gains: Gains, allocation: Allocation
+) -> npt.NDArray[np.void]:
+    """The parameters of a vehicle's loops, (1,)."""
+    body = vehicle.body(link)
+    lag = max([MIN_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
+    added = matrix(body.added_mass) if body else np.zeros((6, 6))
+    own = [mass, mass, mass, *(body.inertia[:3] if body and body.inertia else (1.0,) * 3)]
+    # a wrench that is commanded is given as nearly as thrusters can, whatever comes with it
+    asked = ALL if ROLL in allocation.axes else USUAL
+    found = np.zeros(1, AUTOPILOT)
+    found["lag"] = 2.5 * lag
+    found["depth"], found["position"] = gains.depth, gains.position
+    found["heading"] = gains.heading
+    found["velocity"], found["integral"] = 0.32 / lag, 0.032 / lag**2
+    found["mass"] = np.array(own) + np.diag(added)
+    found["added"] = np.diag(added)
+    if body:
+        found["linear"] = np.diag(matrix(body.linear_damping))
+        found["quadratic"] = np.diag(matrix(body.quadratic_damping))
+        found["reference"] = body.reference
+    for name, axes in (("axes", allocation.axes), ("asked", asked)):
+        found[f"n_{name}"] = len(axes)
+        found[name][0, : len(axes)] = axes
+    found["drives"], found["max_force"] = allocation.drives, allocation.most
+    return found
+
+
+def _thruster_records(
+    thrusters: Sequence[ThrusterSpec], allocation: Allocation, autopilot: npt.NDArray[np.void]
+) -> npt.NDArray[np.void]:
+    """The parameters of the thrusters, (n,)."""
+    n_axes, asked = len(allocation.axes), autopilot["asked"][0, : autopilot["n_asked"][0]].tolist()
+    rows = np.ascontiguousarray(allocation.wrenches[asked])
+    found = np.zeros(len(thrusters), THRUSTER)
+    found["min_thrust"], found["max_thrust"] = allocation.least, allocation.greatest
+    found["share"][:, :n_axes] = allocation.share
+    found["reached"][:, :n_axes] = allocation.reached.T
+    found["nearest"][:, : len(asked)] = pseudo_inverse(rows, rcond=1e-6)
+    for record, thruster in zip(found, thrusters, strict=True):
+        record["thrusts"], record["commands"] = curve(thruster)
+    return found

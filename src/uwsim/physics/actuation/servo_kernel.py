@@ -11,61 +11,86 @@ pulls with all it has or the joint is further than `NEAR` from its target.
 
 from __future__ import annotations
 
-import numpy as np
-import numpy.typing as npt
+import math
+from typing import Any, NamedTuple
 
 from ...geometry import Array
 from ...jit import njit
+from .records import GEARED, OWN
 
 INTEGRAL = 1.0
 """k_i over k_p [1/s]."""
 NEAR = 0.3
 """Farther from its target a joint is on its way; the integral's bound, too [rad or m]."""
 
-Ints = npt.NDArray[np.int64]
+Records = Any
+"""An array of one of `records`."""
+
+
+class Forces(NamedTuple):
+    """The engine's arrays that servos read, and ``ctrl``, which they set."""
+
+    qpos: Array
+    bias: Array
+    passive: Array
+    spring: Array
+    damper: Array
+    given: Array
+    controls: Array
 
 
 @njit
-def pull(
-    dt: float,
-    addresses: Ints,
-    traits: Array,
-    memory: Array,
-    qpos: Array,
-    bias: Array,
-    passive: Array,
-    spring: Array,
-    damper: Array,
-    given: Array,
-    controls: Array,
-) -> None:
-    """Move the targets on by ``dt`` [s] and set the controls of the engine's position servos.
+def take_aim(joints: Records, states: Records) -> None:
+    """Clamp the targets to the limits, and set those of joints that mimic."""
+    for i in range(len(joints)):
+        if joints[i].kind == OWN:
+            aim = min(max(states[i].wanted, joints[i].lower), joints[i].upper)
+            states[i].aim = aim
+            states[i].wanted = aim
+    for i in range(len(joints)):
+        if joints[i].kind != OWN:
+            leader = joints[i].leader
+            source = states[leader].aim if leader >= 0 else 0.0
+            if joints[i].kind == GEARED:
+                states[i].aim = source * joints[i].multiplier + joints[i].offset
+            else:
+                reach = joints[i].offset * math.sin(source)
+                states[i].aim = -(source + math.asin(min(max(reach, -1.0), 1.0)))
 
-    Args:
-        dt: length of the step [s].
-        addresses: of each joint in ``qpos``, among the degrees of freedom and in ``controls``,
-            (n, 3).
-        traits: stiffness, damping, greatest effort and greatest speed of each joint, (n, 4).
-        memory: where the target goes, where it is [rad or m], and the integral's effort over the
-            stiffness [rad or m], (n, 3); the last two are changed.
-        qpos: the engine's positions.
-        bias: its ``qfrc_bias``.
-        passive: its ``qfrc_passive``.
-        spring: the part of it from springs, those that gear joints together.
-        damper: the part of it from dampers.
-        given: its ``qfrc_actuator``.
-        controls: its ``ctrl``, changed.
-    """
-    for i in range(len(addresses)):
-        place, dof, control = addresses[i]
-        stiffness, damping, strongest, fastest = traits[i]
-        way = fastest * dt
-        step = min(max(memory[i, 0] - memory[i, 1], -way), way)
-        target = memory[i, 1] + step
-        error = target - qpos[place]
-        is_spent = abs(given[dof]) >= strongest and given[dof] * error > 0.0
+
+@njit
+def move_on(dt: float, joints: Records, states: Records, qpos: Array) -> None:
+    """Move on by ``dt`` [s] what is wanted of joints that are driven; one that is off is let go."""
+    moves = False
+    for i in range(len(joints)):
+        if joints[i].kind == OWN and (states[i].speed != 0.0 or states[i].is_on == 0):
+            moves = True
+    if not moves:
+        return
+    for i in range(len(joints)):
+        if joints[i].kind == OWN:
+            if states[i].is_on != 0:
+                states[i].wanted = states[i].wanted + states[i].speed * dt
+            else:
+                states[i].wanted = qpos[joints[i].place]
+    take_aim(joints, states)
+
+
+@njit
+def pull(dt: float, joints: Records, states: Records, engine: Forces) -> None:
+    """Advance the targets by ``dt`` [s] and set the controls of the position servos."""
+    for i in range(len(joints)):
+        joint, state = joints[i], states[i]
+        dof = joint.dof
+        way = joint.max_speed * dt
+        step = min(max(state.aim - state.target, -way), way)
+        target = state.target + step
+        error = target - engine.qpos[joint.place]
+        given = engine.given[dof]
+        is_spent = abs(given) >= joint.max_effort and given * error > 0.0
         if not is_spent and abs(error) <= NEAR:
-            memory[i, 2] = min(max(memory[i, 2] + INTEGRAL * dt * error, -NEAR), NEAR)
-        memory[i, 1] = target
-        load = bias[dof] - (passive[dof] - spring[dof] - damper[dof]) + damping * step / dt
-        controls[control] = target + load / stiffness + memory[i, 2]
+            state.integral = min(max(state.integral + INTEGRAL * dt * error, -NEAR), NEAR)
+        state.target = target
+        load = engine.bias[dof] - (engine.passive[dof] - engine.spring[dof] - engine.damper[dof])
+        load += joint.damping * step / dt
+        engine.controls[joint.control] = target + load / joint.stiffness + state.integral

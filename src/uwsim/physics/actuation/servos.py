@@ -14,63 +14,49 @@ from collections.abc import Mapping
 
 import mujoco
 import numpy as np
+import numpy.typing as npt
 
 from ...geometry import Array
-from ...scene.kinematics import joint_positions
-from ...scene.urdf import RobotSpec
+from ...scene.urdf import JointSpec, RobotSpec
 from ..compile import servo_gains, vehicle_joint
+from .records import CRANKED, GEARED, JOINT, JOINT_STATE, OWN
 
 MAX_SPEED = 2.0
 """A target moves at most this fast, whatever the URDF says [rad/s or m/s]."""
-AIM, TARGET, INTEGRAL = range(3)
-"""Columns of the servos' memory."""
 
 
 class Servos:
     """The servos of one vehicle; the joint vector is UWSim's."""
 
-    STATE = ("_memory", "_wanted", "_speeds", "_is_on", "_moves_on")
+    STATE = ("_state",)
     """What of it changes as time goes by."""
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotSpec, index: int
     ) -> None:
         """Find the joints and actuators of the vehicle number ``index``."""
-        from .servo_kernel import pull
+        from .servo_kernel import take_aim
 
-        self._law = pull
-        self._model, self._data, self._robot = model, data, robot
+        self._take_aim = take_aim
+        self._model, self._data = model, data
         moving = [joint for joint in robot.joints if joint.moves]
-        self._all = [joint.name for joint in moving]
-        self._names = [joint.name for joint in robot.movable]
-        self._joints = [model.joint(vehicle_joint(index, name)).id for name in self._all]
-        servos = [model.actuator(f"{vehicle_joint(index, name)}/servo").id for name in self._all]
-        self._servos = servos
-        places = model.jnt_qposadr[self._joints]
-        dofs = model.jnt_dofadr[self._joints]
-        self._addresses = np.column_stack([places, dofs, model.actuator_ctrladr[servos]]).astype(
-            np.int64
-        )  # (m, 3): of all that move, in qpos, among the degrees of freedom, in ctrl
-        self._traits = np.array(
-            [[*servo_gains(one.effort), one.effort, min(one.velocity, MAX_SPEED)] for one in moving]
-        ).reshape(-1, 4)
-        self._memory = np.zeros((len(moving), 3))
-        self._engine = (
-            data.qpos,
-            data.qfrc_bias,
-            data.qfrc_passive,
-            data.qfrc_spring,
-            data.qfrc_damper,
-            data.qfrc_actuator,
-            data.ctrl,
-        )
-        # of the joint vector, (n,)
-        self._vector = [self._all.index(name) for name in self._names]
-        self._places, self._dofs = places[self._vector], dofs[self._vector]
-        self._wanted = np.zeros(len(self._names))  # [rad or m]
-        self._speeds = np.zeros(len(self._names))  # [rad/s or m/s]
-        self._is_on = np.ones(len(self._names), dtype=bool)
-        self._moves_on = False  # whether what is wanted changes by itself
+        names = [joint.name for joint in moving]
+        self._joints = [model.joint(vehicle_joint(index, name)).id for name in names]
+        self._servos = [model.actuator(f"{vehicle_joint(index, name)}/servo").id for name in names]
+        self._records = _joint_records(moving)
+        self._records["place"] = model.jnt_qposadr[self._joints]
+        self._records["dof"] = model.jnt_dofadr[self._joints]
+        self._records["control"] = model.actuator_ctrladr[self._servos]
+        self._state = np.zeros(len(moving), JOINT_STATE)
+        self._state["is_on"] = True
+        self._vector = [names.index(joint.name) for joint in robot.movable]  # (n,)
+        self._places = self._records["place"][self._vector]
+        self._dofs = self._records["dof"][self._vector]
+
+    @property
+    def addresses(self) -> tuple[int, int, int]:
+        """Of the records of its joints and of their state; how many there are."""
+        return self._records.ctypes.data, self._state.ctypes.data, len(self._records)
 
     @property
     def positions(self) -> Array:
@@ -93,28 +79,30 @@ class Servos:
     def put(self, values: Array) -> None:
         """Set the joints, at rest, and hold them there."""
         self.aim(dict(enumerate(values.tolist())))
-        self._memory[:, TARGET] = self._memory[:, AIM]
-        self._memory[:, INTEGRAL] = 0.0
-        self._data.qpos[self._addresses[:, 0]] = self._memory[:, AIM]
-        self._data.qvel[self._addresses[:, 1]] = 0.0
+        self._state["target"] = self._state["aim"]
+        self._state["integral"] = 0.0
+        self._data.qpos[self._records["place"]] = self._state["aim"]
+        self._data.qvel[self._records["dof"]] = 0.0
 
     def aim(self, targets: Mapping[int, float]) -> None:
         """Bring these joints to [rad or m] and hold them; the others keep what they do."""
         for number, value in targets.items():
-            self._wanted[number] = value
-            self._speeds[number] = 0.0
+            self._state["wanted"][self._vector[number]] = value
+            self._state["speed"][self._vector[number]] = 0.0
             self._switch(number, is_on=True)
-        self._take_aim()
+        self._take_aim(self._records, self._state)
 
     def drive(self, speeds: Mapping[int, float]) -> None:
         """Move the targets of these joints at [rad/s or m/s]; the others stay where they are."""
-        self._speeds[:] = 0.0
+        self._state["speed"] = 0.0
         for number, speed in speeds.items():
             self._switch(number, is_on=True)
-            most = self._traits[self._vector[number], 3]
-            self._speeds[number] = min(max(speed, -most), most)
-        self._wanted[:] = np.where(self._is_on, self._memory[self._vector, TARGET], self.positions)
-        self._take_aim()
+            place = self._vector[number]
+            most = float(self._records["max_speed"][place])
+            self._state["speed"][place] = min(max(speed, -most), most)
+        own = self._state[self._vector]
+        self._state["wanted"][self._vector] = np.where(own["is_on"], own["target"], self.positions)
+        self._take_aim(self._records, self._state)
 
     def push(self, efforts: Mapping[int, float]) -> None:
         """Apply efforts [N m or N] to these joints, limited to the strength of their servos.
@@ -122,37 +110,43 @@ class Servos:
         The others keep what they do.
         """
         for number, effort in efforts.items():
-            self._speeds[number] = 0.0
+            place = self._vector[number]
+            self._state["speed"][place] = 0.0
             self._switch(number, is_on=False)
-            most = self._traits[self._vector[number], 2]
+            most = float(self._records["max_effort"][place])
             self._data.qfrc_applied[self._dofs[number]] = min(max(effort, -most), most)
-        self._take_aim()
-
-    def step(self, dt: float) -> None:
-        """Advance the targets by ``dt`` [s] and set the servos' controls."""
-        if self._moves_on:
-            self._wanted = np.where(self._is_on, self._wanted + self._speeds * dt, self.positions)
-            self._take_aim()
-        self._law(dt, self._addresses, self._traits, self._memory, *self._engine)
-
-    def _take_aim(self) -> None:
-        """Clamp the targets to the limits, and set those of joints that mimic."""
-        positions = joint_positions(self._robot, self._wanted.tolist())
-        self._memory[:, AIM] = [positions[name] for name in self._all]
-        self._wanted = self._memory[self._vector, AIM]
-        self._moves_on = bool(self._speeds.any()) or not self._is_on.all()
+        self._take_aim(self._records, self._state)
 
     def _switch(self, number: int, *, is_on: bool) -> None:
         """Switch a servo on or off; one that is off is replaced by stops at the limits."""
-        if is_on and self._is_on[number]:
-            return
         place = self._vector[number]
-        stiffness, damping = (self._traits[place, :2] * is_on).tolist()
-        servo = self._servos[place]
-        self._is_on[number] = is_on
+        if is_on and self._state["is_on"][place]:
+            return
+        record, servo = self._records[place], self._servos[place]
+        stiffness, damping = float(record["stiffness"]) * is_on, float(record["damping"]) * is_on
+        self._state["is_on"][place] = is_on
         self._model.actuator_gainprm[servo, 0] = stiffness
         self._model.actuator_biasprm[servo, 1:3] = -stiffness, -damping
         self._model.jnt_limited[self._joints[place]] = not is_on
         self._data.qfrc_applied[self._dofs[number]] = 0.0
-        self._memory[place, TARGET] = self._data.qpos[self._places[number]]
-        self._memory[place, INTEGRAL] = 0.0
+        self._state["target"][place] = self._data.qpos[self._places[number]]
+        self._state["integral"][place] = 0.0
+
+
+def _joint_records(moving: list[JointSpec]) -> npt.NDArray[np.void]:
+    """The parameters of joints that move, without their places in the engine, (m,)."""
+    names = [joint.name for joint in moving]
+    found = np.zeros(len(moving), JOINT)
+    for record, joint in zip(found, moving, strict=True):
+        record["lower"], record["upper"] = joint.lower, joint.upper
+        record["stiffness"], record["damping"] = servo_gains(joint.effort)
+        record["max_effort"] = joint.effort
+        record["max_speed"] = min(joint.velocity, MAX_SPEED)
+        record["kind"] = OWN
+        if joint.mimic is not None:
+            record["kind"] = CRANKED if "slidercrank" in joint.name else GEARED
+            leads = [one.name for one in moving if one.mimic is None]  # chains are not followed
+            leader = joint.mimic.joint
+            record["leader"] = names.index(leader) if leader in leads else -1
+            record["multiplier"], record["offset"] = joint.mimic.multiplier, joint.mimic.offset
+    return found

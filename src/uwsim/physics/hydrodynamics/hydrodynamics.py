@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
@@ -83,31 +83,6 @@ class Hydrodynamics:
         rows[chosen, 3:6] = acceleration
         rows[chosen, c.TURN : c.TURN + 3] = rotation
 
-    def current_setter(
-        self, data: mujoco.MjData, bodies: npt.NDArray[np.int64]
-    ) -> Callable[[Floats, Floats, Floats | None], None]:
-        """Return `set_current` of some bodies (n,), for every step: nothing is looked up any more.
-
-        It takes velocities [m/s], accelerations [m/s2] and rotations [rad/s] of the water in W,
-        (n, 3) each; for the last None, where nothing turns.
-        """
-        userdata = data.userdata
-        velocities = c.WATER_COLUMNS * bodies[:, None] + np.arange(3)  # (n, 3) places
-        accelerations, rotations = velocities + 3, velocities + c.TURN
-        turns = False
-
-        def set_current(
-            velocity: Floats, acceleration: Floats, rotation: Floats | None = None
-        ) -> None:
-            nonlocal turns
-            userdata[velocities] = velocity
-            userdata[accelerations] = acceleration
-            if turns or rotation is not None:
-                userdata[rotations] = 0.0 if rotation is None else rotation
-                turns = rotation is not None
-
-        return set_current
-
     def felt_at(self, body: int) -> Floats:
         """Where a body feels the water, in its axes, (3,) [m]: see `state.State.wet_positions`."""
         row = self.model.body_user[body]
@@ -134,6 +109,13 @@ class Hydrodynamics:
     ) -> None:
         """Command all thrusters, or those of some numbers among them, (n,) [1]."""
         data.ctrl[self._controls[indices]] = commands
+
+    def stop_thruster(self, data: mujoco.MjData, index: int) -> None:
+        """Let a thruster stand still at once, by its number among the thrusters."""
+        self.set_thruster(data, index, 0.0)
+        address = int(self.model.actuator_actadr[self.thrusters[index]])
+        if address >= 0:
+            data.act[address] = 0.0
 
     def set_loss(self, data: mujoco.MjData, index: int, loss: float) -> None:
         """Let a thruster lose a part of its thrust: 0 healthy, 1 dead."""

@@ -21,7 +21,7 @@ from ...errors import UwsimError
 MODEL_FIELDS = (
     "opt.timestep", "opt.gravity", "opt.integrator", "opt.solver", "opt.noslip_iterations",
     "opt.disableflags", "opt.enableflags",
-    "nv", "nbody", "nactuator", "nuser_body", "nuser_actuator", "nuserdata",
+    "nq", "nv", "nu", "nbody", "nactuator", "nuser_body", "nuser_actuator", "nuserdata",
     "ntree", "tree_bodyadr", "tree_bodynum", "tree_dofadr", "tree_dofnum",
     "body_parentid", "body_rootid", "body_treeid", "body_jntnum", "body_jntadr", "body_dofnum",
     "body_dofadr", "body_user", "jnt_qposadr",
@@ -34,7 +34,7 @@ MODEL_FIELDS = (
 DATA_FIELDS = (
     "qpos", "qvel", "act", "ctrl", "userdata", "xpos", "xmat", "site_xpos", "site_xmat",
     "subtree_com", "cdof", "cdof_dot", "cvel", "cacc", "cinert", "crb", "M", "qfrc_passive",
-    "qfrc_applied", "tree_awake",
+    "qfrc_applied", "qfrc_bias", "qfrc_spring", "qfrc_damper", "qfrc_actuator", "tree_awake",
 )  # fmt: skip
 """What the kernel reads and writes of the data."""
 

@@ -46,6 +46,13 @@ def ints(address: int, n: int) -> Ints:
 
 
 @njit
+def longs(address: int, n: int) -> Ints64:
+    """The ``n`` 64-bit integers that lie at ``address``."""
+    view: Ints64 = carray(pointer(address), (n,), np.int64)
+    return view
+
+
+@njit
 def word(address: int) -> int:
     """The 64-bit integer, or pointer, that lies at ``address``."""
     value: int = carray(pointer(address), (1,), np.int64)[0]

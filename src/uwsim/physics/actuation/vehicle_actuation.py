@@ -1,0 +1,113 @@
+"""The actuation of one simulated vehicle: autopilot, thrusters, fins and joint servos."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import mujoco
+
+from ...geometry import Array, Pose
+from ...scene.urdf import RobotSpec
+from ...scene.vehicle import VehicleSpec
+from ..balance import balance_of
+from ..compile import vehicle_fin, vehicle_joint, vehicle_thruster
+from ..hydrodynamics import VehicleHydrodynamics
+from ..poses import Poses
+from .actuators import Actuators
+from .allocation import thrusters_on_base
+from .autopilot import Autopilot, Seat
+from .servos import Servos
+
+if TYPE_CHECKING:
+    from ..hydrodynamics.hydrodynamics import Hydrodynamics
+
+
+class VehicleActuation:
+    """The actuation of the vehicle number ``index``.
+
+    Args:
+        index: its number in the scene.
+        vehicle: what the scene says of it.
+        robot: its links and joints.
+        dynamics: what its hydrodynamics file says.
+        data: the engine's state.
+        water: around it.
+        poses: where it is.
+    """
+
+    STATE = ("autopilot", "servos")
+    """What of it changes as time goes by."""
+
+    def __init__(
+        self,
+        index: int,
+        vehicle: VehicleSpec,
+        robot: RobotSpec,
+        dynamics: VehicleHydrodynamics,
+        data: mujoco.MjData,
+        water: Hydrodynamics,
+        poses: Poses,
+    ) -> None:
+        self._index, self._robot, self._dynamics = index, robot, dynamics
+        self._data, self._water, self._refresh = data, water, poses.refresh
+        self.thrusters = tuple(thruster.name for thruster in dynamics.thrusters)
+        """Names of its thrusters, in the order of its hydrodynamics file."""
+        self.fins = tuple(fin.name for fin in dynamics.fins)
+        """Names of its fins, in that order."""
+        self._thrusters = [water.thruster(vehicle_thruster(index, one)) for one in self.thrusters]
+        self._fins = [vehicle_fin(index, name) for name in self.fins]
+        self.servos = Servos(water.model, data, robot, index)
+        """Those of its joints."""
+        self.autopilot = self._make_autopilot(vehicle, poses)
+        """What steers it."""
+
+    def _make_autopilot(self, vehicle: VehicleSpec, poses: Poses) -> Autopilot:
+        robot, dynamics, model = self._robot, self._dynamics, self._water.model
+        pose, base = poses.vehicle(self._index), poses.base(self._index)
+        free = model.joint(vehicle_joint(self._index, ""))
+        actuators = [self._water.thrusters[number] for number in self._thrusters]
+        autopilot = Autopilot(
+            dynamics,
+            robot.root,
+            float(model.body_subtreemass[base]),
+            Seat(
+                place=int(free.qposadr[0]),
+                dof=int(free.dofadr[0]),
+                body=base,
+                controls=model.actuator_ctrladr[actuators].tolist(),
+                is_over_ground=vehicle.velocity_loop == "ground",
+            ),
+            stiffness=balance_of(robot, dynamics, vehicle.joint_values).stiffness(pose.rotation[2]),
+            thrusters=thrusters_on_base(robot, dynamics.thrusters, vehicle.joint_values),
+        )
+        autopilot.hold(pose)
+        return autopilot
+
+    def hold(self, world_from_base: Pose) -> None:
+        """Stop the thrusters, put the fins at 0, and hold depth and heading here."""
+        for thruster in self._thrusters:
+            self._water.stop_thruster(self._data, thruster)
+        for fin in self._fins:
+            self._water.stop_fin(self._data, fin)
+        self.autopilot.hold(world_from_base)
+
+    def turn_fins(self, angles: Array) -> None:
+        """Let its fins turn to these angles, (n,) [rad]."""
+        for fin, angle in zip(self._fins, angles.tolist(), strict=True):
+            self._water.turn_fin(self._data, fin, angle)
+
+    def set_loss(self, thruster: int, loss: float) -> None:
+        """Let a thruster lose a part of its thrust: 0 healthy, 1 dead."""
+        self._water.set_loss(self._data, self._thrusters[thruster], loss)
+
+    def actuators(self) -> Actuators:
+        """Return what can be read of its thrusters and joints."""
+        return Actuators(
+            self._water.model,
+            self._data,
+            self._water,
+            self._dynamics,
+            self._robot,
+            self._index,
+            self._refresh,
+        )

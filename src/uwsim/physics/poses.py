@@ -1,0 +1,132 @@
+"""Where everything in a scene is: vehicles, links, what is mounted on them, objects; as copies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array, Pose, quaternion_from_rotation
+from ..linear import points_of, product, turned
+from ..scene.spec import SceneSpec
+from ..scene.urdf import RobotSpec
+from .compile import object_body, vehicle_body
+from .scaled import stretched_axes
+
+
+class Poses:
+    """The frames of a scene, worked out from the joints when somebody asks for the first time.
+
+    Args:
+        scene: what the file says.
+        robots: the robot of each vehicle, by its number.
+        model: of the scene.
+        data: its state.
+    """
+
+    STATE = ("version", "_is_stale")
+    """What of it changes as time goes by."""
+
+    def __init__(
+        self,
+        scene: SceneSpec,
+        robots: Mapping[int, RobotSpec],
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+    ) -> None:
+        self._model, self._data = model, data
+        # Views into MuJoCo's memory: to look them up by name costs more than the step.
+        self._origins = data.xpos  # (nbody, 3) [m]
+        self._axes = data.xmat.reshape(-1, 3, 3)  # (nbody, 3, 3)
+        ids = {model.body(i).name: i for i in range(model.nbody)}
+        self._bases = {i: ids[vehicle_body(i, robots[i].root)] for i in robots}
+        self._links = {
+            (i, link.name): ids[vehicle_body(i, link.name)]
+            for i in robots
+            for link in robots[i].links
+        }
+        names = {i: object_body(i) for i in range(len(scene.objects))}
+        self._loose = {i: ids[name] for i, name in names.items() if name in ids}
+        self._fixed = {
+            i: _as_the_engine_has_it(scene.world_from_localized @ thing.localized_from_object)
+            for i, thing in enumerate(scene.objects)
+            if i not in self._loose
+        }
+        scales = {i: vehicle.scale_factor for i, vehicle in enumerate(scene.vehicles)}
+        self._scales = {i: scale for i, scale in scales.items() if scale != (1.0, 1.0, 1.0)}
+        self._is_stale = True
+        self.version = 0
+        """Grows whenever something was moved."""
+
+    def moved(self) -> None:
+        """Take note that joints are elsewhere now."""
+        self._is_stale = True
+        self.version += 1
+
+    def refresh(self) -> None:
+        """Work out the frames, if something was moved."""
+        if self._is_stale:
+            mujoco.mj_kinematics(self._model, self._data)
+            self._is_stale = False
+
+    def base(self, index: int) -> int:
+        """Return the engine's number of a vehicle's base."""
+        return self._bases[index]
+
+    def vehicle(self, index: int) -> Pose:
+        """Return ``world_from_base`` of a vehicle."""
+        return self._body(self._bases[index])
+
+    def link(self, index: int, link: str) -> Pose:
+        """Return ``world_from_link`` (the kinematic frame) of a vehicle's link."""
+        return self._body(self._links[index, link])
+
+    def link_frame(self, index: int, link: str) -> Array:
+        """Return ``world_from_link`` with the vehicle's scale in it, (4, 4) [m]."""
+        pose = self.link(index, link)
+        frame = pose.matrix
+        if index in self._scales:
+            frame[:3, :3] = stretched_axes(self.vehicle(index), pose, self._scales[index])
+        return frame
+
+    def mounted(self, index: int, link: str, link_from_part: Pose) -> Pose:
+        """Return where something on a link is; the vehicle's scale moves it and does not turn it.
+
+        Args:
+            index: number of the vehicle.
+            link: name of the link.
+            link_from_part: where the file puts it on the link.
+        """
+        pose = self.link(index, link)
+        if index not in self._scales:
+            return pose @ link_from_part
+        axes = stretched_axes(self.vehicle(index), pose, self._scales[index])
+        position = pose.position + turned(axes, link_from_part.position)
+        return Pose(position, product(pose.rotation, link_from_part.rotation))
+
+    def object(self, index: int) -> Pose:
+        """Return ``world_from_object`` (before its offsets and its scale)."""
+        return self._fixed[index].copy() if index in self._fixed else self._body(self._loose[index])
+
+    def is_fixed(self, index: int) -> bool:
+        """Whether an object stays where it is."""
+        return index in self._fixed
+
+    def points(self, bodies: npt.NDArray[np.int64], on_bodies: Array) -> Array:
+        """Return where points (n, 3) [m] of some bodies are, in W, (n, 3) [m]."""
+        self.refresh()
+        return points_of(self._origins, self._axes, bodies, on_bodies)
+
+    def _body(self, body: int) -> Pose:
+        self.refresh()
+        return Pose(self._origins[body].copy(), self._axes[body].copy())
+
+
+def _as_the_engine_has_it(pose: Pose) -> Pose:
+    """A pose by way of a quaternion, which is what the engine keeps."""
+    rotation, quaternion = np.zeros(9), quaternion_from_rotation(pose.rotation)
+    mujoco.mju_normalize4(quaternion)
+    mujoco.mju_quat2Mat(rotation, quaternion)
+    return Pose(pose.position.copy(), rotation.reshape(3, 3))

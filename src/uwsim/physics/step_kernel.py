@@ -1,0 +1,199 @@
+"""The compiled parts of a time step: commands and water before MuJoCo's step, checks after it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..geometry import Array
+from ..jit import njit
+from .actuation.autopilot_kernel import Seen, steer
+from .actuation.records import AUTOPILOT, AUTOPILOT_STATE, JOINT, JOINT_STATE, POSITION, THRUSTER
+from .actuation.servo_kernel import Forces, move_on, pull
+from .engine_warnings import too_fast
+from .hydrodynamics import fields as f
+from .hydrodynamics.columns import TURN, WATER_COLUMNS
+from .hydrodynamics.free_bodies import to_the_end, to_the_middle
+from .hydrodynamics.memory import Ints64, carray, floats, longs, pointer, small, word
+
+_TINY = 1e-15  # mjMINVAL
+ROW = 9
+"""Of the water at a body: velocity, acceleration and rotation."""
+WENT_WELL, WARNED, TOO_FAST = range(3)
+"""What became of a step; of one that is too fast the degree of freedom is added."""
+
+PLAN = np.dtype(
+    [
+        ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets in them
+        ("data", np.int64),
+        ("offsets", np.int64),
+        ("n_offsets", np.int64),
+        ("is_in_middle", np.int64),  # whether free bodies go half a step before MuJoCo's step
+        ("step", np.int64),  # steps taken
+        ("autopilot_steps", np.int64),  # between two ticks of the autopilots
+        ("timestep", np.float64),  # [s]
+        ("autopilots", np.int64),  # five numbers each: `Autopilot.addresses`
+        ("n_autopilots", np.int64),
+        ("servos", np.int64),  # three numbers a vehicle: `Servos.addresses`
+        ("n_servos", np.int64),
+        ("placed", np.int64),  # places in qpos and qvel of bodies that stay where they are put
+        ("n_placed", np.int64),
+        ("poses", np.int64),  # where those are, seven numbers each
+        ("speeds", np.int64),  # `engine_warnings.speeds_of`
+        ("n_speeds", np.int64),
+        ("warnings", np.int64),  # MuJoCo's counters
+        ("n_warnings", np.int64),
+        ("stride", np.int64),  # bytes from one to the next
+        ("wet", np.int64),  # bodies that feel the water
+        ("n_wet", np.int64),
+        ("water", np.int64),  # a row of `ROW` numbers for each in each step; 0: it is as it was
+    ],
+    align=True,
+)
+"""What the step of one engine has to do: addresses and numbers."""
+
+Record = Any
+
+
+@njit
+def begin(plans: Record) -> None:
+    """Set the water, the thrusters and the servos of the step that begins."""
+    plan = plans[0]
+    m, d = plan.model, plan.data
+    at = longs(plan.offsets, plan.n_offsets)
+    if plan.water != 0:
+        set_water(plan, floats(word(d + at[f.USERDATA]), word(m + at[f.NUSERDATA])))
+    qpos = floats(word(d + at[f.QPOS]), word(m + at[f.NQ]))
+    ctrl = floats(word(d + at[f.CTRL]), word(m + at[f.NU]))
+    set_thrusters(plan, at, qpos, ctrl)
+    nv = word(m + at[f.NV])
+    engine = Forces(
+        qpos=qpos,
+        bias=floats(word(d + at[f.BIAS_FORCE]), nv),
+        passive=floats(word(d + at[f.PASSIVE]), nv),
+        spring=floats(word(d + at[f.SPRING]), nv),
+        damper=floats(word(d + at[f.DAMPER]), nv),
+        given=floats(word(d + at[f.ACTUATOR]), nv),
+        controls=ctrl,
+    )
+    servos = longs(plan.servos, 3 * plan.n_servos)
+    for i in range(plan.n_servos):
+        joints = carray(pointer(servos[3 * i]), (servos[3 * i + 2],), JOINT)
+        states = carray(pointer(servos[3 * i + 1]), (servos[3 * i + 2],), JOINT_STATE)
+        move_on(plan.timestep, joints, states, qpos)
+        pull(plan.timestep, joints, states, engine)
+    placed = longs(plan.placed, 2 * plan.n_placed)
+    poses = floats(plan.poses, 7 * plan.n_placed)
+    for i in range(plan.n_placed):
+        for k in range(7):
+            poses[7 * i + k] = qpos[placed[2 * i] + k]
+    if plan.is_in_middle != 0:
+        to_the_middle(m, d, at)
+
+
+@njit
+def end(plans: Record) -> int:
+    """Complete the step after MuJoCo's, and say what became of it."""
+    plan = plans[0]
+    m, d = plan.model, plan.data
+    at = longs(plan.offsets, plan.n_offsets)
+    if plan.is_in_middle != 0:
+        to_the_end(m, d, at)
+    for i in range(plan.n_warnings):
+        if small(plan.warnings + plan.stride * i) != 0:
+            return WARNED
+    qvel = floats(word(d + at[f.QVEL]), word(m + at[f.NV]))
+    speeds = longs(plan.speeds, 2 * plan.n_speeds).reshape((-1, 2))
+    dof = too_fast(qvel, speeds)
+    if dof >= 0:
+        return TOO_FAST + dof
+    qpos = floats(word(d + at[f.QPOS]), word(m + at[f.NQ]))
+    placed = longs(plan.placed, 2 * plan.n_placed)
+    poses = floats(plan.poses, 7 * plan.n_placed)
+    for i in range(plan.n_placed):
+        for k in range(7):
+            qpos[placed[2 * i] + k] = poses[7 * i + k]
+        for k in range(6):
+            qvel[placed[2 * i + 1] + k] = 0.0
+    plan.step += 1
+    return WENT_WELL
+
+
+@njit
+def end_and_begin(plans: Record) -> int:
+    """Complete a step and begin the next, if the first went well."""
+    found = end(plans)
+    if found == WENT_WELL:
+        begin(plans)
+    return found
+
+
+@njit
+def set_water(plan: Record, userdata: Array) -> None:
+    """Let the water move as the next row of the table says."""
+    wet = longs(plan.wet, plan.n_wet)
+    rows = floats(plan.water, ROW * plan.n_wet)
+    for i in range(plan.n_wet):
+        to = WATER_COLUMNS * wet[i]
+        for k in range(6):
+            userdata[to + k] = rows[ROW * i + k]
+        for k in range(3):
+            userdata[to + TURN + k] = rows[ROW * i + 6 + k]
+    plan.water += 8 * ROW * plan.n_wet
+
+
+@njit
+def set_thrusters(plan: Record, at: Ints64, qpos: Array, ctrl: Array) -> None:
+    """Let the autopilots that are due, or have got a command, set their thrusters."""
+    addresses = longs(plan.autopilots, 5 * plan.n_autopilots)
+    is_due = plan.step % plan.autopilot_steps == 0
+    for i in range(plan.n_autopilots):
+        own = addresses[5 * i : 5 * i + 5]
+        state = carray(pointer(own[1]), (1,), AUTOPILOT_STATE)[0]
+        if not is_due and state.has_news == 0:
+            continue
+        autopilot = carray(pointer(own[0]), (1,), AUTOPILOT)[0]
+        thrusters = carray(pointer(own[2]), (own[4],), THRUSTER)
+        is_over_ground = autopilot.is_over_ground != 0 or state.mode == POSITION
+        qvel = floats(word(plan.data + at[f.QVEL]) + 8 * autopilot.dof, 6)
+        water = word(plan.data + at[f.USERDATA]) + 8 * WATER_COLUMNS * autopilot.body
+        seen = look(
+            qpos[autopilot.place : autopilot.place + 7], qvel, floats(water, 3), is_over_ground
+        )
+        commands = floats(own[3], own[4])
+        dt = plan.autopilot_steps * plan.timestep
+        steer(dt, autopilot, state, thrusters, commands, seen, ctrl)
+
+
+@njit
+def look(qpos: Array, qvel: Array, water: Array, is_over_ground: bool) -> Seen:
+    """Return a free body as its autopilot sees it."""
+    rotation = rotation_of(qpos[3], qpos[4], qpos[5], qpos[6])
+    velocity = qvel.copy()
+    for i in range(3):
+        velocity[i] = rotation[0, i] * qvel[0] + rotation[1, i] * qvel[1] + rotation[2, i] * qvel[2]
+        if not is_over_ground:
+            velocity[i] -= (
+                rotation[0, i] * water[0] + rotation[1, i] * water[1] + rotation[2, i] * water[2]
+            )
+    return Seen(position=qpos[:3].copy(), rotation=rotation, velocity=velocity)
+
+
+@njit
+def rotation_of(w: float, x: float, y: float, z: float) -> Array:
+    """Return the matrix of a quaternion, bit for bit as MuJoCo computes it, (3, 3)."""
+    size = math.sqrt((w * w + x * x) + (y * y + z * z))
+    if size < _TINY:
+        w, x, y, z = 1.0, 0.0, 0.0, 0.0
+    elif abs(size - 1.0) > _TINY:
+        share = 1.0 / size
+        w, x, y, z = w * share, x * share, y * share, z * share
+    found = np.empty((3, 3))
+    a, b, c, d = w * w, x * x, y * y, z * z
+    found[0, 0], found[1, 1], found[2, 2] = (a - c) + (b - d), (a + c) - (b + d), (a - c) - (b - d)
+    found[0, 1], found[0, 2] = 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)
+    found[1, 0], found[1, 2] = 2.0 * (x * y + w * z), 2.0 * (y * z - w * x)
+    found[2, 0], found[2, 1] = 2.0 * (x * z - w * y), 2.0 * (y * z + w * x)
+    return found

@@ -1,0 +1,129 @@
+"""The time loop of a scene with simulated vehicles, with compiled code between MuJoCo's steps.
+
+MuJoCo's own step is called through its bindings, which turn its errors into exceptions; all else of
+a step is two calls into `step_kernel`, or one between two steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array
+from . import step_kernel
+from .actuation.autopilot import Autopilot
+from .actuation.servos import Servos
+from .engine_warnings import StepCheck
+from .hydrodynamics import callback
+from .hydrodynamics.hydrodynamics import Hydrodynamics
+
+AUTOPILOT_PERIOD = 0.02
+"""An autopilot thinks this often [s]."""
+
+Ints = npt.NDArray[np.int64]
+
+
+class Stepper:
+    """Takes the steps of one engine.
+
+    Args:
+        data: the engine's state.
+        water: around its bodies.
+        autopilots: of the simulated vehicles.
+        servos: of their joints.
+        placed: joints of the vehicles that stay where they are put.
+        wet: bodies whose water is set.
+        check: says what is wrong with a step.
+    """
+
+    def __init__(
+        self,
+        data: mujoco.MjData,
+        water: Hydrodynamics,
+        autopilots: Sequence[Autopilot],
+        servos: Sequence[Servos],
+        placed: Sequence[int],
+        wet: Sequence[int],
+        check: StepCheck,
+    ) -> None:
+        model = water.model
+        self._model, self._data, self._water, self._check = model, data, water, check
+        self._plan = plan = np.zeros(1, step_kernel.PLAN)
+        uses_callback = callback.has_slot()
+        plan["model"], plan["data"] = model._address, data._address
+        plan["is_in_middle"] = uses_callback
+        plan["autopilot_steps"] = max(1, round(AUTOPILOT_PERIOD / model.opt.timestep))
+        plan["timestep"] = model.opt.timestep
+        self._kept = {
+            "offsets": (callback.offsets(), 1),
+            "autopilots": (_numbers([each.addresses for each in autopilots]), 5),
+            "servos": (_numbers([each.addresses for each in servos]), 3),
+            "placed": (_numbers([_places(model, joint) for joint in placed]), 2),
+            "speeds": (check.speeds, 2),
+            "wet": (_numbers([list(wet)]), 1),
+        }
+        for name, (numbers, width) in self._kept.items():
+            plan[name], plan[f"n_{name}"] = numbers.ctypes.data, numbers.size // width
+        self._poses = np.zeros(7 * len(placed))
+        plan["poses"] = self._poses.ctypes.data
+        counters = check.counters
+        plan["warnings"], plan["n_warnings"] = counters.ctypes.data, len(counters)
+        plan["stride"] = counters.strides[0]
+        self._n_wet, self._moved_water = len(wet), False
+        self._step: Callable[[mujoco.MjModel, mujoco.MjData], None] = (
+            mujoco.mj_step if uses_callback else lambda _, data: water.step_without_callback(data)
+        )
+        self._uses_callback = uses_callback
+
+    @property
+    def n_steps(self) -> int:
+        """Steps taken since the beginning; one that failed counts."""
+        return int(self._plan["step"][0])
+
+    def run(self, n: int, first: int, motion: Array | None) -> None:
+        """Take steps.
+
+        Args:
+            n: how many.
+            first: how many were taken before.
+            motion: of the water at the bodies in each step, velocity [m/s], acceleration [m/s2] and
+                rotation [rad/s] in W, (n, m, 9); None: it is still.
+
+        Raises:
+            RunFailed: MuJoCo warned, or a body moves faster than can be: what follows would not
+                be true.
+        """
+        if motion is None and self._moved_water:
+            motion = np.zeros((n, self._n_wet, step_kernel.ROW))
+            self._moved_water = False
+        elif motion is not None:
+            self._moved_water = True
+        plan, model, data, step = self._plan, self._model, self._data, self._step
+        plan["step"] = first
+        plan["water"] = 0 if motion is None else motion.ctypes.data
+        if self._uses_callback:
+            callback.install()  # mj_resetCallbacks may have emptied the slot
+        step_kernel.begin(plan)
+        found = step_kernel.WENT_WELL
+        for _ in range(n - 1):
+            step(model, data)
+            found = step_kernel.end_and_begin(plan)
+            if found != step_kernel.WENT_WELL:
+                break
+        else:
+            step(model, data)
+            found = step_kernel.end(plan)
+        if found != step_kernel.WENT_WELL:
+            plan["step"] += 1
+            self._check.fail(self.n_steps, found - step_kernel.TOO_FAST)
+
+
+def _numbers(rows: Sequence[Sequence[int]]) -> Ints:
+    return np.array(rows, dtype=np.int64).ravel()
+
+
+def _places(model: mujoco.MjModel, joint: int) -> tuple[int, int]:
+    return int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])

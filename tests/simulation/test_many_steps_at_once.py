@@ -1,0 +1,178 @@
+"""Steps taken many at once, where nothing comes between, end at the same bytes as one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+
+from tests.simulation.girona500 import SCENE, TWIST, make
+from uwsim.bus import Node
+from uwsim.currents import ConstantSpec, Place, UwsimSinusoidSpec
+from uwsim.devices.thruster_fault import ThrusterFaultSpec
+from uwsim.errors import RunFailed
+from uwsim.messages import Odometry, Twist, TwistStamped, Vector3, header
+from uwsim.physics.step_kernel import rotation_of
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
+from uwsim.topics.pat_to_ros_odom import PATToROSOdomSpec
+
+SECONDS = 0.5
+ODOMETRY = PATToROSOdomSpec(topic="/odometry", vehicle_name="girona500", rate=30)
+SWELL = UwsimSinusoidSpec(speed=0.2, speed_variation=0.1, speed_period=0.4, random=0.1)
+FAULT = ThrusterFaultSpec(thruster="sway", loss=0.7, start=0.1003, end=0.3)
+
+
+class Pilot:
+    """Sends a twist 20 times a second, some time after it was decided on."""
+
+    def start(self, node: Node) -> None:
+        publish = node.publisher("/twist", TwistStamped)
+
+        def steer() -> None:
+            surge = Vector3(x=0.3 * np.sin(5.0 * node.now), y=0.1, z=0.0)
+            twist = Twist(linear=surge, angular=Vector3(x=0.0, y=0.0, z=0.2))
+            publish(TwistStamped(header=header(0.0), twist=twist))
+
+        node.every(0.05, steer)
+
+
+def swell(simulation: Simulation) -> None:
+    simulation.world.set_current(SWELL.bind(Place(stream=simulation.world.stream)))
+
+
+def with_pilot(simulation: Simulation) -> None:
+    simulation.attach(Pilot(), parameters={"latency_s": 0.013})
+
+
+def driving_an_arm(simulation: Simulation) -> None:
+    servos = simulation.world.state.servos(0)
+    servos.drive({0: 0.3, 2: -0.4})
+    servos.push({1: 3.0})
+
+
+def adrift(simulation: Simulation) -> None:
+    simulation.world.state.autopilot(0).push(np.array([20.0, 3.0, 1.0]), np.zeros(3))
+
+
+def still(simulation: Simulation) -> None:
+    pass
+
+
+def played(prepare: Callable[[Simulation], None], *, at_once: bool) -> tuple[bytes, list[bytes]]:
+    """Advance a while; the motion at the end, and each odometry message."""
+    simulation = make(
+        (TWIST, ODOMETRY), change=lambda vehicle: replace(vehicle, thruster_faults=(FAULT,))
+    )
+    heard: list[bytes] = []
+    simulation.bus.subscribe(
+        "/odometry",
+        Odometry,
+        lambda m: heard.append(np.array([*vars(m.pose.pose.position).values()][:3]).tobytes()),
+    )
+    prepare(simulation)
+    if at_once:
+        simulation.advance(SECONDS)
+    else:
+        for _ in range(round(SECONDS / simulation.timestep)):
+            simulation.advance()
+    motion = np.zeros(simulation.motion.size)
+    simulation.motion.read(motion)
+    assert simulation.step == round(SECONDS / simulation.timestep)
+    return motion.tobytes(), heard
+
+
+@pytest.mark.parametrize("prepare", [still, swell, with_pilot, driving_an_arm, adrift])
+def test_many_steps_at_once_are_the_same_bytes(prepare: Callable[[Simulation], None]) -> None:
+    one_by_one, at_once = played(prepare, at_once=False), played(prepare, at_once=True)
+    assert at_once == one_by_one
+    assert len(at_once[1]) == 15
+
+
+def test_the_engine_is_called_once_for_many_steps_that_nothing_comes_between(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    simulation = make()
+    simulation.advance()
+    taken: list[int] = []
+    step = simulation.world.state.step
+    monkeypatch.setattr(
+        simulation.world.state, "step", lambda n, water: (taken.append(n), step(n, water))
+    )
+    simulation.advance(0.1)
+    assert taken == [50]
+    simulation.watch(lambda: None)  # who observes does so in every step
+    simulation.advance(0.01)
+    assert taken == [50, 1, 1, 1, 1, 1]
+
+
+class Gyre:
+    """Water that turns about the origin of L; counts at how many times it was asked."""
+
+    is_uniform = False
+
+    def __init__(self) -> None:
+        self.times: set[float] = set()
+
+    def velocity(self, points: np.ndarray, time: float, vehicles: Sequence[str] = ()) -> np.ndarray:
+        self.times.add(time)
+        return 0.1 * np.column_stack([-points[:, 1], points[:, 0], 0.0 * points[:, 0]])
+
+    def acceleration(
+        self, points: np.ndarray, time: float, vehicles: Sequence[str] = ()
+    ) -> np.ndarray:
+        return np.zeros_like(points)
+
+
+def test_water_that_differs_from_place_to_place_is_asked_in_every_step() -> None:
+    simulation, gyre = make(), Gyre()
+    simulation.world.set_current(gyre)
+    simulation.advance(0.02)
+    assert len(gyre.times) == 10
+
+
+def test_water_that_comes_to_rest_is_still() -> None:
+    ends = []
+    for at_once in (True, False):
+        simulation = make()
+        simulation.world.set_current(
+            ConstantSpec(velocity=(0.4, 0.0, 0.0)).bind(Place(stream=simulation.world.stream))
+        )
+        simulation.advance(0.1)
+        simulation.world.set_current(None)
+        for _ in range(1 if at_once else 50):
+            simulation.advance(0.1 if at_once else None)
+        ends.append(simulation.velocity("girona500").tolist())
+    assert ends[0] == ends[1]
+    assert not simulation.world.state._data.userdata.any()
+
+
+@pytest.mark.parametrize("at_once", [True, False])
+def test_a_run_that_fails_ends_at_the_step_that_failed(*, at_once: bool) -> None:
+    simulation = Simulation(read_scene(SCENE).nominal, is_blind=True)
+    simulation.advance(0.01)
+    data = simulation.world.state._data
+    data.qfrc_applied[3] = 4e6  # soon it spins too fast
+
+    def go_on() -> None:
+        for _ in range(1 if at_once else 500):
+            simulation.advance(1.0 if at_once else None)
+
+    with pytest.raises(RunFailed, match="moves at") as error:
+        go_on()
+    assert f"at {simulation.time:g} s" in str(error.value)
+    assert 5 < simulation.step < 500
+
+
+def test_a_base_is_turned_as_the_engine_turns_it() -> None:
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>"
+    )
+    data, random = mujoco.MjData(model), np.random.default_rng(3)
+    for _ in range(200):
+        data.qpos[3:] = random.normal(size=4)
+        mujoco.mj_kinematics(model, data)
+        assert np.array_equal(rotation_of(*data.qpos[3:].tolist()).ravel(), data.xmat[1])
