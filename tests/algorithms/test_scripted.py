@@ -12,7 +12,8 @@ from uwsim.assets.bundled import bundled
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.runs.plan import Plan
-from uwsim.runs.trial.trial import LevelRow, execute
+from uwsim.runs.trial.level_row import LevelRow
+from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene
 from uwsim.topics.ros_odom_to_pat import ROSOdomToPATSpec
 from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec

@@ -21,7 +21,8 @@ from uwsim.messages import CameraInfo, Image, pixels_of, seconds
 from uwsim.messages.bag_camera import RecordedFrame
 from uwsim.rendering.water import Water, apply_water
 from uwsim.runs.plan import Plan
-from uwsim.runs.trial.trial import TrialEnd, execute
+from uwsim.runs.trial.level_row import TrialEnd
+from uwsim.runs.trial.trial import execute
 
 TIMES = (0.0, 0.1, 0.25)
 COLOUR = (0.1, 0.4, 0.7)

@@ -11,7 +11,8 @@ import pytest
 from tests.short_trial import DATA, make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.messages import GTpublish, GTpublishResponse
-from uwsim.runs.trial.trial import LevelRow, execute
+from uwsim.runs.trial.level_row import LevelRow
+from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene
 
 CURRENT = """<currentForceUpdater EXTRA>

@@ -24,7 +24,8 @@ from uwsim.runs.plan import Plan
 from uwsim.runs.plan_request import PlanRequest
 from uwsim.runs.prepare import hash_inputs
 from uwsim.runs.run import Run
-from uwsim.runs.trial.trial import LevelRow, execute
+from uwsim.runs.trial.level_row import LevelRow
+from uwsim.runs.trial.trial import execute
 
 TRACKERS = ("ecc", "esm", "ic", "orb", "ssd-esm")
 

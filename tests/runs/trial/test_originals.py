@@ -26,7 +26,8 @@ from uwsim.cli import main
 from uwsim.compatibility import compatibility
 from uwsim.errors import BenchmarkError, NeverStarted, UwsimError
 from uwsim.runs.plan import Plan
-from uwsim.runs.trial.trial import LevelRow, execute
+from uwsim.runs.trial.level_row import LevelRow
+from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation

@@ -22,7 +22,8 @@ from ...simulation import Calls, RendererPool
 from ..input_watch import Watch
 from ..plan import Plan, Trial
 from ..run import Run
-from ..trial.trial import LevelRow, TrialEnd, execute
+from ..trial.level_row import LevelRow, TrialEnd
+from ..trial.trial import execute
 
 IMAGES = "pictures"
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import closing
-from dataclasses import dataclass
 
 from ...benchmark.plugin import attribute_errors_to
 from ...benchmark.plugin_checks import check_values, parameters_of
@@ -33,15 +32,16 @@ from ...interrupts import is_of_user
 from ...messages import String
 from ...simulation import Calls, RendererPool, Simulation, what_broke
 from ..plan import Plan, Trial
-from .fingerprint import Checkpoints, Fingerprinter
+from .fingerprint import Fingerprinter
 from .floor import Floor
 from .known_corners import known_corners
+from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
-from .snapshots import Snapshot, capture
+from .snapshots import capture
 from .status import StatusMonitor, legible
-from .triggered_measure import Sample, TriggeredMeasure, finite
+from .triggered_measure import TriggeredMeasure, finite
 from .visibility import Fact, TargetMotion, visibility_facts
 
 STATUS_TOPIC = "algorithmStatus"
@@ -49,52 +49,6 @@ SETTLING = 1.0
 """How long an independent level runs at the initial values before the ramp [s]."""
 RAMP = 1.0
 """How long the values of an independent level are ramped in [s]."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class LevelRow:
-    """What one level leaves behind."""
-
-    values: tuple[tuple[str, float], ...]
-    """The level: swept parameters and values, outermost first."""
-    measures: dict[str, tuple[float | None, str]]
-    """Measure -> value and unit."""
-    details: dict[str, tuple[float | None, str]]
-    """``measure.detail`` -> value and unit."""
-    total: float | None
-    """The score."""
-    status: str
-    """``ok``, or the first of DESIGN 5 that applies."""
-    missing: dict[str, str]
-    """Column -> why it is null."""
-    ended_at: float
-    """Simulation time at the end of the level [s]."""
-    duration: float
-    """How long the level was measured [s]."""
-    logs: dict[str, list[Sample]]
-    """Measure -> samples: time in the level [s], then `log_headers`."""
-    log_headers: dict[str, tuple[str, ...]]
-    """Measure -> what stands in its samples after the time, with units."""
-    fingerprint: str
-    """Of every body's motion and of every image, since the unit began (`trace`)."""
-    snapshots: tuple[Snapshot, ...]
-    """The cameras' last images."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class TrialEnd:
-    """What a unit knows when it is done, beside its rows."""
-
-    facts: dict[str, Fact]
-    """Constants of the scene, and how far the target moved in the image."""
-    parameters: dict[str, float | str]
-    """Parameters of the algorithm, defaults included."""
-    streams: tuple[tuple[str, int, str], ...]
-    """Topic, number of images, SHA-256 over their pixels."""
-    notes: tuple[str, ...]
-    """What the reader of the result should know, besides the values."""
-    checkpoints: Checkpoints
-    """Fingerprints on the way."""
 
 
 def execute(
@@ -366,42 +320,19 @@ class _Execution:
         began: int,
     ) -> LevelRow:
         simulation = self._simulation
-        values: dict[str, float | None] = {}
-        units: dict[str, str] = {}
-        details: dict[str, tuple[float | None, str]] = {}
-        missing: dict[str, str] = {}
-        for gated in measures:
-            name, measure = gated.spec.name, gated.measure
-            blank = status != "ok" and measure.fed_by_algorithm
-            units[name] = measure.unit
-            values[name], reason = (None, why) if blank else finite(gated.value)
-            if values[name] is None:
-                missing[name] = reason or measure.why or "nothing to measure"
-            for detail, value in measure.details.items():
-                unit = "1" if detail.split(".")[-1] == "n" else measure.unit
-                unit = measure.detail_units.get(detail, unit)
-                number, reason = (None, None) if blank else finite(value)
-                details[f"{name}.{detail}"] = (number, unit)
-                if number is None and gated.has_start_value:
-                    reason = measure.why
-                if reason is not None:
-                    missing[f"{name}.{detail}"] = reason
-            if not blank:
-                missing |= {
-                    f"{name}.{detail}": message for detail, message in measure.reasons.items()
-                }
-        score = self._expression.score(values)
+        cells = cells_of(measures, status, why)
+        score = self._expression.score(cells.values)
         total, reason = finite(score.value if status == "ok" else None)
         if total is None:
-            missing["total"] = why or score.why or f"the function: {reason}"
+            cells.missing["total"] = why or score.why or f"the function: {reason}"
         logged = [gated for gated in measures if gated.spec.log is not None]
         return LevelRow(
             values=level.values,
-            measures={name: (value, units[name]) for name, value in values.items()},
-            details=details,
+            measures={name: (value, cells.units[name]) for name, value in cells.values.items()},
+            details=cells.details,
             total=total,
             status=status,
-            missing=missing,
+            missing=cells.missing,
             ended_at=simulation.time,
             duration=(simulation.step - began) * simulation.timestep,
             logs={gated.spec.name: gated.log for gated in logged},
