@@ -247,8 +247,11 @@ def test_a_result_without_plugins_does_not_mention_them(folder: Path) -> None:
         ("MEASURES = {'a': int}", "MEASURES['a']: int is no MeasureSpec"),
         ("ALGORITHMS = {'a': int}", "ALGORITHMS['a']: int has no start(node)"),
         ("ALGORITHMS = {'a:b': int}", "letters, digits, '_', '.' and '-' only"),
-        ("ALGORITHMS = {'esm': type('A', (), {'start': print})}", "must stand at the top"),
-        (PARTS + "\nMEASURES = {'count': Count}", "Count is no MeasureSpec; its spec is meant"),
+        (
+            "ALGORITHMS = {'esm': type('A', (), {'start': print})}",
+            "must be defined at module level",
+        ),
+        (PARTS + "\nMEASURES = {'count': Count}", "Count is no MeasureSpec; give its spec"),
         (
             PARTS + "\nclass B(CountSpec):\n    extra: int = 1\nMEASURES = {'b': B}",
             "B lacks @dataclass(frozen=True, kw_only=True)",

@@ -44,7 +44,7 @@ def test_arm_positions_that_the_arm_cannot_take_are_reported(
     found = [(line, words) for line, words in warnings(text, tmp_path, capsys) if "joint" in words]
     assert [line for line, _ in found if line == first] != []
     assert all("<armPosition> has 9 values for 5 joints" in w for line, w in found if line == first)
-    assert any(line == first + 1 and "at 99 is held at its limit" in w for line, w in found)
+    assert any(line == first + 1 and "at 99 is limited to" in w for line, w in found)
 
 
 @pytest.mark.parametrize(

@@ -60,8 +60,8 @@ def test_a_measure_of_that_name_comes_first() -> None:
     [
         ("corner > 5", "no measure is called 'corner'. Did you mean 'corners'?"),
         ("corners >", "the expression ends too early\n  corners >\n           ^"),
-        ("1 > 0", "asks for nothing that is measured: corners, total, status"),
-        ("lost", "asks for nothing that is measured"),
+        ("1 > 0", "uses nothing that is measured: corners, total, status"),
+        ("lost", "uses nothing that is measured"),
     ],
 )
 def test_a_criterion_that_cannot_be_meant_is_refused(text: str, wrong: str) -> None:

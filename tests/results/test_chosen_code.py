@@ -100,7 +100,7 @@ def test_a_row_that_cannot_be_played_again_names_the_other_code(tmp_path: Path) 
     with pytest.raises(ReplayDiffers, match=r"in total.*chance of its own"):
         play(2.0)
     begun_elsewhere(tmp_path)
-    with pytest.raises(ReplayDiffers, match="chosen other code for the processor") as caught:
+    with pytest.raises(ReplayDiffers, match="chosen other code paths for the processor") as caught:
         play(2.0)
     assert ELSEWHERE in str(caught.value)
 

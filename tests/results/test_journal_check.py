@@ -116,7 +116,7 @@ def test_what_cannot_be_checked_is_reported(
     altered(one, '"timestep"', '"units": [2, 2], "timestep"')
     shutil.rmtree(other / "units")
     some = "2 of 4 rows are not checked: their units are not in units/"
-    none = "rows are not checked: there is no units/ beside them"
+    none = "rows are not checked: there is no units/ next to them"
     assert remarks(read_entries([one, other])) == (f"esm: {some}", f"orb: {none}")
     assert f"<p>{none.capitalize()}.</p>" in write_report(other).read_text()
     assert main(["report", str(one)]) == 0

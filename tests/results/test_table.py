@@ -118,7 +118,7 @@ def wide_and_failing(seeds: tuple[int, ...] = (1,)) -> Result:
 def test_algorithm_error_is_printed_whole_at_any_width(width: int) -> None:
     drawn = text(wide_and_failing(), width=width)
     assert drawn[2].endswith("algorithm error")
-    assert "not shown for want of room: measure" in " ".join(drawn)
+    assert "not shown, too narrow: measure" in " ".join(drawn)
 
 
 def test_with_repeats_time_and_status_stay_whole_at_80_columns() -> None:

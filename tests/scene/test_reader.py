@@ -518,7 +518,7 @@ def test_a_joint_beyond_its_limit_is_a_warning(tmp_path: Path) -> None:
     ((severity, message),) = checked(
         VEHICLE.format(f"<jointValues>{joints}</jointValues>"), tmp_path
     )
-    assert (severity, message) == ("warning", "joint 'Elbow' at 2.2 is held at its limit 2.15294")
+    assert (severity, message) == ("warning", "joint 'Elbow' at 2.2 is limited to 2.15294")
 
 
 def test_errors_of_the_robots_file_are_errors_of_its_scene(tmp_path: Path) -> None:

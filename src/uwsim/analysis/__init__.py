@@ -1,1 +1,1 @@
-"""What results mean: plots, reports and comparisons, made from the files of results alone."""
+"""Plots, reports and comparisons of results, made from their files alone."""

@@ -1,15 +1,15 @@
-"""How many repeats a planned comparison needs, said before the time is spent."""
+"""A note at the start of a run: how many repeats a planned comparison needs."""
 
 from __future__ import annotations
 
 
 def repeats_note(n_results: int, n_levels: int, repeats: int) -> str | None:
-    """Return what `uwsim bench` says at the start; None where nobody seems to plan a comparison.
+    """Return the note of `uwsim bench` at the start; None where no comparison seems planned.
 
     One algorithm is planned for against one other.
 
     Args:
-        n_results: algorithms that are played together.
+        n_results: algorithms that run together.
         n_levels: of the sweep.
         repeats: seeds of each.
     """

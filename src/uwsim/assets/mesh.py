@@ -50,7 +50,7 @@ class Model:
     """A model: meshes in one frame."""
 
     name: str
-    """The name it was asked for by."""
+    """The name that selected it."""
     meshes: tuple[Mesh, ...]
     source: str
     """``"file"``, ``"stand-in"`` (ours, modelled) or ``"labelled box"`` (ours, a placeholder)."""

@@ -1,1 +1,1 @@
-"""The benchmark room."""
+"""Benchmark files: their specs, measures, triggers and scene updaters."""

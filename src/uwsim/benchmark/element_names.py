@@ -10,7 +10,7 @@ from ..schema import NAMESPACE
 
 
 def name_of(node: etree._Element) -> str:
-    """How a table has an element: ``distance``, or ``u:topSpeed`` for an extension."""
+    """The name of an element in a table: ``distance``, or ``u:topSpeed`` for an extension."""
     return str(node.tag).replace(f"{{{NAMESPACE}}}", "u:")
 
 

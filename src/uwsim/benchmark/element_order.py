@@ -1,4 +1,4 @@
-"""The order in which the original wants the elements of a benchmark file."""
+"""The order of elements that the original's grammar prescribes for a benchmark file."""
 
 from __future__ import annotations
 
@@ -55,11 +55,11 @@ ORDER: dict[str, tuple[str, ...]] = {
 REQUIRED: dict[str, tuple[str, ...]] = {
     measure: ("startOn", "stopOn") for measure in ORDER["measures"]
 }
-"""Children that the original wants although they have a meaning when absent."""
+"""Children that the original requires although they have a default."""
 
 
 def check_order(root: etree._Element, diagnostics: Diagnostics) -> None:
-    """Say what the original's grammar refuses though we read it."""
+    """Report elements that uwsim reads and the original's grammar refuses."""
     for node in root.iter("*"):
         order = ORDER.get(str(node.tag), ())
         last, shown = -1, ""

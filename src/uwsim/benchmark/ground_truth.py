@@ -43,7 +43,7 @@ class GroundTruthSpec(abc.ABC):
     camera: str | None = None
     """Name of the virtual camera; None when there is none."""
     publish_on: str | None = None
-    """Service that is given the truth when the measure starts; None: nobody is told."""
+    """Service called with the truth when the measure starts; None: no call."""
 
     @abc.abstractmethod
     def bind(self, world: World, truth: str = "original") -> GroundTruth:
@@ -83,7 +83,7 @@ class ConstantSpec(GroundTruthSpec):
 
 
 class Constant(GroundTruth):
-    """Numbers that the file gives, called 1, 2, ...; what they mean it does not say."""
+    """Numbers given by the file, named 1, 2, ..."""
 
     def __init__(self, values: tuple[float, ...]) -> None:
         self._values = np.array(values, dtype=np.float64)
@@ -103,9 +103,9 @@ class CornersFromCameraSpec(GroundTruthSpec):
     camera: str = element(refers_to="camera")
     """Name of the virtual camera."""
     target: str = element(refers_to="body")
-    """Route of the body whose corners are meant."""
+    """Route of the body with the corners."""
     publish_on: str | None = element(default=None)
-    """Service that is given the corners when the measure starts; None: nobody is told."""
+    """Service called with the corners when the measure starts; None: no call."""
 
     def bind(self, world: World, truth: str = "original") -> GroundTruth:
         """Find camera and target; raises UnknownName if one is not there."""
@@ -125,9 +125,9 @@ class CentroidFromCameraSpec(GroundTruthSpec):
     camera: str = element(refers_to="camera")
     """Name of the virtual camera."""
     target: str = element(refers_to="body")
-    """Route of the body whose origin is meant."""
+    """Route of the body whose origin is used."""
     publish_on: str | None = element(default=None)
-    """Service that is given the centroid when the measure starts; None: nobody is told."""
+    """Service called with the centroid when the measure starts; None: no call."""
 
     def bind(self, world: World, truth: str = "original") -> GroundTruth:
         """Find camera and target; raises UnknownName if one is not there."""
@@ -147,7 +147,7 @@ class RelativeLocationSpec(GroundTruthSpec):
     from_: str = element("from", refers_to="body")
     """Route of the body in whose frame the location is given (``<from>``)."""
     to: str = element(refers_to="body")
-    """Route of the body whose origin is meant."""
+    """Route of the body whose origin is used."""
 
     def bind(self, world: World, truth: str = "original") -> RelativeLocation:
         """Find both bodies; raises UnknownName if one is not there."""
@@ -251,7 +251,7 @@ class CentroidFromCamera(GroundTruth):
         return None if pixel is None else np.array(pixel)
 
     def pixel(self) -> tuple[float, float] | None:
-        """As `read`, in plain numbers: it is asked for at every step."""
+        """As `read`, in plain numbers, because it is called at every step."""
         camera = self._camera.world_from_camera
         way = self._body.world_from_body.position - camera.position  # (3,) [m]
         x, y, z = turned_back(camera.rotation, way).tolist()
@@ -323,4 +323,4 @@ GROUND_TRUTHS: dict[str, type[GroundTruthSpec]] = {
     "cornersFromCamera": CornersFromCameraSpec,
     "relativeLocation": RelativeLocationSpec,
 }
-"""Type -> what a file says about it. In alphabetical order."""
+"""Type -> spec. In alphabetical order."""

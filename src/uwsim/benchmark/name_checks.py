@@ -21,7 +21,7 @@ MAX_NAME_LENGTH = 100
 def check_names(
     measures: list[MeasureSpec], updater: SceneUpdaterSpec | None, diagnostics: Diagnostics
 ) -> None:
-    """Names of measures are names in the function and columns of the result."""
+    """Check that the names of measures are identifiers and unique."""
     columns = () if updater is None else swept_parameters(updater)
     seen: dict[str, MeasureSpec] = {}
     for spec in measures:
@@ -30,7 +30,7 @@ def check_names(
         if not (spec.name.isascii() and spec.name.isidentifier()):
             diagnostics.error(
                 node,
-                f"the name {name!r} cannot stand in the function; "
+                f"the name {name!r} cannot be used in the function; "
                 "expected letters, digits and _, no digit first",
             )
         elif len(spec.name) > MAX_NAME_LENGTH:
@@ -59,7 +59,7 @@ def check_function(
     measures: list[MeasureSpec],
     diagnostics: Diagnostics,
 ) -> None:
-    """Parse the function; a measure that has errors of its own may stand in it."""
+    """Parse the function; measures with errors of their own count as known."""
     names = [spec.name for spec in measures]
     were_read = {diagnostics.node_of(spec) for spec in measures}
     for name in root.iterfind("measures/*/name"):

@@ -1,4 +1,4 @@
-"""Plugins: a user's own measures, triggers, updaters and algorithms, in one Python file.
+"""Plugins: Python files with a user's own measures, triggers, updaters and algorithms.
 
 .. code-block:: python
 
@@ -63,7 +63,7 @@ ALGORITHM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 @dataclass(frozen=True, kw_only=True)
 class Tables:
-    """Everything that has a name in a benchmark: bundled, or that and what plugins add."""
+    """The names that a benchmark can use: those bundled and those of plugins."""
 
     measures: Mapping[str, type[MeasureSpec]] = field(default_factory=dict)
     """Element -> spec."""
@@ -82,7 +82,7 @@ DECLARED = (*BASES, "ALGORITHMS")
 
 @dataclass(frozen=True)
 class Plugin:
-    """One file, as it was when it was read."""
+    """One plugin file, with the source that was read."""
 
     path: str
     """The file as the user named it."""
@@ -90,7 +90,7 @@ class Plugin:
     """Its content."""
 
     def __reduce__(self) -> tuple[Callable[[str, bytes], Plugin], tuple[str, bytes]]:
-        """Travel as source; whoever unpickles it has its module, and so its classes."""
+        """Pickle the source; unpickling imports the module, and with it the classes."""
         return _imported, (self.path, self.source)
 
     @property
@@ -113,7 +113,7 @@ class Plugin:
         """Return its module, importing it unless that was done.
 
         Raises:
-            PluginError: it cannot be imported; says the line.
+            PluginError: it cannot be imported.
         """
         name = self.module_name
         if name in sys.modules:
@@ -139,7 +139,7 @@ class Plugin:
         return module
 
     def diagnostic(self, message: str, line: int | None = None) -> PluginError:
-        """Make an error out of what is wrong with the file."""
+        """Return a `PluginError` for this file."""
         return PluginError([Diagnostic(file=self.path, line=line, message=message)])
 
     def line_of(self, error: BaseException) -> int | None:
@@ -156,7 +156,7 @@ def _imported(path: str, source: bytes) -> Plugin:
 
 
 class _Loader(importlib.abc.InspectLoader):
-    """Gives Python the source that a plugin carries, for running it and for showing its lines."""
+    """Loads a plugin's module from its stored source."""
 
     def __init__(self, plugin: Plugin) -> None:
         self._plugin = plugin
@@ -253,18 +253,18 @@ def _wrong_key(table: str, key: object) -> str | None:
 
 
 def _wrong_class(table: str, value: object, module: ModuleType) -> str | None:
-    """Say why a value cannot be what its table promises; None if it can."""
+    """Return why a value does not fit its table; None if it does."""
     if not isinstance(value, type):
         return f"is {type(value).__name__} {str(value)[:40]!r}; expected a class"
     name = value.__name__
     owner = sys.modules.get(value.__module__, module)
     if getattr(owner, value.__qualname__.split(".")[0], None) is None or "<" in value.__qualname__:
-        return f"the class {name} must stand at the top of the file, for worker processes find it"
+        return f"the class {name} must be defined at module level, for worker processes import it"
     if table == "ALGORITHMS":
         return None if callable(getattr(value, "start", None)) else f"{name} has no start(node)"
     base = BASES[table]
     if not issubclass(value, base):
-        near = "; its spec is meant" if hasattr(value, "update") or hasattr(value, "apply") else ""
+        near = "; give its spec" if hasattr(value, "update") or hasattr(value, "apply") else ""
         return f"{name} is no {base.__name__}{near}"
     if missing := sorted(getattr(value, "__abstractmethods__", ())):
         return f"{name} lacks {', '.join(missing)}"
@@ -301,7 +301,7 @@ def _line(value: object, plugin: Plugin) -> int | None:
 
 
 def _line_of_answer(error: ContractViolation, plugin: Plugin) -> int | None:
-    """Line of the property that answered wrongly, or of its class."""
+    """Line of the property with the wrong value, or of its class."""
     cls = type(error.part)
     if cls.__module__ != plugin.module_name:
         return None
@@ -321,11 +321,11 @@ def raised(error: BaseException) -> str:
 
 @contextmanager
 def attribute_errors_to(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[None]:
-    """Name the line of the plugin that raised.
+    """Add the line of the plugin to exceptions that its code raises.
 
     Raises:
         PluginError: what a plugin raised while files were read.
-        RunFailed: ... while the benchmark was played (``is_running``).
+        RunFailed: ... while the benchmark was running (``is_running``).
     """
     try:
         yield
@@ -351,10 +351,10 @@ def check_bound(
     parts: Sequence[MeasureSpec | TriggerSpec | SceneUpdaterSpec],
     stage: Stage,
 ) -> None:
-    """Bind every part that is of a plugin, and look at what comes out.
+    """Bind all measures, triggers and updaters of plugins, and check the results.
 
     Raises:
-        PluginError: it is nothing that can be played.
+        PluginError: it cannot be used in a run.
     """
     own = {plugin.module_name: plugin for plugin in plugins}
     for part in parts:

@@ -17,13 +17,13 @@ from .measures import Measure
 from .updaters import SceneUpdaterSpec
 
 TEXTS = ("why", "ends_level")
-"""What a measure says in words, or None."""
+"""Attributes of a measure that are text or None."""
 BY_NAME = ("details", "detail_units", "reasons")
 """What it has by the names of its details."""
 
 
 class ContractViolation(Exception):
-    """A part does not answer what it has promised."""
+    """A plugin violates its interface."""
 
     def __init__(self, part: object, attribute: str, message: str) -> None:
         self.part, self.attribute = part, attribute
@@ -31,7 +31,7 @@ class ContractViolation(Exception):
 
 
 def check_values(measure: Measure) -> None:
-    """Look at everything that a measure says at the end of a level but its numbers.
+    """Check all attributes of a measure that are not numbers, at the end of a level.
 
     Raises:
         ContractViolation: names are no text, or a reason belongs to nothing.
@@ -84,7 +84,7 @@ def sample_of(measure: Measure) -> Sequence[object]:
 def parameters_of(
     algorithm: object, given: Mapping[str, float | str]
 ) -> dict[str, float | int | str]:
-    """Return the parameters that an algorithm says it runs with; without that, those given.
+    """Return the parameters that an algorithm reports; without them, those given.
 
     Raises:
         RunFailed: they are no dict of name -> number or text, which is what a result can hold.
@@ -127,6 +127,6 @@ def _are_texts(answer: object) -> bool:
 
 
 def _shown(answer: object) -> str:
-    """Say what something is, in a few words that are the same in every run."""
+    """Describe a value in a few words that are the same in every run."""
     kind = type(answer).__name__
     return f"{kind} {str(answer)[:40]!r}" if isinstance(answer, str | Real) else kind

@@ -70,7 +70,7 @@ def read_benchmark(
     updaters: Mapping[str, type[SceneUpdaterSpec]] = UPDATERS,
     timestep: float = TIMESTEP,
 ) -> BenchmarkSpec:
-    """Read a benchmark file; what it says shall last must not be less than half a ``timestep`` [s].
+    """Read a benchmark file; durations of less than half a ``timestep`` [s] are errors.
 
     Raises:
         BenchmarkError: with everything that is wrong about it.
@@ -92,7 +92,7 @@ def check_benchmark(
     updaters: Mapping[str, type[SceneUpdaterSpec]] = UPDATERS,
     timestep: float = TIMESTEP,
 ) -> list[Diagnostic]:
-    """Return everything that is wrong or worth knowing about a benchmark file, line by line.
+    """Return all errors and warnings of a benchmark file, ordered by line.
 
     Args:
         path: the file.
@@ -112,7 +112,7 @@ def check_benchmark(
 
 @dataclass(frozen=True)
 class _Reader:
-    """One file, and what may stand in it."""
+    """Reads one file with the given tables."""
 
     diagnostics: Diagnostics
     measures: Mapping[str, type[MeasureSpec]]
@@ -168,7 +168,7 @@ class _Reader:
         return spec
 
     def all_measures(self, box: etree._Element) -> list[MeasureSpec]:
-        """Read what stands in ``<measures>``, in the file's order."""
+        """Read the children of ``<measures>``, in the file's order."""
         found = []
         for node in self.children(box):
             cls = self.measures.get(name_of(node))
@@ -196,7 +196,7 @@ class _Reader:
         return spec
 
     def by_hand(self, cls: type, node: etree._Element) -> dict[str, Any]:
-        """Read the fields of a spec whose class depends on what the file says."""
+        """Read the fields of a spec whose class depends on the file."""
         given: dict[str, Any] = {}
         for field in fields_of(cls):
             child = node.find(field.tag)
@@ -262,7 +262,7 @@ class _Reader:
         return read(cls, node, self.diagnostics) or placeholder
 
     def updater(self, box: etree._Element) -> SceneUpdaterSpec | None:
-        """Read what stands in ``<sceneUpdater>``, and what is nested in it."""
+        """Read ``<sceneUpdater>`` with its nested updaters."""
         nodes = self.children(box)
         if not nodes:
             self.diagnostics.error(
@@ -271,7 +271,7 @@ class _Reader:
         for extra in nodes[1:]:
             self.diagnostics.error(
                 extra,
-                f"<{name_of(extra)}> stands beside <{name_of(nodes[0])}> in <sceneUpdater>; "
+                f"<{name_of(extra)}> is a sibling of <{name_of(nodes[0])}> in <sceneUpdater>; "
                 "only one may: nest it in a <sceneUpdater> of its own",
             )
         if not nodes:
@@ -295,7 +295,7 @@ class _Reader:
         return names
 
     def children(self, box: etree._Element) -> list[etree._Element]:
-        """The elements in a box that has nothing else in it."""
+        """The children of an element that may contain nothing else."""
         for piece in (box.text, *(child.tail for child in box)):
             if (stray := (piece or "").strip()) != "":
                 self.diagnostics.error(box, f"stray text {stray[:60]!r} in <{box.tag}>")

@@ -1,4 +1,4 @@
-"""What a benchmark file says."""
+"""The spec of a benchmark file."""
 
 from __future__ import annotations
 

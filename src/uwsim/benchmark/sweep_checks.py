@@ -62,7 +62,7 @@ def warn_overridden(outermost: SceneUpdaterSpec, diagnostics: Diagnostics) -> No
 
 
 def warn_still_water(outermost: SceneUpdaterSpec, diagnostics: Diagnostics) -> None:
-    """Say where levels are over before their current flows."""
+    """Warn about levels that end before their current flows."""
     length, deepest = interval(outermost), chain(outermost)[-1]
     for updater in chain(outermost):
         if not isinstance(updater, CurrentForceUpdaterSpec) or length is None:

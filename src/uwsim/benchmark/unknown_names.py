@@ -1,4 +1,4 @@
-"""Names in a benchmark that its scene does not have: all of them at once, each with its line."""
+"""Lookup of all names of a benchmark in its scene, each error with its line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Part = MeasureSpec | TriggerSpec | SceneUpdaterSpec
 
 
 def unknown_names(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic]:
-    """Look up every name of a benchmark file; also say what else keeps a part of it from running.
+    """Look up every name of a benchmark file; reports all errors of binding it to the scene.
 
     Args:
         benchmark: what was read from the file without an error.
@@ -63,7 +63,7 @@ def _gate(
 
 
 def _place(node: etree._Element, name: str) -> etree._Element:
-    """The element within ``node`` that says ``name``, alone or among others; else ``node``."""
+    """The element within ``node`` that contains ``name``; else ``node``."""
     among = None
     for child in node.iter("*") if name else ():
         text = (child.text or "").strip()

@@ -30,7 +30,7 @@ def leads_to_updater(benchmark: BenchmarkSpec, path: str) -> bool:
 
 
 def locate_in_benchmark(benchmark: Any, path: str) -> Place:
-    """Find where a path leads; raises BadSetting if it leads nowhere."""
+    """Find the field of a path; raises BadSetting for an unknown path."""
     first, _, rest = path.partition(".")
     steps: list[Step] = []
     outer, field = benchmark, "scene_updater"
@@ -63,7 +63,7 @@ def apply_updater_setting(benchmark: BenchmarkSpec, path: str, value: str) -> Be
     """Return a copy with another value; a variation of it is dropped.
 
     Raises:
-        BadSetting: a path that leads nowhere, or a value that cannot stand there.
+        BadSetting: an unknown path, or an invalid value.
     """
     try:
         place = locate_in_benchmark(benchmark, path)

@@ -1,4 +1,4 @@
-"""What a benchmark says that it cannot mean: it is played all the same, and the user is told.
+"""Warnings about benchmark files that are valid but probably wrong.
 
 Levels that never begin or measure nothing; times shorter than half a step of the simulation, which
 would be played as none or as another time; arm positions that the arm cannot take.
@@ -23,7 +23,7 @@ from .updaters import ArmMoveUpdaterSpec, SceneUpdaterSpec, chain, interval
 def never_started(
     root: etree._Element, spec: BenchmarkSpec
 ) -> Iterator[tuple[etree._Element | None, str]]:
-    """Say that no level can begin, or that nothing is measured in it; each with its element."""
+    """Warn that no level can begin, or that nothing is measured in it."""
     start, place = spec.start_on, root.find("startOn")
     if isinstance(start, NeverSpec):
         yield place, "<startOn> is 'never': no level will ever begin"
@@ -36,7 +36,7 @@ def never_started(
         yield (
             place,
             f"<startOn> waits for the service {start.target!r}, which the algorithm serves "
-            "(<publishOn>): nobody can call it here, so no level will begin",
+            "(<publishOn>): it cannot be called in this run, so no level will begin",
         )
     box = root.find("measures")
     if box is not None and box.find("*") is None:
@@ -53,10 +53,10 @@ def too_short(
     function: FunctionSpec | None,
     timestep: float,
 ) -> Iterator[Said]:
-    """Yield what is shorter than half a step, and the element that says so.
+    """Yield durations shorter than half a step, with their elements.
 
     Args:
-        diagnostics: knows from which element a spec was read.
+        diagnostics: maps specs to their elements.
         measures: what could be read.
         updater: the outermost, if it could be read.
         function: the score's element, if it could be read.
@@ -77,11 +77,11 @@ def too_short(
 def _empty_level(
     diagnostics: Diagnostics, updater: SceneUpdaterSpec, timestep: float, step: str
 ) -> Iterator[Said]:
-    """Say that levels are over before they begin, or that a settling time is none."""
+    """Report intervals and settling times of less than half a step."""
     length, deepest = interval(updater), chain(updater)[-1]
     if length is not None and _is_nothing(length, timestep):
         place = _child(diagnostics.node_of(deepest), "interval")
-        yield place, f"<interval> is {length:g} s: {step}, so nothing would be played"
+        yield place, f"<interval> is {length:g} s: {step}, so nothing would be run"
     for each in chain(updater):
         if each.settling_time > 0.0 and _is_nothing(each.settling_time, timestep):
             yield diagnostics.node_of(each), f"u:settlingTime is {each.settling_time:g} s: {step}"
@@ -99,7 +99,7 @@ def _child(node: etree._Element | None, tag: str) -> etree._Element | None:
 def arm_warnings(
     benchmark: BenchmarkSpec, vehicles: Sequence[str], robots: Mapping[int, RobotSpec]
 ) -> list[Diagnostic]:
-    """Say which joints are not there, and which are held at their limits.
+    """Warn about joints that do not exist, and about values beyond the joints' limits.
 
     Args:
         benchmark: what was read from the file without an error.
@@ -123,6 +123,6 @@ def arm_warnings(
             for joint, value, at in zip(joints, given, place.iterfind("joint"), strict=False):
                 held = min(max(value, joint.lower), joint.upper)
                 if held != value:
-                    message = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
+                    message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
                     diagnostics.warning(at, message)
     return diagnostics.all()

@@ -1,4 +1,4 @@
-"""The envelope of a benchmark: up to where it holds, and how surely."""
+"""The envelope of a benchmark: the level at which it breaks, with confidence limits."""
 
 from __future__ import annotations
 

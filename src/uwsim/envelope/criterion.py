@@ -1,4 +1,4 @@
-"""When a run counts as broken: an expression over its measures, and its status.
+"""The criterion of a broken run: an expression over its measures and its status.
 
 .. code-block:: text
 
@@ -28,7 +28,7 @@ STATUS, TOTAL = "status", "total"
 
 @dataclass(frozen=True, kw_only=True)
 class Judgement:
-    """What a criterion makes of a run."""
+    """The evaluation of a run by a criterion."""
 
     is_broken: bool
     """Whether it counts as broken."""
@@ -53,7 +53,7 @@ class Criterion:
         return self.expression.text
 
     def judge(self, row: Record) -> Judgement:
-        """Tell whether a run is broken, from its stored row."""
+        """Evaluate a run from its stored row."""
         status = str(row["status"])
         if status != "ok" and not self.asks_status:
             return Judgement(is_broken=True, why=status)
@@ -71,7 +71,7 @@ def parse_criterion(text: str, measures: Collection[str]) -> Criterion:
     """Parse a criterion over measures of these names; a measure called ``lost`` is that measure.
 
     Raises:
-        ScoreError: it cannot be parsed, or asks for nothing that a run has.
+        ScoreError: it cannot be parsed, or uses no measure or status.
     """
     expression = expressions.parse(text, [*measures, TOTAL, STATUS, *NAMES])
     own = tuple(name for name in expression.names if name in measures)
@@ -79,7 +79,7 @@ def parse_criterion(text: str, measures: Collection[str]) -> Criterion:
     if not own and not asks_status and TOTAL not in expression.names:
         known = ", ".join([*measures, TOTAL, STATUS])
         raise expressions.ScoreError(
-            text.strip(), 0, f"the criterion asks for nothing that is measured: {known}"
+            text.strip(), 0, f"the criterion uses nothing that is measured: {known}"
         )
     return Criterion(expression, own, asks_status)
 

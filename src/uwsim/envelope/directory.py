@@ -1,4 +1,4 @@
-"""The directory of an envelope: which files are its own, and whether it may be written into."""
+"""The directory of an envelope: its files, its lock and its checks before writing."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def check_out(directory: Path, *, resume: bool, overwrite: bool) -> None:
 
 @contextmanager
 def prepared(directory: Path, *, resume: bool, overwrite: bool) -> Iterator[None]:
-    """Have the directory to oneself, empty of an earlier envelope unless its runs are used."""
+    """Lock the directory and remove an earlier envelope unless its runs are reused."""
     with alone_in(directory):
         check_out(directory, resume=resume, overwrite=overwrite)
         if not resume:

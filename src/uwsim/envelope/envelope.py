@@ -1,4 +1,4 @@
-"""What a search for a breaking point found, in words and in one file that explains itself.
+"""The result of a search for the breaking point, and its file ``envelope.json``.
 
 ``envelope.json`` is a pure function of inputs, seeds and versions: the same search gives the same
 bytes, however often it was interrupted, and whoever played the runs.
@@ -61,7 +61,7 @@ class Envelope:
     inputs: Inputs
     """Names and hashes of the files read."""
     run: RunInfo
-    """What was played, and with what."""
+    """The configuration of the runs."""
 
     @property
     def median(self) -> Median:
@@ -89,7 +89,7 @@ class Envelope:
 
     @property
     def n_unbroken(self) -> int:
-        """How many seeds hold at the far end."""
+        """How many seeds do not break at the far end."""
         return sum(one.broken is None for one in self.found.thresholds)
 
     @property
@@ -127,7 +127,7 @@ class Envelope:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What a reader must know before using the number."""
+        """Caveats of the result."""
         messages = []
         asked, fold = self.asked, self.found.fold
         if fold is not None:
@@ -189,7 +189,7 @@ class Envelope:
         return path
 
     def _number(self, value: float) -> str:
-        """A level with as many digits as the tolerance is worth."""
+        """A level with the digits that the tolerance justifies."""
         return f"{value:.{self._decimals}f}"
 
     @property
@@ -207,7 +207,7 @@ class Envelope:
         return f" ({asked.confidence * 100:.3g} %: {low} .. {high})"
 
     def _outward(self, limit: float, turn: Callable[[float], int]) -> str:
-        """A limit, rounded so that no more is said than is known."""
+        """A confidence limit, rounded outwards."""
         if not math.isfinite(limit):
             return "outside the range"
         scale = 10.0**self._decimals

@@ -1,4 +1,4 @@
-"""Playing single levels with single seeds, each once: what is on disk is not played again.
+"""Running single levels with single seeds, each once: stored runs are reused.
 
 Each is a trial of the independent mode (DESIGN 5): the algorithm settles at the updaters'
 initial values, then the level is ramped in. The images and the noise of a level depend on the
@@ -39,12 +39,12 @@ class Evaluation:
 
 
 def plan_for(plan: Plan) -> Plan:
-    """Return the plan that single levels are played with, whatever the seeds and the search."""
+    """Return the plan of single levels, independent of seeds and search."""
     return replace(plan, mode="independent", seed=0, repeats=1, chosen=())
 
 
 class Evaluations:
-    """Runs asked for, from disk or played now.
+    """Runs of the search, from disk or executed now.
 
     Args:
         run: where they are kept; its plan is one of `plan_for`.
@@ -65,7 +65,7 @@ class Evaluations:
             self._remember(int(path.stem), journal.head_of(path))
 
     def run(self, strategy: Strategy, executor: Executor, on_run: OnLevel = lambda: None) -> Search:
-        """Follow a strategy to its end, playing what is not on disk.
+        """Execute a strategy to its end, running what is not on disk.
 
         Raises:
             ResultError: what is stored belongs to another run.
@@ -79,7 +79,7 @@ class Evaluations:
         return queue.found
 
     def look(self, seed: int, value: float) -> bool | None:
-        """Tell whether a run is broken; None if it was not played yet."""
+        """Return whether a run is broken; None if it was not run yet."""
         if (seed, value) not in self.made:
             trial = self.trial(seed, value)
             stored = journal.read(self.main_run.out, trial.index, self.main_run.head(trial))
@@ -92,7 +92,7 @@ class Evaluations:
         return self.made[seed, value].judgement.is_broken
 
     def trial(self, seed: int, value: float) -> Trial:
-        """Return the trial of a run. Its number follows from its seed and what it asked."""
+        """Return the trial of a run. Its number follows from its seed and its level."""
         level = Level(
             tuple((name, value if name == self._over else v) for name, v in self._at.values)
         )
@@ -107,7 +107,7 @@ class Evaluations:
         self._units[trial.seed, tuple(v for _, v in trial.levels[0].values)] = trial
 
     def _remember(self, index: int, head: Record | None) -> None:
-        """Know a run that is on disk by its seed and its level."""
+        """Register a stored run by its seed and its level."""
         self._taken.add(index)
         match head:
             case {"seed": int(seed), "levels": [[*values]]} if len(values) == len(self._at.values):
@@ -117,7 +117,7 @@ class Evaluations:
 
 
 class _JobQueue(JobQueue):
-    """Runs that a strategy wants next; each that is done leads to others, or to the end."""
+    """Runs that a strategy requests; each finished one may lead to others."""
 
     def __init__(self, runs: Evaluations, strategy: Strategy, on_run: OnLevel) -> None:
         super().__init__([], on_run)
@@ -130,7 +130,7 @@ class _JobQueue(JobQueue):
         self._begin(next(strategy))
 
     def done(self, job: Job) -> None:
-        """Give the answer to whoever waits for it."""
+        """Resume the task that waits for the run."""
         super().done(job)
         values = dict(job.trial.levels[0].values)
         key = (job.trial.seed, values[self._runs._over])
@@ -147,7 +147,7 @@ class _JobQueue(JobQueue):
         self._end_if_done()
 
     def _go_on(self, i: int, answer: bool | None) -> None:
-        """Let a task go on until it has to wait for a run."""
+        """Advance a task until it has to wait for a run."""
         task = self._tasks[i]
         try:
             while True:

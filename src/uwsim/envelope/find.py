@@ -1,4 +1,4 @@
-"""Finding an envelope: the search is followed to its end, and put together with its runs."""
+"""Finding an envelope: executes the search and collects its runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The plot of an envelope: every run, each seed's breaking point, and what was found."""
+"""The plot of an envelope: every run, each seed's breaking point, and the result."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def draw(envelope: Envelope, directory: Path) -> Path:
 
 
 def _draw_measure(axes: Axes, envelope: Envelope) -> None:
-    """Draw the criterion's first measure over the level; runs without a value stand at the top."""
+    """Draw the criterion's first measure over the level; runs without a value are at the top."""
     rows = [e.row for e in envelope.evaluations]
     names = list(rows[0]["measures"]) if rows else []
     criterion = parse_criterion(envelope.asked.until, names)

@@ -1,4 +1,4 @@
-"""The search for a breaking point: each seed's by bisection, and a look at the whole range.
+"""The search for the breaking point: bisection of each seed, and a scan of the whole range.
 
 *Model.* A run at level x with one seed holds or breaks; over seeds it breaks with a probability
 P(x) that grows along the range. The breaking point is where half of the runs break. A seed's own is
@@ -46,7 +46,7 @@ Questions = Generator[float, bool, T]
 
 @dataclass(frozen=True)
 class SeedSearch(Generic[T]):
-    """What is to be found out with one seed."""
+    """A pending search of one seed."""
 
     seed: int
     """The seed."""
@@ -60,7 +60,7 @@ Strategy = Generator[list[SeedSearch[Any]], list[Any], "Search"]
 
 @dataclass(frozen=True, kw_only=True)
 class Range:
-    """Where is searched."""
+    """The searched range."""
 
     start: float
     """The near end: runs are expected to hold here."""
@@ -71,7 +71,7 @@ class Range:
 
     @property
     def decimals(self) -> int:
-        """Decimal places of the levels played."""
+        """Decimal places of the levels."""
         return max(0, math.ceil(-math.log10(self.tolerance / FINER) - 1e-9))
 
     def at(self, held: float, broken: float, fraction: float) -> float:
@@ -98,7 +98,7 @@ class Threshold:
 
 @dataclass(frozen=True, kw_only=True)
 class Fold:
-    """A place where the criterion goes back: broken here, and not there, farther on."""
+    """A non-monotonic criterion: broken at one level, not broken at a farther one."""
 
     broken: float
     """Runs break here ..."""
@@ -125,7 +125,7 @@ class Search:
 
 
 def strategy(seeds: Sequence[int], where: Range) -> Strategy:
-    """Find the breaking point of every seed: yields what is to be found out next.
+    """Find the breaking point of every seed: yields the levels to run next.
 
     Args:
         seeds: at least one.
@@ -152,7 +152,7 @@ def strategy(seeds: Sequence[int], where: Range) -> Strategy:
 
 
 def _once(level: float) -> Questions[bool]:
-    """Ask for one level."""
+    """Request one level."""
     return (yield level)
 
 
@@ -171,7 +171,7 @@ def _others(
 
 
 def search(seeds: Sequence[int], where: Range, ask: Ask) -> Search:
-    """Find the breaking point of every seed, question by question.
+    """Find the breaking point of every seed, one level at a time.
 
     Args:
         seeds: at least one.
@@ -199,7 +199,7 @@ def search(seeds: Sequence[int], where: Range, ask: Ask) -> Search:
 
 
 def bisection(seed: int, where: Range, stop: float) -> Questions[Threshold]:
-    """Yield levels to be played, take in whether they broke, and return the breaking point."""
+    """Yield levels to run, receive whether they broke, and return the breaking point."""
     held, broken = where.start, stop
     has_held = has_broken = False
     low, high = FIRST_CUT
@@ -223,7 +223,7 @@ def bisection(seed: int, where: Range, stop: float) -> Questions[Threshold]:
 def _fold(
     seeds: Sequence[int], grid: Sequence[float], seen: Sequence[bool]
 ) -> Generator[list[SeedSearch[bool]], list[bool], Fold | None]:
-    """Look for a level that holds behind one that breaks, and ask every seed about both."""
+    """Search a level that does not break beyond one that does, and run both with every seed."""
     first = seen.index(True)
     behind = [i for i in range(first + 1, len(grid)) if not seen[i]]
     if not behind:

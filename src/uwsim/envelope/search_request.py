@@ -1,4 +1,4 @@
-"""What ``uwsim envelope`` is asked: over what, from where to where, and until when."""
+"""The request of ``uwsim envelope``: swept parameter, range, criterion and tolerance."""
 
 from __future__ import annotations
 
@@ -55,10 +55,10 @@ def search_request(
     chosen: list[tuple[str, float]],
     wrong: AllErrors,
 ) -> SearchRequest | None:
-    """Put the question together; None, and everything that is wrong is kept, if it makes none.
+    """Make the request; None with collected errors if it is invalid.
 
     Args:
-        plan: what is played.
+        plan: the benchmark to run.
         over: the swept parameter that grows.
         until: the criterion.
         ends: near end, far end and tolerance, as far as they were given.
@@ -111,7 +111,7 @@ def range_of(
     stop: float | None,
     tolerance: float | None,
 ) -> Range:
-    """Put the range together.
+    """Return the range.
 
     Raises:
         BadSetting: it is empty, too fine, or reaches where the updater cannot go.
@@ -142,7 +142,7 @@ def range_of(
 
 
 def beyond(spec: SceneUpdaterSpec, value: float) -> str | None:
-    """Say what the updater's file would have to hold, where a value is beyond that."""
+    """Return the expected values of the updater, if a value is beyond them."""
     from ..schema import fields_of
 
     field = {field.name: field for field in fields_of(type(spec))}.get("initial_value")

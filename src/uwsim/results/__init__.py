@@ -1,1 +1,1 @@
-"""Results as they are kept on disk; read and written without MuJoCo."""
+"""Results on disk; read and written without MuJoCo."""

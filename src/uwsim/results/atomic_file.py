@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all."""
+"""Atomic writing of files."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ DRAFT = re.compile(r"\.(.+)\.[0-9]+\.part")
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file so that a reader sees the old one or the new one, never half of it."""
+    """Write a text file atomically: readers see the old or the new one, never a part."""
     with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as stream:
         stream.write(text)
         stream.flush()
@@ -22,7 +22,7 @@ def write_text(path: Path, text: str) -> None:
 
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
-    """Lend a place to write at; what is written there takes the file's place when it is whole.
+    """Yield a temporary path; it replaces the file when the block ends without error.
 
     Two processes may write the same file at once: there is a draft each, and the last one stays.
     """

@@ -1,4 +1,4 @@
-"""What code the libraries have chosen for this processor.
+"""The code paths that numerical libraries have chosen for this processor.
 
 numpy, OpenCV, OpenBLAS and numba hold several codes for one function, or compile it, and take what
 suits the processor, or what environment variables say. What makes numbers here gives the same bytes
@@ -24,7 +24,7 @@ BLAS_NAMES = (
 )
 """The function of OpenBLAS that names its kernels, as builds of numpy call it."""
 SHOWN = 6
-"""So many names are said in full."""
+"""Greatest number of names listed."""
 
 
 def chosen_code() -> Code:
@@ -44,9 +44,9 @@ def chosen_code() -> Code:
 
 
 def other_code(recorded: object) -> str:
-    """Say what a recorded choice has that this process has not, and the reverse.
+    """Return the differences between a recorded choice and that of this process.
 
-    Nothing is said where both are the same, or nothing is recorded.
+    Empty where both are the same, or nothing is recorded.
     """
     if not isinstance(recorded, Mapping):
         return ""

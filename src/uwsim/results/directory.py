@@ -1,4 +1,4 @@
-"""The directory of a result: what may stand in it, and who may write into it."""
+"""The directory of a result: its files, its lock and its checks before writing."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ OURS = re.compile(
     )"""
 )
 """Files that uwsim writes into a result directory, or into folders of it for each algorithm; each
-may have drafts beside it."""
+may have drafts next to it."""
 FOLDERS = (journal.FOLDER, "plots", "pictures", CONTROL)
 
 
@@ -37,7 +37,7 @@ FOLDERS = (journal.FOLDER, "plots", "pictures", CONTROL)
 def prepared(
     directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()
 ) -> Iterator[None]:
-    """Keep other runs out of ``directory``, and make room in it for a result, or several.
+    """Lock ``directory`` and empty it for one or several results.
 
     Nothing is removed before the directory is one's own, and nothing is gone on with that uwsim
     has not begun.
@@ -49,7 +49,8 @@ def prepared(
         results: names of the folders of several results.
 
     Raises:
-        BadSetting: it is not empty and nothing was said; or it is to be overwritten and holds
+        BadSetting: it is not empty and neither option was given; or it is to be overwritten and
+        holds
             anything that uwsim did not write; or it is to be gone on with and holds no run; or
             another run is writing into it.
     """
@@ -67,7 +68,7 @@ def prepared(
 
 
 def check(directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()) -> None:
-    """Refuse what `prepared` refuses but another run; nothing is changed."""
+    """Make the checks of `prepared` but that of the lock; changes nothing."""
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
     folders = (*FOLDERS, *results)
@@ -85,7 +86,7 @@ def check_begun(
     folders: tuple[str, ...],
     results: Sequence[str] = (),
 ) -> None:
-    """Refuse to go on in a directory with other people's files; nothing is changed.
+    """Refuse to resume in a directory with other files; changes nothing.
 
     What a run leaves that was killed before it wrote anything is empty folders, and drafts.
 
@@ -116,7 +117,7 @@ def check_begun(
 
 
 def is_begun(directory: Path) -> bool:
-    """Whether a run was begun here: it says how, or a unit says of which run it is."""
+    """Whether a run was begun here: it has a provenance or a journal."""
     if isinstance(load_provenance(directory).get("command"), list):
         return True
     files = sorted((directory / journal.FOLDER).glob("*.jsonl"))
@@ -131,7 +132,7 @@ def make_room(
     folders: tuple[str, ...],
     hint: str = "Use --overwrite to replace what is there.",
 ) -> None:
-    """Empty a directory, if that was said and all in it is of our making; see `check_room`."""
+    """Empty a directory if ``overwrite`` is set; refuses foreign files (`check_room`)."""
     check_room(directory, overwrite=overwrite, ours=ours, folders=folders, hint=hint)
     empty(directory)
 
@@ -148,13 +149,13 @@ def check_room(
 
     Args:
         directory: need not be there.
-        overwrite: whether it was said.
+        overwrite: whether the directory may be emptied.
         ours: names of the files that uwsim writes there, relative to it.
         folders: names of the folders that it writes there.
         hint: what to do about one that is not empty.
 
     Raises:
-        BadSetting: it is no directory; it is not empty and nothing was said; or it holds anything
+        BadSetting: it is no directory; it is not empty and may not be emptied; or it holds anything
             that uwsim does not write there.
     """
     _refuse_file(directory)
@@ -187,7 +188,7 @@ def discard_drafts(directory: Path, ours: re.Pattern[str], folders: tuple[str, .
 
 
 def _strange(directory: Path, ours: re.Pattern[str], known: tuple[str, ...]) -> Iterator[str]:
-    """Names, relative to the directory, of what uwsim did not write."""
+    """Names, relative to the directory, of files that uwsim did not write."""
     return (str(path) for path, is_ours in _files(directory, ours, known) if not is_ours)
 
 
@@ -223,7 +224,7 @@ def _refuse_file(directory: Path) -> None:
 
 @contextmanager
 def alone_in(directory: Path) -> Iterator[None]:
-    """Keep other runs out of a result directory, which is made if need be.
+    """Lock a result directory, which is made if necessary.
 
     Raises:
         BadSetting: another run is writing into it.

@@ -1,4 +1,4 @@
-"""The ``inputs`` of a result: every file that it is made of, by role and name, with its hash.
+"""The ``inputs`` of a result: every input file by role and name, with its hash.
 
 ``benchmark``, ``scene`` and ``plugins`` are name and hash; ``assets`` are what the scene and the
 benchmark name: robots, vehicles' parts, models with their materials, buffers and images, data of
@@ -21,7 +21,7 @@ ALGORITHM = "algorithm"
 SHORT = 12
 """Digits of a hash that are shown to people."""
 NAMED = 6
-"""So many differences are said one by one."""
+"""Greatest number of differences listed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,12 +56,12 @@ class Inputs(StoredRecord):
         yield from ((ALGORITHM, *file) for file in (self.algorithm or {}).items())
 
     def without_algorithm(self) -> Inputs:
-        """Return what two algorithms of one experiment have in common."""
+        """Return the inputs without those of the algorithm."""
         return replace(self, algorithm=None)
 
 
 def differing(before: Inputs, now: Inputs) -> list[str]:
-    """Say which inputs differ, a line each; nothing where all are the same."""
+    """Return the differing inputs, a line each."""
     then, today = ({(r, n): d for r, n, d in each.files()} for each in (before, now))
     messages = []
     for role, name in dict.fromkeys([*then, *today]):

@@ -1,4 +1,4 @@
-"""What lies in a directory that holds no result, and how to go on with it.
+"""Messages about directories without a result: interrupted runs and how to resume them.
 
 A run that was killed leaves the rows it had finished, how it was begun (`save_beginning`), and no
 ``result.json``. Where a program has played, and no command is known, it is put together from what
@@ -25,11 +25,11 @@ RESULT = "result.json"
 
 
 def instead_of_a_result(path: Path) -> str:
-    """Say what a path is that was taken for a result, as a sentence without its full stop."""
+    """Describe a path that is not a result, as a sentence without its full stop."""
     if not path.exists():
         return "no result here (there is no such file or directory)"
     if (path / ENVELOPE).exists():
-        return "no result here but an envelope: its runs stand in envelope.json"
+        return "no result here but an envelope: its runs are in envelope.json"
     names = sorted(file.parent.name for file in path.glob(f"*/{RESULT}"))
     command = resuming(path)
     if names and not (command and names == [CONTROL]):  # the control may be over long before
@@ -44,7 +44,7 @@ def instead_of_a_result(path: Path) -> str:
 
 
 def resuming(directory: Path) -> str | None:
-    """Return the command that goes on with an interrupted run; None where there is none."""
+    """Return the command that resumes an interrupted run; None where there is none."""
     alone = _head(directory)
     heads = {"": alone} if alone is not None else _heads_below(directory)
     if not heads:
@@ -70,14 +70,14 @@ def resuming(directory: Path) -> str | None:
 
 
 def _heads_below(directory: Path) -> dict[str, Record]:
-    """The heads of the algorithms that were played together."""
+    """The heads of the journals of algorithms that ran together."""
     below = sorted(folder.parent.name for folder in directory.glob(f"*/{FOLDER}"))
     heads = {name: _head(directory / name) for name in below if name != CONTROL}
     return {name: head for name, head in heads.items() if head is not None}
 
 
 def _head(directory: Path) -> Record | None:
-    """What the first unit that can be read says of its run."""
+    """The head of the first readable journal."""
     for file in sorted((directory / FOLDER).glob("*.jsonl")):
         head = head_of(file)
         if isinstance(head.get("run"), dict):

@@ -1,4 +1,4 @@
-"""Rows on disk as they finish: one file a trial, one line a row.
+"""Journals: a file for each trial, with a line for each finished row.
 
 A line is written whole and flushed before the next level begins, so a killed run loses at most the
 level it was in. The first line says what the unit is, the last that it is done. A line that was
@@ -21,22 +21,22 @@ from .stored_shapes import END, HEAD, ROW
 
 FOLDER = "units"
 KINDS = {"unit": HEAD, "row": ROW, "end": END}
-"""What a line may say -> the shape of that."""
+"""Key of a line -> shape of its value."""
 MAX_LINE_LENGTH = 200
-"""So many letters of one difference are said."""
+"""Greatest number of letters printed of one difference."""
 MAX_LINES = 6
-"""So many differences are said."""
+"""Greatest number of differences printed."""
 Record = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Stored:
-    """What a trial's file holds."""
+    """The content of a journal."""
 
     rows: tuple[Record, ...]
     """Rows finished, in order."""
     end: Record | None
-    """What the unit knows when it is done; None while it is not."""
+    """The end record of a finished trial; None while it is not finished."""
 
 
 NOTHING = Stored((), None)
@@ -49,7 +49,7 @@ def path_of(directory: Path, index: int) -> Path:
 
 
 def read(directory: Path, index: int, head: Record) -> Stored:
-    """Read a trial; nothing stored is nothing finished.
+    """Read a journal; a missing file has no rows.
 
     Raises:
         ResultError: the file belongs to another run.
@@ -65,10 +65,10 @@ def read(directory: Path, index: int, head: Record) -> Stored:
 
 
 def read_any(path: Path) -> tuple[Record | None, Stored]:
-    """Read a trial's file, whatever run it is of: its head, and what it holds.
+    """Read a journal of any run: its head and its content.
 
     Raises:
-        ResultError: a line is not what is stored of a trial; says which, and what was expected.
+        ResultError: a line is not that of a journal.
     """
     if not path.exists():
         return None, NOTHING
@@ -91,7 +91,7 @@ def read_any(path: Path) -> tuple[Record | None, Stored]:
 
 
 def head_of(path: Path) -> Record:
-    """Read what a trial's file says of its run, however damaged the rest; empty if it does not."""
+    """Read the head of a journal, even if the rest is damaged; empty if it has none."""
     try:
         with path.open("rb") as stream:
             record = json.loads(stream.readline())
@@ -102,7 +102,7 @@ def head_of(path: Path) -> Record:
 
 
 def _kind(record: object, *, is_first: bool) -> str:
-    """Tell what a line is; raises ResultError."""
+    """Return the kind of a line; raises ResultError."""
     wanted = ("unit",) if is_first else ("row", "end")
     if isinstance(record, dict):
         for kind in wanted:
@@ -117,7 +117,7 @@ def _refuse_constant(text: str) -> object:
 
 
 def cut_back(directory: Path, index: int, n_rows: int) -> None:
-    """Forget what is stored of a trial but its first rows."""
+    """Truncate a journal to its first rows."""
     path = path_of(directory, index)
     lines = path.read_bytes().split(b"\n")[: 1 + n_rows]
     draft = path.with_suffix(".part")
@@ -126,10 +126,10 @@ def cut_back(directory: Path, index: int, n_rows: int) -> None:
 
 
 class Journal:
-    """Writes a trial, checking what is already there row by row.
+    """Writes a journal; rows that exist already are compared.
 
     Raises:
-        ReplayDiffers: a row played again differs from the one stored.
+        ReplayDiffers: a repeated row differs from the stored one.
     """
 
     def __init__(self, directory: Path, index: int, head: Record) -> None:
@@ -144,14 +144,14 @@ class Journal:
         self._publish()
 
     def add(self, row: Record) -> bool:
-        """Add a row, or hold it against the stored one; returns whether it is new."""
+        """Add a row, or compare it with the stored one; returns whether it is new."""
         row = json.loads(_text(row))
         is_new = self._n_rows >= len(self._stored.rows)
         if not is_new:
             before = self._stored.rows[self._n_rows]
             if _text(before) != _text(row):
                 raise ReplayDiffers(
-                    f"{self._path}: row {self._n_rows}, played again, differs from the stored one "
+                    f"{self._path}: row {self._n_rows}, repeated, differs from the stored one "
                     f"in {_difference(before, row)}. The run is not repeatable here: "
                     f"{self._why_not()} Start anew with --overwrite."
                 )
@@ -161,7 +161,7 @@ class Journal:
         return is_new
 
     def finish(self, end: Record) -> None:
-        """Say that the unit is done."""
+        """Write the end record."""
         self._write({"end": end})
         self.close()
 
@@ -175,10 +175,12 @@ class Journal:
         os.fsync(self._stream.fileno())
 
     def _why_not(self) -> str:
-        """Say what may be the reason that a row differs."""
+        """Return a possible reason for a differing row."""
         codes = codes_of(load_provenance(self._path.parents[1]))
         if messages := [text for code in codes if (text := other_code(code))]:
-            return f"libraries have chosen other code for the processor ({'; '.join(messages)})."
+            return (
+                f"libraries have chosen other code paths for the processor ({'; '.join(messages)})."
+            )
         return "was it made with other versions, or does the algorithm have chance of its own?"
 
     def _publish(self) -> None:
@@ -186,7 +188,7 @@ class Journal:
 
 
 def _other_run(found: Record, head: Record) -> str:
-    """Say what of a head is not that of this run."""
+    """Return the differences between a head and that of this run."""
     messages = differing(*(Inputs.of(_part(each, "inputs")) for each in (found, head)))
     before, now = (
         {**_part(each, "run"), **{k: v for k, v in each.items() if k not in ("inputs", "run")}}

@@ -1,4 +1,4 @@
-"""Rows held against the journals of their units, before a report or a comparison believes them.
+"""Checks the rows of a result against the journals of its trials.
 
 ``result.json`` is put together from what each unit has stored (`unit_file`). Where its journals
 lie beside it, every row has to say what they say. A result without them can be read, but is not
@@ -19,12 +19,12 @@ from .result import Cell, Column, Result
 Key = tuple[Cell, ...]
 """The seed of a row, then its levels."""
 SHOWN = 3
-"""So many contradictions are said in full."""
+"""Greatest number of contradictions listed."""
 
 
 @dataclass(frozen=True)
 class Journals:
-    """What is stored of all units of a result."""
+    """The journals of all trials of a result."""
 
     rows: dict[Key, Record]
     """What is stored of each level; ``ended_at`` as the result counts it."""
@@ -35,7 +35,7 @@ class Journals:
 
 
 def check_rows(result: Result, directory: Path) -> str | None:
-    """Hold every row of a result against the journal of its unit.
+    """Compare every row of a result with the journal of its trial.
 
     Args:
         result: as it was read.
@@ -45,16 +45,16 @@ def check_rows(result: Result, directory: Path) -> str | None:
         What was not checked, and why; None where every row agrees with its journal.
 
     Raises:
-        ResultError: a row says other than its journal.
+        ResultError: a row differs from its journal.
     """
     if not (directory / FOLDER).is_dir():
-        return f"rows are not checked: there is no {FOLDER}/ beside them" if result.rows else None
+        return f"rows are not checked: there is no {FOLDER}/ next to them" if result.rows else None
     message, without = _compare(result, read_journals(directory))
     if message:
         more = f"; and {len(message) - SHOWN} more" if len(message) > SHOWN else ""
         raise ResultError(
             f"{directory / 'result.json'}: not what its units have stored: "
-            f"{'; '.join(message[:SHOWN])}{more}. uwsim verify says what else differs; "
+            f"{'; '.join(message[:SHOWN])}{more}. uwsim verify lists all differences; "
             "uwsim bench --resume writes it anew."
         )
     if without:
@@ -64,7 +64,7 @@ def check_rows(result: Result, directory: Path) -> str | None:
 
 
 def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
-    """Return what contradicts the journals, and how many rows they do not have."""
+    """Return the contradictions, and how many rows have no journal."""
     n_ended = _n_ended(result)
     keys = tuple(_keys(result))
     messages, without = [], 0
@@ -85,7 +85,7 @@ def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
 
 
 def read_journals(directory: Path) -> Journals:
-    """Read what is stored of all units, in their order."""
+    """Read the journals of all trials, in their order."""
     rows: dict[Key, Record] = {}
     ended: list[Key] = []
     elapsed: dict[Cell, float] = {}
@@ -104,7 +104,7 @@ def read_journals(directory: Path) -> Journals:
 
 
 def _n_ended(result: Result) -> int:
-    """How many units a result says are finished."""
+    """How many trials are finished, according to a result."""
     return 0 if result.run.units is None else result.run.units[0]
 
 
@@ -117,7 +117,7 @@ def _keys(result: Result) -> Iterator[Key]:
 
 
 def _apart(result: Result, row: int, record: Record, counts_time: bool) -> Iterator[str]:
-    """Say which cells of a row, and which reasons, are not those of its record."""
+    """Return the cells and reasons of a row that differ from its record."""
     for column, cell in zip(result.columns, result.rows[row], strict=True):
         if column.kind in ("run", "level") or (column.kind == "time" and not counts_time):
             continue

@@ -1,4 +1,4 @@
-"""Logs: what a measure was while it was on, one CSV file a measure.
+"""Logs: the samples of a measure, one CSV file each.
 
 .. code-block:: text
 
@@ -37,7 +37,7 @@ class Log:
     measure: str
     """Name of the measure."""
     header: tuple[str, ...]
-    """What stands in a sample, with units: levels, ``time [s]``, value, components."""
+    """Columns of a sample, with units: levels, ``time [s]``, value, components."""
     samples: tuple[Sample, ...] = ()
     """In the order taken; time is that since the benchmark began."""
 

@@ -1,4 +1,4 @@
-"""Intervals at every level: how sure a number is that was found with several seeds."""
+"""Mean and confidence interval of every level over several seeds."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ class LevelRate:
     level: tuple[float, ...]
     """The swept parameters, outermost first."""
     seeds: tuple[int | None, ...]
-    """The seed of every repeat, in the order played; None where the result does not say."""
+    """The seed of every repeat, in the order of execution; None where not recorded."""
     success: Rate | None
     """Repeats that ended ``ok`` among all; None when the result has no status."""
 
 
 def rows_by_level(result: Result) -> dict[tuple[float, ...], list[int]]:
-    """Return level -> its row numbers (one a repeat), in the order first played."""
+    """Return level -> its row numbers (one a repeat), in the order of execution."""
     columns = [result.numbers(column.name) for column in result.of_kind("level")]
     found: dict[tuple[float, ...], list[int]] = {}
     for row in range(len(result.rows)):

@@ -1,4 +1,4 @@
-"""Provenance: where, when and how fast a result came about.
+"""Provenance: machine, date and timing of a run.
 
 ``provenance.json`` holds what differs between two runs that found the same: host, CPU, load, dates,
 wall time, workers, resumes, the achieved real-time factor, versions of the packages, what code
@@ -30,7 +30,7 @@ def save_provenance(provenance: Mapping[str, object], directory: Path) -> Path:
 
 
 def save_beginning(command: Sequence[str], directory: Path) -> str:
-    """Write how a run was begun, unless it goes on with another: so an interrupted one can go on.
+    """Write the provenance at the start of a run, unless it resumes another.
 
     Args:
         command: what was typed behind ``uwsim``.
@@ -52,18 +52,18 @@ def save_beginning(command: Sequence[str], directory: Path) -> str:
 
 
 def codes_of(provenance: Mapping[str, object]) -> list[object]:
-    """Return what libraries had chosen: last, and before that wherever else the run was played."""
+    """Return the code paths that libraries chose, in this and earlier parts of the run."""
     before = provenance.get(BEFORE)
     return [provenance.get("code"), *(before if isinstance(before, list) else [])]
 
 
 def carried(directory: Path) -> dict[str, object]:
-    """Return what the provenance of a run keeps when it is over."""
+    """Return the provenance that is kept after the run."""
     return {name: value for name, value in load_provenance(directory).items() if name == BEFORE}
 
 
 def machine() -> dict[str, object]:
-    """Say what this process runs on."""
+    """Describe the machine of this process."""
     return {
         "host": platform.node(),
         "system": platform.platform(),

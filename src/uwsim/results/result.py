@@ -1,4 +1,4 @@
-"""Result: what a benchmark found, and everything it was found with.
+"""Result: the rows of a run with its inputs, columns and constants.
 
 A result is a pure function of inputs, seed and versions: the same run gives the same bytes. What is
 not (wall time, host, date) stands in ``provenance.json`` beside it. `result_file` reads and writes
@@ -26,12 +26,12 @@ Cell = float | int | str | None
 Json = Mapping[str, object]
 
 FLOOR = "floor_"
-"""Begins the names of facts that say what a perfect tracker scores, before that of a measure."""
+"""Prefix of the facts with the error floor of a measure."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Column:
-    """What stands in one cell of every row."""
+    """A column: name, kind and unit."""
 
     name: str
     """``fog``, ``corners``, ``corners.mean``, ``total``, ``status``, ``ended_at``, ``seed``."""
@@ -81,12 +81,12 @@ class Variation:
 
 @dataclass(frozen=True, kw_only=True)
 class ImageStream:
-    """Fingerprint of every image one unit of work handed to an algorithm."""
+    """Hash of all images that one trial published on a topic."""
 
     seed: int
     """Seed of the unit."""
     level: tuple[float, ...] | None
-    """The unit's level, outermost first; None when one unit plays all levels."""
+    """The trial's level, outermost first; None when one trial runs all levels."""
     topic: str
     """Topic the images went out on."""
     frames: int
@@ -113,7 +113,7 @@ class SavedImage:
 
 @dataclass(frozen=True, kw_only=True)
 class Result:
-    """Everything a benchmark found, and everything it was found with.
+    """The rows of a run with its inputs, columns and constants.
 
     Numbers are finite, those of rows up to `MAX_VALUE`, and every row has one cell for each
     column; anything else is refused where the result is made, with ResultError.
@@ -126,7 +126,7 @@ class Result:
     columns: tuple[Column, ...]
     """What the cells of a row mean."""
     rows: tuple[tuple[Cell, ...], ...]
-    """One a level (and repeat), in the order played."""
+    """One a level (and repeat), in the order of execution."""
     missing: tuple[Missing, ...] = ()
     """Reasons of the null cells."""
     facts: Json = field(default_factory=dict)
@@ -244,7 +244,7 @@ def _check_notes(result: Result) -> None:
     for i, image in enumerate(result.images):
         at = f"pictures[{i}]"
         _expect(_is_row(image.row, n), f"{at} is of row {image.row!r}, which is not there")
-        _expect(_is_inside(image.file), f"{at} lies outside the result: {image.file!r}")
+        _expect(_is_inside(image.file), f"{at} is outside the result: {image.file!r}")
         for quad in (image.truth, image.estimate):
             whole = quad is None or (len(quad) == 8 and all(_is_number(v) for v in quad))
             _expect(whole, f"{at} has a quadrangle of other than 8 numbers: {quad!r}")

@@ -1,4 +1,4 @@
-r"""``result.json``: a result in one file that explains itself.
+r"""Reading and writing ``result.json``.
 
 The format's history, newest first:
 
@@ -31,7 +31,7 @@ T = TypeVar("T")
 
 
 def file_of(path: Path) -> Path:
-    """Return the ``result.json`` meant by itself or by its directory."""
+    """Return the path of ``result.json``, given that path or its directory."""
     return path / "result.json" if path.is_dir() else path
 
 
@@ -47,7 +47,7 @@ def load(path: Path | str) -> Result:
     """Read a result directory or its ``result.json``.
 
     Raises:
-        ResultError: it is not there, not whole, or not in this format; says which.
+        ResultError: it does not exist, is incomplete, or has another format.
     """
     path = Path(path)
     file = file_of(path)

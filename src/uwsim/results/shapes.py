@@ -1,4 +1,4 @@
-"""Shapes of stored values: what JSON gave is held against what is expected, before it is used.
+"""Validation of values read from JSON against expected shapes.
 
 A shape is a function of a value and of where it stands; it raises `ResultError` that says what was
 found there, and what was expected.
@@ -22,7 +22,7 @@ _CELLS = {int, float, NoneType}
 
 
 def expect(truth: bool, value: object, at: str, what: str) -> None:
-    """Raise unless it is true; says that ``value`` stands ``at`` a place where ``what`` should."""
+    """Raise ResultError unless it is true: ``value`` was found ``at`` a place, not ``what``."""
     if not truth:
         shown = repr(value)
         shown = shown if len(shown) <= MAX_SHOWN else f"{shown[: MAX_SHOWN - 3]}..."

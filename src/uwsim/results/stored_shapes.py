@@ -54,7 +54,7 @@ RESULT = fields(
 """Of ``result.json``, as far as `Result` does not see to it."""
 
 HEAD = fields({}, {"inputs": INPUTS, "run": RUN, "seed": whole, "levels": each(each(number))})
-"""What the first line of a unit's file says under ``unit``."""
+"""The shape of ``unit`` in the first line of a journal."""
 ROW = fields(
     {
         "values": each(number),
@@ -70,7 +70,7 @@ ROW = fields(
     },
     {"ended_at": number, "fingerprint": text},
 )
-"""What each further line says under ``row``."""
+"""The shape of ``row`` in each further line."""
 END = fields(
     {
         "facts": table(items(anything, text)),
@@ -84,7 +84,7 @@ END = fields(
         )
     },
 )
-"""What the last line says under ``end``."""
+"""The shape of ``end`` in the last line."""
 
 PROVENANCE = fields({}, {"command": each(text), "load": anything, "packages": table(text)})
 """Of ``provenance.json``: what was typed, and on what it ran."""

@@ -1,4 +1,4 @@
-"""Summary: every level over all repeats, in one table that a paper can be written from.
+"""``summary.csv``: every level over all repeats.
 
 .. code-block:: text
 

@@ -1,4 +1,4 @@
-"""The table a benchmark ends with: a line a level, units on top, a reason for every gap.
+"""The table printed after a run: a line for each level, with units and reasons for gaps.
 
 .. code-block:: text
 
@@ -30,7 +30,7 @@ from .result import Column, Result
 
 GAP = "-"
 ROOM_FOR_REASONS = 30
-"""Columns of a terminal below which reasons stand under the table."""
+"""Width of a terminal below which reasons are printed under the table."""
 MAX_DECIMALS = 4
 """Of a measure."""
 BIG = 1e7
@@ -107,8 +107,8 @@ def lines(result: Result) -> tuple[LevelLine, ...]:
 def table(result: Result, *, width: int = 80) -> Table:
     """Return the table for a terminal of ``width`` columns.
 
-    Measures that do not fit are left out and named below, levels and status never. Reasons stand
-    behind their line where there is room, else below the table.
+    Measures that do not fit are left out and named below, levels and status never. Reasons follow
+    their line where there is room, else the table.
     """
     shown = lines(result)
     columns = shown_columns(result)
@@ -137,13 +137,13 @@ def table(result: Result, *, width: int = 80) -> Table:
         drawn.add_row(*map(Text, cells), style="" if line.ok else "yellow")
     notes = [] if is_roomy else _notes(shown, len(result.of_kind("level")))
     if left_out := [name for i, (name, _) in enumerate(heads) if i not in fitting]:
-        notes.append(f"not shown for want of room: {', '.join(left_out)}")
+        notes.append(f"not shown, too narrow: {', '.join(left_out)}")
     drawn.caption = Text("\n".join(notes), style="yellow") if notes else None
     return drawn
 
 
 def _fitting(columns: Sequence[Column], wide: Sequence[int], room: int) -> list[int]:
-    """Which columns fit beside the status: levels all, then total, time and measures in turn."""
+    """Which columns fit next to the status: all levels, then total, time and measures."""
     order = ("level", "score", "time", "measure")
     fitting: list[int] = []
     for i in sorted(range(len(columns)), key=lambda i: order.index(columns[i].kind)):

@@ -1,1 +1,1 @@
-"""Executes a plan: from a benchmark, a scene and an algorithm to the files of a result."""
+"""Planning and executing runs: from benchmark, scene and algorithm to the files of a result."""

@@ -18,7 +18,7 @@ from .trial.floor import largest
 def collect(
     plan: Plan, inputs: Inputs, info: RunInfo, stored: Sequence[tuple[Trial, Stored]]
 ) -> tuple[Result, list[Log], float]:
-    """Put together the rows on disk, in the order of the plan.
+    """Collect the rows on disk, in the order of the plan.
 
     Args:
         plan: what is executed.
@@ -142,7 +142,7 @@ def variations_of(plan: Plan) -> tuple[Variation, ...]:
 
 
 def _columns(plan: Plan, records: list[Record]) -> list[Column]:
-    """Name the columns; before the first row only those that are known without playing.
+    """Name the columns; before the first row only those that are known without running.
 
     A measure's details are those of all rows together, and units those of the first row that has a
     value: what a topic carries may not be known before something came.

@@ -1,4 +1,4 @@
-"""The control of a run: `frozen`, which looks at no image, so that a tracker can be compared."""
+"""The control of a run: `frozen`, which ignores the images, for comparison with a tracker."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ CONTROL = "frozen"
 
 
 def wants_control(plan: Plan) -> bool:
-    """Whether `frozen` is worth running, too: a tracker is told where its target is.
+    """Whether `frozen` should run, too: a tracker is initialised with its target.
 
     Where a current drives the vehicle the algorithm steers, and `frozen` is no control.
     """
@@ -24,7 +24,7 @@ def wants_control(plan: Plan) -> bool:
 
 
 def image_topic(plan: Plan) -> str | None:
-    """Topic of the images of the camera by which a tracker is told where its target is."""
+    """Image topic of the camera of the tracker's target."""
     topics = {
         interface.camera_name: interface.image_topic
         for interface in plan.scene.ros_interfaces
@@ -34,7 +34,7 @@ def image_topic(plan: Plan) -> str | None:
 
 
 def _cameras(plan: Plan) -> list[str | None]:
-    """Cameras by which a tracker is told where its target is."""
+    """Cameras of the targets of trackers."""
     return [
         spec.ground_truth.camera
         for spec in plan.benchmark.measures

@@ -1,4 +1,4 @@
-"""Whether an algorithm failed as a whole: its rows are kept, and the command fails."""
+"""Algorithms that failed in every row, or ended their process: the command fails."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ALGORITHM_ERROR = "algorithm error"
 
 
 def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:
-    """Fail if an algorithm broke in every row; all is written by then.
+    """Raise if an algorithm failed in every row; all files are written by then.
 
     Raises:
         RunFailed: names the algorithms, and why the first row of each is as it is.
@@ -28,7 +28,7 @@ def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:
 
 
 def refuse_if_a_process_ended(runs: Sequence[Run], results: Sequence[Result]) -> None:
-    """Fail if an algorithm took its process with it.
+    """Raise if an algorithm ended its process.
 
     Raises:
         RunFailed: names the algorithms, and why the first such row of each is as it is.

@@ -1,4 +1,4 @@
-"""Python code that files name, told before it runs, or refused."""
+"""Python code named by files: announced before it runs, or refused."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ def refuse_code(scene: SceneSpec) -> None:
 
 
 def announce_code(scene: SceneSpec) -> None:
-    """Tell which Python code a scene runs, before it does."""
+    """Announce the Python code that a scene runs."""
     for code in _codes(scene):
         announce(code, scene.path)
 
 
 def refused(code: str, file: str) -> BadSetting:
-    """Say that ``module:name``, which a file names, may not run."""
+    """Return the error for ``module:name``, which a file names and which may not run."""
     return BadSetting(f"{file}: names the Python code {code!r}, which --no-code refuses.")
 
 
 def announce(code: str, file: str) -> None:
-    """Tell that ``module:name``, which a file names, is going to run."""
+    """Announce that ``module:name``, which a file names, will run."""
     try:
         place = located(code.partition(":")[0])
     except (ModuleNotFoundError, ValueError):
-        return  # which is said where it is imported
+        return  # the import reports it
     message = (
         f"uwsim: {file} runs Python code: {code} in {place or 'Python'} (--no-code refuses it)"
     )

@@ -1,4 +1,4 @@
-"""Whether the files that a run is made of are still those with which it began.
+"""Check that the input files of a run have not changed since its start.
 
 Models, data and algorithms are read again by every worker, hours after their hashes were taken. So
 a row is kept only while each file has the hash that stands in the result.
@@ -24,7 +24,7 @@ def watchable(read: Iterable[InputFile]) -> tuple[InputFile, ...]:
 
 
 class Watch:
-    """Looks again and again whether files are as they were; hashes one only if it was written to.
+    """Checks repeatedly whether files have changed; hashes one only if it was written to.
 
     Args:
         files: as they were (`watchable`).

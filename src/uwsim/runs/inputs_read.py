@@ -1,4 +1,4 @@
-"""Gathering the ``inputs`` of a result: what was read, and the sources of an algorithm."""
+"""The ``inputs`` of a result: the files that were read and the sources of the algorithm."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from .plan import Plan
 
 
 def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> Inputs:
-    """Gather what a plan is made of; what was not read yet is recorded now.
+    """Collect the input files of a plan; files that were not read yet are hashed now.
 
     Args:
-        plan: what is played.
+        plan: the benchmark to run.
         simulation: its scene.
         read: the input files that were read to make it (`uwsim.files.input_files.recorded`).
     """

@@ -1,4 +1,4 @@
-"""From the words of a command line to what is to be played, or to all that is wrong with them."""
+"""Making a plan from a request: reads the files and reports all errors together."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ MAX_TIME = 1e8
 
 @dataclass(frozen=True, kw_only=True)
 class _Files:
-    """What was read; None where a file could not be."""
+    """The files read; None for those with errors."""
 
     plugins: tuple[Plugin, ...] = ()
     tables: Tables | None = None
@@ -48,7 +48,7 @@ class _Files:
 
 
 def make_plan(request: PlanRequest) -> Plan:
-    """Read the files and put together what is to be played.
+    """Read the files and make the plan.
 
     Code that they name is announced before it runs, or refused.
 
@@ -104,7 +104,7 @@ def make_plan(request: PlanRequest) -> Plan:
 
 
 def _read_files(request: PlanRequest, wrong: AllErrors) -> _Files:
-    """Read plugins, benchmark and scene; keeps what is wrong with them."""
+    """Read plugins, benchmark and scene; collects their errors."""
     plugins: tuple[Plugin, ...] = ()
     tables: Tables | None = None
     path: Path | None = None
@@ -122,7 +122,7 @@ def _read_files(request: PlanRequest, wrong: AllErrors) -> _Files:
 
 
 def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErrors) -> _Files:
-    """Apply every ``--set`` of scene and updaters; keeps each that cannot be."""
+    """Apply every ``--set`` of scene and updaters; collects errors."""
     from ..benchmark.updater_settings import apply_updater_setting, leads_to_updater
     from ..scene.settings import apply_setting
 
@@ -139,7 +139,7 @@ def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErr
 
 
 def _wanted(request: PlanRequest, spec: BenchmarkSpec | None) -> str:
-    """Return the name of the algorithm; empty where nobody says which."""
+    """Return the name of the algorithm; empty where none is given."""
     return request.algorithm or (None if spec is None else spec.algorithm) or ""
 
 
@@ -155,7 +155,7 @@ def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
 
 
 def say_warnings(plan: Plan) -> None:
-    """Say on standard error what stands for lost files, and what seems not to be meant."""
+    """Print warnings about stand-ins for missing files and about unlikely values."""
     from ..simulation.checks.plausibility import warnings_of
 
     warn_of_stand_ins(plan.scene, plan.data_path)
@@ -179,10 +179,10 @@ def scene_of(
     spec: BenchmarkSpec | None,
     data_path: tuple[Path, ...],
 ) -> SceneSpec | None:
-    """Read the scene; None where a benchmark that could not be read would have to say which.
+    """Read the scene; None where the benchmark that names it could not be read.
 
     Raises:
-        BadSetting: nobody says which.
+        BadSetting: no scene is given.
         AssetNotFound: it is nowhere.
         SceneError: it is wrong.
     """
@@ -200,17 +200,17 @@ def scene_of(
         return read_scene(scene_file(named, beside, named_by=None if scene else benchmark))
     except AssetNotFound:
         if benchmark is None:
-            return None  # it may lie beside the benchmark, wherever that is
+            return None  # it may be next to the benchmark, which was not found
         raise
 
 
 def algorithm_of(
     wanted: str, spec: BenchmarkSpec | None, tables: Tables | None
 ) -> type[Algorithm] | None:
-    """Find the algorithm; None where what could not be read would have to say which.
+    """Find the algorithm; None where the file that names it could not be read.
 
     Raises:
-        BadSetting: nobody says which, or there is none of that name.
+        BadSetting: none is given, or there is none of that name.
     """
     from ..algorithms import load_algorithm
 
@@ -222,14 +222,14 @@ def algorithm_of(
     if not wanted or tables is None:
         return None
     if ":" in wanted and "" not in sys.path and str(Path.cwd()) not in sys.path:
-        sys.path.insert(0, str(Path.cwd()))  # module:Class may lie where the user stands
+        sys.path.insert(0, str(Path.cwd()))  # module:Class may be in the current directory
     return load_algorithm(wanted, tables.algorithms)
 
 
 def check_parameters(
     kind: type[Algorithm] | None, parameters: Mapping[str, float | str], wrong: AllErrors
 ) -> None:
-    """Keep every parameter that the algorithm has no use for."""
+    """Collect errors for parameters that the algorithm does not have."""
     from .. import algorithms
     from ..simulation import latency_of
 
@@ -243,7 +243,7 @@ def check_parameters(
 def check_length(
     spec: BenchmarkSpec | None, chosen: Sequence[tuple[str, float]], repeat: int
 ) -> None:
-    """Refuse what nobody can mean to wait for; raises BadSetting."""
+    """Refuse a benchmark of excessive length; raises BadSetting."""
     from ..benchmark import updaters
     from .plan import chosen_levels
 
@@ -257,5 +257,5 @@ def check_length(
     total = length * n_levels * repeat
     if total > MAX_TIME:
         raise BadSetting(
-            f"The benchmark would simulate {total:.3g} s; at most {MAX_TIME:g} s can be asked for."
+            f"The benchmark would simulate {total:.3g} s; at most {MAX_TIME:g} s are allowed."
         )

@@ -1,4 +1,4 @@
-"""Reading the texts of options: ``NAME=VALUE``, modes, levels, names of quirks."""
+"""Parsing option texts: ``NAME=VALUE``, modes, levels, names of quirks."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def pairs_of(settings: Sequence[str], wrong: AllErrors) -> list[tuple[str, str]]:
-    """Cut every ``--set``; keeps each that cannot be."""
+    """Split every ``--set`` into name and value; collects errors."""
     pairs = []
     for setting in settings:
         with wrong.kept():
@@ -45,7 +45,7 @@ def compatibility_of(compat: Sequence[str], wrong: AllErrors) -> frozenset[str]:
 def levels_of(
     texts: Sequence[str], spec: BenchmarkSpec | None, wrong: AllErrors
 ) -> tuple[tuple[str, float], ...]:
-    """Read ``--level``; keeps each that is wrong, or that the sweep does not have."""
+    """Parse ``--level``; collects errors and levels that the sweep does not have."""
     from ..benchmark import updaters
     from .plan import chosen_levels
 
@@ -61,7 +61,7 @@ def levels_of(
 
 
 def split(setting: str, option: str) -> tuple[str, str]:
-    """Cut ``NAME=VALUE``; raises BadSetting."""
+    """Split ``NAME=VALUE``; raises BadSetting."""
     name, equals, value = setting.partition("=")
     if not equals or not name.strip():
         raise BadSetting(f"{option} {setting!r}: expected NAME=VALUE.")

@@ -1,4 +1,4 @@
-"""What is to be played: a plan, cut into trials.
+"""The plan of a run, divided into trials.
 
 A trial is a sequence that must be played in one go: one seed's whole sweep when the benchmark is
 sequential, one seed's one level when it is independent (DESIGN 5).
@@ -24,7 +24,7 @@ from ..world import TIMESTEP
 
 Mode = Literal["sequential", "independent"]
 PATIENCE = 10.0
-"""How long a start is waited for, in simulation time, unless the file says otherwise [s]."""
+"""Default of the longest wait for a start, in simulation time [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,13 +38,13 @@ class Trial:
     seed: int
     """Seed of every random stream."""
     levels: tuple[Level, ...]
-    """Levels to play, in order."""
+    """Levels to run, in order."""
     is_alone: bool
     """Whether this is one level of an independent benchmark."""
 
     @property
     def stream_prefix(self) -> str:
-        """What stands in front of the name of every random stream."""
+        """Prefix of the name of every random stream."""
         if not self.is_alone:
             return ""
         values = ",".join(f"{value:.12g}" for _, value in self.levels[0].values)
@@ -53,7 +53,7 @@ class Trial:
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """A benchmark with everything it is played with; a value, sent to workers as it is."""
+    """A benchmark with scene, algorithm and options; an immutable value, sent to workers."""
 
     benchmark: BenchmarkSpec
     """The benchmark file."""
@@ -62,9 +62,9 @@ class Plan:
     algorithm: type[Algorithm]
     """Class of the algorithm under test."""
     algorithm_name: str
-    """The name it was asked for by."""
+    """The name that selected it."""
     parameters: Mapping[str, float | str] = field(default_factory=dict)
-    """What ``--set algorithm.NAME=VALUE`` said."""
+    """The values of ``--set algorithm.NAME=VALUE``."""
     settings: tuple[tuple[str, str], ...] = ()
     """Every ``--set``, as given; those of scene and updaters are already in these."""
     mode: Mode = "sequential"
@@ -87,13 +87,13 @@ class Plan:
     """What was read with ``--plugin``."""
 
     def __reduce__(self) -> tuple[Callable[..., Plan], tuple[object, ...]]:
-        """Travel with the plugins first: what comes behind them may be of their classes."""
+        """Pickle the plugins first, because later fields may be of their classes."""
         others = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "plugins"}
         return _unpacked, (self.plugins, others)
 
     @property
     def is_bundled(self) -> bool:
-        """Whether the algorithm is uwsim's own, and nothing runs beside it that is not."""
+        """Whether only code of uwsim runs: a bundled algorithm without plugins."""
         return self.algorithm.__module__.startswith("uwsim.") and not self.plugins
 
     @property
@@ -102,11 +102,11 @@ class Plan:
         return PATIENCE if self.benchmark.patience is None else self.benchmark.patience
 
     def draws(self, seed: int) -> tuple[Draw, ...]:
-        """Return what varies under a seed: in the scene, then in the benchmark."""
+        """Return the variations of a seed: those of the scene, then of the benchmark."""
         return (*draw(self.scene, seed), *updater_draws(self.benchmark, seed))
 
     def levels(self) -> tuple[Level, ...]:
-        """Return the levels to play.
+        """Return the levels to run.
 
         Raises:
             BadSetting: ``--level`` names no swept parameter, or a value the sweep does not have.
@@ -114,7 +114,7 @@ class Plan:
         return chosen_levels(levels_of(self.benchmark.scene_updater), self.chosen)
 
     def units(self) -> tuple[Trial, ...]:
-        """Cut the plan into its units, repeat by repeat, level by level."""
+        """Divide the plan into trials, repeat by repeat, level by level."""
         levels = self.levels()
         groups = [levels] if self.mode == "sequential" else [(level,) for level in levels]
         return tuple(

@@ -1,4 +1,4 @@
-"""A request for a run: what a user asks for, as text, before any file is read."""
+"""A request for a run: the user's options as text, before any file is read."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class PlanRequest:
     repeat: int = 1
     """Number of repeats."""
     mode: str | None = None
-    """``sequential`` or ``independent``; without it what the benchmark says."""
+    """``sequential`` or ``independent``; None: that of the benchmark."""
     levels: Sequence[str] = ()
     """``NAME=VALUE`` of the levels to run; all without any."""
     settings: Sequence[str] = ()

@@ -1,4 +1,4 @@
-"""Preparing runs: every name is looked up and every file hashed before anything is executed."""
+"""Preparing runs: looks up all names and hashes all files before execution."""
 
 from __future__ import annotations
 
@@ -52,10 +52,10 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, s
     """Open the scene once: hash every file that is read, and name the renderer.
 
     Every name of the benchmark is looked up on the way, so that no name can fail later. Inside
-    `recorded` the files are told with their places.
+    `recorded` the files are recorded with their paths.
 
     Args:
-        plan: what will be played.
+        plan: the benchmark to run.
         pool: lends the renderer; without one it is made, and closed again.
 
     Returns:
@@ -82,7 +82,7 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, s
 
 
 def _bind_all(plan: Plan, simulation: Simulation) -> None:
-    """Look up every name of the benchmark; BenchmarkError says all that are wrong."""
+    """Look up every name of the benchmark; raises BenchmarkError with all unknown ones."""
     try:
         bind_all(plan, simulation)
     except UwsimError:

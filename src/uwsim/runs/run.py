@@ -1,4 +1,4 @@
-"""A whole benchmark: what is to be played, and one result out of what was.
+"""A run: executes the trials of a plan and collects their rows into a result.
 
 Rows go to disk as levels end (`unit_file`); when the run is over, or breaks, they are put together
 in the order of the plan. Whoever executeed them (`executor`), killed and resumed or not: the same
@@ -40,11 +40,11 @@ class Run:
     renderer: str
     """What draws the images (`prepare`)."""
     files: tuple[InputFile, ...] = ()
-    """Files that must not change while it is played (`watchable`)."""
+    """Files that must not change during the run (`watchable`)."""
     n_resumed: int = 0
     """Levels that were on disk already when the run began."""
     n_lost: int = 0
-    """How often a trial lost its worker and was played again."""
+    """How often a trial lost its worker and was repeated."""
     simulated_s: float = 0.0
     """Length of all levels of the result together [s]."""
 
@@ -61,11 +61,10 @@ class Run:
         return self.unfinished()
 
     def _forget_what_was_stopped(self) -> None:
-        """Have units played again whose algorithm took its process with it.
+        """Repeat trials whose algorithm ended its process.
 
-        The levels before stay, and are held against those that are played again. Where it did not
-        come back from a call, that is final; but a trial without an end is played again anyhow, and
-        may go better.
+        Earlier levels are kept and compared with the repeated ones. A call that did not return is
+        final; but a trial without an end is repeated anyhow, and may go better.
         """
         name = self.plan.algorithm_name
         for unit in self.plan.units():
@@ -89,7 +88,7 @@ class Run:
         return len(self.stored(unit).rows)
 
     def head(self, unit: Trial) -> journal.Record:
-        """Say what a trial is: equal heads mean that its rows must be equal."""
+        """Return the identity of a trial: equal heads mean that its rows must be equal."""
         return {
             "inputs": _as_stored(self.inputs.stored()),
             "run": _as_stored(self.info.stored()),
@@ -98,7 +97,7 @@ class Run:
         }
 
     def write(self) -> Result:
-        """Put together what is on disk, and write it: result, summary of repeats, logs."""
+        """Collect the rows on disk and write result, summary of repeats and logs."""
         stored = [(trial, self.stored(trial)) for trial in self.plan.units()]
         result, logs, self.simulated_s = collect(self.plan, self.inputs, self.info, stored)
         save(result, self.out)
@@ -118,7 +117,7 @@ class Run:
         return result
 
     def stored(self, unit: Trial) -> journal.Stored:
-        """Return what is on disk of a trial; raises ResultError if it is another run's."""
+        """Return the stored rows of a trial; raises ResultError if they are of another run."""
         if not journal.path_of(self.out, unit.index).exists():
             return journal.NOTHING
         return journal.read(self.out, unit.index, self.head(unit))

@@ -1,4 +1,4 @@
-"""What stands for files that are nowhere, told before anything is drawn or played."""
+"""Warnings about stand-ins for missing files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be named in a benchmark: what is bundled, and what ``--plugin`` adds to it."""
+"""The names available to benchmarks: those bundled and those of ``--plugin``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Timing of a run: wall time, CPU time and provenance, which are no part of the result."""
+"""Timing of a run: wall time and CPU time, for its provenance."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Stopwatch:
 
 @dataclass(frozen=True, kw_only=True)
 class Timing:
-    """Timing to play some algorithms together."""
+    """Timing of algorithms that run together."""
 
     began: float
     """When [s since 1970]."""
@@ -45,7 +45,7 @@ class Timing:
     """What was played, an algorithm each."""
 
     def provenance(self, run: Run) -> dict[str, object]:
-        """Say where, when and how fast; nothing here is part of a score."""
+        """Return machine, date and timing; none of it enters a score."""
         from importlib.metadata import version
 
         from ..results.provenance import machine

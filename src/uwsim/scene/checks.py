@@ -118,7 +118,7 @@ def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, diagnostics: Diagnosti
     for joint, value in zip(robot.movable, vehicle.joint_values, strict=False):
         held = min(max(value, joint.lower), joint.upper)
         if held != value:
-            message = f"joint {joint.name!r} at {value:g} is held at its limit {held:g}"
+            message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
             if joint.kind != "prismatic" and abs(value) > MORE_THAN_A_TURN:
                 message += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
             diagnostics.warning(place, message)

@@ -118,7 +118,7 @@ def apply_setting(spec: T, path: str, value: str) -> T:
 
 
 def locate(spec: Any, path: str) -> Place:
-    """Find where a path leads in ``spec``; raises BadSetting if it leads nowhere."""
+    """Find where a path leads in ``spec``; raises BadSetting for an unknown path."""
     parts = _parts(path)
     steps: list[Step] = []
     while True:

@@ -1,1 +1,1 @@
-"""Executes a stored result again and compares what comes out."""
+"""Replays stored results and compares them byte for byte."""

@@ -1,4 +1,4 @@
-"""What a row says twice: its total, from the values, and a value, from the detail that it is.
+"""Redundant values of a row: its total from the values, and a value from its detail.
 
 Both can be worked out without playing anything, so whoever changes one has to change the other.
 """
@@ -16,7 +16,7 @@ from .differences import Difference
 
 
 def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Difference]:
-    """Work out every total and every value that a row says twice; yields those that differ.
+    """Recompute totals and derived values; yields those that differ.
 
     Args:
         result: as it was read.
@@ -46,7 +46,7 @@ def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Differe
 
 
 def _total(expression: Expression, row: dict[str, Cell]) -> float | None:
-    """What the function makes of a row: nothing unless the level ended well."""
+    """The total of a row; None unless its status is ok."""
     if row.get("status") != "ok":
         return None
     values = {

@@ -1,4 +1,4 @@
-"""Where two tellings of one unit differ: every cell, the first sample of a log, the first step.
+"""Differences between two executions of one trial: cells, first log sample, first step.
 
 What is stored as JSON is taken apart into its leaves, each with its path, and compared leaf by leaf
 as text: -0.0 is not 0.0, and a record that was tampered with is compared like any other.
@@ -19,7 +19,7 @@ from ..runs.trial.fingerprint import Checkpoints, divergence
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """One thing that is not the same."""
+    """A difference."""
 
     where: str
     """File, or unit and level."""
@@ -40,7 +40,7 @@ def apart(stored: Any, again: Any) -> Iterator[tuple[tuple[str | int, ...], str,
 
 
 def of_row(stored: Record, again: Record) -> list[str]:
-    """Say what differs in a level's record, a line a column and a line a log."""
+    """Return the differences in the record of a level, a line for each column and log."""
     messages: dict[str, str] = {}
     for path, before, after in apart(stored, again):
         name = _name(path, stored, again)
@@ -51,7 +51,7 @@ def of_row(stored: Record, again: Record) -> list[str]:
 
 
 def _name(path: tuple[str | int, ...], stored: Record, again: Record) -> str | None:
-    """How a reader of the result knows a leaf of a record."""
+    """The name of a leaf of a record in the result."""
     match path:
         case ("fingerprint",):
             return None  # the trace says more
@@ -83,7 +83,7 @@ def _time(record: Record, name: str | int, sample: int) -> str:
 
 
 def of_end(stored: Record, again: Record) -> list[str]:
-    """Say what differs in the end of a unit: images, constants, parameters; not its trace."""
+    """Return the differences in the end of a trial: images, constants, parameters; no trace."""
     messages: dict[str, str] = {}
     for path, before, after in apart(_without_checkpoints(stored), _without_checkpoints(again)):
         name = " ".join(map(str, path[:2]))
@@ -104,7 +104,7 @@ def _without_checkpoints(end: Record) -> Record:
 
 @dataclass(frozen=True, kw_only=True)
 class FingerprintComparison:
-    """What the fingerprints of a unit say."""
+    """The comparison of the fingerprints of a trial."""
 
     message: str | None
     """Where two runs part, in words; None if they do not."""
@@ -115,7 +115,7 @@ class FingerprintComparison:
 
 
 def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> FingerprintComparison:
-    """Compare the fingerprints of two tellings of one unit."""
+    """Compare the fingerprints of two executions of one trial."""
     ends = [record.end or {} for record in (stored, again)]
     one, other = (Checkpoints.of(end.get("trace")) for end in ends)
     if one is None or other is None:
@@ -140,7 +140,7 @@ def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> Fingerprin
 
 
 def of_text(stored: str, again: str) -> str | None:
-    """Say where two tables of text first differ, by line and column; None if they are equal."""
+    """Return where two tables of text first differ, by line and column; None if they are equal."""
     if stored == again:
         return None
     before, after = stored.split("\n"), again.split("\n")

@@ -1,4 +1,4 @@
-"""What a result was made with and is replayed with, and what a difference may come from."""
+"""Environments of the recording and of the replay, and likely causes of differences."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ PROMISES = {
 
 
 def made_otherwise(stored: Result, directory: Path, run: RunInfo) -> dict[str, str]:
-    """Say what differs between how the result was made and how it is replayed, and what holds."""
+    """Return the differences between the recorded environment and that of the replay."""
     pairs = {name: (getattr(stored.run, name), getattr(run, name)) for name in ENVIRONMENT}
     recorded, here = load_provenance(directory), machine()
     for name in ("system", "python", *(["cpu"] if "code" not in recorded else [])):
@@ -55,7 +55,7 @@ def made_otherwise(stored: Result, directory: Path, run: RunInfo) -> dict[str, s
 
 
 def blame(found: Verification, others: Mapping[str, str]) -> str:
-    """Say which part of the program the differences point to."""
+    """Return the part of the program that the differences point to."""
     bodies = [part for part in found.parts if not part.startswith("/")]
     if bodies:
         where = f"It begins in the physics: {', '.join(bodies)} moved otherwise."

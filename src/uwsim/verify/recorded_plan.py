@@ -1,4 +1,4 @@
-"""From a result back to what it was made from: its files, found by name and known by hash."""
+"""Rebuilding the plan of a result: its files are found by name and identified by hash."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ NOT_DRAWN = "none"
 
 @dataclass(frozen=True, kw_only=True)
 class FileOverrides:
-    """Where the user says that files are."""
+    """Paths of files given by the user."""
 
     benchmark: Path | None = None
     """The benchmark."""
@@ -40,7 +40,7 @@ class FileOverrides:
 
 
 def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
-    """Put together the plan that a result was made with.
+    """Rebuild the plan of a result.
 
     Raises:
         ResultError: the result does not say, or a file is not the one that was played.
@@ -81,7 +81,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
 
 
 def check_inputs(recorded: Inputs, found: Inputs) -> None:
-    """Refuse to go on with other assets or another algorithm than those that were played.
+    """Refuse assets or an algorithm that differ from the recorded ones.
 
     Benchmark, scene and plugins are found by their hashes.
 

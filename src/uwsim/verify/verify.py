@@ -1,4 +1,4 @@
-"""Verifying a result: what is stored is held against itself, and trials are played again.
+"""Verifying a result: consistency of its files, and replays of trials.
 
 First, without playing anything, every total is worked out from its row, and every file of the
 result is made anew from what its trials stored and compared. Then whole trials are replayed from
@@ -52,7 +52,7 @@ class Verification:
     """Units that were replayed."""
 
     def add(self, where: str, what: str) -> None:
-        """Take note of a difference."""
+        """Record a difference."""
         self.differences.append(Difference(where=where, what=what))
 
 
@@ -84,7 +84,7 @@ def verify(
     executor: Executor | None = None,
     on_level: OnLevel = lambda: None,
 ) -> Verification:
-    """Hold a stored result against itself and against replays.
+    """Check the consistency of a stored result and replay trials.
 
     Args:
         directory: the result's.
@@ -124,7 +124,7 @@ def _has_units(directory: Path) -> bool:
 
 
 def _check_files(found: Verification, directory: Path, result: Result, run: Run) -> None:
-    """Make every file anew from the stored trials, and compare, if they are all there."""
+    """Write every file again from the stored trials, if all are there, and compare."""
     gone = _gone(directory, result, run.plan)
     for trial, what in gone.items():
         name = journal.path_of(directory, trial.index).name
@@ -165,7 +165,7 @@ def _check_files(found: Verification, directory: Path, result: Result, run: Run)
 
 
 def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
-    """Units whose rows are in the result but not in their files: what is the matter with each."""
+    """Trials whose rows are in the result but not in their journals, with the reason."""
     rows = _rows_by_level(result, plan)
     gone = {}
     for trial in plan.units():
@@ -180,7 +180,7 @@ def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
 
 
 def _head(result: Result, replayed: journal.Record) -> journal.Record:
-    """The head that a trial of a result should have: what it shares with result.json is from there.
+    """The head that a trial should have, according to result.json.
 
     The parameters of a head are those given; result.json says those that the algorithm ran with.
     """
@@ -194,7 +194,7 @@ def _head(result: Result, replayed: journal.Record) -> journal.Record:
 def _check_head(
     found: Verification, where: str, head: journal.Record, expected: journal.Record
 ) -> None:
-    """Compare what a trial says of its run with what result.json does, a line a value."""
+    """Compare the head of a trial with result.json, a line for each value."""
     seen: set[tuple[str | int, ...]] = set()
     for path, before, after in differences.apart(head, expected):
         if path[:2] not in seen:
@@ -249,7 +249,7 @@ def _check_unit(found: Verification, directory: Path, again: Run, trial: Trial) 
 
 
 def _check_rows(found: Verification, result: Result, again: Run) -> None:
-    """Compare replayed rows with those of result.json, where that is all there is."""
+    """Compare replayed rows with those of result.json, where there is no journal."""
     made = again.write()
     expected = _rows_by_level(result, again.plan)
     names = {column.name for column in result.columns}

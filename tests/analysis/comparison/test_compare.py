@@ -92,7 +92,7 @@ def test_without_a_seed_in_common_nothing_is_compared() -> None:
 
 def test_a_result_that_does_not_say_its_seed_cannot_be_paired() -> None:
     bare = replace(one_level(), run=RunInfo(algorithm="esm"))
-    with pytest.raises(ResultError, match="does not say its seeds"):
+    with pytest.raises(ResultError, match="does not record its seeds"):
         compared(bare, replace(bare, run=RunInfo(algorithm="ic")))
 
 
@@ -160,8 +160,8 @@ def test_versions_and_unfinished_runs_are_remarked() -> None:
     other = replace(second, run=replace(second.run, version="0.2.0", units=(3, 12)))
     assert remarks(entries(first, second)) == ()
     assert remarks(entries(first, other)) == (
-        "played with different versions, version: 0.1.0 in esm.result, 0.2.0 in ic.result",
-        "ic is not finished: 3 of 12 units played",
+        "run with different versions, version: 0.1.0 in esm.result, 0.2.0 in ic.result",
+        "ic is not finished: 3 of 12 units finished",
     )
 
 
@@ -360,7 +360,7 @@ def test_the_sweep_is_over_the_levels_where_every_repeat_has_a_value_from_both()
     assert overall.levels == ((0.0,), (0.5,))
     assert overall.value.difference == mean_interval([0.5, 1.5])
     assert "over the 2 of 3 levels at which every repeat of both has a value" in said(comparison)
-    assert "the measure speaks of the survivors alone" in said(comparison)
+    assert "the measure describes the remaining runs only" in said(comparison)
 
 
 def test_a_sweep_in_which_nobody_survives_is_not_compared_but_success_is() -> None:

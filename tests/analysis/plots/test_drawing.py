@@ -245,7 +245,7 @@ def test_plots_come_as_pdf_too_when_asked(tmp_path: Path) -> None:
 
 def test_a_result_without_rows_can_be_drawn(tmp_path: Path) -> None:
     empty = replace(visibility(), rows=(), missing=())
-    assert "no level was played" in words(small_multiples(empty))
+    assert "no level was run" in words(small_multiples(empty))
     save_plot(small_multiples(empty), tmp_path / "empty.png")
 
 

@@ -398,14 +398,14 @@ def test_without_provenance_the_command_is_put_together(tmp_path: Path) -> None:
         "uwsim bench visibility --algorithm esm --seed 1 --repeat 2 --mode sequential "
         "--set 'vehicle[g].virtualCamera[c].std=0.016' --level fog=0.2 --compat thresholds"
     ) in text
-    assert "Only these levels of the sweep were played: fog=0.2." in text
+    assert "Only these levels of the sweep were run: fog=0.2." in text
     assert "Compatibility quirks: thresholds." in text
 
 
 def test_an_unfinished_result_says_so_first(tmp_path: Path) -> None:
     base = visibility()
     text = page_of(replace(base, run=replace(base.run, units=(1, 3))), tmp_path).text
-    assert "Not finished: 1 of 3 parts are played." in text
+    assert "Not finished: 1 of 3 parts are finished." in text
     assert "Not finished" not in page_of(base, tmp_path).text
 
 

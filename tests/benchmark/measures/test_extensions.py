@@ -82,7 +82,7 @@ def test_control_is_read_whole(tmp_path: Path) -> None:
         ("", "2: needs a <topic> of commands, a <target>, or an <errorTopic>"),
         ("<target>girona500</target>", "2: <target> and <position> go together; give both or none"),
         (f"{PLACE} <errorTopic>e</errorTopic>",
-         "2: <target> and <errorTopic> both say the error; give one"),
+         "2: <target> and <errorTopic> both give the error; use one"),
         (f"{PLACE} <axes>vx</axes>", "2: <axes> are those of a <topic>, which is not given"),
         (f"{PLACE} <quantity>effort</quantity>",
          "2: <quantity> 'effort' is that of a <topic>, which is not given"),

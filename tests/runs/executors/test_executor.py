@@ -229,7 +229,7 @@ def test_a_unit_that_is_gone_when_all_are_played_is_missed_and_played_with_resum
             first.unlink()
 
     bench = bench_of(benchmark, out, mode="independent")
-    said = r"units/00000\.jsonl: unit 0 .* is not whole there any more\. Go on with --resume\.$"
+    said = r"units/00000\.jsonl: unit 0 .* its file is incomplete now\. Continue with --resume\.$"
     with pytest.raises(RunFailed, match=said):
         run_all([bench], on_level=harm)
     assert len(load(out).rows) == 2

@@ -134,7 +134,7 @@ ERRORS = {
     ),
     "a name that is no identifier": (
         changed("<name>centroid", "<name>2nd centroid", "corners+centroid", "corners"),
-        "<euclideanNorm>\n      <name>2nd", "'2nd centroid' cannot stand in the function",
+        "<euclideanNorm>\n      <name>2nd", "'2nd centroid' cannot be used in the function",
     ),
     "a name that no file can be called by": (
         changed("<name>centroid", f"<name>{'c' * 300}", "corners+centroid", "corners"),
@@ -330,7 +330,7 @@ DAMAGED: dict[str, tuple[str | bytes, str]] = {
     "a letter that no name may have": (
         changed('<?xml version="1.0"?>', DECLARED, "<name>corners", "<name>coin\xe9",
                 "corners+", "").encode("latin-1"),
-        "the name 'coin\xe9' cannot stand in the function",
+        "the name 'coin\xe9' cannot be used in the function",
     ),
     "an external entity": (
         changed('"benchmark.dtd">', '"benchmark.dtd" [<!ENTITY x SYSTEM "file:///etc/passwd">]>',

@@ -1,4 +1,4 @@
-"""When levels begin and end: the benchmark's own startOn and stopOn."""
+"""The benchmark's startOn and stopOn, which begin and end levels."""
 
 from __future__ import annotations
 

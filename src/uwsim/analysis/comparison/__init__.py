@@ -1,4 +1,4 @@
-"""Comparison: results of one experiment held against each other, pair by pair."""
+"""Comparison of results of one experiment, pair by pair."""
 
 from __future__ import annotations
 

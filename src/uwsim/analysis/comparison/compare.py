@@ -1,4 +1,4 @@
-"""The comparison itself: what differs, by how much, how surely, and how many repeats would say.
+"""Computing a comparison: differences, intervals, tests, and the repeats needed.
 
 A repeat is a seed; the levels of one seed share its noise, its template or its history, and are
 never counted as repeats. So each level is tested over the seeds, and the sweep as a whole over one
@@ -63,7 +63,7 @@ def compare_files(
         force: compare results of different experiments, too.
 
     Raises:
-        ResultError: a result cannot be read, or they are of different experiments; says which.
+        ResultError: a result cannot be read, or they are of different experiments.
     """
     entries = read_entries(paths)
     compared = shared_column(entries, column)
@@ -238,7 +238,7 @@ def _mean(values: Sequence[tuple[float, float]]) -> tuple[float, float]:
 
 
 def _corrected(versus: Sequence[Versus], higher_is_better: bool) -> tuple[Versus, ...]:
-    """Correct four families of tests, and say in each which is better."""
+    """Correct four families of tests, and give the verdict of each."""
     levels = [at for each in versus for at in each.levels]
     values = _judged([at.value for at in levels], higher_is_better)
     successes = holm(

@@ -1,4 +1,4 @@
-"""What is kept of a comparison: ``comparison.json`` and ``comparison.csv``, the same bytes always.
+"""The texts of ``comparison.json`` and ``comparison.csv``, reproducible byte for byte.
 
 .. code-block:: text
 

@@ -1,4 +1,4 @@
-"""What is compared: results that played one experiment, each with a name of its own."""
+"""The inputs of a comparison: results of one experiment, with unique names."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ class Entry:
     name: str
     """The algorithm; with the directory where two results are of one algorithm."""
     source: str
-    """The result directory, with as many of its parents as tell it from the others."""
+    """The result directory, with as many parents as make it unique."""
     result: Result
     """What it found."""
     sha256: str
     """Hash of its ``result.json``."""
     unchecked: str | None = None
-    """Which of its rows were not held against their units, and why; None: all were."""
+    """Which of its rows were not checked against journals, and why; None: all were."""
 
 
 def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
-    """Read results, hold their rows against their units, and name them.
+    """Read results, check their rows against the journals, and name them.
 
     Raises:
-        ResultError: one cannot be read, says other than its units, or is given twice, or there
+        ResultError: one cannot be read, contradicts its journals, or is given twice, or there
             are fewer than two.
     """
     directories = [file_of(path).resolve().parent for path in paths]
@@ -91,7 +91,7 @@ def shared_column(entries: Sequence[Entry], name: str | None) -> Column:
 
 
 def differences(entries: Sequence[Entry]) -> tuple[str, ...]:
-    """Say what keeps results from being of one experiment; nothing where they are."""
+    """Return the differences that make results incomparable."""
     found = []
     for what, value in _EXPERIMENT.items():
         values = [value(entry.result) for entry in entries]
@@ -103,16 +103,16 @@ def differences(entries: Sequence[Entry]) -> tuple[str, ...]:
 
 
 def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
-    """Say what does not forbid a comparison and is worth knowing."""
+    """Return remarks on differences that do not forbid a comparison."""
     found = []
     for what in ("version", "physics", "renderer", "numpy"):
         values = [getattr(entry.result.run, what) or "unknown" for entry in entries]
         if len(set(values)) > 1 and not (what == "renderer" and "none" in values):
-            found.append(f"played with different versions, {what}: {_who(entries, values)}")
+            found.append(f"run with different versions, {what}: {_who(entries, values)}")
     for entry in entries:
         units = entry.result.run.units
         if units is not None and not entry.result.run.is_finished:
-            found.append(f"{entry.name} is not finished: {units[0]} of {units[1]} units played")
+            found.append(f"{entry.name} is not finished: {units[0]} of {units[1]} units finished")
     for what in dict.fromkeys(entry.unchecked for entry in entries if entry.unchecked):
         sources = [entry.source for entry in entries if entry.unchecked == what]
         found.append(f"{' and '.join(sources)}: {what}")
@@ -124,7 +124,7 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
 
 
 def same_images(first: Result, second: Result) -> tuple[int, int] | None:
-    """Return how many image streams both were handed, and how many of them byte for byte.
+    """Return how many image streams both have, and how many of them are identical.
 
     None where there is none in common: no camera was read, or no seed is shared.
     """
@@ -163,7 +163,7 @@ _EXPERIMENT: dict[str, Callable[[Result], str]] = {
     "compatibility": lambda result: _words(result.run.compatibility),
     "settings of the scene": _scene_settings,
 }
-"""What must be equal -> how a result says it."""
+"""What must be equal -> its text in a message."""
 
 
 def _said_of_files(entries: Sequence[Entry], role: str, what: str) -> list[str]:
@@ -184,7 +184,7 @@ def _few(found: list[str], what: str) -> list[str]:
     return [*found[:2], f"{len(found) - 2} more {what}"] if len(found) > 3 else found
 
 
-# ---------------------------------------------------------------------------- how it is said
+# ---------------------------------------------------------------------------- wording
 
 
 def _who(entries: Sequence[Entry], values: Sequence[str]) -> str:
@@ -201,7 +201,7 @@ def _labels(columns: Sequence[Column]) -> str:
 
 
 def _distinct(directories: Sequence[Path]) -> list[str]:
-    """Shortest ends of paths that tell each from all others."""
+    """Shortest unique ends of paths."""
     found = []
     for i, directory in enumerate(directories):
         others = [other for j, other in enumerate(directories) if j != i]

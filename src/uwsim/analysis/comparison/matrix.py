@@ -1,4 +1,4 @@
-"""Who beats whom: every result against every other, over the sweep as a whole, on one screen.
+"""Matrix of pairwise verdicts: every result against every other, over the whole sweep.
 
 .. code-block:: text
 
@@ -36,7 +36,7 @@ SYMBOLS: dict[Standing, str] = {
     "no pair": "none",
     "itself": "",
 }
-"""Where there is no room for words."""
+"""Symbols for narrow terminals."""
 MEANINGS: dict[Standing, str] = {
     "better": "the row is better",
     "worse": "the column is better",
@@ -59,7 +59,7 @@ class Cell:
 
     @property
     def symbol(self) -> str:
-        """``+``, ``-``, ``?``: where there is no room for words."""
+        """``+``, ``-``, ``?``: for narrow terminals."""
         return SYMBOLS[self.standing]
 
 
@@ -70,14 +70,14 @@ class MatrixRow:
     name: str
     """Of the result."""
     ok: str
-    """Share of its rows that ended ``ok``, ``93 %``; a dash where it does not say."""
+    """Share of its rows that ended ``ok``, ``93 %``; a dash where it is not recorded."""
     cells: tuple[Cell, ...]
     """In the order of the matrix's columns."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Matrix:
-    """Who beats whom."""
+    """The matrix of pairwise verdicts."""
 
     columns: tuple[str, ...]
     """Names of the results that the rows are compared with."""
@@ -85,13 +85,13 @@ class Matrix:
     """One result each, those that beat most first."""
 
     def legend(self) -> str:
-        """Say what the symbols that occur mean: ``+ the row is better; ? no difference ...``."""
+        """Explain the symbols that occur: ``+ the row is better; ? no difference ...``."""
         found = {cell.standing for row in self.rows for cell in row.cells}
         return "; ".join(f"{SYMBOLS[s]} {message}" for s, message in MEANINGS.items() if s in found)
 
 
 def matrix(comparison: Comparison) -> Matrix:
-    """Return who beats whom over the sweep as a whole."""
+    """Return the matrix of pairwise verdicts over the whole sweep."""
     found: dict[tuple[int, int], tuple[Versus, bool]] = {}
     places = {id(entry): i for i, entry in enumerate(comparison.entries)}
     for versus in comparison.versus:
@@ -124,7 +124,7 @@ def title(comparison: Comparison) -> str:
 
 
 def note(comparison: Comparison) -> str:
-    """Say what the matrix is about, and whether there were repeats enough to fill it."""
+    """Return the note of the matrix, with whether the repeats were enough."""
     n = len(comparison.versus)
     over = f", Holm over {n} pairs of results" if n > 1 else ""
     text = (
@@ -142,7 +142,7 @@ def too_few(d: PairedDifference) -> str:
 
 
 def _order(n: int, found: Mapping[tuple[int, int], tuple[Versus, bool]]) -> list[int]:
-    """Who wins most less who loses most first; else as they were given."""
+    """Order by wins minus losses; else as given."""
     score = [0] * n
     for i, j in found:
         standing = _cell(found, i, j).standing

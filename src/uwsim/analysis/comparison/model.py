@@ -1,4 +1,4 @@
-"""What a comparison found: plain values, made by `compare`."""
+"""The data of a comparison, made by `compare`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ POWER = 0.8
 """Chance of showing the observed effect with the repeats that are called needed."""
 
 Outcome = Literal["first", "second", "not shown", "too few", "equal", "one repeat", "no pair"]
-"""Which is better, or why nothing is said. ``too few``: with so many repeats no data at all could
+"""Which is better, or why not decided. ``too few``: with so many repeats no data at all could
 have shown a difference (see `least_corrected`), so nothing was tested."""
 
 
@@ -107,7 +107,7 @@ class Overall:
     """Both over the whole sweep: one number a seed."""
 
     seeds: tuple[int, ...]
-    """Seeds that both played at every shared level."""
+    """Seeds that both ran at every shared level."""
     n_levels: int
     """Number of shared levels."""
     levels: tuple[Level, ...]
@@ -124,7 +124,7 @@ class Overall:
 
 @dataclass(frozen=True, kw_only=True)
 class Versus:
-    """Two results held against each other."""
+    """The comparison of two results."""
 
     first: Entry
     """The baseline, or the one given first."""
@@ -135,11 +135,11 @@ class Versus:
     overall: Overall
     """The whole sweep."""
     n_only_first: int
-    """Rows that only the first played."""
+    """Rows that only the first has."""
     n_only_second: int
-    """Rows that only the second played."""
+    """Rows that only the second has."""
     same_images: tuple[int, int] | None
-    """Image streams that both were handed, and how many of them were the same bytes."""
+    """Image streams that both have, and how many of them are identical."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,7 +149,7 @@ class Comparison:
     entries: tuple[Entry, ...]
     """The results, the baseline first if there is one."""
     baseline: Entry | None
-    """What all others are held against; None: each against each."""
+    """The baseline; None: each result is compared with each."""
     column: Column
     """What was compared."""
     higher_is_better: bool

@@ -1,4 +1,4 @@
-"""Pairs: rows of two results that share their seed and their level."""
+"""Pairing the rows of two results by seed and level."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SAME = 9
 
 @dataclass(frozen=True, kw_only=True)
 class Pair:
-    """One level of one repeat, played by both."""
+    """One level of one repeat that both ran."""
 
     seed: int
     """Seed of both."""
@@ -32,21 +32,21 @@ class Pair:
 
 @dataclass(frozen=True, kw_only=True)
 class Paired:
-    """Every pair of two results, and what found no partner."""
+    """All pairs of rows of two results, and unpaired rows."""
 
     levels: dict[Level, tuple[Pair, ...]]
-    """Level -> its pairs, in the order in which the first result played them."""
+    """Level -> its pairs, in the order of the first result."""
     n_only_first: int
-    """Rows of the first that the second did not play."""
+    """Rows of the first that the second does not have."""
     n_only_second: int
-    """Rows of the second that the first did not play."""
+    """Rows of the second that the first does not have."""
 
 
 def pair_up(first: Entry, second: Entry, column: str) -> Paired:
     """Pair the rows of two results by seed and level.
 
     Raises:
-        ResultError: no row has a partner, or a result does not say its seeds.
+        ResultError: no rows can be paired, or a result does not record its seeds.
     """
     ours, theirs = _rows(first), _rows(second)
     levels: dict[Level, list[Pair]] = {}
@@ -85,7 +85,9 @@ def _rows(entry: Entry) -> dict[tuple[int, Level, int], int]:
         for row in rows:
             seed = seeds[row]
             if seed is None:
-                raise ResultError(f"{entry.source}: does not say its seeds; nothing can be paired.")
+                raise ResultError(
+                    f"{entry.source}: does not record its seeds; nothing can be paired."
+                )
             turn = turns[seed] = turns.get(seed, -1) + 1
             found[seed, tuple(round(value, SAME) for value in level), turn] = row
     return found

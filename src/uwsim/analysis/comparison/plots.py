@@ -103,7 +103,7 @@ def differences_plot(comparison: Comparison) -> Figure:
 
 
 def success(comparison: Comparison) -> Figure | None:
-    """Draw the share of repeats that ended ``ok``; None where all did, or nobody says."""
+    """Draw the share of repeats that ended ``ok``; None where all did, or no status is stored."""
     drawn = []
     for entry in comparison.entries:
         found = success_per_level(entry.result)

@@ -1,4 +1,4 @@
-"""How many repeats a comparison takes, before anything is known of what it compares."""
+"""How many repeats a comparison needs, before any result is known."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a comparison says in words: which is better, how surely, and what would be needed to say."""
+"""The sentences of a comparison: which is better, how certainly, and the repeats needed."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def levels_text(columns: Sequence[Column], level: Level) -> str:
 
 
 def unit_text(column: Column) -> str:
-    """Return the unit as it stands behind a number, with its space; nothing without a unit."""
+    """Return the unit with a leading space, for use after a number; empty without a unit."""
     return f" {written_unit(column.unit)}" if column.unit else ""
 
 
@@ -117,7 +117,7 @@ def _found(comparison: Comparison, versus: Versus, d: PairedDifference) -> str:
 
 
 def _limits(interval: Interval, mean: float, unit: str) -> str:
-    """The interval of the difference, told in the direction of the mean."""
+    """The interval of the difference, in the direction of the mean."""
     if interval.low is None or interval.high is None:
         return ""
     ends = (interval.low, interval.high) if mean >= 0 else (-interval.high, -interval.low)
@@ -159,7 +159,7 @@ def _tested(comparison: Comparison, d: PairedDifference) -> str:
 
 
 def _needed(comparison: Comparison, d: PairedDifference) -> str:
-    """How many more repeats would say, or why that cannot be planned."""
+    """How many more repeats are needed, or why that cannot be planned."""
     n, fewest = d.difference.n, comparison.fewest_for_sweep
     if d.verdict == "too few":
         least, of = smallest_p(n), len(comparison.versus)
@@ -277,7 +277,8 @@ def _missing(versus: Versus) -> str:
         f"Of {n} pairs {lost[0] + lost[1] + lost[2]} have no difference: {lost[1]} where only "
         f"{versus.first.name} has no value, {lost[0]} where only {versus.second.name} has none, "
         f"{lost[2]} where neither has one. They are left out, not guessed: where values are "
-        "missing the measure speaks of the survivors alone, and the levels that ended ok of the "
+        "missing the measure describes the remaining runs only, and the levels that ended ok of "
+        "the "
         "rest."
     )
 
@@ -318,7 +319,7 @@ def _loser(versus: Versus, d: PairedDifference) -> Entry:
 
 
 def _open(d: PairedDifference) -> str:
-    """Say why no side is named."""
+    """Return why no result is named as better."""
     message = too_few(d) if d.verdict == "too few" else "no difference is shown"
     return message[0].lower() + message[1:]
 

@@ -22,7 +22,7 @@ LEGEND = (
     "n: pairs with a value from both; difference: with its 95 % interval; g: Hedges' g; A: chance "
     "that a repeat of the second is better; p: sign-flip test after Holm; ok: repeats that ended "
     "ok, first : second; needs: repeats that would show the observed difference in 4 of 5 "
-    "experiments. docs/statistics.md says more."
+    "experiments. See docs/statistics.md."
 )
 GIVES_WAY = ("a", "g", "ok", "n")
 """Columns that give way on a narrow terminal, in this order, named by the field of
@@ -36,7 +36,7 @@ class Shown:
     kind: str
     """What it holds: a field of `ComparisonLine`."""
     heading: str
-    """What stands above it; two columns may have the same."""
+    """Its heading; two columns may have the same."""
     cells: tuple[str, ...]
     """A text a line."""
 
@@ -109,7 +109,7 @@ def drawn(comparison: Comparison, *, width: int) -> Iterator[RenderableType]:
 
 
 def _matrix(comparison: Comparison, width: int) -> Iterator[RenderableType]:
-    """Who beats whom: in words where the terminal is wide enough, else in symbols."""
+    """The matrix: in words where the terminal is wide enough, else in symbols."""
     found = matrix(comparison)
     yield Text(title(comparison), style="bold")
     named = max(len(row.name) for row in found.rows) + len("  100 %")

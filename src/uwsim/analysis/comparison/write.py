@@ -1,4 +1,4 @@
-"""The directory of a comparison: what stands in it, and how it is written."""
+"""Writing the directory of a comparison."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plots: what results say, drawn so that it could go into a paper."""
+"""Plots of results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curves: a column of a result over its levels, ready to be drawn and talked about."""
+"""Curves: a column of a result over its levels."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def curves_of(result: Result, column: str) -> list[Curve]:
 
 
 def level_text(column: Column, value: float) -> str:
-    """Return a level as people say it: ``fog 0.5 m⁻¹``."""
+    """Return a level as text: ``fog 0.5 m⁻¹``."""
     return f"{column.name} {value:g}" + (f" {written_unit(column.unit)}" if column.unit else "")
 
 

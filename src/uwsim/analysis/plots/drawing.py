@@ -1,4 +1,4 @@
-"""Drawing: curves on axes, where they end, what was predicted, what the axes are called."""
+"""Drawing curves on axes, with their ends, predictions and labels."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ CONTROL = "frozen"
 MAX_NAMED = 18
 """Curves that a legend names; of more the first, the last and some between."""
 FAR_ABOVE = 2.5
-"""How many times higher than all else the control stands before it is left outside."""
+"""The control is clipped when it is this many times higher than all other curves."""
 COUNTED = ("armPosition", "iteration")
 """Levels that are whole numbers."""
 FOLD = 28
@@ -34,7 +34,7 @@ FOLD = 28
 FEW_LEVELS = 6
 """Levels up to which every one has its tick."""
 MAX_INSIDE = 4
-"""Curves up to which the legend stands inside the axes."""
+"""Greatest number of curves with the legend inside the axes."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +50,7 @@ CONTROL_LOOK = Look(colour=INK, marker="o", line=(0, (4, 2)))
 
 
 def look_of(i: int, n: int) -> Look:
-    """How curve i of n looks; where colours to tell apart run out, they are a scale."""
+    """The style of curve i of n; many curves are coloured by a scale."""
     marker = MARKERS[i % len(MARKERS)]
     if n <= len(PALETTE):
         return Look(colour=PALETTE[i], marker=marker)
@@ -67,7 +67,7 @@ def draw_column(
     labels: bool = True,
     fold: int = FOLD,
 ) -> None:
-    """Draw a column's curves, what they are held against, and where they end."""
+    """Draw a column's curves, their references, and where they end."""
     for i, curve in enumerate(curves):
         look = look_of(i, len(curves))
         name = cut(curve.name or algorithm_of(result) or column.name)
@@ -94,7 +94,7 @@ def draw_column(
 
 
 def add_legend(axes: Axes, n_curves: int) -> None:
-    """Name the curves if there are several, beside the axes if there are many."""
+    """Add a legend if there are several curves, next to the axes if there are many."""
     handles, names = legend_entries(axes)
     if n_curves > MAX_INSIDE:
         axes.figure.legend(handles, names, loc="outside right upper")
@@ -207,7 +207,7 @@ def _write_above(axes: Axes, x: float, text: str, colour: str, *, line: int) -> 
 
 
 def label_axes(axes: Axes, result: Result, column: Column, *, fold: int = FOLD) -> None:
-    """Say what the axes are, with units; ticks stand at the levels where these are few."""
+    """Label the axes with units; ticks are at the levels where these are few."""
     levels = result.of_kind("level")
     if levels:
         axes.set_xlabel(plain(level_label(levels[-1])))
@@ -267,7 +267,7 @@ def say_no_data(axes: Axes, why: str | None) -> None:
     axes.text(
         0.5,
         0.5,
-        plain(textwrap.fill(f"no data: {why or 'no level was played'}", 60)),
+        plain(textwrap.fill(f"no data: {why or 'no level was run'}", 60)),
         transform=axes.transAxes,
         ha="center",
         va="center",

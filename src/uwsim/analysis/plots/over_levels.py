@@ -1,4 +1,4 @@
-"""Plots: what a result says, drawn so that it could go into a paper.
+"""Plots of a result over its levels.
 
 Every plot is drawn from results alone. Axes carry units; a loss is a vertical line with its level,
 or where several curves share the axes a cross at the last value before it. Bands are 95 % intervals
@@ -43,11 +43,11 @@ from .style import DPI, SIZE, any_letter, cut, styled_figure, write_note
 
 OVERVIEW = "all-measures"
 MAX_IN_A_COLUMN = 8
-"""Panels that stand below each other; more stand in two columns."""
+"""Greatest number of panels in one column; more are in two columns."""
 
 
 def value_plot(result: Result, column: str, *, control: Result | None = None) -> Figure:
-    """Draw one column over the levels; ``control`` is the same benchmark played by `frozen`."""
+    """Draw one column over the levels; ``control`` is the same benchmark run with `frozen`."""
     curves = curves_of(result, column)
     with styled_figure(_with_room(SIZE, len(curves))) as figure:
         axes = figure.subplots()
@@ -130,7 +130,7 @@ def draw_plots(
     Args:
         result: what is drawn.
         directory: made if it is not there.
-        control: the same benchmark played by `frozen`.
+        control: the same benchmark run with `frozen`.
         pdf: also draw each as PDF, which takes three times as long.
 
     Returns:
@@ -171,7 +171,7 @@ def save_pdf(figure: Figure, path: Path) -> Path:
 
 
 def _with_room(size: tuple[float, float], n_curves: int) -> tuple[float, float]:
-    """Widen a figure whose legend stands beside the axes."""
+    """Widen a figure whose legend is next to the axes."""
     return (size[0] + 1.5, size[1]) if n_curves > MAX_INSIDE else size
 
 
@@ -201,7 +201,7 @@ def _distinct_names(results: Sequence[Result]) -> list[str]:
 
 
 def _origin(result: Result, *, with_algorithm: bool = True) -> tuple[str, str]:
-    """What was played (file, algorithm, mode, seed, version), and what bands are."""
+    """The run (file, algorithm, mode, seed, version), and the meaning of the bands."""
     benchmark, run = result.inputs.benchmark, result.run
     n_repeats = len(set(repeats_of(result)))
     seeds = f"{n_repeats} repeats from seed" if n_repeats > 1 else "seed"

@@ -1,4 +1,4 @@
-"""The style of plots: colours that colour-blind readers tell apart, sizes, names, small print."""
+"""The style of plots: colour-blind safe colours, sizes, names, footnotes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ...results.result import Column
 from .curves import written_unit
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A5C00")
-"""Okabe and Ito's colours, told apart by colour-blind readers, in an order that prints."""
+"""Okabe and Ito's colour-blind safe colours, in an order that prints well."""
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 INK, FAINT = "#222222", "#777777"

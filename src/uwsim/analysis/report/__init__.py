@@ -1,4 +1,4 @@
-"""Report: one HTML file that says what was run, what was found, and how far to trust it."""
+"""Report: one HTML file with configuration, results and caveats of a run."""
 
 from __future__ import annotations
 

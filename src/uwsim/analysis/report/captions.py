@@ -1,4 +1,4 @@
-"""Captions: what a figure shows, and what its marks mean, as it could be said in a paper."""
+"""Captions of figures, with the meaning of their marks."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ STATISTICS = {
     "rms": "root mean square over each level",
     "max": "greatest value of each level",
 }
-"""Detail of a measure -> what it says of a level."""
+"""Detail of a measure -> its text in a caption."""
 
 
 def caption(result: Result, column: Column) -> str:
-    """Say what one figure shows: ``corners [px], mean over each level``."""
+    """Return the caption of a figure: ``corners [px], mean over each level``."""
     if column.kind == "score":
         return f"{label_of(result, column)} = {column.expression}" if column.expression else (
             label_of(result, column)
@@ -25,7 +25,7 @@ def caption(result: Result, column: Column) -> str:
 
 
 def statistic_of(result: Result, measure: str) -> str:
-    """Say which of its details a measure's values are; empty where the rows do not tell."""
+    """Return which of its details a measure's values are; empty where the rows do not show it."""
     names = {column.name for column in result.columns}
     values = result.values(measure)
     details = [key for key in STATISTICS if f"{measure}.{key}" in names]
@@ -38,7 +38,7 @@ def statistic_of(result: Result, measure: str) -> str:
 
 
 def marks(result: Result, *, has_control: bool) -> str:
-    """Say what points, bands, lines and crosses of the figures mean."""
+    """Explain points, bands, lines and crosses of the figures."""
     n_repeats = len(set(repeats_of(result)))
     columns = result.of_kind("score", "measure")
     curves = curves_of(result, columns[0].name) if columns else []
@@ -61,7 +61,7 @@ def marks(result: Result, *, has_control: bool) -> str:
     if has_control:
         messages.append(
             "Dashed: the control frozen, which never looks at an image; "
-            "where it lies far above, the legend names its values."
+            "where it is far above, the legend gives its values."
         )
     return " ".join(messages)
 

@@ -1,4 +1,4 @@
-"""How far to trust the numbers: the floor of the truth, a scene that stands still, optics."""
+"""Caveats of a report: the error floor, a static scene, the optics."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from .outcomes import Ending
 PAPER_FOG, PAPER_DISTANCE, PAPER_VISIBILITY = 1.1, 1.36, 0.86
 """What the UWSim benchmarking paper (Perez et al.) states: [1/m], [m], 1."""
 STILL = 0.05
-"""Below this the target stands still in the image [px]."""
+"""Below this the target counts as static in the image [px]."""
 
 
 def floor(result: Result) -> str | None:
     """Return what a perfect tracker would score, ``corners 2.88 px, centroid 1.63 px``.
 
     As the run has measured it (facts ``floor_...``). None where no measure of pixels compares with
-    what a tracker cannot know; an empty text where the result does not say how much that is.
+    what a tracker cannot know; an empty text where the result does not record it.
     """
     names = {column.name for column in result.columns}
     in_pixels = [column.name for column in result.of_kind("measure") if column.unit == "px"]
@@ -36,10 +36,10 @@ def floor(result: Result) -> str | None:
 
 
 def is_static(result: Result) -> bool:
-    """Whether the target stood still in the image, within levels and from one to the next.
+    """Whether the target was static in the image, within levels and from one to the next.
 
-    Where the result does not say how far it moved (fact ``shift``), images at the ends of levels
-    that were played alone say nothing: a vehicle that sways is at one phase in all of them.
+    Without the recorded motion (fact ``shift``), images at the ends of levels that were run alone
+    are not used: a swaying vehicle is at the same phase in all of them.
     """
     shift = result.fact("shift")
     if shift is not None and shift[0] >= STILL:
@@ -57,7 +57,7 @@ def is_static(result: Result) -> bool:
 
 
 def optics(result: Result, endings: Sequence[Ending]) -> dict[str, str] | None:
-    """Say where the paper's fog 1.1 lies against f*, in fog and in what the water lets through.
+    """Compare the paper's fog 1.1 with f*, as density and as transmission.
 
     None where no fog is swept, or f* is not known.
     """

@@ -1,4 +1,4 @@
-"""What was run: the command, settings, versions, hashes, constants of the scene, provenance."""
+"""The configuration in a report: command, settings, versions, hashes, constants, provenance."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FACTS = {
 }
 """Constant of a scene -> what it is (`uwsim.runs.trial.visibility`)."""
 SAID_ELSEWHERE = ("notes", "levels", "settings", "compatibility", "units")
-"""Parts of ``run`` that stand in sentences above the table."""
+"""Parts of ``run`` that are in sentences above the table."""
 CODE = ("code", "code_before")
 """Parts of the provenance: what libraries chose for the processor."""
 NOT_OF_THE_RESULT = {"--out": 1, "--workers": 1, "--resume": 0, "--overwrite": 0}
@@ -46,16 +46,17 @@ def command(result: Result, provenance: Mapping[str, object]) -> str:
 
 
 def remarks(result: Result, unchecked: str | None = None) -> list[str]:
-    """Say what a reader must know first: what is unfinished, left out, changed, not checked."""
+    """Return remarks: unfinished parts, chosen levels, changed settings, unchecked rows."""
     run, message = result.run, []
     if run.units is not None and not run.is_finished:
         message.append(
-            f"Not finished: {run.units[0]} of {run.units[1]} parts are played. --resume goes on."
+            f"Not finished: {run.units[0]} of {run.units[1]} parts are finished. --resume "
+            f"continues."
         )
     if unchecked is not None:
         message.append(f"{unchecked[0].upper()}{unchecked[1:]}.")
     if chosen := run.pairs_of_levels:
-        message.append(f"Only these levels of the sweep were played: {', '.join(chosen)}.")
+        message.append(f"Only these levels of the sweep were run: {', '.join(chosen)}.")
     if settings := run.pairs_of_settings:
         message.append(f"Changed for this run: {', '.join(settings)}.")
     if names := run.compatibility:
@@ -64,7 +65,7 @@ def remarks(result: Result, unchecked: str | None = None) -> list[str]:
 
 
 def settings(result: Result) -> list[tuple[str, str]]:
-    """Return everything else that was said about the run."""
+    """Return all other parts of ``run``."""
     run = {name: value for name, value in result.run.stored().items() if name not in SAID_ELSEWHERE}
     found = flat(run)
     return [(_setting(name), text) for name, text in found]
@@ -86,7 +87,7 @@ def flat(mapping: Mapping[str, object], prefix: str = "") -> list[tuple[str, str
 
 
 def machine(provenance: Mapping[str, object]) -> list[tuple[str, str]]:
-    """Return where and when it was played, numbers and lists of code short."""
+    """Return the provenance, with short numbers and lists of code."""
     code = provenance.get("code")
     shown = {library: names_text(names) for library, names in _lists(code)}
     others = {name: _rounded(value) for name, value in provenance.items() if name not in CODE}
@@ -125,7 +126,7 @@ def variations(result: Result) -> list[tuple[str, str, str]]:
 
 
 def logs_text(logs: Sequence[Path]) -> list[tuple[str, str]]:
-    """Return name and size of files beside the report."""
+    """Return name and size of files next to the report."""
     return [(log.name, f"{log.stat().st_size / 1000:.0f} kB") for log in logs]
 
 

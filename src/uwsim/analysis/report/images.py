@@ -19,7 +19,7 @@ from .outcomes import named_level
 from .overlay import overlay
 
 MAX_IMAGES = 40
-"""Of the first repeat; more are thinned out evenly, and the report says so."""
+"""Of the first repeat; more are thinned out evenly, with a note."""
 MAX_OTHERS = 8
 """Of other repeats: where they first failed."""
 MAX_BYTES = 3_000_000
@@ -75,7 +75,7 @@ def images_text(result: Result, n_shown: int) -> str:
     which = "evenly chosen" if n_first > MAX_IMAGES or n_shown < n_first else "every level"
     if len(set(repeats)) > 1:
         which += " of the first repeat, and of the others where they first did not end ok"
-    return f"{n_shown} of {len(result.images)} images: {which}. All lie in the folder pictures."
+    return f"{n_shown} of {len(result.images)} images: {which}. All are in the folder pictures."
 
 
 def data_url(data: bytes, kind: str) -> str:
@@ -96,7 +96,7 @@ def _chosen(result: Result, endings: Sequence[str]) -> list[SavedImage]:
 
 
 def _endings(result: Result) -> list[str]:
-    """How every row ended; empty texts where the result does not say."""
+    """The status of every row; empty texts where it is not recorded."""
     status = result.of_kind("status")
     if not status:
         return [""] * len(result.rows)

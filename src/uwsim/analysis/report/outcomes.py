@@ -1,4 +1,4 @@
-"""How levels ended: every class of failure, how often, from which level on, and why."""
+"""Statistics of the status of levels: how often each, from which level on, and why."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from ...results.result import Result
 from ..plots import level_text, repeats_of
 
 MEANINGS = {
-    "ok": "played to its end, with estimates to score",
-    "lost": "the algorithm said that it no longer knows",
+    "ok": "run to its end, with estimates to score",
+    "lost": "the algorithm reported that it is lost",
     "timeout": "no estimate for more than 1 s, or an end of the level that never came",
-    "collision": "a contact ended the level, as the benchmark asks",
-    "algorithm error": "the algorithm raised an exception, or said that it failed",
+    "collision": "a contact ended the level, as the benchmark requires",
+    "algorithm error": "the algorithm raised an exception, or reported that it failed",
 }
-"""Status of a row -> what it says (``docs/levels.md``)."""
+"""Status of a row -> its meaning (``docs/levels.md``)."""
 MAX_REASONS = 5
-"""Reasons of one class; how many others there are is said."""
+"""Greatest number of reasons listed for a status."""
 MAX_BREAKS = 100
-"""Repeats whose first failure is told."""
+"""Greatest number of repeats whose first failure is listed."""
 
 _NUMBER = re.compile(r"\d+(\.\d+)?([eE][+-]?\d+)?")
 
@@ -34,7 +34,7 @@ class Ending:
     status: str
     """``ok``, ``lost``, ``timeout``, ..."""
     meaning: str
-    """What that is; empty for a status that nobody knows."""
+    """Its meaning; empty for an unknown status."""
     n: int
     """Rows that ended so."""
     share: str
@@ -42,7 +42,7 @@ class Ending:
     first: str
     """First level of each repeat that ended so: one, or from the lowest to the last."""
     reasons: tuple[tuple[int, str], ...]
-    """(rows, the first such reason): reasons that differ in numbers alone are told once."""
+    """(rows, the first such reason): reasons that differ in numbers alone are listed once."""
     n_others: int
     """Further kinds of reasons that are left out."""
 
@@ -62,7 +62,7 @@ class Break:
 
 
 def endings(result: Result) -> list[Ending]:
-    """Group the rows by how they ended: ok, then by number, at last what never happened."""
+    """Group the rows by status: ok, then by number, finally those that never occurred."""
     status = result.of_kind("status")
     if not status:
         return []
@@ -121,7 +121,7 @@ def breaks(result: Result) -> list[Break]:
 
 
 def named_level(result: Result, level: tuple[float, ...]) -> str:
-    """Return a level as people say it: ``noise 0.02, fog 0.5 m⁻¹``."""
+    """Return a level as text: ``noise 0.02, fog 0.5 m⁻¹``."""
     named = zip(result.of_kind("level"), level, strict=True)
     parts = [level_text(column, value) for column, value in named if column.name != "none"]
     return ", ".join(parts) or "the only level"
@@ -133,7 +133,7 @@ def kind_of(why: str) -> str:
 
 
 def _alike(reasons: Iterable[str]) -> list[tuple[int, str]]:
-    """Count reasons that differ in numbers alone; each kind is told by its first."""
+    """Count reasons that differ in numbers alone; the first stands for each kind."""
     first: dict[str, str] = {}
     counts: Counter[str] = Counter()
     for why in reasons:

@@ -1,4 +1,4 @@
-"""The page: everything a report says, put into its template.
+"""The page of a report, rendered from its template.
 
 Drawn from the result directory alone (``result.json``, logs, images, ``provenance.json``), so an
 old run can be drawn again. The file holds its images and its style in itself, loads nothing, runs
@@ -52,7 +52,7 @@ from .rows import all_cells, heads, level_rows
 
 MAX_CARDS = 12
 SHORT_LIST = 6
-"""Image streams up to which their list stands open."""
+"""Greatest number of image streams with an open list."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +75,7 @@ def write_report(path: Path, *, pdf: bool = False) -> Path:
         pdf: also draw every plot as PDF.
 
     Raises:
-        ResultError: there is no result, it cannot be read, or it says other than its units.
+        ResultError: there is no result, it cannot be read, or it contradicts its journals.
     """
     directory = file_of(path).parent
     result = load(path)
@@ -96,7 +96,7 @@ def render(
     control: Result | None = None,
     unchecked: str | None = None,
 ) -> str:
-    """Return the report's HTML; ``unchecked`` is what `check_rows` has said."""
+    """Return the report's HTML; ``unchecked`` is the text returned by `check_rows`."""
     found = endings(result)
     provenance = load_provenance(directory)
     columns = result.of_kind("score") + result.of_kind("measure")
@@ -221,7 +221,7 @@ def _values(result: Result) -> list[str]:
 
 
 def _n_curves(result: Result) -> int:
-    """How many curves stand in one plot: a curve for each combination of the outer levels."""
+    """How many curves one plot has: one for each combination of the outer levels."""
     return len({level[:-1] for level in rows_by_level(result)})
 
 

@@ -10,11 +10,11 @@ from ..plots import written_unit
 from .outcomes import kind_of
 
 MAX_LINES = 1000
-"""Levels in the table; the others are left to result.json, and the report says so."""
+"""Greatest number of levels in the table; others are in result.json only, with a note."""
 MAX_CELLS = 15_000
-"""Cells of the table of all columns; the report says so, too."""
+"""Greatest number of cells in the table of all columns."""
 LONG_REASON = 80
-"""Letters from which on a reason is not told again for its numbers."""
+"""Longer reasons are not repeated where only numbers differ."""
 MAX_REASON_LENGTH = 100
 """Letters of a reason behind a cell of that table."""
 Head = tuple[str, str]
@@ -86,7 +86,7 @@ def _head(result: Result, column: Column) -> Head:
 
 
 def _told_once(why: str, above: str) -> str:
-    """A reason that was told in the line above, long ones also if only numbers differ."""
+    """Leave out the reason of the line above, a long one also if only numbers differ."""
     if why and why == above:
         return "as above"
     if len(why) > LONG_REASON and kind_of(why) == kind_of(above):

@@ -8,7 +8,7 @@ import jinja2
 
 
 def template(name: str) -> jinja2.Template:
-    """Return a page's template; what stands in a result is text there, never markup."""
+    """Return a page's template; texts of a result are escaped."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
         autoescape=True,

@@ -1,4 +1,4 @@
-"""What is measured in a benchmark: one file a measure."""
+"""The measures of benchmarks, one module each."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "u:control": ControlSpec,
     "u:energy": EnergySpec,
 }
-"""Element -> what a file says about it. In alphabetical order."""
+"""Element name -> spec. In alphabetical order."""
 
 __all__ = [
     "MEASURES",

@@ -30,7 +30,7 @@ class CollisionSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """What the original begins with."""
+        """The original's start value."""
         return 1.0
 
     def bind(self, world: World) -> Collision:
@@ -122,7 +122,7 @@ class Collision(Measure):
 
     @property
     def ends_level(self) -> str | None:
-        """The first contact, if the file asks to stop there."""
+        """Status of the first contact, if ``u:stopOnContact`` is set."""
         return self._stopped_for
 
     @property

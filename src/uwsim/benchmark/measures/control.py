@@ -1,4 +1,4 @@
-r"""Control: what a controller's commands cost, and how the error went to zero.
+r"""Control: effort and variation of a controller's commands, and the step response of its error.
 
 .. code-block:: xml
 
@@ -50,7 +50,7 @@ class ControlSpec(MeasureSpec):
     position: tuple[float, float, float] | None = None
     """Where the target should be, in L [m]."""
     error_topic: str | None = element(default=None)
-    """Topic that says the error instead (std_msgs/Float64, Float32MultiArray or
+    """Topic with the error instead (std_msgs/Float64, Float32MultiArray or
     Float64MultiArray)."""
     band: float = element(default=0.02, above=0.0, below=1.0)
     """Half-width of the settling band, relative to the step [1]."""
@@ -82,7 +82,7 @@ class ControlSpec(MeasureSpec):
         if self.topic is None and not self.has_error:
             found.append("needs a <topic> of commands, a <target>, or an <errorTopic>")
         if self.target is not None and self.error_topic is not None:
-            found.append("<target> and <errorTopic> both say the error; give one")
+            found.append("<target> and <errorTopic> both give the error; use one")
         if (self.target is None) != (self.position is None):
             found.append("<target> and <position> go together; give both or none")
         if self.axes and self.topic is None:
@@ -130,7 +130,7 @@ class Control(Measure):
     `uwsim.benchmark.metrics.step_response`. Time counts from the first error.
 
     What passes while the measure is off does not count. A message that is not finite, or not of
-    the kind and size of those before, is passed over, and a note says so.
+    the kind and size of those before, is ignored, with a note.
     """
 
     def __init__(
@@ -236,7 +236,7 @@ class Control(Measure):
     def _pass_over(self, topic: str | None, message: object, types: tuple[type, ...]) -> None:
         self._refused = f"{topic!r} carries {_name(type(message))}; expected {_names(types)}"
 
-    # -- what is told --------------------------------------------------------------------------
+    # -- results --------------------------------------------------------------------------
 
     @property
     def value(self) -> float | None:
@@ -317,7 +317,7 @@ class Control(Measure):
         return tuple(values)
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         for inbox in (self._inbox, self._errors):
             if inbox is not None:
                 inbox.close()

@@ -25,7 +25,7 @@ class DistanceSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """What the original begins with."""
+        """The original's start value."""
         return 0.0
 
     def bind(self, world: World) -> Distance:

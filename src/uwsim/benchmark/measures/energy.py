@@ -1,4 +1,4 @@
-r"""Energy: what a vehicle has drawn from its battery.
+r"""Energy: the electrical energy that a vehicle has drawn.
 
 .. code-block:: xml
 
@@ -23,7 +23,7 @@ JOULES = {"J": 1.0, "Wh": 3600.0}
 
 @dataclass(frozen=True, kw_only=True)
 class BatterySpec:
-    """A ``<battery>``: what it holds when the measure goes on."""
+    """A ``<battery>``: its capacity, full when the measure starts."""
 
     capacity: float = element(text=True, above=0.0)
     """Energy that can be drawn, in ``unit``."""
@@ -45,10 +45,10 @@ class EnergySpec(MeasureSpec):
     hotel_load: float = element(default=0.0, minimum=0.0)
     """What computers, sensors and lamps draw all the time [W]."""
     battery: BatterySpec | None = None
-    """Its battery; None: no charge is told."""
+    """Its battery; None: no charge is computed."""
 
     def bind(self, world: World) -> Energy:
-        """Find what drives the vehicle; raises UnknownName if there is no such vehicle."""
+        """Find the vehicle's consumers; raises UnknownName if there is no such vehicle."""
         return Energy(self, world, world.actuators(self.target))
 
 
@@ -87,12 +87,12 @@ class Energy(Measure):
         self._n_steps = 0
 
     def start(self) -> None:
-        """See what is drawn now; what was drawn before does not count."""
+        """Start counting from the energy drawn so far."""
         if self._actuators is not None:
             self._look(self._actuators)
 
     def update(self) -> None:
-        """Add what was drawn since the last look."""
+        """Add the energy drawn since the last step."""
         if self._actuators is None:
             return
         before, last = self._powers, self._last

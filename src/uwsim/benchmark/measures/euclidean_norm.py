@@ -1,4 +1,4 @@
-r"""Euclidean norm: how far the algorithm's estimate is from the truth.
+r"""Euclidean norm: the distance between an algorithm's estimate and the ground truth.
 
 .. code-block:: xml
 
@@ -74,7 +74,7 @@ class EuclideanNormSpec(MeasureSpec):
 
     @property
     def once_initialised(self) -> EuclideanNormSpec:
-        """The same; with ``u:autoInit="once"`` it tells nobody any more."""
+        """The same spec; with ``u:autoInit="once"`` it initialises no algorithm again."""
         if self.auto_init == "always":
             return self
         assert dataclasses.is_dataclass(self.ground_truth)
@@ -84,7 +84,7 @@ class EuclideanNormSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """What the original begins with."""
+        """The original's start value."""
         return -1.0
 
     def bind(self, world: World) -> EuclideanNorm:
@@ -105,7 +105,7 @@ class EuclideanNorm(Measure):
     with :math:`t_k` the steps at which the truth's camera took an image while the measure was on
     (every step, where no camera takes images), after what was published at that step arrived, and
     :math:`e(t_k)` the newest estimate by then; before the first one, the first. So every image
-    counts once, answered or not, and nothing is gained by publishing more often, or less.
+    counts once, answered or not, so that publishing more or less often changes nothing.
 
     There is no value when no estimate came, or none for more than 1 s while the measure was on: an
     old estimate is never scored. What has the wrong length or is not finite is no estimate. At the
@@ -115,7 +115,7 @@ class EuclideanNorm(Measure):
     messages were no estimates; ``frames``, over how many :math:`t_k` the statistics are;
     ``answered``, the share of these by which a new estimate had arrived since the one before.
 
-    Compatibility ``last-norm`` lets the last norm stand, however old it is, as the original does,
+    Compatibility ``last-norm`` keeps the last norm, however old it is, as the original does,
     and reads estimates that come after it went off; where its log has no new estimate, the
     components are 0 beside it.
     """
@@ -146,7 +146,7 @@ class EuclideanNorm(Measure):
         self._silence = (0, 0)  # the longest: its length [steps], the step at which it began
 
     def start(self) -> None:
-        """Forget old estimates and hand out the truth where the file says so."""
+        """Discard old estimates and send the truth to ``publishOn`` where the file says so."""
         self._inbox.clear()
         self._estimate, self._is_answered = None, False
         self._unanswered.clear()
@@ -168,7 +168,7 @@ class EuclideanNorm(Measure):
 
     @property
     def value(self) -> float | None:
-        """The last norm, or the statistic that ``u:value`` asks for."""
+        """The last norm, or the statistic given by ``u:value``."""
         if self._last_norm_stands and self._waits_since is not None:
             self._read()
         if self.why:
@@ -256,7 +256,7 @@ class EuclideanNorm(Measure):
         return None if last is None else np.asarray(last.data, dtype=np.float64)
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self._inbox.close()
 
     def _read(self) -> bool:

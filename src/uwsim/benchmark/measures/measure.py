@@ -1,4 +1,4 @@
-"""What every measure is: a number that is read at the end of a level."""
+"""The base classes of measures: values that are read at the end of a level."""
 
 from __future__ import annotations
 
@@ -35,17 +35,17 @@ class MeasureSpec(abc.ABC):
     """Which statistic of a signal is its value (``u:value``)."""
 
     def errors(self) -> Sequence[str]:
-        """What is wrong about elements that are right one by one."""
+        """Errors in the combination of elements that are valid one by one."""
         return ()
 
     @property
     def start_value(self) -> float | None:
-        """What the original gives for it before it has measured anything; None: it has none."""
+        """The original's value before anything was measured; None: none."""
         return None
 
     @property
     def once_initialised(self) -> MeasureSpec:
-        """What is bound in its place once it `has_initialised` an algorithm."""
+        """The spec to bind once it `has_initialised` an algorithm."""
         return self
 
     @property
@@ -59,7 +59,7 @@ class MeasureSpec(abc.ABC):
 
 
 class Measure(abc.ABC):
-    """Something that is measured while its triggers say so.
+    """A quantity that is measured while its triggers are on.
 
     It is bound afresh for every level. At the first step at which it is on it is started, at
     every later one updated; at the first at which it is off again, or when the level ends, it
@@ -106,7 +106,7 @@ class Measure(abc.ABC):
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The columns of its log, after the time; one may say its unit: ``depth [m]``."""
+        """The columns of its log, after the time; a name may include its unit: ``depth [m]``."""
         return ("value",)
 
     @property
@@ -121,18 +121,18 @@ class Measure(abc.ABC):
 
     @property
     def has_initialised(self) -> bool:
-        """Whether it has told the algorithm under test where its target is."""
+        """Whether it has initialised the algorithm under test with the position of its target."""
         return False
 
     @property
     def longest_silence(self) -> float:
-        """Longest time without an estimate while it was on [s]; 0 if it awaits none."""
+        """Longest time without an estimate while it was on [s]; 0 without estimates."""
         return 0.0
 
     @property
     def ends_level(self) -> str | None:
-        """What it ends the level for, in status ``collision``; None: nothing."""
+        """Why it ends the level, in status ``collision``; None: it does not."""
         return None
 
     def close(self) -> None:  # noqa: B027 - most measures hold nothing
-        """Give back what it held (a subscription)."""
+        """Release its resources (a subscription)."""

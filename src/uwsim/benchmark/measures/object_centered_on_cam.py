@@ -33,7 +33,7 @@ class ObjectCenteredOnCamSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """What the original begins with."""
+        """The original's start value."""
         return 0.0
 
     def bind(self, world: World) -> ObjectCenteredOnCam:
@@ -92,7 +92,7 @@ class ObjectCenteredOnCam(Measure):
 
     @property
     def value(self) -> float | None:
-        """The last distance, or the statistic that ``u:value`` asks for [px]."""
+        """The last distance, or the statistic given by ``u:value`` [px]."""
         return self._signal.value(self._which) if self._is_visible else None
 
     @property

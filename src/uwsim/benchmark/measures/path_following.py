@@ -51,7 +51,7 @@ class PathFollowingSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """What the original begins with."""
+        """The original's start value."""
         return 0.0
 
     def bind(self, world: World) -> PathFollowing:
@@ -129,7 +129,7 @@ class PathFollowing(Measure):
         self.update()
 
     def update(self) -> None:
-        """Take the distance, and add what lies between this step and the last."""
+        """Sample the distance, and integrate from the last step to this one."""
         if self._path is None:
             self._look_for_path()
         if self._path is None:
@@ -150,7 +150,7 @@ class PathFollowing(Measure):
 
     @property
     def value(self) -> float | None:
-        """The integral of the error [m s], or the statistic that ``u:value`` asks for [m]."""
+        """The integral of the error [m s], or the statistic given by ``u:value`` [m]."""
         if not self._signal.n:
             return None
         return self._iae if self._which == "last" else self._signal.value(self._which)
@@ -204,7 +204,7 @@ class PathFollowing(Measure):
         return (self._refused,) if self._refused else ()
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         if self._inbox is not None:
             self._inbox.close()
 
@@ -236,7 +236,7 @@ class PathFollowing(Measure):
         return turned_back(world_from_frame.rotation, position - world_from_frame.position)
 
     def _add(self, before: float, distance: float, duration: float) -> None:
-        """Add to the integrals what lies between two looks [m, m, s]."""
+        """Integrate between two samples [m, m, s]."""
         if self._is_original:
             self._iae += distance * duration
             return

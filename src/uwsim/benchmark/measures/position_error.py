@@ -41,12 +41,12 @@ class PositionErrorSpec(MeasureSpec):
     position: tuple[float, float, float]
     """Where it should be, in L [m]."""
     topic: str | None = element(default=None)
-    """Topic that says where it should be instead (geometry_msgs/PoseStamped, in L): its newest
+    """Topic with the wanted position instead (geometry_msgs/PoseStamped, in L): its newest
     message when the measure starts, or the first after that. None: ``position`` counts."""
 
     @property
     def start_value(self) -> float:
-        """What the original begins with: 100, or with a topic what it has until that spoke."""
+        """The original's start value: 100, or with a topic the value until its first message."""
         return 100.0 if self.topic is None else -1.0
 
     def bind(self, world: World) -> PositionError:
@@ -63,9 +63,9 @@ class PositionError(Measure):
     One sample a step. The components x, y, z are those of :math:`p - q` in L; rx, ry, rz, rw are
     the body's attitude in L now, a quaternion xyzw, as in the original.
 
-    Compatibility ``position-frame``: the components are in W, and so is what the topic says.
+    Compatibility ``position-frame``: the components are in W, and so is the topic's position.
     ``position-start``: the first sample is taken a step later; until then the value is 100, and -1
-    while the topic has not said where the body should be.
+    until the first message of the topic.
     """
 
     unit = "m"
@@ -105,7 +105,7 @@ class PositionError(Measure):
 
     @property
     def value(self) -> float | None:
-        """The last distance, or the statistic that ``u:value`` asks for [m]."""
+        """The last distance, or the statistic given by ``u:value`` [m]."""
         if self._starts_at_100 and not self._signal.n:
             return -1.0 if self._was_updated else 100.0
         return self._signal.value(self._which)
@@ -134,7 +134,7 @@ class PositionError(Measure):
         return (self.value if total is None else total, *components, *self._turn())
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         if self._inbox is not None:
             self._inbox.close()
 

@@ -1,4 +1,4 @@
-"""Reconstruction 3D: how well point clouds rebuild a body.
+"""Reconstruction 3D: the error of point clouds against a body's box.
 
 .. code-block:: xml
 
@@ -33,7 +33,7 @@ ORIGINAL_FIELDS = {
 }
 """The original's name of a detail -> ours."""
 MAX_NOTES = 5
-"""So many kinds of unreadable cloud are told of."""
+"""Greatest number of kinds of unreadable clouds that are reported."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +49,7 @@ class Reconstruction3DSpec(MeasureSpec):
     level_of_detail: float = element(default=0.003, above=0.0)
     """Cell size of the coverage [m]."""
     detailed_results_to_globals: bool = element(default=False, attribute=True)
-    """Whether the details stand in result.dat, in place of the value."""
+    """Whether result.dat has the details instead of the value."""
 
     @property
     def original_fields(self) -> Mapping[str, str]:
@@ -60,7 +60,7 @@ class Reconstruction3DSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """What the original begins with."""
+        """The original's start value."""
         return 0.0
 
     def bind(self, world: World) -> Reconstruction3D:
@@ -228,7 +228,7 @@ class Reconstruction3D(Measure):
         return tuple(self._refused)
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self._inbox.close()
 
     def _target_from_frame(self) -> Pose:

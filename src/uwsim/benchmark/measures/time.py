@@ -23,7 +23,7 @@ class TimeSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """What the original begins with."""
+        """The original's start value."""
         return 0.0
 
     def bind(self, world: World) -> Time:

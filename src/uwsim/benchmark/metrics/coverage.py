@@ -1,4 +1,4 @@
-r"""Coverage: which share of the surface of a box points lie near.
+r"""Coverage: the share of a box's surface that has measured points near it.
 
 A grid is laid over the box: along each axis :math:`k = \lfloor e / \text{lod} \rfloor` cells, at
 least one, of the size e/k, with the extent e of the box and the level of detail; so there are
@@ -26,7 +26,7 @@ from ...world import Box
 MAX_NODES = 20_000_000
 """More nodes than this are refused."""
 ON_NODE = 1e-9
-"""A point this near to a node lies on it [cell]."""
+"""A point this near to a node counts as on it [cell]."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-r"""Commands: numbers that hold from one message to the next, and what they cost.
+r"""Commands: values held from one message to the next, and their effort and variation.
 
 A command :math:`u_k` arrives at the time :math:`t_k` and is in force until the next. Over the time
 measured it has
@@ -34,12 +34,12 @@ TWIST = {**dict.fromkeys(("vx", "vy", "vz"), "m/s"), **dict.fromkeys(("wx", "wy"
 WRENCH = {**dict.fromkeys(("fx", "fy", "fz"), "N"), **dict.fromkeys(("tx", "ty", "tz"), "N m")}
 """Axes of a wrench -> unit."""
 JOINTS = {"position": "rad or m", "velocity": "rad/s or m/s", "effort": "N m or N"}
-"""What a joint can be told, the first that a message holds -> unit."""
+"""Command modes of joints and their units; the first that a message has is used."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class AxisValues:
-    """What one message asks for."""
+    """The command in one message."""
 
     values: Mapping[str, float]
     """Axis -> number; axes that are not in it keep theirs."""
@@ -70,7 +70,7 @@ def thrusters(message: Float64MultiArray) -> AxisValues:
 
 
 def joints(message: JointState) -> AxisValues:
-    """Return what the joints are told: positions, else velocities, else efforts.
+    """Return the commands of the joints: positions, else velocities, else efforts.
 
     Axes have the joints' names, or ``q0``, ``q1``, ... where the message has none.
     """
@@ -103,7 +103,7 @@ FIXED: dict[type, Mapping[str, str]] = {
 
 @dataclass
 class HeldCommand:
-    """One axis of a command, and what was counted of it."""
+    """One axis of a command with its sums."""
 
     unit: str
     """Of its numbers."""
@@ -129,14 +129,14 @@ class HeldCommand:
             self.largest = max(self.largest, abs(self.value))
 
     def last(self, seconds: float) -> None:
-        """Let the number in force last for a time [s]."""
+        """Integrate the number in force over a time [s]."""
         if self.value is not None:
             self.effort += self.value * self.value * seconds
 
 
 @dataclass
 class HeldCommands:
-    """All axes of a command, or those that were asked for."""
+    """All axes of a command, or a selection."""
 
     chosen: tuple[str, ...] = ()
     """Axes that count; all when empty."""
@@ -144,13 +144,13 @@ class HeldCommands:
     """By name, in the order of their first message."""
 
     def expect(self, units: Mapping[str, str]) -> None:
-        """Make the axes known that messages will have."""
+        """Declare the axes of the messages to come."""
         for name, unit in units.items():
             if name not in self.axes and (not self.chosen or name in self.chosen):
                 self.axes[name] = HeldCommand(unit)
 
     def hold(self, command: AxisValues) -> None:
-        """Take a command without counting anything."""
+        """Set the command without changing the sums."""
         self.expect(command.units)
         for name, value in command.values.items():
             if name in self.axes:
@@ -169,7 +169,7 @@ class HeldCommands:
                 self.axes[name].change(value)
 
     def last(self, seconds: float) -> None:
-        """Let what is in force last for a time [s]."""
+        """Integrate the command in force over a time [s]."""
         for axis in self.axes.values():
             axis.last(seconds)
 

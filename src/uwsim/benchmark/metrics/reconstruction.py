@@ -1,4 +1,4 @@
-r"""Reconstruction: how well points rebuild a box.
+r"""Reconstruction: the error of measured points against a box.
 
 Everything is in the frame of the box: its faces are parallel to the axes, z' is up. With the box
 from l to u, a point p has the distances
@@ -33,7 +33,7 @@ BLOCK = 1 << 15
 
 
 class Reconstruction:
-    """A box, and the points that were measured of it so far; keeps numbers, not points."""
+    """A box and running statistics of the points measured of it."""
 
     def __init__(self, box: Box, coverage: Coverage) -> None:
         self._lower, self._upper = (np.array(side)[:, None] for side in (box.lower, box.upper))
@@ -81,7 +81,7 @@ class Reconstruction:
 
     @property
     def coverage(self) -> float | None:
-        """Share of the five faces that points lie near [1]."""
+        """Share of the five faces with points near them [1]."""
         return self._coverage.share
 
     def _classify(self, points: Array) -> None:
@@ -111,11 +111,11 @@ class Reconstruction:
 
 
 def upright(rotation: Array) -> Array:
-    """Turn a body's axes so that they lie as W's do, as far as quarter turns can do it, (3, 3).
+    """Permute a body's axes by quarter turns so that they are nearest to those of W, (3, 3).
 
     The rows are axes of the body, some of them reversed: the last is the one that points most
     upwards in ``rotation`` (world_from_body), the first of the other two the one nearest to W's x.
-    For a body that stands turned by quarter turns only, this *is* ``rotation``.
+    For a body turned by quarter turns only, this *is* ``rotation``.
     """
     turned = np.zeros((3, 3))
     left = [2, 1, 0]

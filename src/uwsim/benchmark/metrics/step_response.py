@@ -1,4 +1,4 @@
-r"""Step response: how an error went to zero, in the numbers of control textbooks.
+r"""Step response: rise time, overshoot, settling time and integrals of an error.
 
 The error :math:`e(t)` is set point less output, a vector in general; t counts from its first
 sample, :math:`e_0`, which is the step. Performance indices (Ogata, *Modern Control Engineering*,
@@ -55,7 +55,7 @@ UNITS = {
 
 
 class StepResponse:
-    """An error as it comes; integrals at once, the shape when it is asked for."""
+    """A sampled error signal; integrals are updated at once, the shape is computed on demand."""
 
     def __init__(self, timestep: float, *, band: float, least_step: float, holds: bool) -> None:
         """Begin without a sample.

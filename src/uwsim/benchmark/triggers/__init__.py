@@ -1,4 +1,4 @@
-"""What starts and stops a benchmark and its measures: one file a trigger."""
+"""The triggers, one module each: they start and stop a benchmark and its measures."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TRIGGERS: dict[str, type[TriggerSpec]] = {
     "service": ServiceSpec,
     "topic": TopicSpec,
 }
-"""``<type>`` -> what a file says about it. In alphabetical order."""
+"""``<type>`` -> spec. In alphabetical order."""
 
 __all__ = [
     "TRIGGERS",

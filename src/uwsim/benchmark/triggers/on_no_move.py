@@ -1,4 +1,4 @@
-r"""onNoMove: on as soon as a body has stood still for 4 s.
+r"""onNoMove: on as soon as a body has not moved for 4 s.
 
 .. code-block:: xml
 
@@ -20,7 +20,7 @@ from .on_move import MOVED, threshold
 from .trigger import Trigger, TriggerSpec
 
 STILL_FOR = 4.0
-"""How long a body stays before it counts as standing [s]."""
+"""Time without motion after which the trigger is on [s]."""
 N_SAMPLES = 10
 """Looks at its position within that time."""
 
@@ -54,7 +54,7 @@ class OnNoMove(Trigger):
         self._look()
 
     def is_on(self) -> bool:
-        """Whether the body has stood still long enough."""
+        """Whether the body has not moved for long enough."""
         if not self._is_on:
             self._look()
         return self._is_on

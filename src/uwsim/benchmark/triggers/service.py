@@ -1,4 +1,4 @@
-"""service: on as soon as somebody calls a service.
+"""service: on as soon as its service is called.
 
 .. code-block:: xml
 
@@ -41,7 +41,7 @@ class Service(Trigger):
         return self._was_called
 
     def close(self) -> None:
-        """Wait for the service no more; it is withdrawn when nobody does."""
+        """Stop waiting for the service; the last trigger to do so removes it."""
         self._leave()
 
     def _call(self, request: Empty) -> EmptyResponse:

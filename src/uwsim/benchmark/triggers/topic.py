@@ -1,4 +1,4 @@
-"""topic: on and off as a topic says.
+"""topic: on and off as given by a topic.
 
 .. code-block:: xml
 
@@ -20,7 +20,7 @@ class TopicSpec(TriggerSpec):
     """A trigger of type ``topic``."""
 
     target: str
-    """Topic, of any type: a std_msgs/Bool says on or off, any other message on."""
+    """Topic, of any type: a std_msgs/Bool means on or off, any other message on."""
 
     def bind(self, world: World) -> Topic:
         """Listen to the topic."""
@@ -28,10 +28,10 @@ class TopicSpec(TriggerSpec):
 
 
 class Topic(Trigger):
-    """What the newest message on its topic said; off until there is one.
+    """The state given by the newest message on its topic; off until there is one.
 
-    A std_msgs/Bool says what it holds. A message of any other type is an event, such as the first
-    image of a camera or a goal that was sent: it says on. (The original reads a Bool only.)
+    A std_msgs/Bool sets the state to its value. A message of any other type is an event, such as
+    the first image of a camera or a goal, and sets it on. (The original reads a Bool only.)
     """
 
     def __init__(self, inbox: Inbox[object]) -> None:
@@ -45,5 +45,5 @@ class Topic(Trigger):
         return self._is_on
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self._inbox.close()

@@ -1,4 +1,4 @@
-"""What every trigger is: something that is on or off."""
+"""The base classes of triggers, which are on or off."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ class TriggerSpec(abc.ABC):
 class Trigger(abc.ABC):
     """Something in the world that is on or off.
 
-    It is bound afresh for every level, so it has seen nothing before; ask it once a step.
+    It is bound anew for every level, without state of earlier levels; read it once a step.
     """
 
     is_constant: ClassVar[bool] = False
-    """Whether it stays what it is at first, so that nobody has to ask it again."""
+    """Whether its state never changes, so that it is read only once."""
 
     @abc.abstractmethod
     def is_on(self) -> bool:

@@ -1,4 +1,4 @@
-"""How the scene changes from level to level: one file an updater."""
+"""The scene updaters, one module each: how the scene changes from level to level."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
     "sceneFogUpdater": SceneFogUpdaterSpec,
     "sceneLightUpdater": SceneLightUpdaterSpec,
 }
-"""Element -> what a file says about it. In alphabetical order."""
+"""Element name -> spec. In alphabetical order."""
 
 __all__ = [
     "MAX_LEVELS",

@@ -1,4 +1,4 @@
-"""armMoveUpdater: an arm that stands otherwise from level to level.
+"""armMoveUpdater: arm positions that change from level to level.
 
 .. code-block:: xml
 
@@ -56,7 +56,7 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
             yield "every <armPosition> must have as many <joint> as the first"
 
     def joints(self, value: float) -> npt.NDArray[np.float64]:
-        """Return the joint vector of a level, or of what lies between two (n,) [rad or m]."""
+        """Return the joint vector of a level, or between two levels, (n,) [rad or m]."""
         given = np.array(self.arm_position)  # (k, n)
         at = np.arange(len(given)) * (self.step + 1.0)
         return np.array([np.interp(value, at, column) for column in given.T])

@@ -66,7 +66,7 @@ class BagFogUpdaterSpec(FogSweepSpec):
     info_pub: str | None = element(default=None)
     """Topic the camera's info is published on; None: as in the recording."""
     path: str = field(default="", compare=False, metadata={"path": True})
-    """The benchmark file, beside which the recording is looked for."""
+    """The benchmark file; recordings are searched next to it."""
 
     @property
     def topics(self) -> tuple[str, str]:
@@ -145,7 +145,7 @@ class BagFogUpdater(SceneUpdater):
 
     @property
     def streams(self) -> tuple[tuple[str, int, str], ...]:
-        """What was published to somebody, so far."""
+        """The images published so far."""
         return ((self._image_topic, self._n_frames, self._digest.hexdigest()),)
 
     def close(self) -> None:

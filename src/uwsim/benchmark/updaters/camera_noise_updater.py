@@ -30,5 +30,5 @@ class CameraNoiseUpdaterSpec(SweepSpec):
     """Noise that is not exceeded."""
 
     def bind(self, stage: Stage) -> Setter:
-        """Take hold of every colour camera."""
+        """Bind to all colour cameras."""
         return Setter(stage.set_camera_noise)

@@ -40,7 +40,7 @@ STILL_WATER = 2.0
 MAX_OFFSET = 3600.0
 """A clock may not begin earlier than this: all its random factors would have to be drawn [s]."""
 RESET = "dynamics/reset"
-"""The service called when a level begins, if somebody offers it."""
+"""The service called when a level begins, if it exists."""
 FORCE_TOPIC = "currentForce"
 FORCE_RATE = 100.0
 """Of the messages on it [Hz]."""
@@ -178,13 +178,13 @@ class CurrentForceUpdater(SceneUpdater):
 
 
 class ForcePublisher:
-    r"""Says at 100 Hz on ``currentForce`` how a current pushes, instead of moving the water.
+    r"""Publishes the force of a current on ``currentForce`` at 100 Hz, instead of moving the water.
 
     .. math:: f_i = \tfrac{1}{2} \rho\, C_d A\; v_i |v_i|, \quad
         \rho = 1000,\ C_d = 0.82,\ A = 1
 
-    along each axis of L (``frame_id`` "Currents"), torque 0. It is meant for a dynamics node that
-    knows no current. With the compatibility ``current-force`` it is :math:`v_i^2` as in the
+    along each axis of L (``frame_id`` "Currents"), torque 0. It serves dynamics nodes without a
+    current of their own. With the compatibility ``current-force`` it is :math:`v_i^2` as in the
     original, which loses the sign. Not modelled: the vehicle's own velocity and shape.
     """
 

@@ -1,4 +1,4 @@
-r"""What the two updaters of fog share: a density, or in its place a length in metres.
+r"""Base of the two fog updaters: a sweep of fog density, or of a length that defines it.
 
 .. code-block:: xml
 
@@ -15,7 +15,7 @@ the values of the sweep are:
 ``attenuationLength``
     The distance at which contrast has fallen to 1/e, :math:`L = 1/f` [m].
 ``visibilityRange``
-    The distance at which it has fallen to 2 %, the least that an eye tells apart (Koschmieder
+    The distance at which it has fallen to 2 %, the smallest that the eye distinguishes (Koschmieder
     1924), :math:`V = \sqrt{\ln 50}/f = 1.98\,L` [m].
 
 Lengths shrink as the water grows murky, so a sweep in metres may run downward, with a negative
@@ -70,7 +70,7 @@ class FogSweepSpec(SweepSpec):
         return value if self.quantity == DENSITY else LENGTHS[self.quantity](value)
 
     def values(self) -> tuple[float, ...]:
-        """Return the densities [1/m] or the lengths [m]."""
+        """Return the densities [1/m], or the lengths [m]."""
         if self.quantity == DENSITY:
             return super().values()
         initial, final, step = self.initial_value, self.final_value, self.step
@@ -80,7 +80,7 @@ class FogSweepSpec(SweepSpec):
         return tuple(initial + i * step for i in range(math.floor(span + 1e-9) + 1))
 
     def errors(self) -> Iterator[str]:
-        """Say that a sweep leads nowhere."""
+        """Report a sweep without levels."""
         initial, final, step = self.initial_value, self.final_value, self.step
         if self.quantity == DENSITY:
             if step <= 0.0:

@@ -33,4 +33,4 @@ class NoneUpdater(SceneUpdater):
     """Changes nothing."""
 
     def apply(self, value: float) -> None:
-        """Leave the scene alone."""
+        """Change nothing."""

@@ -48,4 +48,4 @@ class Repeat(SceneUpdater):
     """Changes nothing."""
 
     def apply(self, value: float) -> None:
-        """Leave the scene alone."""
+        """Change nothing."""

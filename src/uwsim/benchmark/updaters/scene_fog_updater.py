@@ -22,5 +22,5 @@ class SceneFogUpdaterSpec(FogSweepSpec):
     """A ``<sceneFogUpdater>`` element."""
 
     def bind(self, stage: Stage) -> Setter:
-        """Take hold of the fog of the sea and of every camera."""
+        """Bind to the fog of the sea and of all cameras."""
         return Setter(lambda value: stage.set_fog(self.density(value)))

@@ -30,5 +30,5 @@ class SceneLightUpdaterSpec(SweepSpec):
     """Light rate that is not exceeded."""
 
     def bind(self, stage: Stage) -> Setter:
-        """Take hold of the light of the scene."""
+        """Bind to the light of the scene."""
         return Setter(stage.set_light_rate)

@@ -1,4 +1,4 @@
-"""What the updaters share whose one value runs from an initial to a final one, step by step."""
+"""Base of updaters that sweep one value from an initial to a final one by a step."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ class SweepSpec(SceneUpdaterSpec):
         return sweep(self.initial_value, self.final_value, self.step, single=self.is_single)
 
     def errors(self) -> Iterator[str]:
-        """Say that a sweep ends before it begins."""
+        """Report a sweep that ends before it begins."""
         if self.final_value < self.initial_value:
             yield (
                 f"<finalValue> {self.final_value:g} is below <initialValue> "
-                f"{self.initial_value:g}: nothing to play. Exchange them: a sweep runs upward"
+                f"{self.initial_value:g}: no level. Exchange them: a sweep runs upward"
             )
 
     @property
@@ -59,10 +59,10 @@ class Setter(SceneUpdater):
 
 
 def sweep(initial: float, final: float, step: float, *, single: bool = False) -> tuple[float, ...]:
-    """Return ``initial + i * step`` for as many i as the original plays.
+    """Return ``initial + i * step`` for as many i as the original runs.
 
     The original adds ``step`` until the sum *exceeds* ``final``, in float64 or (``single``, the
-    fog) in float32, so rounding decides whether the last value is played: fog 0..1.3 by 0.05 has
+    fog) in float32, so rounding decides whether the last value is included: fog 0..1.3 by 0.05 has
     27 levels, current 0..0.2 by 0.01 only 20. The number is kept; the values are exact.
 
     Raises:
@@ -81,7 +81,7 @@ def sweep(initial: float, final: float, step: float, *, single: bool = False) ->
 
 
 def endless(initial: float, final: float, step: float) -> BadSetting:
-    """Say that a sweep has too many levels."""
+    """Report a sweep with too many levels."""
     return BadSetting(
         f"From {initial:g} to {final:g} by steps of {step:g} "
         f"there are more than {MAX_LEVELS} levels."

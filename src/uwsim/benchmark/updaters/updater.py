@@ -1,4 +1,4 @@
-"""What every scene updater is, and how nested ones make a list of levels."""
+"""The base classes of scene updaters, and the levels of nested updaters."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MAX_LEVELS = 100_000
 
 @dataclass(frozen=True)
 class Level:
-    """One level of a sweep: what stands at which value, the outermost updater first."""
+    """One level of a sweep: the value of each updater, the outermost first."""
 
     values: tuple[tuple[str, float], ...]
     """(parameter, value) of each updater, such as ``(("current", 0.1), ("fog", 0.05))``."""
@@ -54,12 +54,12 @@ class SceneUpdaterSpec(abc.ABC):
         return {}
 
     def errors(self) -> Iterable[str]:
-        """Say what is wrong with it as a whole; ``<step> ...`` is put on that child's line."""
+        """Return its errors as a whole; a message ``<step> ...`` gets that child's line."""
         return ()
 
     @property
     def parameter(self) -> str:
-        """The name of its column: `name`, unless the file asks for another quantity."""
+        """The name of its column: `name`, unless the file selects another quantity."""
         return self.name
 
     @property
@@ -78,7 +78,7 @@ class SceneUpdaterSpec(abc.ABC):
         return self.values()[0]
 
     def blend(self, value: float, fraction: float) -> float:
-        """Return what lies ``fraction`` (0..1) of the way from `initial` to ``value``."""
+        """Return the value at ``fraction`` (0..1) of the way from `initial` to ``value``."""
         start = self.initial
         return value if fraction >= 1.0 else start + (value - start) * fraction
 
@@ -107,7 +107,7 @@ class SceneUpdater(abc.ABC):
         return ()
 
     def close(self) -> None:  # noqa: B027 - most updaters hold nothing
-        """Give back what it held (a file)."""
+        """Release its resources (a file)."""
 
 
 def chain(spec: SceneUpdaterSpec) -> tuple[SceneUpdaterSpec, ...]:
@@ -143,7 +143,7 @@ def n_levels(spec: SceneUpdaterSpec) -> int:
 
 
 def levels(spec: SceneUpdaterSpec) -> list[Level]:
-    """Return all levels in the order of playing: the deepest updater steps first."""
+    """Return all levels in the order of execution: the deepest updater changes fastest."""
     if n_levels(spec) > MAX_LEVELS:
         raise BadSetting(f"The scene updater has {n_levels(spec)} levels; at most {MAX_LEVELS}.")
     names = swept_parameters(spec)
@@ -152,13 +152,13 @@ def levels(spec: SceneUpdaterSpec) -> list[Level]:
 
 
 def initial_level(spec: SceneUpdaterSpec) -> Level:
-    """Return the level at which every updater stands at its initial value."""
+    """Return the level with the initial value of every updater."""
     values = (updater.initial for updater in chain(spec))
     return Level(tuple(zip(swept_parameters(spec), values, strict=True)))
 
 
 def blend(spec: SceneUpdaterSpec, level: Level, fraction: float) -> Level:
-    """Return what lies ``fraction`` (0..1) of the way from the initial level to ``level``."""
+    """Return the level at ``fraction`` (0..1) of the way from the initial level to ``level``."""
     blended = (
         (name, updater.blend(value, fraction))
         for updater, (name, value) in zip(chain(spec), level.values, strict=True)
@@ -177,7 +177,7 @@ def bind_updaters(spec: SceneUpdaterSpec, stage: Stage) -> tuple[SceneUpdater, .
 
 
 def steps(level: Level, after: Level | None) -> tuple[bool, ...]:
-    """Which updaters step when ``level`` is played ``after`` another, outermost first.
+    """Return the updaters that change when ``level`` follows ``after``, outermost first.
 
     As in the original, one steps only when its value or that of one around it is another: the
     current that contains a sweep of fog puts its vehicle back once, not at every fog.

@@ -1,1 +1,1 @@
-"""Who executes the trials of a run: this process, several processes, or a Ray cluster."""
+"""Executors of the trials of a run: this process, several processes, or a Ray cluster."""

@@ -1,4 +1,4 @@
-"""A background process of a run: it plays the control and draws the report.
+"""A background process of a run: it runs the control and draws the report.
 
 Both need no image and no OpenGL, and a run in one process leaves a core half idle. Started early,
 this one has loaded what it needs by the time it is asked. Should it die, the run does its jobs.
@@ -22,13 +22,13 @@ from .executor import run_all
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 
 Job = Run | Path
-"""A benchmark is played; of a result directory the report is drawn."""
+"""A run to execute, or a result directory whose report is drawn."""
 Reporter = Callable[[], Callable[[Path], object]]
 """Loads what draws the report of a result directory, which is heavy; returns it."""
 
 
 class BackgroundProcess:
-    """Does jobs one after the other in a process of its own, which ends with this one.
+    """Executes jobs one after the other in its own process, which ends with this one.
 
     A context manager: whatever the process was about when the block is left, it is stopped.
     """
@@ -80,9 +80,9 @@ class BackgroundProcess:
 
 
 def _serve(there: Connection, parent: Connection, reporter: Reporter) -> None:
-    """Do what comes, until the parent is gone or wants no more."""
+    """Execute jobs until the parent has ended or closes the pipe."""
     exit_with_parent(parent)
-    with suppress(Exception):  # heavy, and loaded while the levels are played; below it is told
+    with suppress(Exception):  # heavy, and loaded while the levels run; errors are reported below
         reporter()
     with suppress(EOFError, OSError):  # the parent has gone
         while True:

@@ -16,11 +16,11 @@ MAX_WORKERS = 1024
 """More processes than this on one machine are taken for a typing error."""
 
 CALLBACK_LIMIT = 600.0
-"""How long a call into an algorithm may take, unless the user says otherwise [s]."""
+"""Default of the longest call into an algorithm [s]."""
 
 
 def n_at_once(workers: str) -> int:
-    """Return how many levels are played at one time; of a cluster nobody knows: those of here."""
+    """Return how many levels run at one time; for a cluster, the cores of this machine."""
     return max(1, int(workers)) if workers.isdigit() else os.cpu_count() or 1
 
 

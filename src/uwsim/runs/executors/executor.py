@@ -1,4 +1,4 @@
-"""Who plays what: the trials to be played, and the protocol of those who play them.
+"""The queue of trials, and the protocol of the executors that run them.
 
 An executor takes trials from the queue and tells it what became of them. The queue knows how often
 a trial has lost its worker, and whose trials are not worth playing any more; an executor knows
@@ -27,7 +27,7 @@ from .worker import Event, JournalWriter, picklable, run_trial
 
 OnLevel = Callable[[], None]
 MAX_RETRIES = 3
-"""How often a trial is played again after it has lost its worker."""
+"""How often a trial is repeated after it has lost its worker."""
 ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
 """Of a worker, where the user has not said otherwise: no threads beside its own, for there is one
 worker a core."""
@@ -35,12 +35,12 @@ worker a core."""
 
 @dataclass(eq=False)
 class Job:
-    """A trial of one of the benchmarks that are played together."""
+    """A trial of one of the runs that are executed together."""
 
     run: Run
     """Whose trial it is."""
     trial: Trial
-    """What is to be played."""
+    """The trial."""
     cut: Cut | None = None
     """The call into the algorithm that it did not survive, or did not come back from."""
 
@@ -53,20 +53,20 @@ class Job:
 
 
 class Executor(Protocol):
-    """Whoever plays trials."""
+    """Executes trials."""
 
     def execute(self, queue: JobQueue) -> None:
         """Take jobs from the queue until there are none, and report each."""
 
 
 class JobQueue:
-    """Jobs that are waiting, in order, and what became of the others.
+    """Waiting jobs, in order, and the outcomes of the finished ones.
 
-    Where a trial fails, the rest of its benchmark is not played: it would fail alike. The other
+    Where a trial fails, the rest of its run is skipped: it would fail alike. The other
     benchmarks go on.
 
     Args:
-        jobs: what is to be played.
+        jobs: the trials to run.
         on_level: called for every level that was not on disk before.
     """
 
@@ -85,7 +85,7 @@ class JobQueue:
         return self.failures[0][1] if self.failures else None
 
     def add(self, job: Job) -> None:
-        """Put one more job at the end; it may be one that another has led to."""
+        """Append a job; jobs may add others."""
         self._waiting.append(job)
         self._to_come[job] = len(job.trial.levels) - job.run.n_rows(job.trial)
 
@@ -102,21 +102,21 @@ class JobQueue:
         return self._waiting.popleft() if self._waiting else None
 
     def level(self, job: Job) -> None:
-        """A level of it has ended that was not on disk before."""
+        """Report a level that was not on disk before."""
         if self._to_come[job] > 0:
             self._to_come[job] -= 1
             self._on_level()
 
     def done(self, job: Job) -> None:
-        """It is over, and on disk."""
+        """It is finished and on disk."""
         while self._to_come[job] > 0:
             self.level(job)
 
     def lost(self, job: Job, why: str, call: int | None = None) -> None:
-        """Its worker is gone: it is played again, and next, unless that has happened too often.
+        """Its worker is gone: repeat it next, unless that has happened too often.
 
         Where it goes in the same ``call`` once more that is the algorithm's doing: from then on the
-        trial is played without that call.
+        trial is run without that call.
         """
         if call is not None and (job, call) in self._calls_lost:
             self.stopped(job, Cut(call, f"{PROCESS_ENDED} ({why})"))
@@ -138,20 +138,20 @@ class JobQueue:
         )
 
     def stopped(self, job: Job, cut: Cut) -> None:
-        """A call into the algorithm cannot be made: the trial is played again without it."""
+        """A call into the algorithm did not return: repeat the trial without it."""
         job.run.n_lost += 1
         job.cut = cut
         self._waiting.appendleft(job)
 
     def failed(self, job: Job, error: Exception) -> None:
-        """It cannot be played."""
+        """It failed."""
         if all(run is not job.run for run, _ in self.failures):
             self.failures.append((job.run, found_by_running(error)))
         self._waiting = deque(other for other in self._waiting if other.run is not job.run)
 
 
 def found_by_running(error: Exception) -> Exception:
-    """Return what a job raised as the failure of a run, whatever it was: no file was wrong before.
+    """Return an exception of a job as a `RunFailed`, because all inputs were checked before.
 
     All files were read, and all names looked up, before the first job; an error of the same kind
     that comes now is one of the run (exit status 3, not 2).
@@ -170,7 +170,7 @@ class SerialExecutor:
     """This process, one trial after the other."""
 
     def execute(self, queue: JobQueue) -> None:
-        """Play everything."""
+        """Execute all jobs."""
         pool = RendererPool()
         try:
             while (job := queue.take()) is not None:
@@ -190,7 +190,7 @@ class SerialExecutor:
 
 
 def run_and_record(job: Job, pool: RendererPool, calls: Calls) -> Iterator[Event]:
-    """Play a trial where its result is; yields the levels that were not on disk before."""
+    """Run a trial and write its journal; yields the levels that were not on disk before."""
     writer = JournalWriter(job.run, job.trial)
     here = Path.cwd()  # an algorithm may go elsewhere
     try:
@@ -206,21 +206,21 @@ def run_and_record(job: Job, pool: RendererPool, calls: Calls) -> Iterator[Event
 
 @dataclass(frozen=True, kw_only=True)
 class Outcome:
-    """What became of benchmarks that were played together."""
+    """The outcome of runs that were executed together."""
 
     results: tuple[Result, ...]
-    """One each, as far as it was played; on disk, too."""
+    """One each, as far as it ran; also on disk."""
     failures: tuple[tuple[Run, Exception], ...]
-    """Who could not be played to the end, and why, in the order in which it happened."""
+    """Runs that failed, and why, in the order in which it happened."""
 
 
 def run_each(
     runs: Sequence[Run], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
 ) -> Outcome:
-    """Play what is not finished yet of some benchmarks, and write their results.
+    """Execute the unfinished trials of some runs, and write their results.
 
     Args:
-        runs: what is to be played; their trials are spread over the same workers.
+        runs: what to execute; their trials share the same workers.
         executor: who executes the trials; without one, this process.
         on_level: called for every level that was not on disk before.
     """
@@ -235,11 +235,11 @@ def run_each(
 
 
 def _miss_what_is_gone(runs: Sequence[Run], queue: JobQueue) -> None:
-    """Hold it against a benchmark if a trial that was played is not on disk any more."""
+    """Fail a run if a finished trial is not on disk any more."""
     for run in runs:
         for trial in run.unfinished()[:1]:
             name = path_of(run.out, trial.index)
-            message = "was played, but is not whole there any more. Go on with --resume."
+            message = "was run, but its file is incomplete now. Continue with --resume."
             job = Job(run, trial)
             queue.failed(job, RunFailed(f"{name}: {job} {message}"))
 
@@ -247,7 +247,7 @@ def _miss_what_is_gone(runs: Sequence[Run], queue: JobQueue) -> None:
 def run_all(
     runs: Sequence[Run], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
 ) -> tuple[Result, ...]:
-    """Play as `run_each`, to the end or not at all well.
+    """As `run_each`; raises the first failure.
 
     Raises:
         NeverStarted: a start trigger never went on.

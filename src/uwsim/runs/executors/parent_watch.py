@@ -1,4 +1,4 @@
-"""How a process ends with its parent, however the parent ends.
+"""Ending a process when its parent ends, however that happens.
 
 The employer holds one end of a pipe that nobody writes into. The system closes it with the
 employer, and the process at the other end notices at once.
@@ -17,14 +17,14 @@ from ...interrupts import born_deaf
 
 
 def start_ignoring_interrupts(process: BaseProcess) -> None:
-    """Start a process that hears no Ctrl-C, which is for its employer alone."""
+    """Start a process that ignores Ctrl-C, which its parent handles."""
     resource_tracker.ensure_running()  # else it starts with the process, and lets Ctrl-C through
     with born_deaf():
         process.start()
 
 
 def exit_with_parent(parent: Connection) -> None:
-    """End this process as soon as the parent has ended: nobody holds the other end of the pipe."""
+    """End this process as soon as the parent has ended and the pipe to it is closed."""
     threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
 
 

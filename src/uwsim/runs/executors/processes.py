@@ -49,9 +49,9 @@ News = LevelKept | TrialDone | TrialFailed
 
 
 class ProcessExecutor:
-    """So many processes; a trial that loses its worker is played again by a fresh one.
+    """A number of processes; a trial that loses its worker is repeated by a new one.
 
-    An algorithm of uwsim's own that is alone, with one worker or one trial, is played here: a
+    A single bundled algorithm, with one worker or one trial, runs in this process: a
     process would only cost its start.
 
     Args:
@@ -64,7 +64,7 @@ class ProcessExecutor:
         self._glance = None if callback_limit is None else min(GLANCE, callback_limit / 4)
 
     def execute(self, queue: JobQueue) -> None:
-        """Play everything; stops all workers when it is interrupted."""
+        """Execute all jobs; stops all workers when interrupted."""
         n = min(self._n, len(queue))
         plans = queue.plans()
         if n <= 1 and len(plans) <= 1 and all(plan.is_bundled for plan in plans):
@@ -91,7 +91,7 @@ class ProcessExecutor:
                 worker.kill()
 
     def _attend(self, busy: list[WorkerProcess], queue: JobQueue) -> None:
-        """Wait until one of them has something to say, or for the time of a glance."""
+        """Wait until one of them has a report, or for a short time."""
         began = time.monotonic()
         wait([handle for worker in busy for handle in worker.handles], self._glance)
         waited = time.monotonic() - began
@@ -103,10 +103,10 @@ class ProcessExecutor:
 
 
 class WorkerProcess:
-    """A process as its employer sees it.
+    """A worker process, seen from its parent.
 
     Args:
-        settings: what the environment says to it, where the user has not said otherwise.
+        settings: environment variables that it gets unless the user has set them.
     """
 
     def __init__(self, settings: Mapping[str, str]) -> None:
@@ -120,22 +120,22 @@ class WorkerProcess:
         for end in (theirs, parent):
             end.close()  # so that a pipe ends when the process at its other end does
         self.job: Job | None = None
-        """What it is playing."""
-        self._algorithm: str | None = None  # the only one that it plays
+        """The job it executes."""
+        self._algorithm: str | None = None  # the only one that it runs
         self._seen, self._seen_for = BEFORE, 0.0  # the counter, and for how long it has stood [s]
 
     @property
     def handles(self) -> tuple[Connection, int]:
-        """What becomes ready when it has something to say, or dies."""
+        """Handles that become ready when it has a report or has ended."""
         return self._pipe, self._process.sentinel
 
     def may_play(self, job: Job) -> bool:
-        """Whether it can be given a job: it lives, and has played no other algorithm."""
+        """Whether it can be given a job: it is alive, and has run no other algorithm."""
         name = job.run.plan.algorithm_name
         return self._process.is_alive() and self._algorithm in (None, name)
 
     def give(self, job: Job) -> None:
-        """Have it play a job; should it be gone, the next `report` says so."""
+        """Give it a job; if it has ended, the next `report` reports that."""
         self.job, self._algorithm = job, job.run.plan.algorithm_name
         with suppress(OSError):
             self._pipe.send(job)
@@ -143,7 +143,7 @@ class WorkerProcess:
     def report(self, queue: JobQueue) -> None:
         """Tell the queue what has happened since the last report."""
         assert self.job is not None
-        is_alive = self._process.is_alive()  # asked first: what it said before it died is heard
+        is_alive = self._process.is_alive()  # read first, so that its last reports are received
         for news in self._news():
             if isinstance(news, LevelKept):
                 queue.level(self.job)
@@ -179,13 +179,13 @@ class WorkerProcess:
         self.job = None
 
     def dismiss(self) -> None:
-        """Tell it that there is no more to do, and wait until it has gone."""
+        """Tell it to end, and wait until it has ended."""
         with suppress(OSError):
             self._pipe.send(None)
         self._process.join(PATIENCE)
 
     def kill(self) -> None:
-        """End it, whatever it is doing; nothing happens if it has gone."""
+        """Kill it, if it has not ended."""
         self._process.kill()
         self._process.join()
         self._process.close()
@@ -199,14 +199,14 @@ class WorkerProcess:
 
 
 def how(exit_code: int | None) -> str:
-    """Say how a process ended."""
+    """Describe how a process ended."""
     if exit_code is not None and exit_code < 0:
         return f"killed by {signal.Signals(-exit_code).name}"
     return f"with exit status {exit_code}"
 
 
 def work(pipe: Connection, parent: Connection, counter: Counter) -> None:
-    """Play what comes through the pipe until ``None`` comes, or until the parent has ended."""
+    """Run the jobs from the pipe until ``None`` comes, or until the parent has ended."""
     exit_with_parent(parent)
     pool = RendererPool()
     try:

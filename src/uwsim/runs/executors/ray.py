@@ -52,7 +52,7 @@ class RayExecutor:
 
     Raises:
         MissingExtra: Ray is not installed.
-        BadSetting: nobody answers at ``RAY_ADDRESS``.
+        BadSetting: no cluster at ``RAY_ADDRESS``.
     """
 
     def __init__(self, cpus: int | None = None) -> None:
@@ -70,14 +70,14 @@ class RayExecutor:
         self._cpus = cpus or len(os.sched_getaffinity(0))
 
     def execute(self, queue: JobQueue) -> None:
-        """Play everything."""
+        """Execute all jobs."""
         ray = self._ray
-        # Ray prints on standard output what the queue tells better.
+        # Ray prints on standard output what the queue reports better.
         with self._cluster(), redirect_stdout(io.StringIO()):
             n_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
             remote = ray.remote(num_cpus=1, max_restarts=0)(RayWorker)
             remote = remote.options(runtime_env={"env_vars": not_chosen(ENVIRONMENT)})
-            idle: list[tuple[Any, str]] = []  # and the only algorithm that it plays
+            idle: list[tuple[Any, str]] = []  # and the only algorithm that it runs
             tasks: dict[Any, AssignedJob] = {}
             try:
                 while True:
@@ -130,7 +130,7 @@ class RayExecutor:
 
     @contextmanager
     def _cluster(self) -> Iterator[None]:
-        """Be connected; what was made for the run is gone after it."""
+        """Connect; a cluster made for the run is stopped after it."""
         if self._ray.is_initialized():
             yield
             return
@@ -169,7 +169,7 @@ def address() -> str | None:
     """Return where the cluster is; None for one of our own.
 
     Raises:
-        BadSetting: no address, or nobody answers there; Ray itself would try for minutes.
+        BadSetting: no address, or no cluster there; Ray itself would retry for minutes.
     """
     given = os.environ.get(ADDRESS, "").strip()
     if given in ("", "local"):
@@ -182,13 +182,13 @@ def address() -> str | None:
     try:
         socket.create_connection((host.strip("[]"), int(port)), timeout=5.0).close()
     except (OSError, OverflowError, UnicodeError) as error:
-        raise BadSetting(f"{ADDRESS}={given}: nobody answers there ({error}).") from None
+        raise BadSetting(f"{ADDRESS}={given}: no answer there ({error}).") from None
     return given
 
 
 @dataclass
 class AssignedJob:
-    """A job in the hands of a worker."""
+    """A job that a worker executes."""
 
     job: Job
     worker: Any
@@ -197,7 +197,7 @@ class AssignedJob:
     """Whether the worker can be given another."""
 
     def begin(self, ray: Any) -> Any:
-        """Have it played; returns the events to come."""
+        """Start the job; returns its events to come."""
         run, trial = self.job.run, self.job.trial
         self.writer = JournalWriter(run, trial)
         execute = self.worker.execute.options(num_returns="streaming")
@@ -205,7 +205,7 @@ class AssignedJob:
 
 
 class RayWorker:
-    """A process somewhere in the cluster, with a renderer that lasts."""
+    """A process in the cluster, with a renderer kept between trials."""
 
     def __init__(self) -> None:
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # for its employer alone
@@ -215,7 +215,7 @@ class RayWorker:
     def execute(
         self, run: Run, trial: Trial, head: journal.Record
     ) -> Iterator[Event | TrialFailed]:
-        """Play a trial, if this machine is like the one that asks; yields what is to be kept."""
+        """Run a trial, if this machine is equivalent to the driver's; yields its events."""
         try:
             self._check(run, trial, head)
             yield from run_trial(run.plan, trial, self._pool)
@@ -223,11 +223,11 @@ class RayWorker:
             yield TrialFailed(picklable(error))
 
     def _check(self, run: Run, trial: Trial, head: journal.Record) -> None:
-        """See to it that the trial would be the same if the driver played it.
+        """Check that the trial would be the same on the driver's machine.
 
         Args:
             run: whose trial it is.
-            trial: what is to be played.
+            trial: the trial to run.
             head: the trial's head as the driver wrote it.
 
         Raises:
@@ -246,7 +246,8 @@ class RayWorker:
         differences = list(_differences({name: here[name] for name in asked}, asked))
         if differences:
             raise RunFailed(
-                f"Worker on {platform.node()} would not play the same: {'; '.join(differences)}."
+                f"Worker on {platform.node()} would not give the same result: "
+                f"{'; '.join(differences)}."
             )
         self._known.append(asked)
 
@@ -261,7 +262,7 @@ def _differences(here: object, there: object, name: str = "") -> Iterator[str]:
 
 
 def _short_folder() -> Path | None:
-    """Where a folder with sockets in it can be: their paths may have 107 characters."""
+    """A folder short enough for sockets, whose paths may have 107 characters."""
     return short if (short := Path("/tmp")).is_dir() else None
 
 

@@ -1,4 +1,4 @@
-"""One trial in two halves: performed where there is a processor, kept where the result is.
+"""Executing a trial in a worker, and writing its journal next to the result.
 
 The two may be on different machines: what goes from one to the other is numbers, text and the bytes
 of images, never a path.
@@ -43,12 +43,12 @@ class TrialEnded:
     """A trial is over."""
 
     record: journal.Record
-    """What it knows beside its rows."""
+    """The record of its end."""
 
 
 @dataclass(frozen=True)
 class TrialFailed:
-    """A trial cannot be played."""
+    """A trial could not be run."""
 
     error: Exception
     """Why, as it was raised over there."""
@@ -60,10 +60,10 @@ Event = LevelEnded | TrialEnded
 def run_trial(
     plan: Plan, trial: Trial, pool: RendererPool, calls: Calls | None = None
 ) -> Iterator[Event]:
-    """Play a trial; yields each level as it ends, and at last the end of the trial.
+    """Run a trial; yields each level as it ends, and finally the end of the trial.
 
     Args:
-        plan: what is played.
+        plan: the benchmark to run.
         trial: one of its trials.
         pool: lends the renderer.
         calls: counts those into the algorithm.
@@ -88,10 +88,10 @@ def run_trial(
 
 
 class JournalWriter:
-    """Puts on disk what a trial yields, and holds what is there already against it.
+    """Writes the events of a trial to its journal; compares them with rows already there.
 
     Raises:
-        ReplayDiffers: a row played again differs from the one stored.
+        ReplayDiffers: a repeated row differs from the stored one.
         RunFailed: a file of the run was changed.
     """
 
@@ -101,7 +101,7 @@ class JournalWriter:
         self._file = journal.Journal(run.out, trial.index, run.head(trial))
 
     def keep(self, event: Event) -> bool:
-        """Keep it; returns whether it is a level that was not on disk before."""
+        """Write it; returns whether it is a level that was not on disk before."""
         self._watch.check()
         if isinstance(event, TrialEnded):
             self._file.finish(event.record)
@@ -119,7 +119,7 @@ class JournalWriter:
 
 
 def picklable(error: BaseException) -> Exception:
-    """Return the error with its traceback as a note, or one that says the same and travels."""
+    """Return the error with its traceback as a note, or an equivalent that can be pickled."""
     error.add_note("".join(traceback.format_exception(error)).rstrip())
     try:
         back = pickle.loads(pickle.dumps(error))

@@ -1,4 +1,4 @@
-"""Fingerprints of a run: small enough to keep, fine enough to say where two runs part.
+"""Fingerprints of a run: hashes of the state that locate where two runs diverge.
 
 The motion of every body is sampled every 16th step and hashed as the run goes on, body by body and
 without ever beginning anew; so are the images on each topic. Now and then a *mark* is set: what
@@ -31,7 +31,7 @@ BYTES = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Checkpoints:
-    """The marks of one unit."""
+    """The checkpoints of one trial."""
 
     every: int
     """Steps from one mark to the next."""
@@ -77,7 +77,7 @@ class Checkpoints:
 
 @dataclass(frozen=True, kw_only=True)
 class Divergence:
-    """Where two traces part."""
+    """Where two traces diverge."""
 
     after: int
     """They are the same up to this step ..."""
@@ -88,7 +88,7 @@ class Divergence:
 
 
 def divergence(a: Checkpoints, b: Checkpoints) -> Divergence | None:
-    """Return where two traces of one unit part; None if they are the same."""
+    """Return where two traces of one trial diverge; None if they are equal."""
     if a == b:
         return None
     if a.parts == b.parts:
@@ -140,7 +140,7 @@ class Fingerprinter:
         return hashlib.blake2b(bytes.fromhex(self._digests()), digest_size=8).hexdigest()
 
     def checkpoints(self) -> Checkpoints:
-        """Return the marks, with a last one as of now."""
+        """Return the checkpoints, with a last one of the current state."""
         self._absorb()
         step = self._step
         marks = [*self._marks, *([self._digests()] if step % self._every else [])]

@@ -1,4 +1,4 @@
-r"""What a perfect tracker would score: differences below that say nothing about a tracker.
+r"""The error floor: the score of a perfect tracker, below which differences are meaningless.
 
 A tracker of the target's top face that is never wrong follows the homography H which takes the
 face's corners from where they were when it was started to where they are now. What it reports is
@@ -62,7 +62,7 @@ class Floor:
         simulation.watch(self._look)
 
     def start(self) -> None:
-        """The tracker is given its quad, if it is not one that is given it once."""
+        """Initialise the tracker with its quad, unless that happens only once."""
         if self._truths and (self._then is None or not self._is_started_once):
             quad, face = self._given.read(), self._face.read()
             self._then = None if quad is None or face is None else (quad, face)
@@ -105,7 +105,7 @@ class Floor:
 
 
 def _corners_of(spec: EuclideanNormSpec) -> CornersFromCameraSpec | None:
-    """What a tracker is started on by this measure; None where it starts none."""
+    """The quad with which this measure initialises a tracker; None where it does not."""
     truth = spec.ground_truth
     starts = isinstance(truth, CornersFromCameraSpec) and truth.publish_on is not None
     return truth if starts and isinstance(truth, CornersFromCameraSpec) else None

@@ -1,4 +1,4 @@
-"""What a tracker may know of its target where nobody calls ``autoInit``: the constants of the file.
+"""Constant target corners of a file, given to trackers where no ``autoInit`` is called.
 
 A benchmark of the original may say once and for all where its target is seen:
 
@@ -27,7 +27,7 @@ TOPIC = "cornersTopic"
 
 
 def known_corners(plan: Plan) -> dict[str, str]:
-    """Return the parameter that tells an algorithm the constant corners of the file.
+    """Return the parameter with the constant corners of the file.
 
     It is empty when a measure initialises the algorithm itself (``publishOn``), when the file has
     no eight constants for the topic of the corners, or when the algorithm has no such parameter.

@@ -13,7 +13,7 @@ from .visibility import Fact
 
 @dataclass(frozen=True, kw_only=True)
 class LevelRow:
-    """What one level leaves behind."""
+    """The result of one level."""
 
     values: tuple[tuple[str, float], ...]
     """The level: swept parameters and values, outermost first."""
@@ -34,7 +34,7 @@ class LevelRow:
     logs: dict[str, list[Sample]]
     """Measure -> samples: time in the level [s], then `log_headers`."""
     log_headers: dict[str, tuple[str, ...]]
-    """Measure -> what stands in its samples after the time, with units."""
+    """Measure -> columns of its samples after the time, with units."""
     fingerprint: str
     """Of every body's motion and of every image, since the unit began (`trace`)."""
     snapshots: tuple[Snapshot, ...]
@@ -43,7 +43,7 @@ class LevelRow:
 
 @dataclass(frozen=True, kw_only=True)
 class TrialEnd:
-    """What a unit knows when it is done, beside its rows."""
+    """The end of a trial: its constants, notes and fingerprints."""
 
     facts: dict[str, Fact]
     """Constants of the scene, and how far the target moved in the image."""

@@ -1,4 +1,4 @@
-"""When levels begin and end: the benchmark's own startOn and stopOn.
+"""The benchmark's startOn and stopOn, which begin and end levels.
 
 A level runs while ``startOn`` is on and ``stopOn`` is off. ``startOn`` is never reset: most types
 stay on, so the next level follows at once; a topic that says off ends the level, and the next one
@@ -14,7 +14,7 @@ from ...world import World
 
 
 class LevelTriggers:
-    """The benchmark's start and stop triggers; ask it once a step."""
+    """The benchmark's start and stop triggers, read once a step."""
 
     def __init__(self, spec: BenchmarkSpec, world: World) -> None:
         self._spec, self._world = spec, world
@@ -42,7 +42,7 @@ class LevelTriggers:
         return start and not stop
 
     def why_not(self, patience: float) -> str:
-        """Say why no level began within ``patience`` [s of simulation time]."""
+        """Return why no level began within ``patience`` [s of simulation time]."""
         if not self._start.is_on():
             return (
                 f"its startOn ({self._spec.start_on}) did not go on within {patience:g} s of "
@@ -54,6 +54,6 @@ class LevelTriggers:
         )
 
     def close(self) -> None:
-        """Let go of the triggers' subscriptions and services."""
+        """Remove the subscriptions and services of the triggers."""
         self._start.close()
         self._stop.close()

@@ -1,4 +1,4 @@
-"""What a benchmark says of itself while it runs: the topics BenchmarkInfo and BenchmarkResults.
+"""The topics BenchmarkInfo and BenchmarkResults, published while a benchmark runs.
 
 As the original's, but in simulation time, so that an observer may subscribe and every run says the
 same. Nothing is computed for a topic that nobody reads.
@@ -32,8 +32,8 @@ class LiveTopics:
     except that every ``publishRate`` seconds (at least) one entry is added: the updaters' values,
     outermost first; the running time without pauses [s]; every measure's details, in the order of
     its original log; the score. An entry in which a measure or the score has no value is left out.
-    Several entries that fall into 0.1 s share a message. They tell how far an estimate is off, and
-    so the truth: no algorithm under test hears them.
+    Several entries that fall into 0.1 s share a message. They contain the error of the estimate,
+    and so the truth: no algorithm under test hears them.
     """
 
     def __init__(

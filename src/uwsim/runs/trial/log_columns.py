@@ -1,4 +1,4 @@
-"""Columns of a log: what a measure calls them, with the units it knows."""
+"""Column names of a measure's log, with units."""
 
 from __future__ import annotations
 

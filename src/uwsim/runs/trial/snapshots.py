@@ -1,4 +1,4 @@
-"""What the cameras saw last when a level ended, kept for the report."""
+"""The last images of the cameras in a level, kept for the report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The status of a row: what the algorithm says of itself, and what befell it."""
+"""The status of a row, from the algorithm's reports and its failures."""
 
 from __future__ import annotations
 
@@ -18,36 +18,37 @@ PROCESS_ENDED = "its process ended"
 
 
 def was_stopped(name: str, why: str | None) -> bool:
-    """Whether a row's reason is that its algorithm could not be called any more."""
+    """Whether a row failed because its algorithm could not be called any more."""
     return why is not None and why.startswith(f"{name} {STOPPED} at ")
 
 
 def ended_its_process(name: str, why: str | None) -> bool:
-    """Whether that is because the algorithm took its process with it."""
+    """Whether that is because the algorithm ended its process."""
     return was_stopped(name, why) and f" s: {PROCESS_ENDED}" in str(why)
 
 
 class StatusMonitor:
-    """What the algorithm says of itself, and what befell it.
+    """Follows the algorithm's status reports and its failures.
 
-    ``lost: why`` holds until the algorithm says ``tracking``. A level in which it was said has the
-    status ``lost``, and so has one at whose end it still holds; ``failed: why`` holds for good.
+    ``lost: why`` holds until the algorithm reports ``tracking``. A level in which it was reported
+    has the status ``lost``, and so has one at whose end it still holds; ``failed: why`` holds for
+    good.
     """
 
     def __init__(self, node: InProcessNode, inbox: Inbox[String]) -> None:
         self._node, self._inbox = node, inbox
-        self._is_lost: str | None = None  # why and when it said so, until it tracks again
+        self._is_lost: str | None = None  # why and when, until it tracks again
         self._was_lost: str | None = None  # the same of the first time in this level
         self.failed: str | None = None
         """Why and when it failed or raised."""
 
     @property
     def lost(self) -> str | None:
-        """Why and when it said that it was lost: in this level, or before and still."""
+        """Why and when it was lost: in this level, or before and still."""
         return self._was_lost or self._is_lost
 
     def begin_level(self) -> None:
-        """Forget what was said in the level before, but what still holds."""
+        """Reset the reports of the last level, but not those that still hold."""
         self._was_lost = None
 
     def listen(self, time: float) -> None:
@@ -95,6 +96,6 @@ class StatusMonitor:
 
 
 def legible(text: str) -> str:
-    """Return what an algorithm says as one printable line of at most 300 characters."""
+    """Return a text of an algorithm as one printable line of at most 300 characters."""
     line = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text[:301])
     return line if len(line) <= 300 else line[:297] + "..."

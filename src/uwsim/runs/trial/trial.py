@@ -1,4 +1,4 @@
-"""Playing one unit of work: an algorithm, a seed, and one level after the other.
+"""Executing one trial: an algorithm, a seed, and one level after the other.
 
 *Sequential*: algorithm and scene live on from level to level. *Independent*: a level stands alone
 and begins with a prelude at the updaters' initial values: the algorithm starts, is told where its
@@ -57,7 +57,7 @@ def execute(
     """Play a unit; yields a LevelRow as each level ends, and at last the UnitEnd.
 
     Args:
-        plan: what is played.
+        plan: the benchmark to run.
         unit: one of its units.
         pool: lends the renderer; without one the unit has a renderer of its own.
         calls: counts those into the algorithm.
@@ -86,7 +86,7 @@ def execute(
 
 
 def bind_all(plan: Plan, simulation: Simulation) -> None:
-    """Look up every name of the benchmark once, so that none can fail after hours.
+    """Look up every name of the benchmark before the run.
 
     Raises:
         UnknownName: a body, a camera or a link is not there.
@@ -99,7 +99,7 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
 
 
 class _Execution:
-    """A unit while it is played."""
+    """A trial during its execution."""
 
     def __init__(self, plan: Plan, unit: Trial, simulation: Simulation, calls: Calls) -> None:
         self._plan, self._unit, self._simulation = plan, unit, simulation
@@ -111,7 +111,7 @@ class _Execution:
         self._measures = benchmark.measures  # as they are bound for the next level
         ramp_level(self._updaters, initial_level(self._updater))
         for gated in self._bind_measures():
-            gated.close()  # the bus now keeps what they want to find when they start
+            gated.close()  # the bus now keeps the messages that they read when they start
         self._triggers = LevelTriggers(benchmark, simulation.world)
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
@@ -130,7 +130,7 @@ class _Execution:
         self._n_measured = 0  # steps of the levels so far
 
     def rows(self) -> Iterator[LevelRow | TrialEnd]:
-        """Play the levels."""
+        """Run the levels."""
         plan, simulation = self._plan, self._simulation
         simulation.start()
         facts: dict[str, Fact] = {}
@@ -169,10 +169,10 @@ class _Execution:
         )
 
     def _parameters_said(self) -> dict[str, float | int | str]:
-        """Return the parameters that the algorithm says it runs with.
+        """Return the parameters that the algorithm reports.
 
         Raises:
-            RunFailed: it says none that a result can hold, or breaks.
+            RunFailed: they cannot be stored in a result, or reading them fails.
         """
         try:
             with self._calls:
@@ -185,7 +185,7 @@ class _Execution:
             plan = self._plan
             message = legible(what_broke(error, plan.algorithm))
             raise RunFailed(
-                f"Algorithm {plan.algorithm_name!r} cannot say its parameters: {message}"
+                f"Algorithm {plan.algorithm_name!r} cannot report its parameters: {message}"
             ) from error
 
     def close(self) -> None:
@@ -202,7 +202,7 @@ class _Execution:
         return tuple(sorted([*cameras, *(s for u in self._updaters for s in u.streams)]))
 
     def _wait(self, never: str) -> bool:
-        """Let time pass until a level may begin; return whether it had to.
+        """Advance until a level may begin; return whether that took any time.
 
         Raises:
             NeverStarted: it did not within the benchmark's patience, or the algorithm raised.
@@ -244,11 +244,11 @@ class _Execution:
         self._close_measures(measures)
 
     def _bind_measures(self) -> list[TriggeredMeasure]:
-        """Bind every measure afresh."""
+        """Bind every measure anew."""
         return [TriggeredMeasure(spec, self._simulation.world) for spec in self._measures]
 
     def _close_measures(self, measures: list[TriggeredMeasure]) -> None:
-        """Let go of them, and remember whom they have initialised."""
+        """Close them, and remember which have initialised an algorithm."""
         self._measures = tuple(
             gated.spec.once_initialised if gated.measure.has_initialised else gated.spec
             for gated in measures
@@ -274,13 +274,13 @@ class _Execution:
             self._triggers.arm()
 
     def _settle(self, seconds: float) -> None:
-        """Let time pass that neither measures nor the interval see."""
+        """Advance through the settling time, which is not measured."""
         for _ in range(round(seconds / self._plan.timestep)):
             self._simulation.advance()
             self._monitor.listen(self._simulation.time)
 
     def _run_level(self, level: Level) -> LevelRow:
-        """Play one level, with triggers and measures that have seen nothing before."""
+        """Run one level, with newly bound triggers and measures."""
         plan, simulation, monitor = self._plan, self._simulation, self._monitor
         began = simulation.step
         monitor.begin_level()
@@ -349,7 +349,7 @@ class _Execution:
 
 
 def _make(plan: Plan, calls: Calls) -> Algorithm:
-    """Make the algorithm; what its constructor raises keeps the benchmark from starting."""
+    """Make the algorithm; an exception of its constructor is a RunFailed."""
     try:
         with calls:
             return plan.algorithm()
@@ -369,7 +369,7 @@ def _tick(measures: list[TriggeredMeasure]) -> None:
 
 
 def _end_of_level(measures: list[TriggeredMeasure]) -> str | None:
-    """Why a measure ends the level now; None if it goes on."""
+    """Why a measure ends the level now; None if it continues."""
     for gated in measures:
         if why := gated.measure.ends_level:
             return why

@@ -1,4 +1,4 @@
-"""A measure behind its triggers: on from its startOn until its stopOn, and logged on the way."""
+"""A measure with its triggers: on from startOn until stopOn, with its log."""
 
 from __future__ import annotations
 
@@ -59,13 +59,13 @@ class TriggeredMeasure:
 
     @property
     def has_start_value(self) -> bool:
-        """Whether its value is one that was never measured."""
+        """Whether its value is only a start value."""
         is_asked = "never-started" in self._world.compatibility
         is_known = self.spec.error_flag == 0 and self.spec.start_value is not None
         return self.never_started and is_asked and is_known
 
     def tick(self) -> None:
-        """Start or update the measure, whichever the triggers ask for."""
+        """Start, update or stop the measure according to its triggers."""
         on = self._ask() if self._asks else self._is_on
         if on and not self._was_on:
             self.never_started = False
@@ -85,7 +85,7 @@ class TriggeredMeasure:
             self._was_on = False
 
     def close(self) -> None:
-        """Let go of the measure's and the triggers' subscriptions and services."""
+        """Remove the subscriptions and services of measure and triggers."""
         self.measure.close()
         self._start.close()
         self._stop.close()

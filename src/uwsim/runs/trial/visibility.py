@@ -1,4 +1,4 @@
-r"""What decides when a tracker that compares by ZNCC loses its patch in fog.
+r"""Image statistics that determine at which fog density a ZNCC tracker loses its target.
 
 With the contrast of the patch S (standard deviation in grey levels, no noise, fog 0), the noise
 sigma, the threshold z and the mean distance d from camera to patch, fog of density f
@@ -48,7 +48,7 @@ def visibility_facts(
         ``S``, ``sigma`` and ``sigma_grey`` [grey level], ``d`` [m], ``z``, ``f_star`` and
         ``f_star_grey`` [1/m]: with the camera's noise and with that of the grey image.
         The last three only of an algorithm that has the rule, by its parameter
-        ``zncc_threshold``. Empty when no measure asks for corners.
+        ``zncc_threshold``. Empty when no measure uses corners.
     """
     for spec in plan.benchmark.measures:
         if not isinstance(spec, EuclideanNormSpec):
@@ -144,7 +144,7 @@ def fog_of_loss(contrast: float, noise: float, distance: float, threshold: float
 
 
 def quad_mask(corners: Array, shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
-    """Pixels whose centre lies inside a convex quadrangle (4, 2) [px], (h, w) bool."""
+    """Pixels with centres inside a convex quadrangle (4, 2) [px], (h, w) bool."""
     v, u = np.mgrid[0 : shape[0], 0 : shape[1]] + 0.5
     sides = [
         (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0])
