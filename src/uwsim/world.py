@@ -226,7 +226,11 @@ class Rays(Protocol):
         """Acoustic material of each surface, by its number."""
 
     def cast(
-        self, world_from_sensor: Pose, directions: npt.NDArray[np.float64], reach: float
+        self,
+        world_from_sensor: Pose,
+        directions: npt.NDArray[np.float64],
+        reach: float,
+        begins: npt.NDArray[np.float64] | None = None,
     ) -> Hits:
         """Cast rays from the origin of a sensor; returns the first hit of each.
 
@@ -234,6 +238,7 @@ class Rays(Protocol):
             world_from_sensor: where the sensor is.
             directions: unit vectors in its frame, (n, 3).
             reach: how far the rays go [m].
+            begins: from where on each ray hits, (n,) [m]; without it from the origin.
         """
 
 

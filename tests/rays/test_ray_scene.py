@@ -124,6 +124,14 @@ def test_rays_end_at_their_reach() -> None:
     assert scene.cast(above, down, 3.9).distance[0] == np.inf
 
 
+def test_what_is_before_the_beginning_of_a_ray_is_not_hit() -> None:
+    scene = RayScene([[Surface(1, square(5.0, -1.0)), Surface(2, square(5.0, -3.0))]])
+    down = np.array([[0.0, 0.0, -1.0]] * 2)
+    hits = scene.cast(HERE, down, 10.0, np.array([0.5, 1.5]))
+    assert hits.distance.tolist() == [1.0, 3.0]
+    assert hits.surface.tolist() == [1, 2]
+
+
 @pytest.mark.parametrize("bodies", [[], [[]], [[Surface(0, np.zeros((0, 3, 3)))]]])
 def test_where_nothing_is_nothing_is_hit(bodies: list[list[Surface]]) -> None:
     hits = RayScene(bodies).cast(HERE, all_around(5), 100.0)

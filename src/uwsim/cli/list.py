@@ -120,9 +120,10 @@ def updaters(tables: Tables) -> dict[str, str]:
 
 def sensors(tables: Tables) -> dict[str, str]:
     """Sensors that a scene file may use."""
+    from ..schema.names import local
     from ..sensors import SENSORS
 
-    return family(SENSORS)
+    return {local(name): line for name, line in family(SENSORS).items()}
 
 
 def devices(tables: Tables) -> dict[str, str]:

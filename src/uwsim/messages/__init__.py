@@ -11,6 +11,7 @@ from __future__ import annotations
 from .build import floats, header, image, pixels_of, seconds, time_from_seconds
 from .point_cloud import point_cloud, points
 from .services import Empty, EmptyResponse, GTpublish, GTpublishResponse, Service
+from .sonar import PingInfo, ProjectedSonarImage, SonarImageData
 from .types import (
     Bool,
     CameraInfo,
@@ -66,16 +67,19 @@ __all__ = [
     "MultiArrayLayout",
     "Odometry",
     "Path",
+    "PingInfo",
     "Point",
     "PointCloud2",
     "PointField",
     "Pose",
     "PoseStamped",
     "PoseWithCovariance",
+    "ProjectedSonarImage",
     "Quaternion",
     "Range",
     "RegionOfInterest",
     "Service",
+    "SonarImageData",
     "String",
     "TFMessage",
     "Time",

@@ -17,8 +17,8 @@ from ..geometry import Array
 from ..jit import njit
 
 Whole = npt.NDArray[np.int32]
-Ray = tuple[float, float, float, float, float, float, float, float, float]
-"""Origin, direction, and one over the components of the direction."""
+Ray = tuple[float, float, float, float, float, float, float, float, float, float]
+"""Origin, direction, one over the components of the direction, and where it begins to hit [m]."""
 TOUCH = 1e-9
 """How far outside of a triangle a ray still hits it, as a share of its sides."""
 TINY = 1e-300
@@ -61,7 +61,7 @@ def cast_rays(
     frames: tuple[Array, Array],
     origin: Array,
     directions: Array,
-    reach: float,
+    limits: tuple[Array, float],
     hits: Hits,
 ) -> None:
     """Find what rays hit first.
@@ -71,10 +71,11 @@ def cast_rays(
         frames: ``world_from_body`` and ``body_from_world`` of the bodies, (b, 4, 4) each.
         origin: where the rays begin, in W, (3,) [m].
         directions: of the rays in W, unit vectors, (n, 3).
-        reach: how far they go [m].
+        limits: from where on each ray hits, (n,), and how far all go [m].
         hits: for the results.
     """
     world_from_body, body_from_world = frames
+    begins, reach = limits
     n = len(directions)
     hits.distance[:] = reach
     last = np.full(n, -1)  # the triangle that a ray hits
@@ -89,7 +90,7 @@ def cast_rays(
         hint = -1
         for i in range(n):
             dx, dy, dz = _placed(f, directions[i, 0], directions[i, 1], directions[i, 2], 0.0)
-            ray = (x, y, z, dx, dy, dz, _inverse(dx), _inverse(dy), _inverse(dz))
+            ray = (x, y, z, dx, dy, dz, _inverse(dx), _inverse(dy), _inverse(dz), begins[i])
             nearest, triangle = hits.distance[i], -1
             if hint >= 0:  # rays that are neighbours often hit the same triangle
                 at = _meets_triangle(trees.triangles[hint], trees.surfaces[hint, 1], ray)
@@ -248,7 +249,7 @@ def _meets_triangle(t: Array, is_two_sided: int, ray: Ray) -> float:
     if v < -TOUCH or u + v > 1.0 + TOUCH:
         return np.inf
     at = (t[6] * qx + t[7] * qy + t[8] * qz) * inverse
-    return at if at > 0.0 else np.inf
+    return at if at > ray[9] else np.inf
 
 
 @njit

@@ -59,13 +59,20 @@ class RayScene:
         self._world_from_body[body] = world_from_body
         self._moved = True
 
-    def cast(self, world_from_sensor: Pose, directions: Array, reach: float) -> Hits:
+    def cast(
+        self,
+        world_from_sensor: Pose,
+        directions: Array,
+        reach: float,
+        begins: Array | None = None,
+    ) -> Hits:
         """Send rays from the origin of a sensor.
 
         Args:
             world_from_sensor: where the sensor is.
             directions: unit vectors in its frame, (n, 3).
             reach: how far the rays go [m].
+            begins: from where on each ray hits, (n,) [m]; without it from the origin.
         """
         if self._moved:
             self._body_from_world = inverse(self._world_from_body)
@@ -74,7 +81,8 @@ class RayScene:
         hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, dtype=np.int32))
         along = product(directions, world_from_sensor.rotation.T)
         frames = self._world_from_body, self._body_from_world
-        cast_rays(self._trees, frames, world_from_sensor.position, along, reach, hits)
+        limits = np.zeros(n) if begins is None else begins, float(reach)
+        cast_rays(self._trees, frames, world_from_sensor.position, along, limits, hits)
         return hits
 
 

@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from ..cli.list import devices, limit_in, sensors
+from ..cli.list import clark, devices, limit_in, sensors
 from ..runs.tables import bundled_tables
 from ..schema import fields_of
 from ..schema.names import local
@@ -33,7 +33,11 @@ def _sensors(*, simulated: bool) -> str:
     rows = []
     for name, summary in sensors(bundled_tables()).items():
         if simulated is (limit_in("sensors", name) == ""):
-            own = [field.shown for field in fields_of(SENSORS[name]) if field.shown not in COMMON]
+            own = [
+                field.shown
+                for field in fields_of(SENSORS[clark(name)])
+                if field.shown not in COMMON
+            ]
             rows.append((_linked(name), summary, ", ".join(f"`{each}`" for each in own)))
     return _table(("element", "what it measures", "its elements"), rows)
 
@@ -51,7 +55,7 @@ def _topics(*, simulated: bool) -> str:
     """Interfaces that publish, with their default rates."""
     rows = []
     for tag, spec in INTERFACES.items():
-        name = f"u:{local(tag)}" if tag.startswith("{") else tag
+        name = local(tag)
         summary = (spec.__doc__ or "").strip().split("\n")[0]
         elements = {field.shown: field for field in fields_of(spec)}
         topics = ", ".join(f"`{each}`" for each in elements if each.lower().endswith("topic"))

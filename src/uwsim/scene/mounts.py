@@ -16,11 +16,12 @@ from ..geometry import Array, Pose
 from ..linear import dot, length, product, turned, turned_back
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import LookAt, Mounted
+from ..sensors.sonar.spec import SonarSpec
 from .kinematics import link_poses
 from .urdf import RobotSpec
 from .vehicle import VehicleSpec
 
-ALONG_X = (RangeSensorSpec, ObjectPickerSpec)
+ALONG_X = (RangeSensorSpec, ObjectPickerSpec, SonarSpec)
 """These look along +x, the others along -z."""
 STRAIGHT = 1e-3
 """Sine of the angle to the vertical below which a camera looks straight up or down."""

@@ -1,13 +1,17 @@
 """Sensors, one file each."""
 
+from ..schema import NAMESPACE
 from .dvl_sensor import DvlSensorSpec
 from .gps_sensor import GpsSensorSpec
+from .imaging_sonar import ImagingSonarSpec
 from .imu import ImuSpec
 from .multibeam_sensor import MultibeamSensorSpec
 from .pressure_sensor import PressureSensorSpec
 from .profiling_sonar import ProfilingSonarSpec
 from .range_sensor import RangeSensorSpec
+from .scanning_sonar import ScanningSonarSpec
 from .sensor import SensorSpec
+from .side_scan_sonar import SideScanSonarSpec
 from .structured_light_projector import StructuredLightProjectorSpec
 from .virtual_camera import VirtualCameraSpec
 from .virtual_range_image import VirtualRangeImageSpec
@@ -23,6 +27,9 @@ SENSORS: dict[str, type[SensorSpec]] = {
     "structuredLightProjector": StructuredLightProjectorSpec,
     "virtualCamera": VirtualCameraSpec,
     "virtualRangeImage": VirtualRangeImageSpec,
+    f"{{{NAMESPACE}}}imagingSonar": ImagingSonarSpec,
+    f"{{{NAMESPACE}}}scanningSonar": ScanningSonarSpec,
+    f"{{{NAMESPACE}}}sideScanSonar": SideScanSonarSpec,
 }
 """Element of a vehicle -> spec; one without ``bind`` is read and not simulated."""
 

@@ -37,11 +37,17 @@ class SceneRays:
         )
         """Of each surface, by its number."""
 
-    def cast(self, world_from_sensor: Pose, directions: Array, reach: float) -> Hits:
+    def cast(
+        self,
+        world_from_sensor: Pose,
+        directions: Array,
+        reach: float,
+        begins: Array | None = None,
+    ) -> Hits:
         """Send rays from the origin of a sensor; see `RayScene.cast`."""
         for body, frame in enumerate(self._frames):
             self._scene.place(body + 1, frame())
-        return self._scene.cast(world_from_sensor, directions, reach)
+        return self._scene.cast(world_from_sensor, directions, reach, begins)
 
     @cached_property
     def _frames(self) -> tuple[Callable[[], Array], ...]:

@@ -58,6 +58,7 @@ from .sensor_topic import (
     RangeSensorToROSRangeSpec,
 )
 from .simulated_device_ros import SimulatedDeviceROSSpec
+from .sonar_to_ros import SonarToROSSpec
 from .thruster_commands import ROSFinsToPATSpec, ROSThrustersToPATSpec, ROSWrenchToPATSpec
 from .viewer_topics import ROSImageToHUDSpec, ROSPointCloudLoaderSpec
 from .virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
@@ -92,6 +93,7 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     f"{{{NAMESPACE}}}ROSThrustersToPAT": ROSThrustersToPATSpec,
     f"{{{NAMESPACE}}}ROSFinsToPAT": ROSFinsToPATSpec,
     f"{{{NAMESPACE}}}ROSWrenchToPAT": ROSWrenchToPATSpec,
+    f"{{{NAMESPACE}}}sonarToROS": SonarToROSSpec,
 }
 """Element -> spec, in the order of the original grammar; ours last."""
 

@@ -1,0 +1,94 @@
+"""A forward-looking imaging sonar; an extension of the dialect.
+
+.. code-block:: xml
+
+    <u:imagingSonar>
+      <name>sonar</name> <relativeTo>base_link</relativeTo>
+      <position> <x>0.8</x> <y>0</y> <z>0.2</z> </position> <u:lookAt>forward</u:lookAt>
+      <range>20</range> <bins>500</bins> <verticalAperture>20</verticalAperture>
+      <horizontalAperture>90</horizontalAperture> <beams>512</beams>
+    </u:imagingSonar>
+
+All beams hear each ping. See `uwsim.sensors.sonar.echoes` for what they hear.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..geometry import Array
+from ..messages import Image, ProjectedSonarImage, image
+from ..schema import element
+from ..world import Body, SensorWorld
+from .sensor import Carrier
+from .sonar.echoes import Echoes
+from .sonar.message import level_directions, sonar_image
+from .sonar.picture import FanPicture, Levels
+from .sonar.spec import SonarSpec
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImagingSonarSpec(SonarSpec):
+    """A ``<u:imagingSonar>``."""
+
+    message_type: ClassVar[type] = ProjectedSonarImage
+
+    horizontal_aperture: float = element(default=90.0, above=0, maximum=360)
+    """From the middle of the first beam to that of the last [deg]."""
+    beams: int = element(default=512, minimum=2, maximum=4096)
+    """Beams side by side."""
+
+    @property
+    def azimuths(self) -> Array:
+        """Of the beams from starboard to port, positive to port, (n,) [rad]."""
+        half = 0.5 * math.radians(self.horizontal_aperture)
+        return np.linspace(-half, half, self.beams)
+
+    def bind(self, world: SensorWorld, vehicle: Carrier) -> ImagingSonar:
+        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        random = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return ImagingSonar(self, vehicle.mount(self), world, random)
+
+
+class ImagingSonar:
+    """Echoes in bins of azimuth and range."""
+
+    STATE: ClassVar[tuple[str, ...]] = ("_random", "_last")
+    """What of it changes as time goes by."""
+
+    def __init__(
+        self, spec: ImagingSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+    ) -> None:
+        self._spec, self._mount, self._random = spec, mount, random
+        azimuths = spec.azimuths
+        self._echoes = Echoes(spec, world, azimuths, float(azimuths[1] - azimuths[0]))
+        self._ranges, self._directions = self._echoes.ranges, level_directions(azimuths)
+        self._levels, self._fan = Levels(spec, self._ranges), FanPicture(azimuths, self._ranges)
+        self._last = np.zeros((spec.bins, spec.beams), dtype=np.float32)
+
+    def sample(self, time: float) -> ProjectedSonarImage:
+        """Ping now, at ``time`` [s]."""
+        pose, spec = self._mount.world_from_body, self._spec
+        self._last = self._echoes.ping(pose, int(self._random.integers(2**63)))
+        return sonar_image(
+            self._last,
+            spec,
+            directions=self._directions,
+            ranges=self._ranges,
+            sound_speed=self._echoes.sound_speed(pose),
+            time=time,
+        )
+
+    def skip(self) -> None:
+        """Let a ping that nobody hears take its turn in the random stream."""
+        self._random.integers(2**63)
+
+    def picture(self, time: float) -> Image:
+        """The last ping as a fan, ahead is up, stamped ``time`` [s]."""
+        losses = self._echoes.losses(self._mount.world_from_body)
+        greys = self._levels.of(self._last, losses)
+        return image(self._fan.of(greys), time=time, frame_id=self._spec.name)

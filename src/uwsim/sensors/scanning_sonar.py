@@ -1,0 +1,119 @@
+"""A sonar whose head turns from ping to ping; an extension of the dialect.
+
+.. code-block:: xml
+
+    <u:scanningSonar>
+      <name>scanner</name> <relativeTo>base_link</relativeTo>
+      <range>20</range> <bins>500</bins> <verticalAperture>25</verticalAperture>
+      <initAngle>-180</initAngle> <finalAngle>180</finalAngle> <angleIncr>1.8</angleIncr>
+    </u:scanningSonar>
+
+It pings once a sample and then turns by a step: round and round, or to and fro in a sector. See
+`uwsim.sensors.sonar.echoes` for what it hears.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..geometry import Array, Pose, rotation_z
+from ..messages import Image, ProjectedSonarImage, image
+from ..schema import element
+from ..world import Body, SensorWorld
+from .sensor import Carrier
+from .sonar.echoes import Echoes
+from .sonar.message import level_directions, sonar_image
+from .sonar.picture import FanPicture, Levels
+from .sonar.spec import SonarSpec
+
+RAYS_A_WIDTH = 4
+"""Rays side by side in the width of the beam."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScanningSonarSpec(SonarSpec):
+    """A ``<u:scanningSonar>``."""
+
+    message_type: ClassVar[type] = ProjectedSonarImage
+
+    init_angle: float = element(default=-180.0, minimum=-360, maximum=360)
+    """Azimuth of the first ping, positive to port [deg]."""
+    final_angle: float = element(default=180.0, minimum=-360, maximum=360)
+    """Azimuth at which it turns back [deg]; 360 from the first it goes on round."""
+    angle_incr: float = element(default=1.8, above=0, maximum=180)
+    """Step of the head from ping to ping [deg]."""
+
+    @property
+    def azimuths(self) -> Array:
+        """Of the pings of a scan, positive to port, (n,) [rad]."""
+        way = self.final_angle - self.init_angle
+        number = max(1, round(abs(way) / self.angle_incr) + (not self.is_round))
+        steps = math.copysign(self.angle_incr, way) * np.arange(number)
+        found: Array = np.radians(self.init_angle + steps)
+        return found
+
+    @property
+    def is_round(self) -> bool:
+        """Whether it goes round and round."""
+        return abs(self.final_angle - self.init_angle) >= 360.0
+
+    def bind(self, world: SensorWorld, vehicle: Carrier) -> ScanningSonar:
+        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        random = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return ScanningSonar(self, vehicle.mount(self), world, random)
+
+
+class ScanningSonar:
+    """Echoes of one beam after the other."""
+
+    STATE: ClassVar[tuple[str, ...]] = ("_random", "_scan", "_n_pings")
+    """What of it changes as time goes by."""
+
+    def __init__(
+        self, spec: ScanningSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+    ) -> None:
+        self._spec, self._mount, self._random = spec, mount, random
+        step = math.radians(spec.beam_width) / RAYS_A_WIDTH
+        self._echoes = Echoes(spec, world, np.zeros(1), step)
+        self._azimuths, self._ranges = spec.azimuths, self._echoes.ranges
+        self._levels = Levels(spec, self._ranges)
+        self._fan = FanPicture(self._azimuths, self._ranges)
+        self._scan = np.zeros((spec.bins, len(self._azimuths)), dtype=np.float32)
+        self._n_pings = 0
+
+    @property
+    def _place(self) -> int:
+        """Number of the azimuth that the next ping goes to."""
+        n = len(self._azimuths)
+        if self._spec.is_round or n == 1:
+            return self._n_pings % n
+        place = self._n_pings % (2 * n - 2)
+        return min(place, 2 * n - 2 - place)
+
+    def sample(self, time: float) -> ProjectedSonarImage:
+        """Ping now, at ``time`` [s], and turn."""
+        place = self._place
+        azimuth = float(self._azimuths[place])
+        sonar_from_head = Pose(np.zeros(3), rotation_z(azimuth))
+        world_from_head = self._mount.world_from_body @ sonar_from_head
+        amplitude = self._echoes.ping(world_from_head, int(self._random.integers(2**63)))
+        self._scan[:, place] = amplitude[:, 0]
+        self._n_pings += 1
+        return sonar_image(
+            amplitude,
+            self._spec,
+            directions=level_directions(np.array([azimuth])),
+            ranges=self._ranges,
+            sound_speed=self._echoes.sound_speed(world_from_head),
+            time=time,
+        )
+
+    def picture(self, time: float) -> Image:
+        """The last ping of each azimuth, ahead is up, stamped ``time`` [s]."""
+        losses = self._echoes.losses(self._mount.world_from_body)
+        greys = self._levels.of(self._scan, losses)
+        return image(self._fan.of(greys), time=time, frame_id=self._spec.name)

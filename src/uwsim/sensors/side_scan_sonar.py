@@ -1,0 +1,107 @@
+"""A side-scan sonar; an extension of the dialect.
+
+.. code-block:: xml
+
+    <u:sideScanSonar>
+      <name>sidescan</name> <relativeTo>base_link</relativeTo>
+      <range>40</range> <bins>1000</bins> <beamWidth>0.5</beamWidth>
+      <verticalAperture>50</verticalAperture> <tilt>25</tilt> <lines>400</lines>
+    </u:sideScanSonar>
+
+It pings to port and to starboard, once a sample; as the vehicle goes on, the pings side by side
+make a picture, the waterfall. See `uwsim.sensors.sonar.echoes` for what it hears.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..geometry import Pose, rotation_y, rotation_z
+from ..linear import product
+from ..messages import Image, ProjectedSonarImage, image
+from ..schema import element
+from ..world import Body, SensorWorld
+from .scanning_sonar import RAYS_A_WIDTH
+from .sensor import Carrier
+from .sonar.echoes import Echoes
+from .sonar.message import sonar_image
+from .sonar.picture import Levels
+from .sonar.spec import SonarSpec
+
+SIDES = (0.5 * math.pi, -0.5 * math.pi)
+"""Azimuth of the beams: port, starboard [rad]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SideScanSonarSpec(SonarSpec):
+    """A ``<u:sideScanSonar>``: +x is along its track, +z up."""
+
+    message_type: ClassVar[type] = ProjectedSonarImage
+
+    vertical_aperture: float = element(default=50.0, above=0, maximum=160)
+    """Height of its beams between the points of half power, one way [deg]."""
+    beam_width: float = element(default=0.5, above=0, maximum=30)
+    """Width of a beam between the points of half power, there and back [deg]."""
+    rows: int = element(default=256, minimum=1, maximum=2048)
+    """Rays of a beam one above the other. What is lower than the distance of two rays may be
+    missed."""
+    tilt: float = element(default=25.0, minimum=-90, maximum=90)
+    """Of the middle of its beams below the horizontal of the sonar [deg]."""
+    lines: int = element(default=400, minimum=1, maximum=10000)
+    """Pings in the waterfall."""
+
+    def bind(self, world: SensorWorld, vehicle: Carrier) -> SideScanSonar:
+        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        random = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return SideScanSonar(self, vehicle.mount(self), world, random)
+
+
+class SideScanSonar:
+    """Echoes to port and to starboard, and the waterfall of the last pings."""
+
+    STATE: ClassVar[tuple[str, ...]] = ("_random", "_waterfall", "_n_pings")
+    """What of it changes as time goes by."""
+
+    def __init__(
+        self, spec: SideScanSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+    ) -> None:
+        self._spec, self._mount, self._random = spec, mount, random
+        step = math.radians(spec.beam_width) / RAYS_A_WIDTH
+        self._echoes = Echoes(spec, world, np.zeros(1), step)
+        self._ranges, self._levels = self._echoes.ranges, Levels(spec, self._echoes.ranges)
+        down = rotation_y(math.radians(spec.tilt))
+        self._heads = tuple(Pose(np.zeros(3), product(rotation_z(side), down)) for side in SIDES)
+        self._waterfall = np.zeros((spec.lines, 2 * spec.bins), dtype=np.uint8)
+        self._n_pings = 0
+
+    def sample(self, time: float) -> ProjectedSonarImage:
+        """Ping now, at ``time`` [s]; the first beam is that to port."""
+        world_from_sonar = self._mount.world_from_body
+        keys = [int(key) for key in self._random.integers(2**63, size=2)]
+        beams = [
+            self._echoes.ping(world_from_sonar @ sonar_from_head, key)
+            for sonar_from_head, key in zip(self._heads, keys, strict=True)
+        ]
+        amplitude = np.concatenate(beams, axis=1)
+        greys = self._levels.of(amplitude, self._echoes.losses(world_from_sonar))
+        line = self._n_pings % self._spec.lines
+        self._waterfall[line] = np.concatenate([greys[::-1, 0], greys[:, 1]])
+        self._n_pings += 1
+        return sonar_image(
+            amplitude,
+            self._spec,
+            directions=np.stack([head.rotation[:, 0] for head in self._heads]),
+            ranges=self._ranges,
+            sound_speed=self._echoes.sound_speed(world_from_sonar),
+            time=time,
+        )
+
+    def picture(self, time: float) -> Image:
+        """The waterfall: the newest ping at the top, port on the left, stamped ``time`` [s]."""
+        newest = (self._n_pings - 1) % self._spec.lines
+        rows = np.roll(self._waterfall, -1 - newest, axis=0)[::-1]
+        return image(rows, time=time, frame_id=self._spec.name)

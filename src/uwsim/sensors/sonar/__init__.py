@@ -1,0 +1,1 @@
+"""Echoes: what imaging, scanning and side-scan sonars have in common."""

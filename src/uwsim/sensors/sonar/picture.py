@@ -1,0 +1,86 @@
+r"""Pictures of echoes for people: levels in dB, and fans of beams laid out in the plane.
+
+Spreading and absorption are compensated (time-varying gain): a picture shows the target strength
+of what is in each bin, :math:`EL - SL + 2 (20 \log r + \alpha r)`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from ...elementwise import arctan2, log10
+from ...geometry import Array
+from .echoes import MICROPASCAL
+from .kernel import Singles
+from .spec import SonarSpec
+
+Pixels = npt.NDArray[np.uint8]
+LARGEST = 2048
+"""Pictures are scaled down to so many pixels across."""
+
+
+class Levels:
+    """Grey values of amplitudes.
+
+    Args:
+        spec: of the sonar.
+        ranges: middles of its bins, (bins,) [m].
+    """
+
+    def __init__(self, spec: SonarSpec, ranges: Array) -> None:
+        self._ranges = ranges
+        self._spreading = 40.0 * log10(np.maximum(ranges, 1e-3)) - spec.source_level - MICROPASCAL
+        high_halves = (np.arange(1, 0x7F80, dtype=np.uint32) << 16).view(np.float32)
+        level = 20.0 * log10(high_halves.astype(np.float64))
+        grey = 255.0 * (level - spec.picture_floor) / spec.picture_range
+        self._greys = np.zeros(0x10000, dtype=np.uint8)
+        self._greys[1:0x7F80] = np.clip(np.round(grey), 0.0, 255.0).astype(np.uint8)
+
+    def of(self, amplitude: Singles, losses: float) -> Pixels:
+        """Grey values of amplitudes (bins, n) [Pa], at an absorption [dB/m]; 0.07 dB coarse."""
+        gain = self._spreading + 2.0 * losses * self._ranges  # [dB]
+        factors = np.array([10.0 ** (0.05 * each) for each in gain.tolist()], dtype=np.float32)
+        scaled = np.ascontiguousarray(amplitude * factors[:, None])
+        greys: Pixels = self._greys[scaled.view(np.uint32) >> 16]
+        return greys
+
+
+class FanPicture:
+    """Where each pixel of a picture of a fan is in its bins: ahead is up, port is left.
+
+    Args:
+        azimuths: of the beams at equal steps, positive to port, (n,) [rad].
+        ranges: middles of the bins, (bins,) [m].
+    """
+
+    def __init__(self, azimuths: Array, ranges: Array) -> None:
+        bin_size = ranges[1] - ranges[0] if len(ranges) > 1 else 2.0 * ranges[0]
+        outer = ranges[-1] + 0.5 * bin_size
+        around = np.linspace(azimuths[0], azimuths[-1], 721)
+        x, y = outer * np.cos(around), outer * np.sin(around)
+        ahead, behind = max(float(x.max()), 0.0), max(-float(x.min()), 0.0)
+        port, starboard = max(float(y.max()), 0.0), max(-float(y.min()), 0.0)
+        self.pixel = max(bin_size, (ahead + behind) / LARGEST, (port + starboard) / LARGEST)
+        """Size of a pixel [m]."""
+        n_rows = max(1, math.ceil((ahead + behind) / self.pixel))
+        n_columns = max(1, math.ceil((port + starboard) / self.pixel))
+        forward = ahead - self.pixel * (np.arange(n_rows) + 0.5)
+        left = port - self.pixel * (np.arange(n_columns) + 0.5)
+        x, y = np.meshgrid(forward, left, indexing="ij")
+        bins = np.floor((np.sqrt(x * x + y * y) - ranges[0]) / bin_size + 0.5).astype(np.intp)
+        step = azimuths[1] - azimuths[0] if len(azimuths) > 1 else 2.0 * math.pi
+        turns = (arctan2(y, x) - azimuths[0]) / step
+        full = 2.0 * math.pi / abs(step)
+        turns = np.where(turns < -0.5, turns + full, turns)
+        beams = np.floor(np.where(turns >= full - 0.5, turns - full, turns) + 0.5).astype(np.intp)
+        self._inside = (bins >= 0) & (bins < len(ranges)) & (beams >= 0) & (beams < len(azimuths))
+        self._places = (bins * len(azimuths) + beams)[self._inside]
+
+    def of(self, greys: Pixels) -> Pixels:
+        """The picture of grey values (bins, n), black around the fan, (h, w)."""
+        pixels = np.zeros(self._inside.shape, dtype=np.uint8)
+        pixels[self._inside] = greys.reshape(-1)[self._places]
+        return pixels

@@ -1,0 +1,61 @@
+"""Sonars on topics: echoes for programs, and pictures for people."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Protocol, cast
+
+from ..messages import Image, ProjectedSonarImage
+from ..schema import element
+from ..sensors.sensor import Sensor
+from .interface import Interface, InterfaceSpec, TopicWorld
+
+
+@dataclass(frozen=True, kw_only=True)
+class SonarToROSSpec(InterfaceSpec):
+    """Publishes a sonar as marine_acoustic_msgs/ProjectedSonarImage and sensor_msgs/Image."""
+
+    sources: ClassVar[tuple[str, ...]] = ("u:imagingSonar", "u:scanningSonar", "u:sideScanSonar")
+    messages: ClassVar[Mapping[str, type]] = {"topic": ProjectedSonarImage, "image_topic": Image}
+
+    name: str
+    """Name of the sonar."""
+    topic: str
+    """Topic of the echoes."""
+    image_topic: str
+    """Topic of the pictures: a fan seen from above, or the waterfall of a side-scan."""
+    rate: int = element(default=10, minimum=1)
+    """How often it pings [Hz]."""
+
+    def bind(self, world: TopicWorld) -> SonarPublisher:
+        """Ping from now on; raises UnknownName if the sonar is not there."""
+        sonar = cast("Sonar", world.sensor(self.name, self.sources))
+        publisher = SonarPublisher(self, sonar, world)
+        world.every(self.rate, publisher.publish)
+        return publisher
+
+
+class Sonar(Sensor, Protocol):
+    """A sonar at work."""
+
+    def picture(self, time: float) -> Image:
+        """What it heard, for people, stamped ``time`` [s]."""
+
+
+class SonarPublisher(Interface):
+    """Publishes what a sonar hears, and a picture of it where somebody looks."""
+
+    def __init__(self, spec: SonarToROSSpec, sonar: Sonar, world: TopicWorld) -> None:
+        self._sonar, self._world, self._image_topic = sonar, world, spec.image_topic
+        self._publish: Callable[[object], None] = world.bus.publisher(
+            spec.topic, ProjectedSonarImage
+        )
+        self._publish_image = world.bus.publisher(spec.image_topic, Image)
+
+    def publish(self) -> None:
+        """Ping now, whether or not somebody listens: speckle, scan and waterfall go on."""
+        time = self._world.time
+        self._publish(self._sonar.sample(time))
+        if self._world.bus.has_readers(self._image_topic):
+            self._publish_image(self._sonar.picture(time))
