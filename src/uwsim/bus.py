@@ -23,7 +23,7 @@ M = TypeVar("M")
 MAX_MESSAGES_PER_STEP = 100_000
 MAX_KEPT = 10_000
 MAX_BYTES_KEPT = 256 * 2**20
-"""What an inbox keeps that nobody looks into."""
+"""Number of messages that an unread inbox keeps."""
 
 
 @runtime_checkable
@@ -127,9 +127,9 @@ class _Topic:
     checks: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
     has_writers: bool = False
     kept: deque[Any] | None = None
-    """The newest message, once somebody asked for it to be kept."""
+    """The newest message, kept from the first request on."""
     unread: Any = None
-    """The newest message that was published while nobody read the topic."""
+    """The newest message that was published while the topic had no subscriber."""
 
 
 class Bus:
@@ -151,7 +151,7 @@ class Bus:
         self._posted = 0
         self._withheld: set[str] = set()
         self.step = 0
-        """The current step; set by whoever owns the clock."""
+        """The current step; set by the owner of the clock."""
 
     def subscribe(
         self,
@@ -237,7 +237,7 @@ class Bus:
         return _without_slash(topic) in self._withheld
 
     def unread(self, topic: str) -> object | None:
-        """Return the newest message that was published while nobody read the topic."""
+        """Return the newest message that was published while the topic had no subscriber."""
         entry = self._topics.get(_without_slash(topic))
         return None if entry is None or entry.unread is None else freeze(entry.unread)
 
@@ -257,7 +257,7 @@ class Bus:
         return (
             None
             if _without_slash(topic) in read
-            else f"nobody reads it.{did_you_mean(topic, read)}"
+            else f"it has no subscriber.{did_you_mean(topic, read)}"
         )
 
     def unsaid(self, topic: str) -> str | None:
@@ -270,7 +270,7 @@ class Bus:
         alike = [name for name in published if read and self._topics[name].type is read.type]
         if not near and alike:
             near = f" Of its type there is {' and '.join(map(repr, alike[:3]))}."
-        return f"nobody publishes it.{near}"
+        return f"it has no publisher.{near}"
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service whose request class is ``type``; a later offer takes its place."""
@@ -305,7 +305,7 @@ class Bus:
         """Call a service now.
 
         Raises:
-            UnknownName: nobody serves it.
+            UnknownName: it is not offered.
             BadMessage: the request is of another type, or its fields are.
         """
         if _without_slash(name) not in self._services:

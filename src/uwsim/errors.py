@@ -3,20 +3,22 @@
 .. code-block:: text
 
     UwsimError
-      SeveralErrors        ... all errors of one call
-      FileError            a file is wrong: all its errors, each with its line
+      SeveralErrors        ... several errors of one call
+      FileError            a file is wrong; carries every error, each with its line
         SceneError         ... a scene or robot file
         BenchmarkError     ... a benchmark file
         PluginError        ... a plugin
-      UnknownName          an unknown name; the message gives the nearest known one AssetNotFound
-      a file that was not found; the message lists the folders searched AssetError           a file
-      that was found and cannot be used BadSetting           a command-line setting or a parameter
-      that cannot be used BadMessage           a message or request that does not fit its topic or
-      service NotAllowed           what an algorithm under test may not do MissingExtra         an
-      optional dependency is not installed; the message tells how to install it NoGraphics
-      no OpenGL context; the message tells what to install RunFailed            a run that failed
-      NeverStarted         the start trigger of a benchmark never switched on ResultError          a
-      result that cannot be read or resumed, or is inconsistent
+      UnknownName          an unknown name; the message gives the nearest known one
+      AssetNotFound        a file that was not found; the message lists the folders searched
+      AssetError           a file that was found and cannot be used
+      BadSetting           a command-line setting or a parameter that cannot be used
+      BadMessage           a message or request that does not fit its topic or service
+      NotAllowed           a use of the node that is forbidden to algorithms under test
+      MissingExtra         an optional dependency is missing; the message names it
+      NoGraphics           no OpenGL context; the message names what to install
+      RunFailed            a run that failed
+      NeverStarted         the start trigger of a benchmark never switched on
+      ResultError          a result that cannot be read or resumed, or is inconsistent
         ReplayDiffers      ... a replay whose rows differ from the stored ones
 """
 

@@ -22,7 +22,7 @@ from .network import Network
 from .rays import Hits
 
 TIMESTEP = 0.002
-"""Length of a physics step, unless another is asked for [s]."""
+"""Default length of a physics step [s]."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Body(Protocol):
 
     @property
     def name(self) -> str:
-        """The route it was asked for by."""
+        """The route by which it was looked up."""
 
     @property
     def world_from_body(self) -> Pose:
@@ -194,7 +194,7 @@ class Stage(World, Protocol):
         """Colour of the fog [0..1]."""
 
     def find(self, name: str, *, beside: str) -> Path:
-        """Find a file that the file ``beside`` names; AssetNotFound says where it was sought."""
+        """Find a file that the file ``beside`` names; AssetNotFound lists the folders searched."""
 
     def set_fog(self, density: float) -> None:
         """Set the fog density [1/m] of the water; its colour stays the scene's."""

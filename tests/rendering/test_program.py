@@ -38,7 +38,7 @@ def test_every_shader_says_what_it_provides_and_needs(file: str) -> None:
 
 
 def test_a_uniform_that_nobody_declares_is_an_error(context: moderngl.Context) -> None:
-    with pytest.raises(RuntimeError, match="nobody declares the uniform 'shadow_map'"):
+    with pytest.raises(RuntimeError, match="no block declares the uniform 'shadow_map'"):
         build(
             context,
             "surface",

@@ -478,7 +478,7 @@ def test_depth_of_a_colour_camera_is_an_error_because_the_original_crashes(tmp_p
         "</rosInterfaces>",
         tmp_path,
     )
-    assert said == ["<VirtualCameraToROSImage>: <depth> 1 wants a virtualRangeImage; 'c' is none"]
+    assert said == ["<VirtualCameraToROSImage>: <depth> 1 needs a virtualRangeImage; 'c' is none"]
 
 
 def checked(inside: str, folder: Path, doctype: str = "") -> list[tuple[str, str]]:

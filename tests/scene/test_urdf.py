@@ -227,11 +227,11 @@ def test_every_error_of_a_robot_is_reported_at_once(tmp_path: Path) -> None:
     ("inside", "said"),
     [
         ("", "the robot has no <link>"),
-        (LINKS, "3 links hang on none"),
+        (LINKS, "3 links have no parent"),
         (LINKS + joint("1", of="a b") + joint("2", of="b c") + joint("3", of="c a"), "a loop"),
         ('<link name="d"/>' + LINKS + joint("1", of="b c") + joint("2", of="c b")
          + joint("3", of="d a"), "part of a loop"),
-        ('<link name="a"/><link name="b"/>' + joint("1") + joint("2"), "hangs on two joints"),
+        ('<link name="a"/><link name="b"/>' + joint("1") + joint("2"), "has two parent joints"),
         ('<link name="a"/><link name="b"/>' + joint("1", '<origin xyz="${x} 0 0"/>'), "xacro"),
         ('<link name="a"/><link name="b"/>' + joint("1", '<axis xyz="nan 0 0"/>'), "3 numbers"),
     ],

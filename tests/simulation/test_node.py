@@ -106,8 +106,8 @@ def test_topics_that_have_no_other_end_are_reported_with_the_nearest_that_has() 
     node.publisher("/twst", String)
     node.subscribe("odm", String, lambda _: None)
     assert node.unconnected() == [
-        "me: it subscribes to 'odm', but nobody publishes it. Did you mean 'odom'?",
-        "me: it publishes on '/twst', but nobody reads it. Did you mean 'twist'?",
+        "me: it subscribes to 'odm', but it has no publisher. Did you mean 'odom'?",
+        "me: it publishes on '/twst', but it has no subscriber. Did you mean 'twist'?",
     ]
     assert node.unfed() == node.unconnected()[:1]
 
@@ -119,5 +119,5 @@ def test_a_topic_unlike_all_others_is_reported_with_those_of_its_type() -> None:
     bus.publisher("/other", Float32MultiArray)
     node.subscribe("camera1", String, lambda _: None)
     assert node.unfed() == [
-        "me: it subscribes to 'camera1', but nobody publishes it. Of its type there is 'front'."
+        "me: it subscribes to 'camera1', but it has no publisher. Of its type there is 'front'."
     ]

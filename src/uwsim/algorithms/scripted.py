@@ -37,7 +37,7 @@ class Scripted:
     Services and topics are named with blanks between them. What starts is called, or told yes
     (std_msgs/Bool), again and again, so that every level and measure that waits for it begins;
     what stops is used every ``stop_after`` seconds, so that it ends one level after the other.
-    Names that nobody serves are passed over.
+    Services that are not offered are skipped.
     """
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {

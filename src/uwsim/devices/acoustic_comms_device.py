@@ -44,7 +44,7 @@ class EnergyModelSpec:
     p_idle: float = element("pIdle", default=0.0, original=REQUIRED, minimum=0)
     """Power the rest of the time [W]."""
     p_t: float = element("pT", default=0.2818, original=REQUIRED, minimum=0)
-    """Power into the water: read and not used, ``u:sourceLevel`` says how loud it is [W]."""
+    """Power into the water: read and not used; ``u:sourceLevel`` gives the source level [W]."""
 
     def bind(self) -> EnergyModel:
         """Make the model."""

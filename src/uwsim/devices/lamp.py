@@ -55,7 +55,7 @@ class LampSpec(DeviceSpec):
     )
     """Of its light [0..1]."""
     shadow: bool = element(namespaced=True, default=True)
-    """Whether what stands in its light casts a shadow."""
+    """Whether bodies in its light cast a shadow."""
 
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> MountedLamp:
         """Mount the lamp on its link; raises UnknownName if the vehicle has no such link."""

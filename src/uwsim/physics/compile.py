@@ -116,7 +116,7 @@ def compile_scene(
     """Build the MuJoCo model of a scene.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number in the scene.
         dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
         timestep: length of a step [s].

@@ -85,11 +85,11 @@ def why_untrue(data: mujoco.MjData, time: float, timestep: float, names: list[st
     if counts[SINGULAR]:
         return (
             f"The inertia of {names[data.warning[SINGULAR].lastinfo]!r} is next to nothing at "
-            f"{time:g} s, and nothing can be told of its motion. Is a mass or an inertia too small?"
+            f"{time:g} s, and its motion is undefined. Is a mass or an inertia too small?"
         )
     return (
         f"There are more contacts at {time:g} s than the engine has memory for, and some would be "
-        "left out. Do things stand inside one another?"
+        "left out. Do bodies overlap?"
     )
 
 

@@ -1,6 +1,6 @@
 r"""The ground: its height and slope, and the pose of a body at rest on it.
 
-The ground is triangles in W, z up. What stands on it is lowered straight down until it touches.
+The ground is triangles in W, z up. A body is lowered vertically until it touches the ground.
 Two sheets of triangles touch first at a corner of the one above a face of the other, or where two
 edges cross as seen from above; the height at which they do,
 

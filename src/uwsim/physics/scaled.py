@@ -25,7 +25,7 @@ class ScaledLinks:
     """The link poses of one scaled vehicle in the engine.
 
     Args:
-        model: of the scene; where the links stand on each other is changed here.
+        model: of the scene; the relative poses of its links are changed here.
         robot: the vehicle's.
         index: the vehicle's number.
         scale: along the axes of its base [1].

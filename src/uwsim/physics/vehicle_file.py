@@ -203,7 +203,7 @@ def _include(
     parts: _Parts,
     above: tuple[Path, ...],
 ) -> None:
-    """Read another hydrodynamics file, beside the first or bundled, into ``parts``."""
+    """Read another hydrodynamics file, next to the first or bundled, into ``parts``."""
     inner = Diagnostics(path)
     try:
         other = next(

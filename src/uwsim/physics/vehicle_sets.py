@@ -18,7 +18,7 @@ def vehicle_sets() -> dict[str, Path]:
 
 
 def find_vehicle(name: str, beside: Path | None = None) -> Path:
-    """Find the hydrodynamics file of a set: ``name.xml`` beside the scene, or a bundled one.
+    """Find the hydrodynamics file of a set: ``name.xml`` next to the scene, or a bundled one.
 
     Raises:
         UnknownName: there is none.

@@ -20,7 +20,7 @@ import numpy.typing as npt
 from ..geometry import Array
 
 WORLD = 0
-"""The engine's number of the body that fixed shapes hang on."""
+"""The engine's number of the body of fixed shapes."""
 MAX_DEPTH = 40
 """Nodes below this are halved at the median; the engine allows 50."""
 

@@ -15,7 +15,7 @@ ENVIRONMENT = {
     "EGL_LOG_LEVEL": "fatal",
 }
 """Switches of Mesa, set where the user has not: images of cameras are too small for more
-than a few threads of the software rasteriser, and what is wrong is said once, by `NoGraphics`.
+than a few threads of the software rasteriser, and errors are reported once, by `NoGraphics`.
 They do not change a byte of an image."""
 
 N_DEVICES = 4

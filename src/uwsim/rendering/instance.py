@@ -25,7 +25,7 @@ STRIDE = 256
 class Instances:
     """Instances of models in W; bounds and normals are computed for all of them at once.
 
-    They are told by handles; arrays of them go by rows, in the order in which they were added.
+    Each is identified by a handle; arrays have a row for each, in the order of adding.
     """
 
     def __init__(self) -> None:

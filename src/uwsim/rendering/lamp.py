@@ -8,7 +8,7 @@ gamma) and before the water between surface and camera (`water`), it adds
 
 with the lamp's colour :math:`k` and intensity :math:`I`, the direction :math:`L` to the lamp,
 the water's attenuation :math:`a` along the way from the lamp to the surface, the cone
-:math:`s(\theta)` and :math:`v`, 0 in the shadow of what stands between. Nearer than 1 cm counts as
+:math:`s(\theta)` and :math:`v`, 0 in shadow. Nearer than 1 cm counts as
 1 cm. The light rate of the scene and the sun have no part in it. Not modelled: backscatter of the
 lamp's own light into the camera, light that is scattered or reflected on its way,
 a loss of the lamp's light to the fog (which is a law of the camera's path alone), glints, and the
@@ -53,7 +53,7 @@ class Lamp:
     intensity: float = 1.0
     """Stored value that it gives to a white surface facing it at 1 m, without water [1]."""
     casts_shadow: bool = True
-    """Whether what stands in its light keeps it from what is behind."""
+    """Whether bodies in its light cast a shadow."""
 
     def __post_init__(self) -> None:
         if not 0.0 < self.half_angle <= MAX_HALF_ANGLE:

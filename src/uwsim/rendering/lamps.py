@@ -72,7 +72,7 @@ class Lamps:
         Args:
             lamps: What shines, in the order of the tiles.
             instances: All there are.
-            casters: Rows of what may stand in the light; terrain, too.
+            casters: Rows of possible casters; terrain, too.
             version: Changes whenever a caster moved, came or went.
         """
         for tile, lamp in enumerate(lamps):

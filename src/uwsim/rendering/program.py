@@ -70,8 +70,8 @@ def build(
         samplers: Texture unit of each sampler it may use.
 
     Raises:
-        RuntimeError: the shader uses a uniform that nobody declared, or declares a block otherwise
-            than the program that fills it.
+        RuntimeError: the shader uses a uniform that no block declares, or declares a block
+            otherwise than the program that fills it.
     """
     head = VERSION + "".join(f"#define {name} {value}\n" for name, value in defines.items())
     vertex, fragment = source(f"{effect}.vert.glsl"), source(f"{effect}.frag.glsl")
@@ -87,7 +87,7 @@ def build(
             part.binding = block.binding
         elif isinstance(part, moderngl.Uniform):
             if name not in samplers:
-                raise RuntimeError(f"{effect}: nobody declares the uniform {name!r}")
+                raise RuntimeError(f"{effect}: no block declares the uniform {name!r}")
             part.value = samplers[name]
     return program
 

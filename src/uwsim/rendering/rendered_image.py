@@ -28,7 +28,7 @@ class RenderedImage:
         """Distance along the optical axis (h, w) [m]; inf = nothing there.
 
         Raises:
-            ValueError: the range was not asked for.
+            ValueError: the range was not requested.
         """
         if self.range is None:
             raise ValueError("the image was drawn without its range")

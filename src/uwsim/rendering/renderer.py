@@ -1,6 +1,6 @@
 """The renderer: instances of models in, images out.
 
-One forward pass draws colour, range and ids, whichever are asked for, through UWSim's water
+One forward pass draws colour, range and ids, whichever are requested, through UWSim's water
 (`rendering.water`). What is seen through is blended over the rest, the farthest first. Not
 modelled: the water's surface, caustics, reflections, refraction.
 """
@@ -130,7 +130,7 @@ class Renderer:
         Args:
             world_from_camera: Where the camera is; OpenGL axes.
             intrinsics: Its pinhole.
-            water: What stands between.
+            water: The water between surfaces and camera.
             light: What lights the scene.
             targets: Some of ``colour``, ``range``, ``ids``; nothing else is computed.
             hidden: Ids of instances that this camera does not see, nor their shadows.
@@ -159,8 +159,8 @@ class Renderer:
             image = self._target(view).image(intrinsics)
             self._begun = None
             if view == self._last and not lamps:
-                # Asked for twice in a row, it will be asked for again: the rasteriser's threads
-                # draw the next one while others think about this one.
+                # Requested twice in a row, it will be requested again: the rasteriser's threads
+                # draw the next one while this one is processed.
                 self._begin(view, world_from_camera)
                 self._shadow.take_over()
                 self._begun = view

@@ -53,7 +53,7 @@ SPECULAR = 0.1
 
 @dataclass(frozen=True, kw_only=True)
 class Water:
-    """What stands between surfaces and cameras; the defaults are UWSim's."""
+    """The water between surfaces and cameras; the defaults are UWSim's."""
 
     fog: float = 0.1
     """Density of the fog [1/m]."""

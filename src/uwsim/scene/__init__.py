@@ -1,4 +1,4 @@
-"""Scenes: what a scene or robot file says, and nothing that runs."""
+"""Specs of scenes and robots, and their readers."""
 
 from .object import ObjectSpec
 from .reader import check_scene, read_scene

@@ -1,4 +1,4 @@
-"""Degrees where radians belong: angles of more than a turn are asked about.
+"""Warnings about angles of more than a turn: likely degrees instead of radians.
 
 An angle that is meant is the same within one turn, and can be written so.
 """
@@ -19,7 +19,7 @@ MORE_THAN_A_TURN = 6.3
 
 
 def degrees_for_radians(values: Sequence[float]) -> str:
-    """Say what angles would be if they were degrees; nothing where none is beyond a turn."""
+    """Describe angles as if they were degrees; None where none is beyond a turn."""
     if all(abs(value) <= MORE_THAN_A_TURN for value in values):
         return ""
     turned = _list([math.radians(value) for value in values])
@@ -31,11 +31,11 @@ def degrees_for_radians(values: Sequence[float]) -> str:
 
 
 def check_angles(spec: object, diagnostics: Diagnostics) -> None:
-    """Ask about the angles of a spec and of all that stands in it.
+    """Warn of the angles of a spec and of all specs in it.
 
     Args:
-        spec: what a file says.
-        diagnostics: receives the warnings; knows the elements of the specs.
+        spec: of a file.
+        diagnostics: receives the warnings; has the elements of the specs.
     """
     kind: type = type(spec)
     for field, shown in _angles(kind):

@@ -1,4 +1,4 @@
-"""Names in a scene that must lead somewhere: links, sensors, vehicles.
+"""Checks that names in a scene exist: links, sensors, vehicles.
 
 An error where the original, too, would stop or crash; a warning where it warns and goes on.
 """
@@ -37,7 +37,7 @@ def check_names(
     diagnostics: Diagnostics,
     stand_ins: Collection[int] = (),
 ) -> None:
-    """Follow every name of a scene.
+    """Look up every name of a scene.
 
     Args:
         scene: the scene.
@@ -177,7 +177,7 @@ def _check_interface(
         and wanted not in known.get("virtualRangeImage", {})
     ):
         diagnostics.error(
-            node, f"<{element}>: <depth> 1 wants a virtualRangeImage; {wanted!r} is none"
+            node, f"<{element}>: <depth> 1 needs a virtualRangeImage; {wanted!r} is none"
         )
 
 
@@ -201,7 +201,7 @@ def _check_sources(scene: SceneSpec, diagnostics: Diagnostics) -> None:
 
 
 def _check_shared_names(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Name the objects that a search never finds, and topics on which two interfaces speak."""
+    """Report objects hidden by another of the same name, and topics with two publishers."""
     first: dict[str, str] = {vehicle.name: "a vehicle" for vehicle in scene.vehicles}
     shared: set[str] = set()
     for thing in scene.objects:
@@ -237,7 +237,7 @@ def _check_physics(thing: ObjectSpec, diagnostics: Diagnostics) -> None:
 
 
 def _check_passable_objects(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Name the objects that simulated vehicles pass through, unless the file says so itself."""
+    """Report the objects that simulated vehicles pass through, unless the file declares them so."""
     things = [
         thing
         for thing in scene.objects
@@ -262,7 +262,7 @@ def _check_passable_objects(scene: SceneSpec, diagnostics: Diagnostics) -> None:
 def _check_passable_vehicles(
     scene: SceneSpec, robots: Mapping[int, RobotSpec], diagnostics: Diagnostics
 ) -> None:
-    """Name the vehicles that simulated ones pass through, and those without any shape."""
+    """Report the vehicles that simulated ones pass through, and those without any shape."""
     for index, vehicle in enumerate(scene.vehicles):
         if "passable" in vehicle.accepts or vehicle.vr:
             continue

@@ -1,4 +1,4 @@
-"""What of the communication devices of a scene does not fit together."""
+"""Consistency checks of the communication devices of a scene."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `uwsim check` asks about where a file may well mean it, and how a file says that it does.
+"""Warnings of `uwsim check` about values that may be intended, and how a file accepts them.
 
 .. code-block:: xml
 
@@ -14,9 +14,9 @@ VehicleDoubt = Literal[
     "balance", "buoyancy", "drag", "inertia", "passable", "places", "size", "start", "strength",
     "thrust",
 ]  # fmt: skip
-"""What may be asked about a vehicle."""
+"""Warnings about a vehicle."""
 ObjectDoubt = Literal["start"]
-"""What may be asked about an object."""
+"""Warnings about an object."""
 
 DOUBTS: Mapping[VehicleDoubt, str] = {
     "balance": "Its centre of buoyancy lies below its centre of mass as it begins: it turns over.",
@@ -34,5 +34,5 @@ DOUBTS: Mapping[VehicleDoubt, str] = {
 
 
 def unless_meant(doubt: VehicleDoubt) -> str:
-    """How a file says that it is meant."""
+    """Describe how a file accepts a value that is intended."""
     return f"If that is meant: <u:accept>{doubt}</u:accept>"

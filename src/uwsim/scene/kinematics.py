@@ -1,4 +1,4 @@
-"""Where the links of a robot are, given its joints."""
+"""Forward kinematics of a robot."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def _motion(joint: JointSpec, value: float) -> Pose:
 
 
 def _follow(joint: JointSpec, source: float) -> float:
-    """What a mimicking joint makes of its source; chains are not followed, as in the original."""
+    """Value of a mimicking joint; chains are not followed, as in the original."""
     assert joint.mimic is not None
     if "slidercrank" in joint.name:
         reach = joint.mimic.offset * math.sin(source)

@@ -1,4 +1,4 @@
-"""Old names that real scene files contain, written anew before they are read.
+"""Converts obsolete elements of existing scene files before they are read.
 
 What UWSim called otherwise in its first years, or had and dropped, becomes what it is called
 today, with a warning; so the specs know only one dialect.
@@ -110,7 +110,7 @@ def _current(node: etree._Element, parent: etree._Element, diagnostics: Diagnost
 
 
 def _wrapper(kept: str = "") -> Rule:
-    """What stands in a wrapper is read as standing beside it.
+    """The elements in a wrapper are read as siblings of it.
 
     The original takes any device in one, and its interface; of the wrapper that its grammar knows
     the echoes stay in it.
@@ -234,7 +234,7 @@ SINUSOID = {
 ANYWHERE: dict[str, Rule] = {
     "includesFixedAndMimic": _drop("had no effect"),
 }
-"""Old element, whatever it stands in -> what to do with it."""
+"""Obsolete element, whatever its parent -> its conversion."""
 
 RULES: dict[tuple[str, str], Rule] = {
     ("ROSOdomToPAT", "visualize"): _visualize,

@@ -1,4 +1,4 @@
-"""Where cameras look, in words; and sensors that seem to be mounted as before July 2014."""
+"""Directions of cameras in words, and sensors that seem to be mounted as before July 2014."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ STEEP = 0.5
 def check_looks(
     scene: SceneSpec, robots: Mapping[int, RobotSpec], diagnostics: Diagnostics
 ) -> None:
-    """Say where the cameras of a scene look.
+    """Report where the cameras of a scene look.
 
     Args:
         scene: the scene.
         robots: the robot of each vehicle that has one, by its number in the scene.
-        diagnostics: receives the warnings; knows the elements of the specs.
+        diagnostics: receives the warnings; has the elements of the specs.
     """
     for index, robot in robots.items():
         vehicle = scene.vehicles[index]
@@ -52,7 +52,7 @@ def check_looks(
 
 
 def looking(vehicle: VehicleSpec) -> Iterator[Looking]:
-    """Everything on a vehicle that looks somewhere."""
+    """Every part of a vehicle with a viewing direction."""
     return (part for part in vehicle.parts if isinstance(part, Looking))
 
 

@@ -1,4 +1,4 @@
-"""Where sensors and devices stand on their links, and where they look.
+"""Poses and viewing directions of sensors and devices on their links.
 
 A mount is fixed: ``<u:lookAt>`` is worked out once, for the vehicle where the file puts it and its
 joints as the file says, and then moves with its link as ``<orientation>`` would.
@@ -29,7 +29,7 @@ STRAIGHT = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Stand:
-    """A vehicle where its file puts it: what mounts are worked out from.
+    """A vehicle at its pose in the file, from which mounts are computed.
 
     Args:
         vehicle: what the file says.
@@ -72,7 +72,7 @@ class Stand:
         return self.world_from_base @ poses[link] @ link_from_frame(self.robot, link, visual)
 
     def frame_from_mounted(self, spec: Mounted, *, visual: bool = False) -> Pose:
-        """Where it stands in its link's frame, or in the link's visual frame.
+        """Its pose in its link's frame, or in the link's visual frame.
 
         Raises:
             KeyError: there is no such link.
@@ -114,7 +114,7 @@ class Stand:
 
 
 def link_from_frame(robot: RobotSpec, link: str, visual: bool) -> Pose:
-    """The frame in which something stands on a link: the link's own, or its visual one."""
+    """The frame of a mount on a link: the link's own, or its visual one."""
     found = robot.link(link)
     if not visual or found is None or found.visual is None:
         return Pose.identity()

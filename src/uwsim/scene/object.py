@@ -1,4 +1,4 @@
-"""What a scene file says of an object: its mesh, its place, how it moves."""
+"""The spec of an object: mesh, pose, physics."""
 
 from __future__ import annotations
 
@@ -133,14 +133,14 @@ class ObjectSpec:
         return self.name == TERRAIN
 
     def is_touched(self, *, in_water: bool) -> bool:
-        """Whether others touch it, beside vehicles that are simulated (``in_water``) or not."""
+        """Whether others touch it, with simulated vehicles in the scene (``in_water``) or not."""
         if self.is_solid is not None:
             return self.is_solid
         return self.physics is not None or (in_water and self.is_ground)
 
     @property
     def localized_from_object(self) -> Pose:
-        """Where it stands in L, without its scale."""
+        """Its pose in L, without its scale."""
         return Pose.from_rpy(self.position, self.orientation)
 
     @property

@@ -1,4 +1,4 @@
-"""What a scene file says of the water: ``<oceanState>`` and its ``<fog>``."""
+"""The spec of the water: ``<oceanState>`` and its ``<fog>``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
 MILD = 15.0
-"""Temperature of water of which only the salinity is said [degrees Celsius]."""
+"""Temperature of water of which only the salinity is given [degrees Celsius]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,9 +106,9 @@ class OceanStateSpec:
     """Of the water that vehicles and things float in [kg/m3]; when absent that of temperature and
     salinity, and without these the density that the vehicles' sets are given for."""
     temperature: float | None = element(namespaced=True, default=None, minimum=-2.0, maximum=40.0)
-    """Of the water, for its density by EOS-80 [degrees Celsius]; 15 where only salinity is said."""
+    """Of the water, for its density by EOS-80 [degrees Celsius]; 15 if only salinity is given."""
     salinity: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=42.0)
-    """Of the water, for its density [g/kg]; 0 where only the temperature is said, 35 in the sea."""
+    """Of the water, for its density [g/kg]; 0 if only temperature is given, 35 in the sea."""
     profile: ProfileSpec | None = element(namespaced=True, default=None)
     """Density over depth, instead of the three above."""
     currents: tuple[CurrentSpec, ...] = element(
@@ -119,7 +119,7 @@ class OceanStateSpec:
 
     @property
     def sea_water(self) -> SeaWater:
-        """The water that sound goes through; sea water where the file says nothing of its salt."""
+        """The water as an acoustic medium; sea water where the file gives no salinity."""
         warmth = MILD if self.temperature is None else self.temperature
         fresh = 0.0 if self.temperature is not None else SeaWater.salinity
         return SeaWater(warmth, fresh if self.salinity is None else self.salinity)
@@ -131,7 +131,7 @@ class OceanStateSpec:
 
     @property
     def water_density(self) -> float | None:
-        """What the file says of the density at the surface [kg/m3]; None if nothing."""
+        """Density at the surface [kg/m3]; None if the file gives none."""
         if self.profile is not None:
             return self.profile.density_at(0.0)
         if self.density is not None:

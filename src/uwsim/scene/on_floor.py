@@ -1,4 +1,4 @@
-"""Setting things on the ground, ``<u:onFloor>``.
+"""Placing vehicles and objects on the ground, ``<u:onFloor>``.
 
 .. code-block:: xml
 

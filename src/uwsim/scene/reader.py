@@ -1,4 +1,4 @@
-"""A scene file becomes a `SceneSpec`, or every error it has."""
+"""Reads a scene file into a `SceneSpec`, or reports every error."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MAX_FILES = 200
 
 
 class Library(Protocol):
-    """Where the files are that a scene names; ``uwsim.assets`` knows."""
+    """Look-up of the files that a scene names, implemented by ``uwsim.assets``."""
 
     def find(self, name: str, beside: Path) -> Path | None:
         """The file ``name``, which the file ``beside`` names; None when it is nowhere."""
@@ -90,7 +90,7 @@ def check_scene(
     further: Callable[[SceneSpec], list[Diagnostic]] | None = None,
     settled: Callable[[SceneSpec], SceneSpec] | None = None,
 ) -> list[Diagnostic]:
-    """Everything wrong or worth knowing about a scene file and the robots it names.
+    """Return the errors and warnings of a scene file and the robots it names.
 
     Args:
         path: the scene file.
@@ -125,7 +125,7 @@ def check_scene(
 
 
 def angle_warnings(scene: SceneSpec) -> list[Diagnostic]:
-    """Ask about the angles of a scene as it is set now, at the lines of its file."""
+    """Warn of the angles of a scene with its settings, at the lines of its file."""
     diagnostics = Diagnostics(scene.path or "the scene")
     if scene.path:
         with suppress(SceneError):
@@ -137,7 +137,7 @@ def angle_warnings(scene: SceneSpec) -> list[Diagnostic]:
 
 
 def check_robot(path: Path, *, library: Library | None = None) -> list[Diagnostic]:
-    """Everything wrong or worth knowing about a robot file."""
+    """Return the errors and warnings of a robot file."""
     diagnostics = Diagnostics(path)
     try:
         robot = read_robot(path, diagnostics)
@@ -157,7 +157,7 @@ def check_robot(path: Path, *, library: Library | None = None) -> list[Diagnosti
 def _robots(
     scene: SceneSpec, document: Document, library: Library | None, diagnostics: Diagnostics
 ) -> tuple[dict[int, RobotSpec], list[Diagnostic]]:
-    """The robot of each vehicle by its number, and what is to be said about their files."""
+    """The robot of each vehicle by its number, and the diagnostics of their files."""
     robots: dict[int, RobotSpec] = {}
     found: list[Diagnostic] = []
     if library is None:
@@ -193,7 +193,7 @@ def _robots(
 def _check_models(
     scene: SceneSpec, document: Document, library: Library, diagnostics: Diagnostics
 ) -> None:
-    """Say which models of objects are nowhere, or cannot be read."""
+    """Report models of objects that are not found, or cannot be read."""
     first: dict[str, ObjectSpec] = {}
     for thing in scene.objects:
         first.setdefault(thing.file, thing)
@@ -216,7 +216,7 @@ def _meshes(robot: RobotSpec) -> Iterator[str]:
 def _lost(
     what: str, spec: object, document: Document, library: Library, diagnostics: Diagnostics
 ) -> None:
-    """A file that is nowhere: an error, but in a file of the original's a warning.
+    """Report a missing file: an error, but in a scene of the original a warning.
 
     The archive with the original's models is no longer to be had, so that a scene with the
     original's DOCTYPE is not at error for naming what lay in it.

@@ -26,7 +26,7 @@ _PART = re.compile(r"([^\[\].=]+)(?:\[([^\]]*)\])?(?:\.|$)")
 
 @dataclass(frozen=True)
 class Place:
-    """Where a path leads."""
+    """The value that a path refers to."""
 
     steps: tuple[Step, ...]
     """From the whole down to the spec that has the value."""
@@ -70,7 +70,7 @@ class Place:
         return self.field.unit
 
     def with_value(self, text: str) -> Any:
-        """Return a copy of the whole with another value here; BadSetting if it cannot stand."""
+        """Return a copy of the whole with another value here; BadSetting if it is invalid."""
         changed = _with_value(self.leaf, self.field, list(self.rest), text)
         for step in reversed(self.steps):
             changed = step.put(changed)
@@ -79,12 +79,12 @@ class Place:
 
 @dataclass(frozen=True)
 class Step:
-    """From a spec to one that stands in it."""
+    """A step from a spec to a nested one."""
 
     spec: Any
     """The outer one."""
     field: str
-    """Its field in which the inner one stands."""
+    """Its field that holds the inner one."""
     index: int | None
     """Where in a tuple; None: the field is the inner one itself."""
     name: str
@@ -223,7 +223,7 @@ def _key(entries: Sequence[Any], index: int) -> str:
 
 
 def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> Any:
-    """Let the dialect read the value as if it stood in a file."""
+    """Read the value by the schema, as if it were in a file."""
     node = etree.Element(schema.camel(type(spec).__name__.removesuffix("Spec")))
     if field.kind == "triple" and not rest and text in field.words:
         etree.SubElement(node, field.tag).text = text
@@ -232,7 +232,7 @@ def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> A
             etree.SubElement(node, field.tag), getattr(spec, field.name), field, rest, text
         )
     elif rest:
-        raise BadSetting(f"<{field.shown}> is a value; nothing stands in it.")
+        raise BadSetting(f"<{field.shown}> is a value; it has no elements.")
     elif field.kind not in ("str", "float", "int", "bool", "word"):
         raise BadSetting(f"<{field.shown}> cannot be set from here; change the file.")
     elif not text and field.kind != "str":

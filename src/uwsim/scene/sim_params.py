@@ -1,4 +1,4 @@
-"""What a scene file says of the simulation and its window: ``<simParams>``, ``<camera>``."""
+"""The specs of the simulation and its window: ``<simParams>``, ``<camera>``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Images and fans of beams that are larger than anybody means: each costs memory and time."""
+"""Limits on the sizes of images and fans of beams, which cost memory and time."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ImageSpec = VirtualCameraSpec | VirtualRangeImageSpec | SimParamsSpec
 
 
 def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Say which cameras, windows and fans of beams are too large."""
+    """Report cameras, windows and fans of beams that are too large."""
     n_all = 0
     for image in (scene.sim_params, *_cameras(scene)):
         n = image.resw * image.resh

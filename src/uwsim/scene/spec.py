@@ -1,4 +1,4 @@
-"""What a scene file says: water, simulation, viewer, vehicles, objects.
+"""The spec of a scene: water, simulation, viewer, vehicles, objects.
 
 .. code-block:: xml
 
@@ -103,7 +103,7 @@ class SceneSpec:
 
     @cached_property
     def world_from_localized(self) -> Pose:
-        """W from L: what ``simParams`` says."""
+        """W from L: the offset in ``simParams``."""
         return Pose.from_xyz(self.sim_params.offsetp, self.sim_params.offsetr)
 
     @property
@@ -162,7 +162,7 @@ class SceneSpec:
 
 
 def with_integrator(scene: SceneSpec, integrator: Integrator | None) -> SceneSpec:
-    """Return the scene with an integrator of somebody's choice, where there is one.
+    """Return the scene with the chosen integrator, if any.
 
     Raises:
         BadSetting: there is none of that name.

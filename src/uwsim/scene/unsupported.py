@@ -1,4 +1,4 @@
-"""What a scene may say that uwsim reads and does not act on yet: a warning for each kind."""
+"""Elements that are read and not simulated yet: a warning for each kind."""
 
 from __future__ import annotations
 
@@ -69,14 +69,14 @@ FALLS_ALONE = "simulated where no vehicle has u:dynamics"
 
 
 def limit_of(parent: str, name: str) -> str:
-    """Say how far an element below ``parent`` is simulated; an empty text: wholly."""
+    """Describe what of an element below ``parent`` is not simulated; empty: nothing."""
     if (parent, name) in FALL:
         return FALLS_ALONE
     return READ_ONLY if (parent, name) in UNSUPPORTED else ""
 
 
 def not_simulated(root: etree._Element, diagnostics: Diagnostics) -> None:
-    """Name every kind of thing that is read and not simulated yet, with its lines."""
+    """Report every kind of element that is read and not simulated yet, with its lines."""
     lines: dict[str, list[int]] = {}
     is_dynamic = root.find(f"vehicle/{{{NAMESPACE}}}dynamics") is not None
     falls = not is_dynamic and (root.findtext("simParams/enablePhysics") or "").strip() == "1"

@@ -1,4 +1,4 @@
-"""What a robot file (URDF) says: links, joints, and what is seen and touched of them.
+"""The spec of a robot (URDF): links, joints, visuals and collisions.
 
 .. code-block:: xml
 
@@ -29,7 +29,7 @@ JointKind = Literal["revolute", "continuous", "prismatic", "fixed"]
 
 @dataclass(frozen=True, kw_only=True)
 class VisualSpec:
-    """A shape on a link: what is seen, or what is touched."""
+    """A visual or collision shape on a link."""
 
     kind: ShapeKind
     """What it is made of."""
@@ -68,12 +68,12 @@ class LinkSpec:
 
     @property
     def visual(self) -> VisualSpec | None:
-        """The first of what is seen of it: its origin is the link's visual frame."""
+        """The first visual, whose origin is the link's visual frame."""
         return self.visuals[0] if self.visuals else None
 
     @property
     def solids(self) -> tuple[VisualSpec, ...]:
-        """What touches others: its collisions, else what is seen of it."""
+        """Its collision shapes; without any, its visuals."""
         return self.collisions or self.visuals
 
 
@@ -91,16 +91,16 @@ class MimicSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class JointSpec:
-    """How a link hangs on another."""
+    """A joint between two links."""
 
     name: str
     """Its name."""
     kind: JointKind
     """How it moves; what URDF calls floating or planar is fixed, as in the original."""
     parent: str
-    """The link it hangs on."""
+    """The parent link."""
     child: str
-    """The link that hangs on it."""
+    """The child link."""
     position: Triple = ZERO
     """Of the joint in the parent's frame [m]."""
     rpy: Triple = ZERO
@@ -131,7 +131,7 @@ class RobotSpec:
     name: str
     """Its name."""
     root: str
-    """The link that hangs on none."""
+    """The root link, which has no parent."""
     links: tuple[LinkSpec, ...]
     """The root first, then in the order of the joints."""
     joints: tuple[JointSpec, ...]

@@ -1,4 +1,4 @@
-"""``<joint>`` of a robot file: how it moves, how far, and which joint it mimics."""
+"""Reads ``<joint>`` of a robot file: type, limits and mimic."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def with_leader(
 
 
 def check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None:
-    """Say which joints mimic each other in a loop; every joint is visited once."""
+    """Report joints that mimic each other in a loop; every joint is visited once."""
     seen: set[str] = set()
     for name in joints:
         path: dict[str, int] = {}  # joint -> how many before it

@@ -1,4 +1,4 @@
-"""``<link>`` of a robot file: its mass, and the shapes that are seen and touched."""
+"""Reads ``<link>`` of a robot file: inertial, visuals and collisions."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def read_link(
 def read_materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, Colour]:
     """The colours that have names: those of the robot, then those that visuals define."""
     found: dict[str, Colour] = {}
-    quiet = Diagnostics(diagnostics.file)  # what is wrong with a visual's is said with the visual
+    quiet = Diagnostics(diagnostics.file)  # a visual reports its own errors
     for path, sink in (("material", diagnostics), ("link/visual/material", quiet)):
         for node in root.findall(path):
             colour = colour_of(node, sink)

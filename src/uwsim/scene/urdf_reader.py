@@ -1,4 +1,4 @@
-"""A robot file (URDF) becomes a `RobotSpec`, or every error it has.
+"""Reads a robot file (URDF) into a `RobotSpec`, or reports every error.
 
 UWSim's rules: the tree is walked depth first, children in the alphabetical order of their joints'
 names, and the movable joints in that order are the joint vector; limits hold for continuous joints
@@ -80,21 +80,21 @@ def _tree(
     joints: dict[str, JointSpec],
     diagnostics: Diagnostics,
 ) -> RobotSpec | None:
-    """Put links and joints into UWSim's order."""
+    """Sort links and joints into UWSim's order."""
     children: dict[str, list[JointSpec]] = {}
     hung: dict[str, JointSpec] = {}
     for joint in sorted(joints.values(), key=lambda joint: joint.name):
         if joint.child in hung:
             diagnostics.error(
                 diagnostics.node_of(joint),
-                f"link {joint.child!r} hangs on two joints, {hung[joint.child].name!r} and "
+                f"link {joint.child!r} has two parent joints, {hung[joint.child].name!r} and "
                 f"{joint.name!r}",
             )
         hung[joint.child] = joint
         children.setdefault(joint.parent, []).append(joint)
     roots = [name for name in links if name not in hung]
     if len(roots) != 1:
-        what = f"{len(roots)} links hang on none: {', '.join(roots[:5])}" if roots else "a loop"
+        what = f"{len(roots)} links have no parent: {', '.join(roots[:5])}" if roots else "a loop"
         diagnostics.error(root, f"the joints are no tree with one root; found {what}")
         return None
     ordered: list[JointSpec] = []

@@ -1,4 +1,4 @@
-"""Attributes of a robot file: names, numbers, places and colours, or what is wrong with them."""
+"""Reads the attributes of a robot file: names, numbers, positions and colours."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-r"""vary: values of a file that are drawn anew for each seed; an extension of the dialect.
+r"""vary: values that are drawn at random for each seed; an extension of the dialect.
 
 .. code-block:: xml
 
@@ -40,7 +40,7 @@ BOUNDS = 3.0
 
 @dataclass(frozen=True, kw_only=True)
 class VariationSpec(abc.ABC):
-    """What a file says about one value that differs from seed to seed."""
+    """The spec of one value that is drawn for each seed."""
 
     path: str = element(namespaced=True)
     """Which value, as ``--set`` names it: ``vehicle[girona500].position.x``."""
@@ -150,7 +150,7 @@ DISTRIBUTIONS: dict[str, type[VariationSpec]] = {
 
 @dataclass(frozen=True)
 class Draw:
-    """What one variation gave under one seed."""
+    """The value of one variation under one seed."""
 
     path: str
     """The value's full path: `uwsim.scene.settings.Place.path`."""
@@ -200,7 +200,7 @@ def check_variations(
     find: Find = locate,
     also: Callable[[Any], None] = lambda changed: None,
 ) -> None:
-    """Say what is wrong with variations: paths, kinds, bounds, and two of one value.
+    """Report errors in variations: paths, kinds, bounds, and two of one value.
 
     Args:
         spec: a scene, or a benchmark.
@@ -226,7 +226,7 @@ def check_variations(
 def _at_its_bounds(place: Place, variation: VariationSpec) -> list[Any]:
     """Return the whole with the value at either bound; BadSetting if it cannot vary so."""
     if place.rest and place.field.kind != "triple":
-        raise BadSetting(f"<{place.field.shown}> is a value; nothing stands in it.")
+        raise BadSetting(f"<{place.field.shown}> is a value; it has no elements.")
     if not place.is_number:
         raise BadSetting(f"it is {place.kind}; only a number can vary.")
     if wrong := variation.diagnostic():

@@ -1,4 +1,4 @@
-"""What a scene file says of a vehicle: a robot, where it stands, its sensors and devices.
+"""The spec of a vehicle: robot, pose, sensors and devices.
 
 .. code-block:: xml
 
@@ -99,5 +99,5 @@ class VehicleSpec:
 
     @property
     def localized_from_base(self) -> Pose:
-        """Where its base stands in L at the start, without its scale."""
+        """Pose of its base in L at the start, without its scale."""
         return Pose.from_xyz(self.position, self.orientation)

@@ -1,4 +1,4 @@
-"""A `SceneSpec` becomes a scene file again; reading it gives an equal spec."""
+"""Writes a `SceneSpec` as a scene file; reading it gives an equal spec."""
 
 from __future__ import annotations
 

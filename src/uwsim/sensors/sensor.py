@@ -9,7 +9,7 @@ from typing import ClassVar, Literal, Protocol, runtime_checkable
 from ..world import Body, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
-"""Of the vehicle, as it stands in its file."""
+"""Of the vehicle, at its pose in the file."""
 LookAt = tuple[float, float, float] | Direction | None
 """What ``<u:lookAt>`` may say: a point in L [m], a direction of the vehicle, or nothing."""
 

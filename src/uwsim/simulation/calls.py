@@ -40,7 +40,7 @@ class Calls:
     """Each ``with`` block is a call into the algorithm; what is called within one is part of it.
 
     Args:
-        counter: where calls are counted; without one nobody looks.
+        counter: shared memory in which calls are counted; None: not shared.
         cut: the call that is not made.
     """
 

@@ -4,7 +4,7 @@ Every link of a vehicle, as the box around its collision geometry, else around w
 a finger, a link at the end of a chain that a joint moves, as its mesh where that is convex. And the
 objects that `uwsim.scene.spec.SceneSpec.solid_objects` names. Where a vehicle is simulated,
 or the scene asks for the original's physics, an object is loose if it has a mass and is not
-``isKinematic``; elsewhere it stands still. Solid scenery without ``<physics>`` is its faces; of a
+``isKinematic``; elsewhere it is fixed. Solid scenery without ``<physics>`` is its faces; of a
 mesh of more than `MAX_TRIANGLES` those of a simpler one. Not modelled: contacts of a vehicle with
 itself, of objects that stand still with each other; limits of objects; hollows between the hulls of
 a link.

@@ -64,7 +64,7 @@ class Contacts:
 
     @property
     def _laid(self) -> Mapping[str, Any] | None:
-        """The state of what is laid over each other; None while nobody has asked."""
+        """The overlaps of kinematic bodies; None before the first request."""
         return None if self._touching is None else state_of(self._touching)
 
     @_laid.setter

@@ -1,8 +1,8 @@
 """Looks up the hydrodynamics of a scene's vehicles and every name that belongs to it.
 
-Looked up before anything is simulated, and wrong ones said all at once with their lines: sets and
-hydrodynamics files, thrusters that fail, interfaces that want a simulated vehicle, topics that two
-interfaces use for different messages, files of currents.
+Names are looked up before anything is simulated, and all errors are reported with their lines:
+sets, hydrodynamics files, thrusters that fail, interfaces that want a simulated vehicle, topics
+that two interfaces use for different messages, files of currents.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ U = f"{{{NAMESPACE}}}"
 MAX_NAMED = 8
 """Links that one warning names."""
 MIN_LIFT = 0.1
-"""What other water must add to the buoyancy of a vehicle to be told [N]."""
+"""Smallest change of buoyancy by another density that is reported [N]."""
 MAX_BUOYANCY = 100.0
-"""Buoyancy per weight that no vehicle has: the lightest foam has 10 kg/m3 [1]."""
+"""Greatest buoyancy per weight: the lightest foam has 10 kg/m3 [1]."""
 
 
 def read_dynamics(

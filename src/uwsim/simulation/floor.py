@@ -30,7 +30,7 @@ from .checks.scene_lines import SceneLines
 from .collision_shapes import collision_shapes, standing_faces
 
 HULL = PhysicsSpec(collision_shape_type="trimesh")
-"""What an object without ``<physics>`` stands on: the hulls of its materials."""
+"""Collision shapes of an object without ``<physics>``: the hulls of its materials."""
 
 
 def set_on_floor(
@@ -139,7 +139,7 @@ class Floor:
         Args:
             world_from_body: where the file puts it.
             body: its triangles there, (n, 3, 3) [m]; none: its origin alone.
-            spec: how it stands.
+            spec: its ``<u:onFloor>``.
         """
         origin = world_from_body.position
         if not len(body):

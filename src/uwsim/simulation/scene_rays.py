@@ -66,7 +66,7 @@ class SceneRays:
 
     @cached_property
     def _scene(self) -> RayScene:
-        """What stands fixed as the first body, then all that moves."""
+        """Fixed bodies as the first body, then all that move."""
         fixed: list[Surface] = []
         for part in self._parts:
             if self._is_fixed(part):
@@ -78,7 +78,7 @@ class SceneRays:
         return part.object is not None and self._state.poses.is_fixed(part.object)
 
     def _frame(self, vehicle: int | None, link: str, thing: int | None) -> Callable[[], Array]:
-        """What says where a link or an object is, (4, 4) [m]."""
+        """The present pose of a link or an object, (4, 4) [m]."""
         state = self._state
         if vehicle is not None:
             return lambda: state.poses.link_frame(vehicle, link)

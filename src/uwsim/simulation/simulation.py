@@ -38,7 +38,7 @@ class Simulation:
     """A running scene: the clock, the step, and the attached algorithms.
 
     Args:
-        scene: what the file says; what varies in it is drawn for the seed.
+        scene: spec of the scene; its variations are drawn for the seed.
         options: those of `uwsim.simulation.world.SceneWorld`: ``seed``, ``stream_prefix``,
             ``timestep``, ``integrator``, ``data_path``, ``compatibility``, ``pool``,
             ``is_blind``.
@@ -96,7 +96,7 @@ class Simulation:
 
         Raises:
             BadSetting: the time is negative or not finite.
-            RunFailed: the engine cannot go on; says why.
+            RunFailed: the engine cannot continue.
         """
         if not self._is_started:
             self.start()
@@ -193,7 +193,7 @@ class Simulation:
         """Call a service and return its response.
 
         Raises:
-            UnknownName: nobody offers it; names the nearest.
+            UnknownName: it is not offered; the message has the nearest name.
             BadMessage: the request is of another type.
         """
         return self.bus.call(service, request)
@@ -322,11 +322,11 @@ class Simulation:
         """Return the state as bytes, exact to the bit; `uwsim.simulation.snapshot` lists its parts.
 
         Raises:
-            UwsimError: an algorithm is attached: what it knows cannot be saved.
+            UwsimError: an algorithm is attached, whose state cannot be saved.
         """
         if self._nodes:
             names = ", ".join(node.name for node in self._nodes)
-            raise UwsimError(f"Cannot be saved: {names} is attached, and keeps what it knows.")
+            raise UwsimError(f"Cannot be saved: {names} is attached, with a state of its own.")
         newest = {topic: (box.last, box.last_step) for topic, box in self._inboxes.items()}
         values = {"is_open": self._is_started, "newest": newest, "world": state_of(self.world)}
         return packed({"uwsim": __version__, **values})

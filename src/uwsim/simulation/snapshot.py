@@ -30,7 +30,7 @@ ARRAYS = {
     ("mujoco._structs", "MjData"),
     ("mujoco._structs", "MjModel"),
 }
-"""What saved bytes may be made of, beside numbers, texts and dataclasses of uwsim and rosbags."""
+"""Types allowed in saved bytes, besides numbers, texts and dataclasses of uwsim and rosbags."""
 
 
 def state_of(thing: object) -> dict[str, Any]:

@@ -25,7 +25,7 @@ class SceneVehicle:
 
     Args:
         index: its number in the scene.
-        stand: the vehicle where its file puts it.
+        stand: the vehicle at its pose in the file.
         state: where its links are.
     """
 

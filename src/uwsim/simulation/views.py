@@ -28,7 +28,7 @@ MAX_RADIUS = 10.0
 WELL_SEEN = 0.98
 """Share of what matters that a good view is not hidden from [1]."""
 BEARINGS = (35.0, -35.0, 145.0, -145.0, 80.0, -80.0, 0.0, 180.0)
-"""Where to stand to look at a vehicle, from its bow to starboard; the best first [deg]."""
+"""Azimuths from which to view a vehicle, from its bow to starboard; the best first [deg]."""
 ELEVATIONS = (25.0, 50.0, 10.0)
 """How high above the horizon [deg]."""
 SKETCH: Size = (96, 72)
@@ -72,7 +72,7 @@ def viewer_view(simulation: Simulation, spec: ViewerCameraSpec, size: Size) -> V
     """The viewer's camera of a scene file: in W, or about what it tracks.
 
     Raises:
-        BadSetting: it stands where it looks.
+        BadSetting: the two points are the same.
     """
     centre = np.zeros(3)
     if not spec.free_motion and spec.object_to_track:
@@ -187,7 +187,7 @@ def _axes(ahead: Array, bearing: float, elevation: float) -> Array:
 def _looking(eye: Array, ahead: Array, what: str) -> Pose:
     distance = length(ahead)
     if not distance > 0.0:
-        raise BadSetting(f"{what} stands where it looks: {', '.join(f'{x:g}' for x in eye)}.")
+        raise BadSetting(f"{what} looks at its own position: {', '.join(f'{x:g}' for x in eye)}.")
     return Pose(eye, camera_axes(ahead / distance, UP))
 
 

@@ -40,9 +40,9 @@ class SceneWorld:
     """A scene with its bodies, cameras and topics (`uwsim.world.World`, `uwsim.world.SensorWorld`).
 
     Args:
-        scene: what the file says; what varies in it is drawn for the seed.
+        scene: spec of the scene; its variations are drawn for the seed.
         seed: the run's seed.
-        stream_prefix: stands in front of the name of every random stream.
+        stream_prefix: prefix of the name of every random stream.
         timestep: length of a step [s].
         integrator: ``implicitfast`` or ``RK4`` instead of the file's (`SimParamsSpec`).
         data_path: folders in which files are looked for.
@@ -72,7 +72,7 @@ class SceneWorld:
         """The robot of each vehicle, by its number in the scene."""
         self._as_written = scene
         self.scene = scene = set_on_floor(scene, self.robots, data_path)
-        """What the file says, as it is for this seed."""
+        """Spec of the scene with the variations of this seed."""
         self._seed, self._prefix, self._timestep = seed, stream_prefix, timestep
         self._data_path, self._compatibility = data_path, compatibility
         self._runs_code = runs_code
@@ -228,7 +228,7 @@ class SceneWorld:
         return stream(self._seed, self._prefix + name)
 
     def find(self, name: str, *, beside: str) -> Path:
-        """Find a file that the file ``beside`` names; AssetNotFound says where it was sought."""
+        """Find a file that the file ``beside`` names; AssetNotFound lists the folders searched."""
         return find_file(name, beside, self._data_path)
 
     def render(

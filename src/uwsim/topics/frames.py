@@ -25,7 +25,7 @@ class Frame:
 
 
 def transform(parent: str, child: str, parent_from_child: Pose, time: float) -> TransformStamped:
-    """Build a transform at ``time`` [s]; names without a leading slash, as tf2 wants them."""
+    """Build a transform at ``time`` [s]; names without a leading slash, as tf2 requires."""
     w, x, y, z = parent_from_child.quaternion.tolist()
     px, py, pz = parent_from_child.position.tolist()
     return TransformStamped(

@@ -255,7 +255,7 @@ def test_if_nobody_takes_the_truth_that_is_noted_and_no_error() -> None:
     world, _ = seen_box()
     norm = corners_spec("autoInit").bind(world)
     norm.start()
-    assert norm.notes == ("'autoInit' was not called: nobody serves it",)
+    assert norm.notes == ("'autoInit' was not called: it is not offered",)
 
 
 def test_the_truth_is_that_of_the_step_at_which_the_estimate_arrives() -> None:

@@ -185,6 +185,6 @@ def test_a_benchmark_that_cannot_begin_says_what_the_algorithm_waits_for(tmp_pat
             node.publisher("estimate", String)
             node.subscribe("/front/image", Image, lambda _: None)
 
-    said = r"see to it\? \w+: it subscribes to '/front/image', but nobody publishes it\.$"
+    said = r"see to it\? \w+: it subscribes to '/front/image', but it has no publisher\.$"
     with pytest.raises(NeverStarted, match=said):
         rows_of(make_plan(tmp_path, Waits, REPEAT, start=NEVER))

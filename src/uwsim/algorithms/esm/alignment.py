@@ -10,9 +10,9 @@ where :math:`J_I` is the gradient of the warped image and :math:`J_{I^*}` that o
 a = b = 1/2 is ESM (Benhimane and Malis 2004, 2007): second order without second derivatives.
 a = 0, b = 1 is inverse compositional (Baker and Matthews 2004), a = 1, b = 0 forward compositional.
 
-*Photometry.* Both patches are brought to zero mean and unit variance, and what a change of gain
-and bias would explain of J is taken out of it (projection beside 1 and I*), so that light and fog
-do not look like motion. Without it the grey levels are compared as they are.
+*Photometry.* Both patches are brought to zero mean and unit variance, and what a change of gain and
+bias would explain of J is taken out of it (projection onto the complement of 1 and I*), so that
+light and fog do not look like motion. Without it the grey levels are compared as they are.
 """
 
 from __future__ import annotations

@@ -311,7 +311,7 @@ class EuclideanNorm(Measure):
     def _publish(self, service: str) -> None:
         truth = self._truth.read()
         if not self._world.bus.serves(service):
-            self._notes.append(f"{service!r} was not called: nobody serves it")
+            self._notes.append(f"{service!r} was not called: it is not offered")
         elif truth is None:
             self._notes.append(f"{service!r} was not called: {self._truth.missing}")
         else:

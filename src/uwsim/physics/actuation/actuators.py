@@ -45,7 +45,7 @@ class Actuators:
             model: the engine's.
             data: its state.
             water: around the vehicle.
-            vehicle: what its hydrodynamics file says.
+            vehicle: its hydrodynamics.
             robot: its links and joints.
             index: number of the vehicle.
             refresh: brings the places in ``data`` up to date.

@@ -1,4 +1,4 @@
-"""The kernel as MuJoCo's callback for passive forces, and a loop that does without the callback.
+"""The kernel as MuJoCo's callback for passive forces, and a stepping loop without the callback.
 
 MuJoCo calls ``mjcb_passive`` after it has factorised the mass matrix and before anything uses it
 for accelerations. There the wrapper rebuilds M if it has had its water (the callback may run twice
@@ -29,7 +29,7 @@ from .memory import Floats, Ints64
 
 
 class CallbackTaken(UwsimError):
-    """Somebody else's function sits in MuJoCo's one slot for passive forces."""
+    """Another function is installed in MuJoCo's slot for passive forces."""
 
 
 @functools.cache
@@ -45,7 +45,7 @@ def library() -> ctypes.CDLL:
 
 @functools.cache
 def offsets() -> Ints64:
-    """The offsets of this MuJoCo, held against a small model once."""
+    """The field offsets of this MuJoCo, checked on a small model once."""
     at = layout.offsets()
     model = mujoco.MjModel.from_xml_string(_SMALL)
     data = mujoco.MjData(model)
@@ -115,7 +115,7 @@ def has_slot() -> bool:
 
 
 def is_installed() -> bool:
-    """Whether our function sits in the slot."""
+    """Whether our function is installed in the slot."""
     return has_slot() and _slot().value == _address()
 
 
@@ -138,7 +138,7 @@ def install() -> None:
 
 @functools.cache
 def stop_profiler() -> None:
-    """Take the clock away with which MuJoCo's bindings time every stage of every step, once.
+    """Remove, once, the timer with which MuJoCo's bindings time every stage of a step.
 
     It is a twentieth of a step, and nobody reads ``data.timer`` unless they ask for it: a clock set
     with ``mujoco.set_mjcb_time`` stays.
@@ -161,12 +161,12 @@ def add_water(model: mujoco.MjModel, data: mujoco.MjData) -> None:
 
 
 def to_the_middle(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """What is to be done before a step of MuJoCo's; see `free_bodies`."""
+    """The part of the step before MuJoCo's; see `free_bodies`."""
     free_bodies.to_the_middle(model._address, data._address, offsets())
 
 
 def to_the_end(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """What is to be done after it."""
+    """The part of the step after MuJoCo's; see `free_bodies`."""
     free_bodies.to_the_end(model._address, data._address, offsets())
 
 

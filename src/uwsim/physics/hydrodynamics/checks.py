@@ -1,4 +1,4 @@
-"""Everything that is wrong with the numbers of bodies, thrusters, fins and drives, all at once."""
+"""Checks of the numbers of bodies, thrusters, fins and drives."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ DRAG: dict[str, Kind] = {"linear_damping": "linear", "quadratic_damping": "quadr
 
 
 def body_errors(body: BodyHydrodynamics) -> list[str]:
-    """Everything that is wrong with the numbers of a body."""
+    """Return every error in the numbers of a body."""
     who = f"link {body.link!r}"
     if errors := number_errors(who, body):
         return errors
@@ -68,7 +68,7 @@ def body_errors(body: BodyHydrodynamics) -> list[str]:
 
 
 def thruster_errors(thruster: ThrusterSpec) -> list[str]:
-    """Everything that is wrong with the numbers of a thruster."""
+    """Return every error in the numbers of a thruster."""
     who = f"thruster {thruster.name!r}"
     if errors := number_errors(who, thruster):
         return errors
@@ -101,13 +101,13 @@ def thruster_errors(thruster: ThrusterSpec) -> list[str]:
 
 
 def drive_errors(drive: JointDrive) -> list[str]:
-    """Everything that is wrong with the numbers of a joint's drive."""
+    """Return every error in the numbers of a joint's drive."""
     who = f"joint {drive.name!r}"
     return number_errors(who, drive) or beyond_limits(who, drive)
 
 
 def density_errors(density: float) -> list[str]:
-    """Say what is wrong with the density of the water."""
+    """Return every error in the density of the water."""
     if LIQUIDS[0] <= density <= LIQUIDS[1]:
         return []
     return [
@@ -117,7 +117,7 @@ def density_errors(density: float) -> list[str]:
 
 
 def vehicle_errors(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[str]:
-    """Everything that is wrong with a set, for a robot with these links."""
+    """Return every error in a set, for a robot with these links."""
     known = list(links)
     errors = []
     links_named = [body.link for body in vehicle.bodies]
@@ -197,7 +197,7 @@ def _lift_errors(who: str, lift: Array) -> list[str]:
 
 
 def _advance_errors(who: str, advance: Numbers) -> list[str]:
-    """Say what is wrong with the thrust over the advance ratio."""
+    """Return every error in the curve of the thrust over the advance ratio."""
     if not advance:
         return []
     if len(advance) % 2 or not 4 <= len(advance) <= 2 * MAX_POINTS:
@@ -216,7 +216,7 @@ def _advance_errors(who: str, advance: Numbers) -> list[str]:
 
 
 def _thrust_errors(who: str, thruster: ThrusterSpec) -> list[str]:
-    """Say where more command is less thrust, or none at all."""
+    """Report where the thrust curve does not rise."""
     backward = thruster.forward if thruster.backward is None else thruster.backward
     sides = [
         ("forward", thruster.forward, thruster.limits[1], "0 at most"),

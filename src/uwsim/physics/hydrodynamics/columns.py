@@ -1,4 +1,4 @@
-"""Columns of the tables inside the model: what the kernel knows of a body and of a thruster.
+"""Columns of the tables inside the model: the parameters of a body and of a thruster.
 
 The tables are ``body_user`` and ``actuator_user`` of the model, so that they survive attaching,
 saving and loading, and copies for a batch. What changes while a simulation runs (the water's

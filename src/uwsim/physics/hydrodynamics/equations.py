@@ -1,11 +1,11 @@
 r"""Fossen's equations for one body, on plain numbers and arrays.
 
-Nothing here knows where the numbers lie: the kernel, and any other back end (a batch on a GPU),
-reads them from its own memory and hands them in. Six numbers of a twist or a force are in the
-literature's order (surge, sway, heave, roll, pitch, yaw) and in the axes of the body, about its
+Nothing here depends on where the numbers are stored: the kernel, and any other back end (a batch on
+a GPU), reads them from its own memory and passes them in. Six numbers of a twist or a force are in
+the literature's order (surge, sway, heave, roll, pitch, yaw) and in the axes of the body, about its
 reference point; ``table`` is a row of the body's table (`columns`), ``axes`` the nine numbers of
-world_from_body row by row, ``lever`` leads from the origin of the sums to the reference point,
-in world axes [m].
+world_from_body row by row, ``lever`` leads from the origin of the sums to the reference point, in
+world axes [m].
 
 After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), chapters 6 and 8.
 """
@@ -200,7 +200,7 @@ def paces(table: Floats, nu: Six) -> Six:
 
 @njit
 def _slope(table: Floats, i: int, speed: float, pace: float) -> float:
-    """How the drag of a component grows with it: linear + quadratic (s + u^2 / s)."""
+    """Derivative of the drag of a component: linear + quadratic (s + u^2 / s)."""
     own = abs(speed)
     grows = 2.0 * own if pace == own else pace + own * own / pace
     slope: float = table[LINEAR + 7 * i] + table[QUADRATIC + 7 * i] * grows
@@ -209,7 +209,7 @@ def _slope(table: Floats, i: int, speed: float, pace: float) -> float:
 
 @njit
 def slopes(table: Floats, nu: Six, pace: Six) -> Six:
-    """How the drag of each component grows with it."""
+    """Derivative of the drag of each component."""
     return (
         _slope(table, 0, nu[0], pace[0]), _slope(table, 1, nu[1], pace[1]),
         _slope(table, 2, nu[2], pace[2]), _slope(table, 3, nu[3], pace[3]),
@@ -219,7 +219,7 @@ def slopes(table: Floats, nu: Six, pace: Six) -> Six:
 
 @njit
 def diagonal_force(table: Floats, nu: Six, rate: Six, pace: Six, slope: Six, step: float) -> Six:
-    r"""What added mass and drag do, all diagonal: :math:`-(M_A + h D')\dot\nu - D(\nu)\,\nu`.
+    r"""Force of diagonal added mass and drag: :math:`-(M_A + h D')\dot\nu - D(\nu)\,\nu`.
 
     Drag is linear over a step, so that it answers to what is known of the rate as to the rest.
     """
@@ -274,7 +274,7 @@ def full_force(
 
 @njit
 def coriolis(nu: Six, omega: Three, momentum: Six) -> Six:
-    r"""What the moving added mass takes, :math:`C_A(\nu)\,\nu` (Kirchhoff).
+    r"""Coriolis force of the added mass, :math:`C_A(\nu)\,\nu` (Kirchhoff).
 
     The axes turn with the body's own rotation :math:`\omega`, in still water that of the twist.
 

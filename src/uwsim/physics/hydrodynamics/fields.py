@@ -1,4 +1,4 @@
-"""Where in the kernel's memory things lie: fields of MuJoCo's structs, and rows of its own.
+"""Memory layout of the kernel: fields of MuJoCo's structs, and rows of its own.
 
 A field's number here is its place among the offsets that `layout.offsets` gives.
 """

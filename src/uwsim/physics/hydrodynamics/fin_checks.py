@@ -1,4 +1,4 @@
-"""Everything that is wrong with the numbers of a fin."""
+"""Return every error in the numbers of a fin."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ALONG = 0.1
 
 
 def fin_errors(fin: FinSpec) -> list[str]:
-    """Everything that is wrong with the numbers of a fin."""
+    """Return every error in the numbers of a fin."""
     who = f"fin {fin.name!r}"
     if errors := number_errors(who, fin):
         return errors

@@ -1,4 +1,4 @@
-"""How the water flows past a point of a body: at a propeller, at a fin."""
+"""Flow of the water past a point of a body: at a propeller, at a fin."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Free bodies in water keep their energy: `midpoint`, out of and into MuJoCo's memory.
+"""Energy-conserving step of free bodies in water: `midpoint` on MuJoCo's memory.
 
 What MuJoCo solves is explicit. A force on the six degrees of freedom of a tree of bodies turns its
 answer into that of the midpoint rule, and one on every joint leaves the joints alone. It is 0
@@ -270,7 +270,7 @@ def _momentum(own: Floats, wx: float, wy: float, wz: float, vx: float, vy: float
 
 @njit
 def _applied(m: int, d: int, at: Ints64, body: int, dof: int, lever: Three, b: Floats) -> None:
-    """Add what ``qfrc_applied`` says of the six degrees of freedom."""
+    """Add ``qfrc_applied`` of the six degrees of freedom."""
     force = floats(word(d + at[f.APPLIED]) + 8 * dof, 6)
     axes = floats(word(d + at[f.XMAT]) + 72 * body, 9)
     rx, ry, rz = lever
@@ -369,7 +369,7 @@ def _hold_joints(
     m: int, d: int, at: Ints64, body: int, start: int, length: int, lever: Three, b: Floats,
     passive: Floats,
 ) -> None:  # fmt: skip
-    """Let the joints feel the acceleration that comes on top, so that they do not move for it."""
+    """Apply the additional acceleration to the joints, so that they do not move by it."""
     rx, ry, rz = lever
     axes = floats(word(d + at[f.XMAT]) + 72 * body, 9)
     x, y, z = b[STEP], b[STEP + 1], b[STEP + 2]

@@ -1,4 +1,4 @@
-"""The water of one model: install it, set currents and thrusters, step."""
+"""Hydrodynamics of one model: installation, currents, thrusters, step."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from .self_test import self_test
 
 
 class NoWater(UwsimError):
-    """A model that cannot have hydrodynamics as it stands."""
+    """A model that cannot have hydrodynamics."""
 
 
 class Hydrodynamics:
-    """The water around the bodies of one model; what changes lies in the data it is given."""
+    """Hydrodynamics of the bodies of one model; its state is in the given data."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model = model
@@ -68,7 +68,7 @@ class Hydrodynamics:
         *,
         body: int | npt.NDArray[np.int64] | None = None,
     ) -> None:
-        """Let the water move at a body or some, or everywhere.
+        """Set the velocity of the water at one or several bodies, or everywhere.
 
         Args:
             data: the state.
@@ -84,7 +84,7 @@ class Hydrodynamics:
         rows[chosen, c.TURN : c.TURN + 3] = rotation
 
     def felt_at(self, body: int) -> Floats:
-        """Where a body feels the water, in its axes, (3,) [m]: see `state.State.wet_positions`."""
+        """The point at which a body samples the flow, in its axes, (3,) [m]."""
         row = self.model.body_user[body]
         point = row[c.REFERENCE : c.REFERENCE + 3].copy()
         if row[c.DISPLACED] > 0.0:
@@ -94,7 +94,7 @@ class Hydrodynamics:
     def set_elevation(
         self, data: mujoco.MjData, elevation: float, *, body: int | None = None
     ) -> None:
-        """Let the surface stand above its still height at a body, or everywhere [m]."""
+        """Set the elevation of the surface at a body, or everywhere [m]."""
         self.water(data)[slice(None) if body is None else body, 6] = elevation
 
     def set_thruster(self, data: mujoco.MjData, index: int, command: float) -> None:
@@ -118,19 +118,19 @@ class Hydrodynamics:
             data.act[address] = 0.0
 
     def set_loss(self, data: mujoco.MjData, index: int, loss: float) -> None:
-        """Let a thruster lose a part of its thrust: 0 healthy, 1 dead."""
+        """Set the share of its thrust that a thruster loses: 0 healthy, 1 dead."""
         data.userdata[c.WATER_COLUMNS * self.model.nbody + self.thrusters[index]] = loss
 
     def turn_fin(self, data: mujoco.MjData, name: str, angle: float) -> None:
-        """Let a fin turn to an angle, by its actuator's name [rad]."""
+        """Command the angle of a fin, by its actuator's name [rad]."""
         data.userdata[c.WATER_COLUMNS * self.model.nbody + self._fin(name)] = angle
 
     def fin_angle(self, data: mujoco.MjData, name: str) -> float:
-        """How far a fin is turned now [rad]."""
+        """Present angle of a fin [rad]."""
         return float(data.act[self.model.actuator_actadr[self._fin(name)]])
 
     def stop_fin(self, data: mujoco.MjData, name: str) -> None:
-        """Put a fin at the angle 0, at once."""
+        """Set the angle of a fin to 0."""
         self.turn_fin(data, name, 0.0)
         data.act[self.model.actuator_actadr[self._fin(name)]] = 0.0
 
@@ -189,7 +189,7 @@ class Hydrodynamics:
 
 
 def install(model: mujoco.MjModel) -> Hydrodynamics:
-    """Give a compiled model its water.
+    """Install the hydrodynamics of a compiled model.
 
     Checks MuJoCo's layout and the kernel, puts the kernel into MuJoCo's slot, and corrects the
     model's inverse weights; a second time changes nothing.
@@ -209,7 +209,7 @@ def install(model: mujoco.MjModel) -> Hydrodynamics:
 
 
 def _bodies_in_flow(model: mujoco.MjModel) -> set[int]:
-    """Bodies whose fins or propellers feel how the water moves."""
+    """Bodies with fins or propellers that depend on the flow."""
     if model.nuser_actuator != c.ACTUATOR_COLUMNS:
         return set()
     rows = model.actuator_user

@@ -77,7 +77,7 @@ from .stratification import density_ratio
 from .thrusters import add_thrust
 
 _WET = 1e-300
-"""Stands in the world's composite inertia, which nobody reads and MuJoCo clears with every M."""
+"""Marker in the world's composite inertia, which is unused and which MuJoCo clears with every M."""
 _GRAVITY_OFF = 128  # mjDSBL_GRAVITY
 _DIAGEXACT = 32  # mjENBL_DIAGEXACT
 _RK4, _PGS = 1, 0
@@ -166,7 +166,7 @@ def add_water(m: int, d: int, at: Ints64) -> None:
 
 @njit
 def water_wrenches(m: int, d: int, at: Ints64, wrenches: Floats) -> None:
-    """What the water and the thrusters do to every body and all that hangs on it.
+    """Wrench of the water and the thrusters on the subtree of every body.
 
     Needs ``cacc``, as a step with force sensors (or ``mj_rnePostConstraint``) leaves it.
 

@@ -1,4 +1,4 @@
-"""Where the fields of MuJoCo's C structs lie, worked out from `mujoco.introspect`.
+"""Offsets of the fields of MuJoCo's C structs, computed from `mujoco.introspect`.
 
 The kernel gets nothing but the addresses of ``mjModel`` and ``mjData``. The offset of every field
 it reads follows from the declarations by C's rules of alignment; `check` holds the offsets
@@ -45,7 +45,7 @@ _SIZES = {
 
 
 class MujocoChanged(UwsimError):
-    """This MuJoCo is laid out otherwise than the kernel believes."""
+    """The memory layout of this MuJoCo differs from that of the kernel."""
 
 
 def offsets() -> npt.NDArray[np.int64]:
@@ -63,7 +63,7 @@ def offsets() -> npt.NDArray[np.int64]:
 
 
 def check(model: mujoco.MjModel, data: mujoco.MjData, at: npt.NDArray[np.int64]) -> None:
-    """Hold the offsets against live arrays and numbers.
+    """Compare the offsets with live arrays and numbers.
 
     Raises:
         MujocoChanged: a pointer or a number is not where it should be.

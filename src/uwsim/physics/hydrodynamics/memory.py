@@ -1,4 +1,4 @@
-"""Arrays over foreign memory, for code that numba compiles."""
+"""Arrays over memory of MuJoCo, for code compiled by numba."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-r"""The Coriolis terms of a free body at the middle of a step, by which it keeps its energy.
+r"""Coriolis terms of a free body at the midpoint of a step, which conserve its energy.
 
 MuJoCo takes them at the start of a step, and with them the matrix of the added mass as it is
 turned then: a light thin body, or one that tumbles, would gain energy at every step. Here they

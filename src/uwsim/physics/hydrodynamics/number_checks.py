@@ -1,4 +1,4 @@
-"""Numbers of a record that are none, or beyond what its fields allow; and how to name them."""
+"""Checks that the numbers of a record are finite and within the limits of its fields."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LENGTHS = ("reference", "centre_of_buoyancy", "size", "centre_of_mass", "positio
 
 
 def number_errors(who: str, spec: DataclassInstance) -> list[str]:
-    """Say what is not finite, and which lengths are beyond those of any vehicle."""
+    """Report numbers that are not finite, and lengths beyond those of any vehicle."""
     errors = []
     for each in dataclasses.fields(spec):
         numbers = _numbers_of(spec, each.name)
@@ -35,7 +35,7 @@ def number_errors(who: str, spec: DataclassInstance) -> list[str]:
 
 
 def beyond_limits(who: str, spec: DataclassInstance) -> list[str]:
-    """Say which numbers are beyond the limits that their fields declare."""
+    """Report numbers beyond the limits that their fields declare."""
     return [
         f"{who}: {words(field.name)} is {listed(numbers)}; expected {field.expected}"
         for field in fields_of(type(spec))

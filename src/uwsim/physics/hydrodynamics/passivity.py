@@ -1,4 +1,4 @@
-r"""Whether drag only ever takes energy from a body.
+r"""Passivity of drag: whether it takes energy from a body in every motion.
 
 Drag :math:`D\nu` of a body that moves with :math:`\nu` takes the power :math:`\nu^T D \nu` from it,
 quadratic drag the power

@@ -1,4 +1,4 @@
-"""Is this MuJoCo, on this machine, what the kernel believes it is? Asked once a process."""
+"""Self-test of the kernel's assumptions about MuJoCo, run once per process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A vehicle in water, in numbers: what its hydrodynamics file says; `checks` checks them.
+"""The parameters of a vehicle in water, as in its hydrodynamics file; `checks` checks them.
 
 Every 6x6 matrix is in the literature's order (surge, sway, heave, roll, pitch, yaw) in the axes of
 the body (link) it belongs to, about its reference point. Forces oppose motion with positive
@@ -54,7 +54,7 @@ class BadHydrodynamics(UwsimError):
 
 @dataclass(frozen=True, kw_only=True)
 class BodyHydrodynamics:
-    """What the water does to one link or object."""
+    """The hydrodynamic parameters of one link or object."""
 
     link: str = element(attribute=True)
     """The link of the URDF that it belongs to."""
@@ -200,7 +200,7 @@ class FinSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class JointDrive:
-    """What the motor of a joint draws (`uwsim.physics.actuation.power`)."""
+    """Parameters of the electric power of a joint's motor (`uwsim.physics.actuation.power`)."""
 
     name: str = element(attribute=True)
     """The joint of the URDF."""

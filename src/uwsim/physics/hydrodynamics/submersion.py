@@ -1,4 +1,4 @@
-"""How much of a shape is under water, and where the centre of that part is.
+"""Submerged share of a shape, and the centre of that part.
 
 Volumes are exact for spheres, ellipsoids and boxes at any attitude, and for cylinders that stand
 upright or whose end discs stay clear of the waterline; else a cylinder's are quadratures over 24

@@ -1,4 +1,4 @@
-"""From specs to the tables inside the model: before and after compiling."""
+"""Writes specs into the tables of a model: before and after compiling."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-r"""Thrusters: a curve of the command at rest, less what the inflow takes.
+r"""Thrusters: static thrust curve, reduced by the inflow.
 
 A propeller of diameter D that turns n times a second in water that comes at V gives
 
@@ -100,7 +100,7 @@ def thrust_coefficient(table: Floats, advance: float) -> float:
 
 @njit
 def share_of_lag(time_constant: float, time: float) -> float:
-    """How far a first-order lag comes in a time, of the way to its input, 0..1."""
+    """Share of a step that a first-order lag covers in a time, 0..1."""
     if time_constant <= 0.0:
         return 1.0
     x = time / time_constant

@@ -1,4 +1,4 @@
-// Provides: pixels that hit nothing: the water's colour, range inf, id 0.
+// Provides: pixels without a surface: the water's colour, range inf, id 0.
 // Needs: frame.glsl, targets.glsl.
 // The limit of the water law at infinite distance.
 #include "frame.glsl"

@@ -1,4 +1,4 @@
-// Provides: one triangle over the whole image, as far away as can be.
+// Provides: one triangle over the whole image at the far plane.
 // Needs: nothing; three vertices without attributes.
 // Depth 1 passes only where nothing has been drawn.
 void main() {

@@ -1,4 +1,4 @@
-// Provides: the block Frame, what is the same for everything in one image.
+// Provides: the block Frame: values that hold for a whole image.
 // Needs: nothing. Filled by frame.py, where the same members are declared.
 // Camera frame: OpenGL axes (x right, y up, -z ahead), metres.
 layout(std140) uniform Frame {

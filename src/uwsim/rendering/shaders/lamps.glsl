@@ -1,4 +1,4 @@
-// Provides: the block Lamps, what shines besides the sun.
+// Provides: the block Lamps: the lamps of the vehicles.
 // Needs: the switch LAMPS, how many of the four there are. Filled by lamps.py, declared there too.
 // Camera frame: OpenGL axes, metres.
 layout(std140) uniform Lamps {

@@ -1,4 +1,4 @@
-// Provides: nothing but the depth.
+// Provides: depth only.
 // Needs: nothing.
 // The rasteriser writes it.
 void main() {}

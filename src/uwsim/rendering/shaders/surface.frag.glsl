@@ -1,4 +1,4 @@
-// Provides: colour, range and id of a surface seen through water, whichever are asked for.
+// Provides: colour, range and id of a surface seen through water, whichever are requested.
 // Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, lamplight.glsl, targets.glsl.
 // The switch OPACITY is 1..254 of 255, or not there: opaque; the renderer blends.
 // lit -> attenuation -> fog, on stored values; noise and 8 bit come later (noise.py).

@@ -1,4 +1,4 @@
-// Provides: the outputs asked for; COLOUR, RANGE and IDS are defined as their places, or not at all.
+// Provides: the requested outputs; COLOUR, RANGE and IDS are their locations, or undefined.
 // Needs: nothing.
 // Colour 0..1 stored value; range [m] along the ray, inf = nothing; id 0 = nothing.
 #ifdef COLOUR

@@ -1,4 +1,4 @@
-// Provides: through_water(lit, range, fog_range, depth), what is left of a colour at the camera.
+// Provides: through_water(lit, range, fog_range, depth), a surface's colour as seen by the camera.
 // Needs: varyings.glsl, the switch NO_FOG where the density is 0; range along the ray, distance for the fog, depth below the surface [m].
 // E = exp(-2 a r); lit E + w (1 - E exp(-0.001 depth)); then fog exp(-(f s)^2): compatibility 3.9.
 vec3 through_water(vec3 lit, float range, float fog_range, float depth) {

@@ -24,7 +24,7 @@ from ...world import TIMESTEP
 from ..hull import Hull
 
 UNEVEN = 0.1
-"""Difference between mass and displaced water, as a share of the greater, that is asked about."""
+"""Difference between mass and displaced water, as a share of the greater, that is reported."""
 ROOM = 2.0
 """So many times the volume of its boxes nothing displaces [1]."""
 HOLLOW = 0.005
@@ -234,4 +234,4 @@ OF_SIMULATED: Mapping[VehicleDoubt, Callable[[Candidate], str]] = {
     "inertia": inertia_said,
     "drag": drag_said,
 }
-"""What is asked about a simulated vehicle."""
+"""Checks of a simulated vehicle."""
