@@ -52,6 +52,13 @@ def test_every_bundled_scene_can_be_shown_and_json_says_the_same(
     assert found["vehicles"][0]["below"][-1]["name"] == "terrain"
 
 
+def test_fins_and_the_drag_law_of_each_link_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    text = said(capsys, "remus-scene")
+    assert "fins: upper_rudder (-0.237 to 0.237 rad), lower_rudder" in text
+    assert "quadratic drag by a full matrix: base_link" in text
+    assert "quadratic drag by each component's own speed: " in said(capsys, "currents-scene")
+
+
 def test_topics_have_type_direction_and_rate_and_those_that_do_nothing_say_so(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -18,6 +18,7 @@ from ...physics.balance import Balance, balance_of
 from ...physics.compile import MIN_INERTIA
 from ...physics.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
 from ...scene.doubts import VehicleDoubt
+from ...scene.kinematics import link_poses
 from ...scene.spec import SceneSpec
 from ...scene.urdf import LinkSpec, RobotSpec
 from ...world import TIMESTEP
@@ -130,11 +131,16 @@ def balance_said(one: Candidate) -> str:
 
 
 def places_said(one: Candidate) -> str:
-    """Warn of thrusters, sensors and centres that lie far off the hull."""
+    """Warn of thrusters, fins and centres that lie far off the hull."""
     if one.hull is None:
         return ""
     thrusters = thrusters_on_base(one.robot, one.dynamics.thrusters, one.joint_values)
     places = [(f"thruster {each.name!r}", np.array(each.position)) for each in thrusters]
+    links = link_poses(one.robot, one.joint_values)
+    places += [
+        (f"fin {fin.name!r}", links[fin.link].transform(np.array([fin.position]))[0])
+        for fin in one.dynamics.fins
+    ]
     places.append(("centre of mass", one.balance.centre_of_mass))
     places.append(("centre of buoyancy", one.balance.centre_of_buoyancy))
     size = one.hull.size
