@@ -64,9 +64,7 @@ def still(simulation: Simulation) -> None:
 
 def played(prepare: Callable[[Simulation], None], *, at_once: bool) -> tuple[bytes, list[bytes]]:
     """Advance a while; the motion at the end, and each odometry message."""
-    simulation = make(
-        (TWIST, ODOMETRY), change=lambda vehicle: replace(vehicle, thruster_faults=(FAULT,))
-    )
+    simulation = make((TWIST, ODOMETRY), change=lambda vehicle: replace(vehicle, parts=(FAULT,)))
     heard: list[bytes] = []
     simulation.bus.subscribe(
         "/odometry",
