@@ -49,13 +49,13 @@ def with_pilot(simulation: Simulation) -> None:
 
 
 def driving_an_arm(simulation: Simulation) -> None:
-    servos = simulation.world.state.servos(0)
+    servos = simulation.world.state.actuation[0].servos
     servos.drive({0: 0.3, 2: -0.4})
     servos.push({1: 3.0})
 
 
 def adrift(simulation: Simulation) -> None:
-    simulation.world.state.autopilot(0).push(np.array([20.0, 3.0, 1.0]), np.zeros(3))
+    simulation.world.state.actuation[0].autopilot.push(np.array([20.0, 3.0, 1.0]), np.zeros(3))
 
 
 def still(simulation: Simulation) -> None:
