@@ -17,8 +17,8 @@ from uwsim.devices.comms_channels import AcousticCommsChannelSpec, CustomCommsCh
 from uwsim.devices.comms_device import MacProtocolSpec
 from uwsim.devices.custom_comms_device import CustomCommsDeviceSpec, RateErrorModelSpec
 from uwsim.errors import BadMessage
-from uwsim.messages import MultiArrayDimension, MultiArrayLayout, UInt8MultiArray
-from uwsim.scene.spec import OceanStateSpec, SceneSpec, SimParamsSpec
+from uwsim.messages import MultiArrayDimension, MultiArrayLayout, String, UInt8MultiArray
+from uwsim.scene.spec import NetTracingScriptSpec, OceanStateSpec, SceneSpec, SimParamsSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 from uwsim.topics.comms_device_ros import AcousticCommsDeviceROSSpec, CustomCommsDeviceROSSpec
@@ -248,7 +248,7 @@ def test_the_interface_publishes_the_links_visual_frame_and_the_frame_of_the_dev
             "/tf",
             object,
             lambda m: frames.update({m.transforms[0].child_frame_id: m.transforms[0]}),
-        )  # type: ignore[attr-defined]
+        )
         simulation.latest("/modem/pose")
         simulation.advance(0.2)
         pose = simulation.latest("/modem/pose").position
@@ -274,3 +274,17 @@ def test_protocols_are_known_by_the_names_that_files_give_them(name: str, kind: 
     assert mac.kind == kind
     assert mac.slot == 666_670_000 + 64_000_000
     assert replace(spec, slot=0.5).bind(channel, lambda _: 1).slot == 500_000_000
+
+
+def test_a_scene_with_a_tracing_script_publishes_what_becomes_of_packets(tmp_path: Path) -> None:
+    scene = replace(scene_in(tmp_path, apart=15.0), net_tracing_script=NetTracingScriptSpec())
+    with Simulation(scene, timestep=0.01) as simulation:
+        lines: list[str] = []
+        simulation.bus.subscribe("/network/trace", String, lambda line: lines.append(line.data))
+        simulation.publish("/left_modem/tx", packet(b"?"))
+        simulation.advance(0.1)
+    assert [line.split()[1:3] for line in lines] == [
+        ["left/left_modem", "queued"],
+        ["left/left_modem", "sent"],
+        ["right/right_modem", "received"],
+    ]

@@ -9,7 +9,7 @@ import pytest
 
 from tests.network.links import Line
 from uwsim.errors import UnknownName
-from uwsim.network import BitErrors, EnergyModel, Mac, RateErrors
+from uwsim.network import BitErrors, EnergyModel, Mac, RateErrors, WaterChannel
 from uwsim.simulation.snapshot import put_state, state_of
 
 BYTES_25 = bytes(25)  # 0.2 s at 1000 bit/s
@@ -244,3 +244,39 @@ def test_a_modem_that_is_not_there_is_named() -> None:
     line.add("girona500/modem", 0.0)
     with pytest.raises(UnknownName, match="girona500/modem"):
         line.network.modem("girona500/moden")
+
+
+def test_what_becomes_of_each_packet_is_traced() -> None:
+    line = Line()
+    line.add("a", 0.0, queue_size=30)
+    line.add("b", 1500.0)
+    lines: list[str] = []
+    line.network.trace = lines.append
+    line.send("a", BYTES_25)
+    line.send("a", BYTES_25)
+    line.run(2.0)
+    assert lines == [
+        "0.000000000 a queued a#0 25 bytes",
+        "0.000000000 a sent a#0 25 bytes",
+        "0.000000000 a queued a#1 25 bytes",
+        "0.000000000 a queue_full a#1 25 bytes",
+        "1.200000000 b received a#0 25 bytes",
+    ]
+
+
+def test_empty_packets_fill_a_queue_too() -> None:
+    line = Line()
+    modem = line.add("a", 0.0, queue_size=10, preamble=1.0)
+    for _ in range(100):
+        line.send("a", b"")
+    assert modem.counts.queue_full == 90
+
+
+def test_depths_beyond_all_seas_do_not_turn_time_back() -> None:
+    line = Line()
+    line.add("a", 0.0, channel=WaterChannel())
+    line.add("b", 1000.0)
+    line.network._surface = 1e6
+    line.send("a", b"x")
+    [(_, time, _)] = line.run(5.0)
+    assert 0.4 < time < 1.0

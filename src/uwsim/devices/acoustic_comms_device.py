@@ -72,9 +72,9 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     """The link it rides on."""
     mac: int = element(minimum=0, maximum=65535)
     """Its address."""
-    symbols_per_second: float = element(above=0)
+    symbols_per_second: float = element(minimum=1e-3, maximum=1e9)
     """How fast it sends [symbol/s]."""
-    coding_eff: float = element(default=1.0, above=0)
+    coding_eff: float = element(default=1.0, minimum=1e-3, maximum=1e3)
     """Bits per symbol [1]."""
     bit_error_rate: float = element(default=0.0, minimum=0, maximum=1)
     """Probability that a bit is damaged, besides what the noise does [1]."""
@@ -92,15 +92,15 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     """Its body."""
     range: float = element(default=100.0, minimum=0)
     """Longest distance it reaches, however loud it is [m]."""
-    frequency: float = element(default=25.0, above=0)
+    frequency: float = element(default=25.0, minimum=1e-3, maximum=1e4)
     """Carrier [kHz]."""
-    l: float = element("L", default=0.0)  # noqa: E741  (the dialect's letter)
+    l: float = element("L", default=0.0, minimum=-300.0, maximum=300.0)  # noqa: E741  (the dialect's letter)
     """Constant loss [dB]."""
-    k: float = element("K", default=2.0)
+    k: float = element("K", default=2.0, minimum=0.0, maximum=10.0)
     """Spreading: 1 cylindrical, 2 spherical [1]."""
     energy_model: EnergyModelSpec | None = None
     """What it consumes."""
-    preamble: float = element(default=0.0, minimum=0)
+    preamble: float = element(default=0.0, minimum=0, maximum=1e6)
     """Length of the preamble of each packet [s]."""
     mac_protocol: MacProtocolSpec | None = None
     """Who may send when."""
@@ -112,7 +112,9 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     """Read and not used."""
     disable: bool = False
     """Whether only its body is made."""
-    source_level: float | None = element(namespaced=True, default=None)
+    source_level: float | None = element(
+        namespaced=True, default=None, minimum=-300.0, maximum=300.0
+    )
     """How loud it is at 1 m [dB re 1 uPa]; without it noise damages nothing within the range."""
 
     @property

@@ -17,6 +17,9 @@ from typing import Literal
 from ..network import DelayChannel, Sea, WaterChannel
 from ..schema import element
 
+MAX_MS = 1e9
+"""Longest delay in a file [ms]."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class CustomCommsChannelSpec:
@@ -24,9 +27,9 @@ class CustomCommsChannelSpec:
 
     id: int
     """Number by which devices choose the channel."""
-    prop_time_inc_per_meter: float = element(default=0.66667, minimum=0)
+    prop_time_inc_per_meter: float = element(default=0.66667, minimum=0, maximum=MAX_MS)
     """Delay per distance [ms/m]."""
-    min_prop_time: float = element(default=0.0, minimum=0)
+    min_prop_time: float = element(default=0.0, minimum=0, maximum=MAX_MS)
     """Delay at distance zero [ms]."""
     log_level: str = "off"
     """Read and not used."""
@@ -52,13 +55,13 @@ class AcousticCommsChannelSpec:
 
     id: int
     """Number by which devices choose the channel."""
-    bandwidth: float = element(default=4096.0, above=0)
+    bandwidth: float = element(default=4096.0, minimum=1e-3, maximum=1e9)
     """In which receivers hear noise [Hz]."""
     temperature: float = element(default=25.0, minimum=-4.0, maximum=50.0)
     """Of the water, for the speed of sound and the absorption [degC]."""
     salinity: float = element(default=35.0, minimum=0.0, maximum=50.0)
     """Of the water, for the speed of sound and the absorption [g/kg]."""
-    noise_lvl: float = 0.0
+    noise_lvl: float = element(default=0.0, minimum=-300.0, maximum=300.0)
     """Level of the noise in 1 Hz, to which that of the sea is added [dB re 1 uPa2/Hz]."""
     log_level: str = "off"
     """Read and not used."""

@@ -30,13 +30,15 @@ from ..network import (
     mac_kind,
     nanoseconds,
 )
-from ..schema import REQUIRED, Original, element
+from ..schema import MAX_DISTANCE, REQUIRED, Original, element
 from ..sensors.sensor import Mounted
 from ..world import Body, Stage
 from .device import Device, DeviceVehicle
 
 SLOT_BYTES = 64
 """A slot of a protocol is long enough for a packet of this size, unless the file says otherwise."""
+MIN_SLOT = 1_000_000
+"""Shortest slot [ns]."""
 ENERGY_RATE = 1.0
 """How often what is left of the energy is published [Hz]."""
 
@@ -47,13 +49,15 @@ class MacProtocolSpec:
 
     name: str = element(default="", original=REQUIRED)
     """ALOHA, slottedALOHA or CSMA; empty: ALOHA."""
-    max_distance: float = element(default=0.0, original=Original(lenient=True), minimum=0)
+    max_distance: float = element(
+        default=0.0, original=Original(lenient=True), minimum=0, maximum=MAX_DISTANCE
+    )
     """Longest distance between two devices, for the length of a slot [m]."""
-    max_backoff_slots: int = element(default=4, minimum=0)
+    max_backoff_slots: int = element(default=4, minimum=0, maximum=1_000_000)
     """CSMA: longest wait when another device is heard, at least 1 [slots]."""
-    slot: float | None = element(namespaced=True, default=None, above=0)
+    slot: float | None = element(namespaced=True, default=None, minimum=0.001, maximum=1e6)
     """Length of a slot [s]; without it the travel time over ``maxDistance`` and the time of a
-    packet of 64 bytes."""
+    packet of 64 bytes, at least 1 ms."""
 
     def bind(self, channel: Channel, airtime: Callable[[int], int]) -> Mac:
         """Make the protocol; one of another name is ALOHA.
@@ -68,7 +72,7 @@ class MacProtocolSpec:
             travel = channel.delay(Path(distance=self.max_distance, depth=0.0))
             slot = nanoseconds(travel) + airtime(SLOT_BYTES)
         kind = mac_kind(self.name) or "aloha"
-        return Mac(kind=kind, slot=max(slot, 1), max_backoff=self.max_backoff_slots)
+        return Mac(kind=kind, slot=max(slot, MIN_SLOT), max_backoff=self.max_backoff_slots)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -24,7 +24,7 @@ from ..messages import Pose
 from ..network import BitErrors, DelayChannel, ErrorModel, ModemSettings, RateErrors, Unit
 from ..schema import REQUIRED, element
 from ..world import Stage
-from .comms_channels import custom_channel
+from .comms_channels import MAX_MS, custom_channel
 from .comms_device import CommsDevice, CommsMeshSpec, MacProtocolSpec, PacketBuilderSpec
 from .device import DeviceSpec, DeviceVehicle
 
@@ -33,9 +33,9 @@ from .device import DeviceSpec, DeviceVehicle
 class JitterSpec:
     """A ``<jitter>``: delays that vary, uniformly distributed from 0."""
 
-    tx: float = element(default=0.0, minimum=0)
+    tx: float = element(default=0.0, minimum=0, maximum=MAX_MS)
     """Largest delay when sending [ms]."""
-    rx: float = element(default=0.0, original=REQUIRED, minimum=0)
+    rx: float = element(default=0.0, original=REQUIRED, minimum=0, maximum=MAX_MS)
     """Largest delay when receiving [ms]."""
 
 
@@ -86,7 +86,7 @@ class CustomCommsDeviceSpec(DeviceSpec):
     """Its address."""
     mac_protocol: MacProtocolSpec | None = None
     """Who may send when."""
-    bitrate: float = element(default=1000.0, original=REQUIRED, above=0)
+    bitrate: float = element(default=1000.0, original=REQUIRED, minimum=1e-3, maximum=1e12)
     """How fast it sends [bit/s]."""
     tx_fifo_size: int = element(default=500000, minimum=0)
     """How much waits to be sent at most [byte]."""
@@ -100,7 +100,7 @@ class CustomCommsDeviceSpec(DeviceSpec):
     """Of the device in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     mesh: CommsMeshSpec | None = None
     """Its body."""
-    intrinsic_delay: float = element(default=0.0, minimum=0)
+    intrinsic_delay: float = element(default=0.0, minimum=0, maximum=MAX_MS)
     """Between the order to send a packet and its sending [ms]."""
     pr_time_inc_per_meter: float = 0.0
     """Allowed by the grammar and never read by the original [ms/m]."""

@@ -24,9 +24,12 @@ import numpy as np
 from ..errors import UnknownName
 from ..linear import length
 from .channel import Channel, Path
-from .events import EventQueue, nanoseconds
+from .events import NANOSECONDS, EventQueue, nanoseconds
 from .modem import Modem, Waiting
-from .packet import EVERYONE, Packet, Reception
+from .packet import EVERYONE, Outcome, Packet, Reception
+
+MAX_DEPTH = 12_000.0
+"""The formulas of sound hold for no greater depth [m]."""
 
 
 @dataclass(frozen=True)
@@ -62,6 +65,8 @@ class Network:
     ) -> None:
         self.channels = channels
         """What devices send on, by name."""
+        self.trace: Callable[[str], None] | None = None
+        """Called with a line for everything that becomes of a packet."""
         self._stream, self._surface = stream, surface
         self._modems: list[Modem] = []
         self._events: EventQueue[_Event | _Arrival] = EventQueue()
@@ -107,28 +112,29 @@ class Network:
         elif event.kind == "end":
             self._end(event.reception)
         else:
-            modem = self._modems[event.reception.receiver]
-            modem.counts.received += 1
-            modem.deliver(event.reception.packet, self._now)
+            reception = event.reception
+            modem = self._modems[reception.receiver]
+            self._count(modem, "received", reception.sender, reception.packet)
+            modem.deliver(reception.packet, self._now)
 
     def _queue(self, number: int, data: bytes, destination: int) -> None:
         """Put a packet into the queue of a device, if there is room."""
         modem = self._modems[number]
         settings, index = modem.settings, modem.n_packets
         modem.n_packets += 1
-        modem.counts.queued += 1
-        if modem.is_dead(self._now):
-            modem.counts.no_energy += 1
-            return
-        if modem.n_queued_bytes + len(data) > settings.queue_size:
-            modem.counts.queue_full += 1
-            return
         packet = Packet(number=index, source=settings.address, destination=destination, data=data)
+        self._count(modem, "queued", number, packet)
+        if modem.is_dead(self._now):
+            self._count(modem, "no_energy", number, packet)
+            return
+        if modem.n_queued_bytes + packet.room > settings.queue_size:
+            self._count(modem, "queue_full", number, packet)
+            return
         delay = settings.send_delay
         if settings.send_jitter > 0.0:
             delay += settings.send_jitter * self._draw(f"{settings.name}/{index}/send").random()
         modem.queue.append(Waiting(packet=packet, ready=self._now + nanoseconds(delay)))
-        modem.n_queued_bytes += len(data)
+        modem.n_queued_bytes += packet.room
         if not modem.is_busy:
             self._plan_next(number)
 
@@ -144,7 +150,7 @@ class Network:
         modem = self._modems[number]
         waiting, settings = modem.queue[0], modem.settings
         if modem.is_dead(self._now):
-            modem.counts.no_energy += 1
+            self._count(modem, "no_energy", number, waiting.packet)
             self._drop_first(modem)
             self._plan_next(number)
             return
@@ -167,7 +173,7 @@ class Network:
         duration = settings.airtime(len(packet.data))
         sender.sends_until = self._now + duration
         sender.time_sending += duration
-        sender.counts.sent += 1
+        self._count(sender, "sent", number, packet)
         if settings.is_half_duplex:
             for reception in sender.arriving:
                 reception.lost = reception.lost or "half_duplex"
@@ -204,7 +210,7 @@ class Network:
         self._plan_next(number)
 
     def _drop_first(self, modem: Modem) -> None:
-        modem.n_queued_bytes -= len(modem.queue.popleft().packet.data)
+        modem.n_queued_bytes -= modem.queue.popleft().packet.room
 
     def _begin(self, reception: Reception) -> None:
         """Begin to receive a packet; what arrives already is lost with it."""
@@ -226,17 +232,25 @@ class Network:
             modem.time_receiving += self._now - reception.arrival
         sender = self._modems[reception.sender].settings.name
         name = f"{modem.settings.name}/{sender}/{packet.number}"
-        if not reception.lost and self._is_damaged(reception, name):
+        if reception.lost is None and self._is_damaged(reception, name):
             reception.lost = "errors"
-        if reception.lost:
-            counts = modem.counts
-            setattr(counts, reception.lost, getattr(counts, reception.lost) + 1)
+        if reception.lost is not None:
+            self._count(modem, reception.lost, reception.sender, packet)
         elif packet.destination in (EVERYONE, modem.settings.address):
             delay = 0.0
             if modem.settings.receive_jitter > 0.0:
                 delay = modem.settings.receive_jitter * self._draw(f"{name}/receive").random()
             modem.last_delivery = max(self._now + nanoseconds(delay), modem.last_delivery)
             self._events.add(modem.last_delivery, _Arrival("deliver", reception))
+
+    def _count(self, modem: Modem, outcome: Outcome, sender: int, packet: Packet) -> None:
+        """Take note of what becomes of a packet at a device."""
+        setattr(modem.counts, outcome, getattr(modem.counts, outcome) + 1)
+        if self.trace is not None:
+            of = f"{self._modems[sender].settings.name}#{packet.number}"
+            time = f"{self._now // NANOSECONDS}.{self._now % NANOSECONDS:09d}"
+            name = modem.settings.name
+            self.trace(f"{time} {name} {outcome} {of} {len(packet.data)} bytes")
 
     def _is_damaged(self, reception: Reception, name: str) -> bool:
         likely = reception.error_probability
@@ -245,7 +259,7 @@ class Network:
     def _path(self, sender: Modem, receiver: Modem) -> Path:
         a, b = sender.position(), receiver.position()
         depth = self._surface - 0.5 * (float(a[2]) + float(b[2]))
-        return Path(distance=length(a - b), depth=max(depth, 0.0))
+        return Path(distance=length(a - b), depth=min(max(depth, 0.0), MAX_DEPTH))
 
     def _draw(self, name: str) -> np.random.Generator:
         return self._stream(f"network/{name}")

@@ -3,7 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
+Outcome = Literal[
+    "queued",
+    "sent",
+    "received",
+    "queue_full",
+    "no_energy",
+    "collisions",
+    "half_duplex",
+    "errors",
+]
+"""What becomes of a packet; the fields of `Counts`."""
 EVERYONE = -1
 """Address of all devices that hear a packet."""
 
@@ -21,6 +33,11 @@ class Packet:
     data: bytes
     """What is sent."""
 
+    @property
+    def room(self) -> int:
+        """What it takes of a queue; an empty one takes a byte [byte]."""
+        return max(len(self.data), 1)
+
 
 @dataclass(kw_only=True)
 class Reception:
@@ -36,8 +53,8 @@ class Reception:
     """When its first bit arrives [ns]."""
     error_probability: float
     """How likely it is damaged by noise [1]."""
-    lost: str = ""
-    """Why it is lost, as `Counts` calls it; empty while it is not."""
+    lost: Outcome | None = None
+    """Why it is lost; None while it is not."""
 
 
 @dataclass(kw_only=True)

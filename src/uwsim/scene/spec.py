@@ -47,18 +47,21 @@ class NedOriginSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class NetTracingScriptSpec:
-    """A ``<netTracingScript>``: a plug-in that watches the network simulation."""
+    """A ``<netTracingScript>``: what becomes of each packet is published on ``/network/trace``.
+
+    As std_msgs/String: time [s], device, what happens, sender and number of the packet, its size.
+    """
 
     class_name: str = element(default="", original=REQUIRED)
-    """Name of the plug-in; empty or "default" is the built-in one."""
+    """Name of a plug-in of the original: read and not used."""
     lib_path: str = ""
-    """Library that holds it."""
+    """Library that holds it: read and not used."""
     log_to_file: str = ""
-    """File to log to."""
+    """Read and not used: a scene writes no files."""
     log_to_console: bool = True
-    """Whether to log to the console."""
+    """Read and not used."""
     async_log: bool = True
-    """Whether to log in the background."""
+    """Read and not used."""
 
 
 @dataclass(frozen=True, kw_only=True)

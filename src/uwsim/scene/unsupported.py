@@ -44,7 +44,6 @@ UNSUPPORTED: dict[tuple[str, str], str] = {
     ("simParams", "physicsSubSteps"): "physics of contacts",
     ("simParams", "physicsSolver"): "physics of contacts",
     ("simParams", "showTrajectory"): "trajectories",
-    ("UWSimScene", "netTracingScript"): "netTracingScript",
     ("virtualCamera", "showpath"): "showpath",
     **{
         (parent, name): name

@@ -14,6 +14,7 @@ from ..devices.lamp import MountedLamp
 from ..errors import UnknownName
 from ..geodesy import Geodetic
 from ..geometry import Array
+from ..messages import String
 from ..network import Channel, Network, nanoseconds
 from ..sampling import SampleTimer
 from ..scene.spec import NedOriginSpec, SceneSpec
@@ -28,6 +29,8 @@ from .water_motion import WaterMotion
 from .world import SceneWorld
 
 M = TypeVar("M")
+TRACE = "/network/trace"
+"""Topic of what becomes of packets."""
 
 
 class SceneStage(SceneWorld):
@@ -64,6 +67,9 @@ class SceneStage(SceneWorld):
             channels=_channels(self.scene),
         )
         """The packets between communication devices."""
+        if self.scene.net_tracing_script is not None:
+            publish = self.bus.publisher(TRACE, String)
+            self.network.trace = lambda line: publish(String(data=line))
         self._datagrams = Datagrams(udp_address)
         self._timers: list[SampleTimer] = []
         self._commands: list[tuple[Callable[[Any], None], Any]] = []
