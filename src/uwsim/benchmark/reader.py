@@ -45,7 +45,7 @@ from .element_order import check_order
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
 from .name_checks import check_function, check_names
-from .plugin import PREFIX
+from .plugin_tables import PREFIX
 from .spec import BenchmarkSpec
 from .sweep_checks import check_levels, warn_endless, warn_overridden, warn_still_water
 from .triggers import TRIGGERS, NeverSpec, TriggerSpec

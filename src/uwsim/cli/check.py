@@ -21,7 +21,8 @@ from .options import DataPathOption, JsonOption, PluginOption
 from .taught import INPUT, in_group
 
 if TYPE_CHECKING:
-    from ..benchmark.plugin import Plugin, Tables
+    from ..benchmark.plugin import Plugin
+    from ..benchmark.plugin_tables import Tables
     from ..scene.spec import SceneSpec
 
 

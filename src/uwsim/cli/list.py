@@ -20,7 +20,7 @@ from .descriptions import family, first_line, head_comment, without_title
 from .options import JsonOption, PluginOption
 
 if TYPE_CHECKING:
-    from ..benchmark.plugin import Tables
+    from ..benchmark.plugin_tables import Tables
 
 UNWRAPPED = 200
 """Columns for a reader that is a program: wide enough to leave every line whole."""

@@ -24,7 +24,8 @@ from .stand_ins import warn_of_stand_ins
 from .tables import read_plugins
 
 if TYPE_CHECKING:
-    from ..benchmark.plugin import Plugin, Tables
+    from ..benchmark.plugin import Plugin
+    from ..benchmark.plugin_tables import Tables
     from ..benchmark.spec import BenchmarkSpec
     from ..bus import Algorithm
     from ..scene.spec import SceneSpec

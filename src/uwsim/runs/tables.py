@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING
 from ..errors import AllErrors
 
 if TYPE_CHECKING:
-    from ..benchmark.plugin import Plugin, Tables
+    from ..benchmark.plugin import Plugin
+    from ..benchmark.plugin_tables import Tables
 
 
 def bundled_tables() -> Tables:
     """Return everything that comes with uwsim."""
     from ..algorithms import ALGORITHMS
     from ..benchmark.measures import MEASURES
-    from ..benchmark.plugin import Tables
+    from ..benchmark.plugin_tables import Tables
     from ..benchmark.triggers import TRIGGERS
     from ..benchmark.updaters import UPDATERS
 
@@ -30,7 +31,8 @@ def read_plugins(files: Sequence[Path] | None) -> tuple[tuple[Plugin, ...], Tabl
         PluginError: a plugin is wrong; with everything that is.
         BadSetting: a plugin is given twice.
     """
-    from ..benchmark.plugin import read_plugin, with_plugins
+    from ..benchmark.plugin import read_plugin
+    from ..benchmark.plugin_tables import with_plugins
 
     wrong, plugins = AllErrors(), []
     for file in files or ():
