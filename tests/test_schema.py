@@ -376,3 +376,8 @@ def test_numbers_stand_in_one_text(text: str, expected: object) -> None:
         return
     assert (spec.terms, spec.ends) == expected
     assert read(CurveSpec, write(spec, "curve"), Diagnostics("curve.xml")) == spec
+
+
+def test_a_field_refers_to_something_that_a_scene_has() -> None:
+    with pytest.raises(ValueError, match="refers_to='bodi': expected one of actuators, body"):
+        element(refers_to="bodi")  # type: ignore[arg-type]

@@ -1,7 +1,7 @@
 """A run: executes the trials of a plan and collects their rows into a result.
 
-Rows go to disk as levels end (`unit_file`); when the run is over, or breaks, they are put together
-in the order of the plan. Whoever executeed them (`executor`), killed and resumed or not: the same
+Rows go to disk as levels end (`journal`); when the run is over, or breaks, they are put together
+in the order of the plan. Whoever executed them (`executor`), killed and resumed or not: the same
 bytes.
 """
 

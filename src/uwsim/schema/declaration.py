@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass
-from typing import Any, TypedDict, Unpack
+from typing import Any, Literal, TypedDict, Unpack, get_args
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,10 @@ class Limits(TypedDict, total=False):
     """Values must be less."""
 
 
+Named = Literal["actuators", "body", "camera", "contacts", "vehicle"]
+"""What of a scene a field may name."""
+
+
 @dataclass(frozen=True)
 class Xml:
     """What `element` keeps about a field."""
@@ -51,7 +55,7 @@ class Xml:
     item: str | None = None
     choice: Mapping[str, type] | None = None
     original: Original = Original()
-    refers_to: str | None = None
+    refers_to: Named | None = None
     limits: Limits = dataclasses.field(default_factory=Limits)
 
 
@@ -66,7 +70,7 @@ def element(
     item: str | None = None,
     choice: Mapping[str, type] | None = None,
     original: Original = Xml.original,
-    refers_to: str | None = None,
+    refers_to: Named | None = None,
     **limits: Unpack[Limits],
 ) -> Any:
     """Make a dataclass field whose XML form differs from what its name and type imply.
@@ -85,5 +89,7 @@ def element(
         refers_to: what of a scene it names (`uwsim.benchmark.unknown_names.LOOK_UP`): a ``body``.
         limits: ``minimum``, ``maximum``, ``above`` and ``below`` of a number.
     """
+    if refers_to not in (None, *get_args(Named)):
+        raise ValueError(f"refers_to={refers_to!r}: expected one of {', '.join(get_args(Named))}")
     xml = Xml(name, attribute, text, namespaced, parts, item, choice, original, refers_to, limits)
     return dataclasses.field(default=default, metadata={"xml": xml})

@@ -54,7 +54,7 @@ RAMP = 1.0
 def execute(
     plan: Plan, unit: Trial, *, pool: RendererPool | None = None, calls: Calls | None = None
 ) -> Iterator[LevelRow | TrialEnd]:
-    """Play a unit; yields a LevelRow as each level ends, and at last the UnitEnd.
+    """Play a unit; yields a LevelRow as each level ends, and at last the TrialEnd.
 
     Args:
         plan: the benchmark to run.
