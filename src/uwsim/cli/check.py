@@ -164,12 +164,13 @@ def diagnostics_of_hydrodynamics_file(file: Path) -> list[Diagnostic]:
 
 def diagnostics_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnostic]:
     """Return everything wrong with what of a scene is simulated; the engine is heavy to load."""
+    from ..scene.spec import stands_on_floor
     from ..topics.thruster_commands import AutopilotTopicSpec
 
     if not (
         scene.ocean_state.currents
         or scene.vehicles
-        or scene.stands_on_floor
+        or stands_on_floor(scene)
         or any(isinstance(interface, AutopilotTopicSpec) for interface in scene.ros_interfaces)
     ):
         return []
@@ -180,7 +181,9 @@ def diagnostics_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> li
 
 def settled(scene: SceneSpec, data_path: tuple[Path, ...]) -> SceneSpec:
     """Return the scene with what stands on the floor in its place; as it is where that fails."""
-    if not scene.stands_on_floor:
+    from ..scene.spec import stands_on_floor
+
+    if not stands_on_floor(scene):
         return scene
     from ..simulation.bodies import read_robots
     from ..simulation.floor import set_on_floor

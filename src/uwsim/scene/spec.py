@@ -110,14 +110,6 @@ class SceneSpec:
         return Pose.from_xyz(self.sim_params.offsetp, self.sim_params.offsetr)
 
     @property
-    def stands_on_floor(self) -> bool:
-        """Whether anything is to be set on the ground."""
-        vehicles, objects = self.vehicles, self.objects
-        return any(one.on_floor is not None for one in vehicles) or any(
-            one.on_floor is not None for one in objects
-        )
-
-    @property
     def is_dynamic(self) -> bool:
         """Whether a vehicle is simulated."""
         return any(vehicle.dynamics is not None for vehicle in self.vehicles)
@@ -178,3 +170,10 @@ def with_integrator(scene: SceneSpec, integrator: Integrator | None) -> SceneSpe
         )
     changed = dataclasses.replace(scene.sim_params, integrator=integrator)
     return dataclasses.replace(scene, sim_params=changed)
+
+
+def stands_on_floor(scene: SceneSpec) -> bool:
+    """Whether anything is to be set on the ground."""
+    floors = [vehicle.on_floor for vehicle in scene.vehicles]
+    floors += [thing.on_floor for thing in scene.objects]
+    return any(floor is not None for floor in floors)

@@ -23,7 +23,7 @@ from ..physics.ground import Ground, triangles_of
 from ..scene.kinematics import link_poses
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.on_floor import OnFloorSpec
-from ..scene.spec import SceneSpec
+from ..scene.spec import SceneSpec, stands_on_floor
 from ..scene.urdf import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from .checks.scene_lines import SceneLines
@@ -46,7 +46,7 @@ def set_on_floor(
     Raises:
         SceneError: there is no ground under something; with every such place.
     """
-    if not scene.stands_on_floor:
+    if not stands_on_floor(scene):
         return scene
     floor = Floor(scene, robots, data_path)
     diagnostics: list[Diagnostic] = []
