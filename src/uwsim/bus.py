@@ -140,7 +140,7 @@ class Bus:
     """
 
     STATE = ("step", "_due_now", "_due_later", "_posted")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self) -> None:
         self._topics: dict[str, _Topic] = {}

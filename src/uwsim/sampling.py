@@ -15,7 +15,7 @@ class SampleTimer:
     """Calls a function at the samples of a rate."""
 
     STATE = ("_start", "_n_samples", "due")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
         self._start, self._rate, self._timestep, self._call = start, rate, timestep, call

@@ -56,7 +56,7 @@ def test_noise_has_its_standard_deviation() -> None:
     assert np.mean(ranges) == pytest.approx(4.0, abs=4 * 0.02 / math.sqrt(1000))
 
 
-def test_the_sonar_of_the_tank_measures_down_to_the_picture_on_its_floor() -> None:
+def test_the_sonar_of_the_tank_measures_down_to_the_image_on_its_floor() -> None:
     """4.81 m deep; the vehicle is at 2 m, the sonar 0.95 m below; 0.1 degrees of tilt."""
     path = find("cirs.xml")
     assert isinstance(path, Path)

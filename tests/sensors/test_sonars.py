@@ -1,4 +1,4 @@
-"""Imaging, scanning and side-scan sonars: messages, pictures, and what they keep."""
+"""Imaging, scanning and side-scan sonars: messages, images, and what they keep."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from uwsim.messages import ProjectedSonarImage, pixels_of
 from uwsim.sensors.imaging_sonar import ImagingSonar, ImagingSonarSpec
 from uwsim.sensors.scanning_sonar import ScanningSonarSpec
 from uwsim.sensors.side_scan_sonar import SideScanSonarSpec
+from uwsim.sensors.sonar.fan_image import FanImage
 from uwsim.sensors.sonar.message import amplitudes
-from uwsim.sensors.sonar.picture import FanPicture
 
 STEEL = [MATERIALS["steel"]]
 SMALL = {"bins": 100, "rows": 32, "range": 10.0, "noise_level": 40.0}
@@ -69,11 +69,11 @@ def test_two_runs_hear_the_same_bytes_and_another_seed_others() -> None:
     assert first[0] != heard(2)[0]
 
 
-def test_ahead_is_up_in_the_picture_and_port_is_left() -> None:
+def test_ahead_is_up_in_the_image_and_port_is_left() -> None:
     ball = sphere((4.0, 3.0, 0.0), 0.2, 24)
     sonar = imaging(AcousticWorld(ball, materials=STEEL))
     sonar.sample(0.0)
-    pixels = pixels_of(sonar.picture(0.0))
+    pixels = pixels_of(sonar.image(0.0))
     height, width = pixels.shape
     row, column = np.argwhere(pixels == pixels.max()).mean(axis=0)
     pixel = 0.095
@@ -83,14 +83,14 @@ def test_ahead_is_up_in_the_picture_and_port_is_left() -> None:
     assert (0.5 * width - column) * pixel == pytest.approx(3.0, abs=0.3)
 
 
-def test_the_picture_of_a_bottom_is_as_bright_far_away_as_its_target_strength() -> None:
+def test_the_image_of_a_bottom_is_as_bright_far_away_as_its_target_strength() -> None:
     """Of the same wall at 3 and 6 m: spreading and absorption are compensated."""
     greys = []
     for x in (3.0, 6.0):
         wall = box((x, -0.5, -0.5), (x + 1.0, 0.5, 0.5))
-        sonar = imaging(AcousticWorld(wall, materials=STEEL), speckle=False, picture_floor=-40.0)
+        sonar = imaging(AcousticWorld(wall, materials=STEEL), speckle=False, image_floor=-40.0)
         sonar.sample(0.0)
-        greys.append(int(pixels_of(sonar.picture(0.0)).max()))
+        greys.append(int(pixels_of(sonar.image(0.0)).max()))
     per_level = 255.0 / 50.0
     # the cell of one bin and one beam is twice as wide at 6 m; the glint covers more of it
     assert greys[1] - greys[0] == pytest.approx(6.0 * per_level, abs=4.0 * per_level)
@@ -98,9 +98,9 @@ def test_the_picture_of_a_bottom_is_as_bright_far_away_as_its_target_strength() 
 
 def test_a_fan_of_a_whole_turn_has_no_seam() -> None:
     azimuths = np.radians(np.arange(-180.0, 180.0, 10.0))
-    picture = FanPicture(azimuths, np.arange(50) * 0.1 + 0.05)
+    image = FanImage(azimuths, np.arange(50) * 0.1 + 0.05)
     grey = np.full((50, len(azimuths)), 255, dtype=np.uint8)
-    pixels = picture.of(grey)
+    pixels = image.of(grey)
     size = len(pixels)
     y, x = np.mgrid[:size, : pixels.shape[1]] - 0.5 * (size - 1)
     inside = np.hypot(x, y) < 0.5 * size - 1.0
@@ -130,13 +130,13 @@ def test_a_scanning_sonar_turns_round_or_to_and_fro() -> None:
 
 
 def test_a_scan_shows_targets_all_round_after_a_turn() -> None:
-    """One to port, one astern: both are in the picture, where they are."""
+    """One to port, one astern: both are in the image, where they are."""
     world = AcousticWorld(
         sphere((0.0, 5.0, 0.0), 0.3, 24), sphere((-7.0, 0.0, 0.0), 0.3, 24), materials=STEEL * 2
     )
     sonar = scanner(world, angle_incr=3.0, beam_width=3.0)
     angles(sonar, 120)
-    pixels = pixels_of(sonar.picture(0.0)).astype(float)  # type: ignore[attr-defined]
+    pixels = pixels_of(sonar.image(0.0)).astype(float)  # type: ignore[attr-defined]
     size, middle = 0.095, 0.5 * np.array(pixels.shape)
     for ahead, port in ((0.0, 4.7), (-6.7, 0.0)):
         row, column = (middle - np.array([ahead, port]) / size).astype(int)
@@ -173,10 +173,10 @@ def test_the_newest_ping_is_at_the_top_of_the_waterfall_and_port_is_on_the_left(
     for n in range(6):
         sonar.sample(0.1 * n)  # type: ignore[attr-defined]
         if n == 1:
-            early = pixels_of(sonar.picture(0.0))  # type: ignore[attr-defined]
+            early = pixels_of(sonar.image(0.0))  # type: ignore[attr-defined]
             assert (early[2:] == 0).all()
             assert early[:2].any(axis=1).all()
-    pixels = pixels_of(sonar.picture(0.0))  # type: ignore[attr-defined]
+    pixels = pixels_of(sonar.image(0.0))  # type: ignore[attr-defined]
     assert pixels.shape == (4, 200)
     column = int(np.argmax(pixels[0]))
     assert column == pytest.approx(100 - math.hypot(8.0, 3.0) / 0.195, abs=4)

@@ -1,4 +1,4 @@
-"""The water that sound goes through."""
+"""The water as an acoustic medium."""
 
 from __future__ import annotations
 

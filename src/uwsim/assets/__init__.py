@@ -1,7 +1,7 @@
 """Assets: models by the names that scene files use, from files or generated.
 
 `load_model` looks for the file (`find.py`), then for a file of the same stem that it can read,
-then for our stand-in of that relative name (`STAND_INS`).
+then for our replacement of that relative name (`STAND_INS`).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Search of files in an ordered list of folders.
 
-A name is looked for as given; beside the file that names it and in each of that file's parent
+A name is looked for as given; next to the file that names it and in each of that file's parent
 folders, but the home folder and what is above it; in every data path; in ``~/.uwsim/data`` and
 ``~/.uwsim``; in the package. Each of these also under ``data``, ``data/scenes``, ``data/vehicles``,
 ``objects``, ``terrain``, ``robot`` and ``textures``.

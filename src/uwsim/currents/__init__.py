@@ -33,7 +33,7 @@ CURRENTS: dict[str, type[CurrentSpec]] = {
     "tidal": TidalSpec,
     "uwsimSinusoid": UwsimSinusoidSpec,
 }
-"""Element, without its prefix -> what a file says about it. In alphabetical order."""
+"""Element, without its prefix -> its spec, in alphabetical order."""
 
 __all__ = [
     "CURRENTS",

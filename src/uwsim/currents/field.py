@@ -55,7 +55,7 @@ class FieldSpec(CurrentSpec):
         """Read the file.
 
         Raises:
-            AssetError: it cannot be used; says what is wrong with it.
+            AssetError: it cannot be used.
         """
         grid = read_grid(place.find(self.file), name=self.file)
         return Field(grid, start=self.start, outside=self.outside)
@@ -80,10 +80,10 @@ def read_grid(path: Path, *, name: str = "") -> Grid:
 
     Args:
         path: where it is.
-        name: what the scene calls it; the name of the file unless it is said.
+        name: what the scene calls it; the name of the file by default.
 
     Raises:
-        AssetError: it cannot be used; says what is wrong with it.
+        AssetError: it cannot be used.
     """
     readers = {".csv": read_csv, ".nc": read_netcdf, ".cdf": read_netcdf}
     reader = readers.get(path.suffix.lower())

@@ -124,7 +124,7 @@ class CommsDevice(Device):
     """A device on a link: bytes on ``<id>/tx`` are sent, what it receives is on ``<id>/rx``.
 
     Args:
-        spec: what the file says.
+        spec: its spec.
         stage: the scene.
         vehicle: what it rides on.
         settings: what it is in the network; None: it takes no part.

@@ -66,7 +66,7 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -
 
     Args:
         path: The file.
-        name: What it is called by whatever names it; the name of the file unless it is said.
+        name: What it is called by whatever names it; the name of the file by default.
         at_most: The largest size [bytes].
 
     Raises:

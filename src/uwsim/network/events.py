@@ -28,7 +28,7 @@ class EventQueue(Generic[T]):
     """Events with integer times [ns]."""
 
     STATE = ("_heap", "_n_added")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self) -> None:
         self._heap: list[_Entry[T]] = []

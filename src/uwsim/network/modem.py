@@ -88,7 +88,7 @@ class Modem:
         *("outgoing", "arriving"),
         *("time_sending", "time_receiving", "last_delivery", "counts"),
     )
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,

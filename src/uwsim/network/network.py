@@ -54,7 +54,7 @@ class Network:
     """
 
     STATE = ("_modems", "_events", "_now")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,

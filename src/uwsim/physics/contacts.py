@@ -23,14 +23,14 @@ class EngineContacts:
     """Contacts that MuJoCo found in the last step.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         model: of the scene.
         data: its state.
         shapes: names of the bodies that have shapes.
     """
 
     STATE = ("hold",)
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,

@@ -48,7 +48,7 @@ class Engine:
         "poses",
         "_contacts",
     )
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,
@@ -63,7 +63,7 @@ class Engine:
         self._data = data = mujoco.MjData(model)
         names = [body_name(scene, model.body(i).name) for i in range(model.nbody)]
         self.motion = Motion(model, data, names)
-        """Where everything is and how it moves, as numbers."""
+        """Positions and velocities of all bodies, as one row of numbers."""
         self.poses = Poses(scene, robots, model, data)
         """Where everything is, as frames."""
         self._contacts = EngineContacts(scene, model, data, shapes)

@@ -69,7 +69,7 @@ def loose_hydrodynamics(
 
     Args:
         name: of its body in the model.
-        physics: what the file says.
+        physics: its spec.
         shapes: what is touched of it.
         density: of the water [kg/m3].
     """

@@ -1,6 +1,6 @@
 """Contacts of kinematic bodies, which have poses instead of forces.
 
-A vehicle without ``u:dynamics`` goes where it is told, through walls if need be, as in the
+A vehicle without ``u:dynamics`` moves as commanded, even through walls, as in the
 original. Its shapes are laid over those of the objects wherever it is; nothing is pushed. It moves
 in jumps, one a message: a jump counts as made evenly over the time since the one before, 1 s at
 most, and its speed as that of as much time after it. So a twist that comes ten times a second is
@@ -36,7 +36,7 @@ class KinematicContacts:
     """
 
     STATE = ("_seen", "_step", "_is_stale", "_movers")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,
@@ -112,7 +112,7 @@ class _Mover:
     """A kinematic body, with the velocity of its last displacement."""
 
     STATE = ("now", "_before", "_jumped_at", "_n_steps")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, pose: Callable[[], Pose], timestep: float) -> None:
         self._pose, self._timestep = pose, timestep

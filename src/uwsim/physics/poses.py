@@ -20,14 +20,14 @@ class Poses:
     """The frames of a scene, worked out from the joints when somebody asks for the first time.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         model: of the scene.
         data: its state.
     """
 
     STATE = ("version", "_is_stale")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,

@@ -21,7 +21,7 @@ from .hydrodynamics import callback
 from .hydrodynamics.hydrodynamics import Hydrodynamics
 
 AUTOPILOT_PERIOD = 0.02
-"""An autopilot thinks this often [s]."""
+"""Period of the autopilots [s]."""
 
 Ints = npt.NDArray[np.int64]
 

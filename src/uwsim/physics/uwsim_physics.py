@@ -7,7 +7,7 @@ multiplies the velocity of the centre of mass, and that of turning (Bullet, `app
 
 .. math:: (1 - d)^{\Delta t}
 
-Vehicles go where they are told, through walls if need be, and push what is loose: each jump counts
+Vehicles move as commanded, even through walls, and push free objects: each jump counts
 as made evenly over the time since the one before (`MAX_JUMP` at most), for as much time after
 it. Not modelled: limits of objects, Bullet's friction and its solvers (ours is MuJoCo's, with
 `compile.FRICTION`), ``physicsFrequency`` (the step is the simulation's).
@@ -32,13 +32,13 @@ class UwsimPhysics:
     """Free objects among kinematic vehicles, as in UWSim.
 
     Args:
-        scene: what the file says; its ``has_uwsim_physics`` is true.
+        scene: spec of the scene; its ``has_uwsim_physics`` is true.
         model: of the scene; changed here to what this engine needs.
         data: its state.
     """
 
     STATE = ("_movers",)
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self._model, self._data = model, data
@@ -106,7 +106,7 @@ class _Mover:
     """A kinematic vehicle with the speed of its last displacement."""
 
     STATE = ("_now", "_velocity", "_since", "_n_steps")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: list[int]) -> None:
         self._model, self._data = model, data

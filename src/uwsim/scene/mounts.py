@@ -1,7 +1,7 @@
 """Poses and viewing directions of sensors and devices on their links.
 
 A mount is fixed: ``<u:lookAt>`` is worked out once, for the vehicle where the file puts it and its
-joints as the file says, and then moves with its link as ``<orientation>`` would.
+joints as in the file, and then moves with its link as ``<orientation>`` would.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Stand:
     """A vehicle at its pose in the file, from which mounts are computed.
 
     Args:
-        vehicle: what the file says.
+        vehicle: its spec.
         robot: its links and joints.
         world_from_localized: the scene's offset.
     """

@@ -145,7 +145,7 @@ DISTRIBUTIONS: dict[str, type[VariationSpec]] = {
     f"{{{NAMESPACE}}}normal": NormalSpec,
     f"{{{NAMESPACE}}}uniform": UniformSpec,
 }
-"""Element in ``<u:vary>`` -> what a file says about it. In alphabetical order."""
+"""Element in ``<u:vary>`` -> its spec, in alphabetical order."""
 
 
 @dataclass(frozen=True)

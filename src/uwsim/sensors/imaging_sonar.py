@@ -26,8 +26,8 @@ from ..schema import element
 from ..world import Body, SensorWorld
 from .sensor import Carrier
 from .sonar.echoes import Echoes
+from .sonar.fan_image import FanImage, Levels
 from .sonar.message import level_directions, sonar_image
-from .sonar.picture import FanPicture, Levels
 from .sonar.spec import SonarSpec
 
 
@@ -58,7 +58,7 @@ class ImagingSonar:
     """Echoes in bins of azimuth and range."""
 
     STATE: ClassVar[tuple[str, ...]] = ("_random", "_last")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: ImagingSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
@@ -67,7 +67,7 @@ class ImagingSonar:
         azimuths = spec.azimuths
         self._echoes = Echoes(spec, world, azimuths, float(azimuths[1] - azimuths[0]))
         self._ranges, self._directions = self._echoes.ranges, level_directions(azimuths)
-        self._levels, self._fan = Levels(spec, self._ranges), FanPicture(azimuths, self._ranges)
+        self._levels, self._fan = Levels(spec, self._ranges), FanImage(azimuths, self._ranges)
         self._last = np.zeros((spec.bins, spec.beams), dtype=np.float32)
 
     def sample(self, time: float) -> ProjectedSonarImage:
@@ -87,7 +87,7 @@ class ImagingSonar:
         """Let a ping that nobody hears take its turn in the random stream."""
         self._random.integers(2**63)
 
-    def picture(self, time: float) -> Image:
+    def image(self, time: float) -> Image:
         """The last ping as a fan, ahead is up, stamped ``time`` [s]."""
         losses = self._echoes.losses(self._mount.world_from_body)
         greys = self._levels.of(self._last, losses)

@@ -83,7 +83,7 @@ class BeamFan:
     """Ranges of beams side by side, as sensor_msgs/LaserScan."""
 
     STATE: ClassVar[tuple[str, ...]] = ("_random",)
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: FanSpec, mount: Body, world: SensorWorld, random: np.random.Generator

@@ -59,7 +59,7 @@ class RangeSensor:
     """The distance from the sensor to the first surface in its beam."""
 
     STATE: ClassVar[tuple[str, ...]] = ("_random",)
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: RangeSensorSpec, mount: Body, world: SensorWorld, random: np.random.Generator

@@ -26,8 +26,8 @@ from ..schema import element
 from ..world import Body, SensorWorld
 from .sensor import Carrier
 from .sonar.echoes import Echoes
+from .sonar.fan_image import FanImage, Levels
 from .sonar.message import level_directions, sonar_image
-from .sonar.picture import FanPicture, Levels
 from .sonar.spec import SonarSpec
 
 RAYS_A_WIDTH = 4
@@ -71,7 +71,7 @@ class ScanningSonar:
     """Echoes of one beam after the other."""
 
     STATE: ClassVar[tuple[str, ...]] = ("_random", "_scan", "_n_pings")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: ScanningSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
@@ -81,7 +81,7 @@ class ScanningSonar:
         self._echoes = Echoes(spec, world, np.zeros(1), step)
         self._azimuths, self._ranges = spec.azimuths, self._echoes.ranges
         self._levels = Levels(spec, self._ranges)
-        self._fan = FanPicture(self._azimuths, self._ranges)
+        self._fan = FanImage(self._azimuths, self._ranges)
         self._scan = np.zeros((spec.bins, len(self._azimuths)), dtype=np.float32)
         self._n_pings = 0
 
@@ -112,7 +112,7 @@ class ScanningSonar:
             time=time,
         )
 
-    def picture(self, time: float) -> Image:
+    def image(self, time: float) -> Image:
         """The last ping of each azimuth, ahead is up, stamped ``time`` [s]."""
         losses = self._echoes.losses(self._mount.world_from_body)
         greys = self._levels.of(self._scan, losses)

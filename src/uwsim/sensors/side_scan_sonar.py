@@ -9,7 +9,7 @@
     </u:sideScanSonar>
 
 It pings to port and to starboard, once a sample; as the vehicle goes on, the pings side by side
-make a picture, the waterfall. See `uwsim.sensors.sonar.echoes` for what it hears.
+make an image, the waterfall. See `uwsim.sensors.sonar.echoes` for what it hears.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ from ..world import Body, SensorWorld
 from .scanning_sonar import RAYS_A_WIDTH
 from .sensor import Carrier
 from .sonar.echoes import Echoes
+from .sonar.fan_image import Levels
 from .sonar.message import sonar_image
-from .sonar.picture import Levels
 from .sonar.spec import SonarSpec
 
 SIDES = (0.5 * math.pi, -0.5 * math.pi)
@@ -64,7 +64,7 @@ class SideScanSonar:
     """Echoes to port and to starboard, and the waterfall of the last pings."""
 
     STATE: ClassVar[tuple[str, ...]] = ("_random", "_waterfall", "_n_pings")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: SideScanSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
@@ -100,7 +100,7 @@ class SideScanSonar:
             time=time,
         )
 
-    def picture(self, time: float) -> Image:
+    def image(self, time: float) -> Image:
         """The waterfall: the newest ping at the top, port on the left, stamped ``time`` [s]."""
         newest = (self._n_pings - 1) % self._spec.lines
         rows = np.roll(self._waterfall, -1 - newest, axis=0)[::-1]

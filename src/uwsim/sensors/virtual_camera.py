@@ -123,7 +123,7 @@ class VirtualCamera:
     """
 
     STATE: ClassVar[tuple[str, ...]] = ("std", "n_images", "_random")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: VirtualCameraSpec, mount: Body, world: SensorWorld, random: np.random.Generator
@@ -143,7 +143,7 @@ class VirtualCamera:
         self.std = spec.std
         """Noise of each channel, 0..1; scene updaters may turn it."""
         self.n_images: int | None = None
-        """Images due on its topics so far, read or not; None: it has no topic."""
+        """Number of images due on its topics so far, read or not; None if it has no topic."""
 
     @property
     def intrinsics(self) -> Intrinsics:

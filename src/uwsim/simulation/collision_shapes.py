@@ -44,7 +44,7 @@ def simulated_shapes(
     """Make the collision shapes of the engine; none where nothing is simulated.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         dynamics: numbers of the vehicles that are simulated.
         data_path: folders in which files are looked for.
@@ -74,7 +74,7 @@ def collision_shapes(
     """Make the shapes of a scene, by the name of their body in the model.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         vehicles: numbers of those that can be touched.
         objects: what each object that can be touched is, by its number.
@@ -163,7 +163,7 @@ def standing_faces(
     """Collision triangles of a fixed object in W, (n, 3, 3) [m].
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         index: number of the object.
         physics: what it is.
         data_path: folders in which files are looked for.

@@ -28,7 +28,7 @@ class Contacts:
     """The contacts of a scene.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         state: where everything is.
         data_path: folders in which files are looked for.
@@ -36,7 +36,7 @@ class Contacts:
     """
 
     STATE = ("_step", "_laid")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,

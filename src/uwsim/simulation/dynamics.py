@@ -57,7 +57,7 @@ class Search:
     """Resolves the names, and collects what they refer to and those that are unknown.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle that has one, by its number.
         data_path: folders in which files are looked for.
         is_thorough: read currents whole; the user's own functions are not run.

@@ -2,7 +2,7 @@
 
 The ground is every object that stands fixed and can be touched, and ``terrain`` in any case; what
 is set on the ground carries nothing itself. A vehicle touches it with the boxes of its links, its
-joints as the file says; an object with its collision shape, without ``<physics>`` with the hulls of
+joints as in the file; an object with its collision shape, without ``<physics>`` with the hulls of
 its mesh's materials.
 """
 
@@ -39,7 +39,7 @@ def set_on_floor(
     """Return the scene with every ``u:onFloor`` resolved to a pose.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         data_path: folders in which files are looked for.
 
@@ -86,7 +86,7 @@ class Floor:
     """The ground of a scene, and the poses of bodies at rest on it.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         data_path: folders in which files are looked for.
     """

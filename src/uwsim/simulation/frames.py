@@ -25,7 +25,7 @@ def vehicle_frames(
     """Every vehicle with its links and sensors; a sensor on a link that is not there is left out.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number in the scene.
         vehicles: the vehicles of the scene, in the file's order.
         state: where their links are.

@@ -72,10 +72,10 @@ class Hull:
 def hull_of(
     scene: SceneSpec, robots: Mapping[int, RobotSpec], index: int, data_path: tuple[Path, ...]
 ) -> Hull | None:
-    """Measure a vehicle, its joints as the file says; None where it has no shape.
+    """Measure a vehicle, its joints as in the file; None where it has no shape.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         index: number of the vehicle.
         data_path: folders in which files are looked for.

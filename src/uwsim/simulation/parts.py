@@ -118,7 +118,7 @@ def visual_model(
     if visual.kind == "mesh":
         try:
             model = load_model(visual.file, beside=beside, data_path=data_path)
-        except AssetNotFound:  # `uwsim check` says so
+        except AssetNotFound:  # reported by `uwsim check`
             return unknown_model(visual.file), (1.0, 1.0, 1.0)
     else:
         wide, deep, tall = (max(edge, THINNEST) for edge in visual.size)

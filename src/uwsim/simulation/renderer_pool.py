@@ -1,7 +1,7 @@
 """Renderers that are reused by one simulation after another.
 
 A new OpenGL context has to compile its shaders and take in every texture again, which costs as
-much as dozens of images. A pool belongs to whoever plays several simulations in one process.
+much as dozens of images. A pool is shared by several simulations of one process.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ class SceneRays:
     The triangles of a scene are sorted when the first ray is cast.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         parts: its models.
         state: where everything is.
     """

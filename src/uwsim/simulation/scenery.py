@@ -32,7 +32,7 @@ class Scenery:
     """The models of a scene in its water; acquires a renderer for the first image.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         state: where everything is.
         data_path: folders in which files are looked for.

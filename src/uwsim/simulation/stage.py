@@ -37,7 +37,7 @@ class SceneStage(SceneWorld):
     """A scene world whose fog, light, noise, currents and arms can be set (`uwsim.world.Stage`).
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         udp_address: of this computer, at which ``<fdm>`` takes packets; None: it takes none.
         options: those of `SceneWorld`.
     """
@@ -46,7 +46,7 @@ class SceneStage(SceneWorld):
         *("_bus", "state", "scenery", "touch", "_timers", "_pending"),
         *("_vehicles", "_sensors", "devices", "interfaces", "network"),
     )
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, scene: SceneSpec, *, udp_address: str | None = None, **options: Any) -> None:
         super().__init__(scene, **options)

@@ -30,7 +30,7 @@ class SceneVehicle:
     """
 
     STATE = ("_offsets", "_losses")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, index: int, stand: Stand, state: Engine) -> None:
         self._index, self._stand, self._state = index, stand, state

@@ -23,7 +23,7 @@ class WaterMotion:
     """The flow that the vehicles of a scene feel, in W.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         place: what currents may see of the scene.
     """
 

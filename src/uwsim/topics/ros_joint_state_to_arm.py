@@ -39,7 +39,7 @@ class JointCommand(Interface):
     """Moves the joints of a vehicle."""
 
     STATE = ("_gap",)
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap

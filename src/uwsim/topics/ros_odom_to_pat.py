@@ -39,7 +39,7 @@ class OdometryCommand(Interface):
     """Sets the pose of a vehicle or moves it by a twist."""
 
     STATE = ("_twist",)
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, pose: PoseCommand, twist: TwistCommand) -> None:
         self._pose, self._twist = pose, twist

@@ -46,7 +46,7 @@ class TwistCommand(Interface):
     """Moves a vehicle by one step of a twist, or has its autopilot hold it."""
 
     STATE = ("_gap",)
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap
@@ -71,7 +71,7 @@ class Gap:
     """Time since the velocity before."""
 
     STATE = ("_last",)
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(self, world: TopicWorld) -> None:
         self._world = world

@@ -1,4 +1,4 @@
-"""Sonars on topics: echoes for programs, and pictures for people."""
+"""Sonars on topics: echoes for programs, and images for people."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class SonarToROSSpec(InterfaceSpec):
     topic: str
     """Topic of the echoes."""
     image_topic: str
-    """Topic of the pictures: a fan seen from above, or the waterfall of a side-scan."""
+    """Topic of the images: a fan seen from above, or the waterfall of a side-scan."""
     rate: int = element(default=10, minimum=1)
     """How often it pings [Hz]."""
 
@@ -39,12 +39,12 @@ class SonarToROSSpec(InterfaceSpec):
 class Sonar(Sensor, Protocol):
     """A sonar at work."""
 
-    def picture(self, time: float) -> Image:
+    def image(self, time: float) -> Image:
         """What it heard, for people, stamped ``time`` [s]."""
 
 
 class SonarPublisher(Interface):
-    """Publishes what a sonar hears, and a picture of it where somebody looks."""
+    """Publishes what a sonar hears, and an image of it where somebody looks."""
 
     def __init__(self, spec: SonarToROSSpec, sonar: Sonar, world: TopicWorld) -> None:
         self._sonar, self._world, self._image_topic = sonar, world, spec.image_topic
@@ -58,4 +58,4 @@ class SonarPublisher(Interface):
         time = self._world.time
         self._publish(self._sonar.sample(time))
         if self._world.bus.has_readers(self._image_topic):
-            self._publish_image(self._sonar.picture(time))
+            self._publish_image(self._sonar.image(time))

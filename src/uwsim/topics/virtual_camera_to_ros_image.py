@@ -46,13 +46,13 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
 class ImagePublisher(Interface):
     """Publishes the images of a camera.
 
-    A sample that nobody reads is not drawn, but takes its turn in the camera's random stream: the
+    A sample without a subscriber is not rendered, but advances the camera's random stream: the
     images do not depend on who is listening. In a blind world the images are black, for
     algorithms that do not look at them.
     """
 
     STATE = ("n_frames", "last", "timer")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: VirtualCameraToROSImageSpec, camera: VirtualCamera, world: TopicWorld

@@ -96,7 +96,7 @@ class ControllerNode:
 
     The camera looks down and the top of its image points to the bow: what is right of the centre
     calls for sway to starboard, what is above it for surge. The twist is held by the vehicle until
-    the next one; when the tracker is lost, it is zero. Each time the tracker is told where its
+    the next one; when the tracker is lost, it is zero. Each time the tracker is given its
     target is (``autoInit``) the law begins anew: what it summed up was about another place.
     """
 

@@ -44,12 +44,12 @@ def read_model(
 
     Args:
         path: The file.
-        name: What it was asked for by.
-        within: Folders that its materials and images may lie in; its own unless it is said.
+        name: The name by which it was looked up.
+        within: Folders that its materials and images may lie in; its own by default.
         max_triangles: Simplified to about this many when it has more.
 
     Raises:
-        AssetError: It cannot be read; says why, or what to install.
+        AssetError: It cannot be read.
     """
     within = within or (path.absolute().parent,)
     key = (path, name, within, max_triangles)

@@ -52,10 +52,10 @@ def read_meshes(
 
     Args:
         path: The file.
-        name: What it was asked for by.
-        within: Folders that its materials and images may lie in; its own unless it is said.
+        name: The name by which it was looked up.
+        within: Folders that its materials and images may lie in; its own by default.
         max_triangles: Simplified to about this many in all when there are more.
-        original: What the file was converted from; images are looked for beside it, too.
+        original: What the file was converted from; images are looked for next to it, too.
 
     Raises:
         AssetError: Broken, empty or too large.

@@ -36,7 +36,7 @@ def without_osgconv(path: Path) -> str:
 def converted(path: Path) -> Iterator[Path]:
     """Convert a file to OBJ in a temporary folder.
 
-    Images inside the file are written out first; images beside it are found by their name.
+    Images inside the file are written out first; images next to it are found by their name.
 
     Raises:
         AssetError: `osgconv` is not installed or cannot read the file.

@@ -1,7 +1,7 @@
 """Files that a mesh file names: materials, images, buffers; only those in its folder are read.
 
-A name is looked for beside the mesh, as it stands and by its last part alone: exporters write paths
-of their author's machine. What leads out of the folders that were named is an error.
+A name is looked for next to the mesh, as given and by its last part alone: exporters write paths of
+their author's machine. A path out of the folders given is an error.
 """
 
 from __future__ import annotations

@@ -97,7 +97,7 @@ class Autopilot:
     """
 
     STATE = ("_state", "_commands")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,

@@ -44,7 +44,7 @@ def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array
     """Return what `power_kernel.thruster_power` computes with, (2, 1 + n).
 
     Args:
-        thruster: what the file says of it.
+        thruster: its spec.
         density: of the water [kg/m3].
         terms: the polynomials have room for so many at least.
     """

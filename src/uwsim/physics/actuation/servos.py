@@ -29,7 +29,7 @@ class Servos:
     """The servos of one vehicle; the joint vector is UWSim's."""
 
     STATE = ("_state",)
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotSpec, index: int

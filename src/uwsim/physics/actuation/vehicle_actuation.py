@@ -36,7 +36,7 @@ class VehicleActuation:
     """
 
     STATE = ("autopilot", "servos")
-    """What of it changes as time goes by."""
+    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,
@@ -97,7 +97,7 @@ class VehicleActuation:
             self._water.turn_fin(self._data, fin, angle)
 
     def set_loss(self, thruster: int, loss: float) -> None:
-        """Let a thruster lose a part of its thrust: 0 healthy, 1 dead."""
+        """Set the share of its thrust that a thruster loses: 0 healthy, 1 dead."""
         self._water.set_loss(self._data, self._thrusters[thruster], loss)
 
     def actuators(self) -> Actuators:

@@ -48,7 +48,7 @@ class SonarSpec(SensorSpec):
     """Whether echoes of many scatterers interfere: Rayleigh amplitudes."""
     multipath: bool = False
     """Whether echoes by way of the water's surface are there, too."""
-    picture_floor: float = element(default=-75.0, minimum=-300, maximum=300)
-    """Target strength that is black in pictures [dB re 1 m2]."""
-    picture_range: float = element(default=50.0, above=0, maximum=300)
-    """From black to white in pictures [dB]."""
+    image_floor: float = element(default=-75.0, minimum=-300, maximum=300)
+    """Target strength that is black in images [dB re 1 m2]."""
+    image_range: float = element(default=50.0, above=0, maximum=300)
+    """From black to white in images [dB]."""

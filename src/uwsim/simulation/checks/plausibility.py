@@ -40,7 +40,7 @@ def doubts_about(
     """Report every likely mistake of a scene.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
         data_path: folders in which files are looked for.
@@ -78,7 +78,7 @@ def _of_vehicle(
 ) -> Iterator[tuple[VehicleDoubt, str, str]]:
     """Each check of a vehicle: its name, the element concerned, and a message or nothing."""
     hull = None
-    with suppress(UwsimError):  # said where models are checked
+    with suppress(UwsimError):  # reported where models are checked
         hull = hull_of(scene, robots, index, data_path)
     if hull is not None:
         yield "size", "file", size_said(hull, robots[index])
@@ -97,7 +97,7 @@ def _of_starts(
 ) -> Iterator[tuple[Literal["vehicle", "object"], int, str]]:
     """Each check of a start pose: kind, number, and a message or nothing."""
     loose = [index for index, solid in scene.solid_objects.items() if solid.is_loose]
-    with suppress(UwsimError):  # said where models are checked
+    with suppress(UwsimError):  # reported where models are checked
         starts = Starts(scene, robots, data_path)
         for index in vehicles:
             if "start" not in scene.vehicles[index].accepts:

@@ -22,12 +22,12 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
     """Check the simulated parts of a scene: names, numbers, thrusters and shapes.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         data_path: folders in which files are looked for.
     """
     robots: dict[int, RobotSpec] = {}
     for index, vehicle in enumerate(scene.vehicles):
-        with suppress(UwsimError):  # said where robots are checked
+        with suppress(UwsimError):  # reported where robots are checked
             robots[index] = read_urdf(find_robot(vehicle.file, scene.path, data_path))
     search = Search(scene, robots, data_path, is_thorough=True)
     found = search.found
@@ -37,7 +37,7 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
         set_on_floor(scene, robots, data_path)
     except SceneError as error:
         found += error.diagnostics
-    except UwsimError:  # said where robots and models are checked
+    except UwsimError:  # reported where robots and models are checked
         pass
     return found + _untouchable(scene, search.dynamics, data_path)
 

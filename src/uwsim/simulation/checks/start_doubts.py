@@ -28,7 +28,7 @@ class Starts:
     """The start poses of a scene's vehicles and objects.
 
     Args:
-        scene: what the file says.
+        scene: spec of the scene.
         robots: the robot of each vehicle, by its number.
         data_path: folders in which files are looked for.
 

@@ -1,6 +1,6 @@
-r"""Pictures of echoes for people: levels in dB, and fans of beams laid out in the plane.
+r"""Images of echoes for people: levels in dB, and fans of beams laid out in the plane.
 
-Spreading and absorption are compensated (time-varying gain): a picture shows the target strength
+Spreading and absorption are compensated (time-varying gain): an image shows the target strength
 of what is in each bin, :math:`EL - SL + 2 (20 \log r + \alpha r)`.
 """
 
@@ -19,7 +19,7 @@ from .spec import SonarSpec
 
 Pixels = npt.NDArray[np.uint8]
 LARGEST = 2048
-"""Pictures are scaled down to so many pixels across."""
+"""Images are scaled down to so many pixels across."""
 
 
 class Levels:
@@ -35,7 +35,7 @@ class Levels:
         self._spreading = 40.0 * log10(np.maximum(ranges, 1e-3)) - spec.source_level - MICROPASCAL
         high_halves = (np.arange(1, 0x7F80, dtype=np.uint32) << 16).view(np.float32)
         level = 20.0 * log10(high_halves.astype(np.float64))
-        grey = 255.0 * (level - spec.picture_floor) / spec.picture_range
+        grey = 255.0 * (level - spec.image_floor) / spec.image_range
         self._greys = np.zeros(0x10000, dtype=np.uint8)
         self._greys[1:0x7F80] = np.clip(np.round(grey), 0.0, 255.0).astype(np.uint8)
 
@@ -48,8 +48,8 @@ class Levels:
         return greys
 
 
-class FanPicture:
-    """Where each pixel of a picture of a fan is in its bins: ahead is up, port is left.
+class FanImage:
+    """Where each pixel of an image of a fan is in its bins: ahead is up, port is left.
 
     Args:
         azimuths: of the beams at equal steps, positive to port, (n,) [rad].
@@ -80,7 +80,7 @@ class FanPicture:
         self._places = (bins * len(azimuths) + beams)[self._inside]
 
     def of(self, greys: Pixels) -> Pixels:
-        """The picture of grey values (bins, n), black around the fan, (h, w)."""
+        """The image of grey values (bins, n), black around the fan, (h, w)."""
         pixels = np.zeros(self._inside.shape, dtype=np.uint8)
         pixels[self._inside] = greys.reshape(-1)[self._places]
         return pixels
