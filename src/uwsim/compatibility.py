@@ -36,7 +36,7 @@ COMPATIBILITY: dict[str, str] = {
     "thresholds": "trigger distances are compared squared: onMove 0.447 m, position 0.548 m",
     "time-log": "a time is 0 as long as it runs, in its log and in what is published",
     "unseen": "what is outside an image, or behind the camera, is projected all the same",
-    "visual-frames": "cameras hang on the visual frame of their link (scenes before July 2014)",
+    "visual-frames": "cameras are on the visual frame of their link (scenes before July 2014)",
     "y0": "the camera parameter y0 counts from the bottom edge, but is published as it is",
 }
 """Name -> what the original does. In alphabetical order."""

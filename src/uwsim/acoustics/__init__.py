@@ -1,4 +1,4 @@
-"""Sound in water: how fast it is, what the water takes, how loud the sea is, what comes back."""
+"""Acoustics of water: sound speed, absorption, ambient noise, backscatter."""
 
 from .absorption import absorption
 from .ambient_noise import ambient_noise, power_sum

@@ -1,4 +1,4 @@
-r"""What comes back from a surface: backscattering by material and angle of incidence.
+r"""Acoustic backscatter of surfaces by material and angle of incidence.
 
 The backscattering cross section of a square metre, seen at the angle :math:`\theta` to its normal,
 
@@ -35,7 +35,7 @@ MaterialName = Literal[
 
 @dataclass(frozen=True)
 class Material:
-    """What sonars find at a surface."""
+    """The acoustic properties of a surface."""
 
     reflection: float
     """Of the amplitude of sound that meets it head on, R [1]."""

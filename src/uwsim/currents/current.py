@@ -13,10 +13,10 @@ from ..geometry import Array, Pose
 from ..linear import product
 
 MAX_SPEED = 100.0
-"""No water that a file or a function speaks of moves faster: turbidity currents and tsunamis reach
+"""No current of a file or a function is faster: turbidity currents and tsunamis reach
 some 30 m/s. What is faster is taken for a mistake, mostly of units [m/s]."""
 DIFFERENCE = 1e-3
-"""Half the span of the central difference that stands for the acceleration [s]."""
+"""Half the span of the central difference that gives the acceleration [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,7 +86,7 @@ class Current(abc.ABC):
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return how fast that velocity changes at a fixed point, in L, (n, 3) [m/s2].
 
-        A central difference over 2 ms unless the current knows better.
+        A central difference over 2 ms by default.
         """
         before = max(0.0, time - DIFFERENCE)
         later = self.velocity(points, time + DIFFERENCE, vehicles)

@@ -1,4 +1,4 @@
-"""How long a packet travels: channels described by delays, and sound in water."""
+"""Channels with propagation delays: constant and per metre, or of sound in water."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class DelayChannel:
 
 @dataclass(frozen=True, kw_only=True)
 class Sea:
-    """What makes the noise of the sea."""
+    """Conditions of the ambient noise of the sea."""
 
     shipping: float
     """From 0, few ships, to 1 [1]."""

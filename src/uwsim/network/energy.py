@@ -1,4 +1,4 @@
-"""What a device uses of its energy."""
+"""Energy use of a device."""
 
 from __future__ import annotations
 

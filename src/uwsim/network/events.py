@@ -1,4 +1,4 @@
-"""What happens when: events in the order of their time, then of their rank, then as added."""
+"""A queue of events in the order of time, then rank, then insertion."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class EventQueue(Generic[T]):
         self._n_added = 0
 
     def add(self, time: int, event: T, *, rank: int = 0) -> None:
-        """Let something happen at ``time`` [ns]; of one time the lowest rank comes first."""
+        """Add an event at ``time`` [ns]; at equal times the lowest rank comes first."""
         self._n_added += 1
         heapq.heappush(self._heap, _Entry(time, rank, self._n_added, event))
 

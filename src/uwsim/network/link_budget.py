@@ -1,4 +1,4 @@
-r"""The sonar equation of a link: how far the signal stands out of the noise.
+r"""Link budget by the sonar equation: the signal-to-noise ratio of a link.
 
 .. math::
 

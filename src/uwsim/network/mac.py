@@ -1,4 +1,4 @@
-"""Who may send when (medium access control).
+"""Medium access control.
 
 ==============  ==================================================================================
 ALOHA           at once, whatever is heard

@@ -1,4 +1,4 @@
-"""A device of the network: what it is, and its queue and receptions as they are now."""
+"""A device of the network: settings, queue and receptions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .packet_errors import ErrorModel
 
 @dataclass(frozen=True, kw_only=True)
 class ModemSettings:
-    """What a device is."""
+    """The settings of a device."""
 
     name: str
     """Its name, which begins the names of its random streams."""
@@ -75,7 +75,7 @@ class Waiting:
 
 
 class Modem:
-    """A device at work; the network moves it.
+    """A device in a network, driven by the network.
 
     Args:
         settings: what it is.

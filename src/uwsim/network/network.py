@@ -83,7 +83,7 @@ class Network:
         return not self._events
 
     def join(self, modem: Modem) -> Callable[[bytes, int], None]:
-        """Let a device take part; returns ``send(data, destination)``."""
+        """Add a device; returns ``send(data, destination)``."""
         number = len(self._modems)
         self._modems.append(modem)
         return lambda data, destination: self._queue(number, data, destination)
@@ -96,7 +96,7 @@ class Network:
         raise UnknownName("modem", name, [each.settings.name for each in self._modems])
 
     def advance(self, now: int) -> None:
-        """Let everything happen up to ``now`` [ns]."""
+        """Process all events up to ``now`` [ns]."""
         if not self._modems:
             return
         while (due := self._events.take(now)) is not None:

@@ -1,4 +1,4 @@
-"""Packets, and what becomes of them at a receiver."""
+"""Packets and their receptions."""
 
 from __future__ import annotations
 

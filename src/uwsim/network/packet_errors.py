@@ -1,4 +1,4 @@
-"""How likely a packet is lost on its way."""
+"""Error models of packets."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Unit = Literal["bit", "byte", "packet"]
 
 
 class ErrorModel(Protocol):
-    """What a packet may lose."""
+    """An error model of packets."""
 
     def probability(self, path: Path, n_bytes: int) -> float:
         """Return how likely a packet of ``n_bytes`` is damaged [0..1]."""

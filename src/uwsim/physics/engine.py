@@ -220,7 +220,7 @@ class Engine:
         return np.array([self._model.joint(name).qposadr[0] for name in names], dtype=np.intp)
 
     def _make_actuation(self, scene: SceneSpec) -> dict[int, VehicleActuation]:
-        """What moves each simulated vehicle."""
+        """Make the actuation of each simulated vehicle."""
         if self._water is None:
             return {}
         return {
@@ -245,7 +245,7 @@ class Engine:
             self.set_joints(index, values)
 
     def _wet_points(self) -> tuple[npt.NDArray[np.int64], Array]:
-        """Bodies whose water is asked for, (n,), and where they feel it, in their axes (n, 3)."""
+        """Bodies that sample the flow, (n,), and the points of sampling, in their axes (n, 3)."""
         water = self._water
         if water is None:
             return np.zeros(0, np.int64), np.zeros((0, 3))
@@ -254,7 +254,7 @@ class Engine:
         return wet, np.array([water.felt_at(body) for body in wet]).reshape(-1, 3)
 
     def _make_stepper(self, placed: Sequence[int]) -> Stepper | None:
-        """What takes the steps of a scene with simulated vehicles; ``placed`` joints stay."""
+        """Make the stepper of a scene with simulated vehicles; ``placed`` joints are fixed."""
         if self._water is None:
             return None
         from .stepper import Stepper

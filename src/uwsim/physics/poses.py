@@ -1,4 +1,4 @@
-"""Where everything in a scene is: vehicles, links, what is mounted on them, objects; as copies."""
+"""Poses of vehicles, links, mounts and objects, as copies."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .scaled import stretched_axes
 
 
 class Poses:
-    """The frames of a scene, worked out from the joints when somebody asks for the first time.
+    """The frames of a scene, computed from the joints on demand.
 
     Args:
         scene: spec of the scene.
@@ -61,12 +61,12 @@ class Poses:
         """Grows whenever something was moved."""
 
     def moved(self) -> None:
-        """Take note that joints are elsewhere now."""
+        """Mark the frames as out of date."""
         self._is_stale = True
         self.version += 1
 
     def refresh(self) -> None:
-        """Work out the frames, if something was moved."""
+        """Compute the frames, if they are out of date."""
         if self._is_stale:
             mujoco.mj_kinematics(self._model, self._data)
             self._is_stale = False

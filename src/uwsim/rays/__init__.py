@@ -1,4 +1,4 @@
-"""Exact rays against the triangles of a scene: where each hits first, at what angle, on what."""
+"""Exact ray casting against the triangles of a scene."""
 
 from .kernel import Hits
 from .ray_scene import RayScene, Surface

@@ -1,4 +1,4 @@
-"""Rays against triangles, compiled: what each ray from one point hits first, exactly.
+"""Ray casting against triangles, compiled: the exact first hit of each ray from one point.
 
 A ray meets a triangle by T. Moller, B. Trumbore, *Fast, minimum storage ray-triangle intersection*,
 Journal of Graphics Tools 2(1), 1997. Edges belong to both of their triangles, and a little more
@@ -45,7 +45,7 @@ class Trees(NamedTuple):
 
 
 class Hits(NamedTuple):
-    """What rays hit first."""
+    """The first hits of rays."""
 
     distance: Array
     """Along the ray; infinite where nothing is hit, (n,) [m]."""
@@ -64,7 +64,7 @@ def cast_rays(
     limits: tuple[Array, float],
     hits: Hits,
 ) -> None:
-    """Find what rays hit first.
+    """Find the first hits of rays.
 
     Args:
         trees: of the bodies.

@@ -1,4 +1,4 @@
-"""The triangles of a scene as rays meet them: bodies that move, each with a tree of its own."""
+"""The triangles of a scene for ray casting: moving bodies, each with a bounding volume tree."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .tree import build_tree
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles that rays know by one number."""
+    """Triangles with one surface number."""
 
     number: int
     """What `Hits.surface` says of a ray that hits them."""
@@ -27,7 +27,7 @@ class Surface:
 
 
 class RayScene:
-    """What rays can hit. A triangle is hit on its outside, as a camera sees it.
+    """A scene for ray casting. A triangle is hit on its outside, as a camera sees it.
 
     Args:
         bodies: surfaces of each body, in the body's frame. Bodies begin in the place of W.
@@ -55,7 +55,7 @@ class RayScene:
         self._moved = False
 
     def place(self, body: int, world_from_body: npt.NDArray[np.float64]) -> None:
-        """Put a body somewhere; the matrix (4, 4) may stretch [m]."""
+        """Set the pose of a body; the matrix (4, 4) may scale [m]."""
         self._world_from_body[body] = world_from_body
         self._moved = True
 
@@ -66,7 +66,7 @@ class RayScene:
         reach: float,
         begins: Array | None = None,
     ) -> Hits:
-        """Send rays from the origin of a sensor.
+        """Cast rays from the origin of a sensor.
 
         Args:
             world_from_sensor: where the sensor is.

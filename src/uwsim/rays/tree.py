@@ -1,4 +1,4 @@
-"""A tree of boxes over triangles, in which the triangle that a ray hits first is found quickly.
+"""A bounding volume tree over triangles, for finding the first hit of a ray.
 
 Boxes are halved where the surface area heuristic expects the fewest tests (J. Goldsmith, J. Salmon,
 *Automatic creation of object hierarchies for ray tracing*, IEEE CG&A 7(5), 1987), with the centres

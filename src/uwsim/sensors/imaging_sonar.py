@@ -84,7 +84,7 @@ class ImagingSonar:
         )
 
     def skip(self) -> None:
-        """Let a ping that nobody hears take its turn in the random stream."""
+        """Draw the random numbers of an unread ping without computing it."""
         self._random.integers(2**63)
 
     def image(self, time: float) -> Image:

@@ -58,7 +58,7 @@ class ScanningSonarSpec(SonarSpec):
 
     @property
     def is_round(self) -> bool:
-        """Whether it goes round and round."""
+        """Whether it scans a full circle."""
         return abs(self.final_angle - self.init_angle) >= 360.0
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> ScanningSonar:

@@ -22,7 +22,7 @@ def vehicle_frames(
     vehicles: Sequence[SceneVehicle],
     state: Engine,
 ) -> Iterator[Frame]:
-    """Every vehicle with its links and sensors; a sensor on a link that is not there is left out.
+    """Every vehicle with its links and sensors; a sensor on a missing link is left out.
 
     Args:
         scene: spec of the scene.

@@ -44,7 +44,7 @@ class SceneRays:
         reach: float,
         begins: Array | None = None,
     ) -> Hits:
-        """Send rays from the origin of a sensor; see `RayScene.cast`."""
+        """Cast rays from the origin of a sensor; see `RayScene.cast`."""
         for body, frame in enumerate(self._frames):
             self._scene.place(body + 1, frame())
         return self._scene.cast(world_from_sensor, directions, reach, begins)

@@ -40,7 +40,7 @@ LEAN = math.radians(20.0)
 ENOUGH = 0.5
 """Share of the heave that must be left for it to be driven."""
 N_POINTS = 401
-"""Of a thruster's curve as the autopilot knows it."""
+"""Points of a thruster's curve in the autopilot's table."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -34,7 +34,7 @@ for and the speed u
 Where pitch is not driven, surge wished for fades out while the hull leans by `LEVEL` to `STEEP`, so
 that what it cannot right does not take it to the surface or the floor.
 
-The autopilot knows the true state. Not modelled: noise and delay of its sensors.
+The autopilot reads the true state. Not modelled: noise and delay of its sensors.
 """
 
 from __future__ import annotations

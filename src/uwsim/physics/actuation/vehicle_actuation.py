@@ -101,7 +101,7 @@ class VehicleActuation:
         self._water.set_loss(self._data, self._thrusters[thruster], loss)
 
     def actuators(self) -> Actuators:
-        """Return what can be read of its thrusters and joints."""
+        """Return its actuators: thrusts, efforts and electric power."""
         return Actuators(
             self._water.model,
             self._data,
