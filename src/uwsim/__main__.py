@@ -1,4 +1,4 @@
-"""Where the command ``uwsim`` and ``python -m uwsim`` begin."""
+"""Entry point of ``uwsim`` and ``python -m uwsim``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Functions of arrays, element by element, with the same bytes on every processor.
+"""Elementwise functions of arrays with identical results on every processor.
 
 numpy has several codes for each of these and chooses by the processor; they differ in the last bit
 (those that do not, such as the sine, the cosine and the square root, are not here). These call the

@@ -1,4 +1,4 @@
-"""When samples are due: at the first step at or after their time, counted from the start."""
+"""Sampling times: a sample is due at the first step at or after its time."""
 
 from __future__ import annotations
 

@@ -375,7 +375,7 @@ def test_a_unit_that_is_gone_or_junk_is_named_and_nothing_is_held_against_the_ot
     assert status == 3
     assert said.splitlines()[2:] == [
         f"units/00000.jsonl: unit 0 (seed 3): {what}; result.json has 1 of it",
-        "not compared: result.json and the files beside it: units/ is not whole",
+        "not compared: result.json and the files next to it: units/ is incomplete",
         "DIFFERS: all of 1 unit replayed, 1 level. Every replayed unit gave what it stored; "
         "other parts of the result were changed.",
     ]

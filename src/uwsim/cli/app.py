@@ -1,4 +1,4 @@
-"""The frame of the command line: which commands there are, and how their errors are said.
+"""The command line: the table of commands, and the handling of errors.
 
 A command is a function with typer's annotations in a module of its own. `COMMANDS` names them;
 only the one that was asked for is imported, so that ``uwsim --help`` stays under 0.3 s.
@@ -23,16 +23,16 @@ from .taught import HELP_NAMES, TaughtCommand
 
 @dataclass(frozen=True, kw_only=True)
 class Command:
-    """Where a command lives and what ``uwsim --help`` says about it."""
+    """A command: its module, and its summary in ``uwsim --help``."""
 
     module: str
-    """The module of this room that holds it."""
+    """Its module in this package."""
     function: str
     """The function in that module; its docstring is the command's help."""
     summary: str
     """One line for ``uwsim --help``."""
     examples: tuple[str, ...]
-    """Calls that work as they stand; shown by ``uwsim COMMAND --help``."""
+    """Examples, shown by ``uwsim COMMAND --help``."""
 
     def load(self) -> Callable[..., object]:
         """Import the module and return its function."""
@@ -122,7 +122,7 @@ First steps:
 """
 TRACEBACK = "--traceback"
 READER_LEFT = 1
-"""Exit status when whoever read our output has closed it, as in ``uwsim list | head -1``."""
+"""Exit status when the reader of the output has closed it, as in ``uwsim list | head -1``."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -133,7 +133,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         result = build(wanted)(wanted, prog_name="uwsim", standalone_mode=False, obj=wanted)
         sys.stdout.flush()
     except BrokenPipeError:
-        sys.stdout = None  # whoever read us has left; say no more
+        sys.stdout = None  # the reader has closed the pipe
         return READER_LEFT
     except SystemExit as left:  # rich, for the same reason; or typer, when it has shown completion
         return left.code if isinstance(left.code, int) else READER_LEFT
@@ -147,7 +147,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def say(error: BaseException) -> int:
-    """Print an error for its reader, one line an error, and return the exit status it earns."""
+    """Print an error, one line each, and return its exit status."""
     message = one_line(error)
     if message:
         print(message, file=sys.stderr)
@@ -155,9 +155,9 @@ def say(error: BaseException) -> int:
 
 
 def build(arguments: Sequence[str]) -> typer.Typer:
-    """Build the application, with only the command that ``arguments`` ask for imported.
+    """Build the application, importing only the command in ``arguments``.
 
-    When it is the shell that asks, to complete a word, that is the command on its line.
+    For completion by the shell, that is the command on its line.
     """
     words = words_typed() or arguments
     wanted = next((word for word in words if not word.startswith("-")), None)
@@ -181,11 +181,11 @@ def build(arguments: Sequence[str]) -> typer.Typer:
 
 
 def not_wanted() -> None:
-    """Stand in the list of commands for one that was not asked for."""
+    """Placeholder in the list of commands for one that is not imported."""
 
 
 def show_version(wanted: bool) -> None:
-    """Print the version and stop, if that was ``wanted``."""
+    """Print the version and exit, if ``wanted``."""
     if wanted:
         print(f"uwsim {__version__}")
         raise typer.Exit
@@ -203,4 +203,4 @@ def global_options(
         typer.Option(TRACEBACK, help="Show where in the program an error was raised."),
     ] = False,
 ) -> None:
-    """Take the options that stand before the command; ``main`` has read them already."""
+    """Accept the options before the command; ``main`` has read them already."""

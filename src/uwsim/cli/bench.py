@@ -1,4 +1,4 @@
-"""``uwsim bench``: play a benchmark and write its result."""
+"""``uwsim bench``: run a benchmark and write its result."""
 
 from __future__ import annotations
 
@@ -167,7 +167,7 @@ def run_and_finish(
     watch: Stopwatch,
     command: Sequence[str],
 ) -> None:
-    """Play one benchmark with an algorithm each, and write and show all there is to it.
+    """Run one benchmark with each algorithm, and write and print all results.
 
     Args:
         runs: an algorithm each.
@@ -177,7 +177,7 @@ def run_and_finish(
         command: what was typed behind ``uwsim``.
 
     Raises:
-        UwsimError: what was the first to go wrong; the other algorithms are played and written.
+        UwsimError: the first failure; the other algorithms are run and written.
         RunFailed: an algorithm broke in every row.
     """
     from ..results.provenance import save_beginning
@@ -229,7 +229,7 @@ def folders_of(algorithms: Sequence[str]) -> list[str]:
 
 
 def run_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> Outcome:
-    """Play one benchmark, with an algorithm each, and show how far it is."""
+    """Run one benchmark with each algorithm, showing progress."""
     from ..runs.executors.executor import run_each
 
     names = ", ".join(run.plan.algorithm_name for run in runs)
@@ -241,7 +241,7 @@ def run_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> 
 
 
 def wait_for_controls(background: BackgroundProcess, controls: Sequence[Run]) -> None:
-    """Wait for the control of a run; what was asked for is whole without it."""
+    """Wait for the control of a run; the results are complete without it."""
     from ..runs.control import CONTROL
 
     try:
@@ -253,7 +253,7 @@ def wait_for_controls(background: BackgroundProcess, controls: Sequence[Run]) ->
 
 
 def load_reporter() -> Callable[[Path], object]:
-    """Load what draws a report; returns it."""
+    """Import and return the function that draws a report."""
     from ..analysis.report import write_report
 
     return write_report

@@ -1,4 +1,4 @@
-"""``uwsim check``: every error of scene, robot, side and benchmark files at once, with its line."""
+"""``uwsim check``: all errors of scene, robot, hydrodynamics and benchmark files."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def diagnostics_of(
 ) -> list[Diagnostic]:
     """Return everything wrong or worth knowing about a file; its root element says its kind.
 
-    A benchmark is held against ``scene``, or against the scene that it names itself; it may use
+    A benchmark is checked with ``scene``, or with the scene that it names; it may use
     what plugins have brought (``own``: they, and the tables with what they add).
     """
     from ..scene.reader import ROOT, check_robot, check_scene
@@ -180,7 +180,7 @@ def diagnostics_of_dynamics(scene: SceneSpec, data_path: tuple[Path, ...]) -> li
 
 
 def settled(scene: SceneSpec, data_path: tuple[Path, ...]) -> SceneSpec:
-    """Return the scene with what stands on the floor in its place; as it is where that fails."""
+    """Return the scene with everything placed on its floor; unchanged where that fails."""
     from ..scene.spec import stands_on_floor
 
     if not stands_on_floor(scene):
@@ -301,7 +301,7 @@ class Folders:
         return why_unreadable(name, beside=beside, data_path=self._data_path)
 
     def has_model(self, name: str, beside: Path) -> bool:
-        """Tell whether there is a model of that name: its file, its stem's, or a stand-in."""
+        """Whether there is a model of that name: its file, one of the same stem, or a stand-in."""
         from ..assets import has_model
 
         return has_model(name, beside=beside, data_path=self._data_path)

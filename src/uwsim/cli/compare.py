@@ -1,4 +1,4 @@
-"""``uwsim compare``: hold results of one experiment against each other."""
+"""``uwsim compare``: compare results of one experiment."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the shell offers when Tab is pressed: commands, options, names, files that may be meant.
+"""Completion by the shell: commands, options, names and files.
 
 ``uwsim --install-completion`` tells the shell once; from then on it asks ``uwsim`` itself, with the
 words that stand on the line in an environment variable. Where nothing is offered it offers files.
@@ -14,11 +14,11 @@ from pathlib import Path
 from .descriptions import head_comment
 
 VARIABLE = "_UWSIM_COMPLETE"
-"""Set when it is the shell that asks."""
+"""Set by the shell when it requests completion."""
 
 
 def words_typed() -> list[str] | None:
-    """Return what stands on the shell's line behind ``uwsim``; None if it is not the shell."""
+    """Return the words after ``uwsim`` on the shell's line; None without a completion request."""
     if VARIABLE not in os.environ:
         return None
     line = os.environ.get("COMP_WORDS") or os.environ.get("_TYPER_COMPLETE_ARGS", "")

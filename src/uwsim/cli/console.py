@@ -1,4 +1,4 @@
-"""The terminal, as tables are drawn on it: what files say is shown there and never obeyed."""
+"""The console for tables: control characters from files are escaped."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..terminal import legible
 
 
 class Console(rich.console.Console):
-    """A console on which escapes in names and values are letters like any others."""
+    """A console that prints escape sequences of names and values as text."""
 
     def render(
         self, renderable: RenderableType, options: ConsoleOptions | None = None

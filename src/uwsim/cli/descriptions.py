@@ -28,7 +28,7 @@ def is_of_a_plugin(spec: type) -> bool:
 
 
 def module_of(spec: type) -> ModuleType:
-    """Return the module a class stands in."""
+    """Return the module of a class."""
     return sys.modules[spec.__module__]
 
 

@@ -1,4 +1,4 @@
-"""``uwsim envelope``: up to where a benchmark holds, as one number with its bound."""
+"""``uwsim envelope``: the level at which a benchmark breaks, with its bound."""
 
 from __future__ import annotations
 
@@ -210,7 +210,7 @@ def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
 
 
 def check_numbers(confidence: float, repeat: int) -> None:
-    """Refuse what no search can be asked for; raises BadSetting."""
+    """Refuse invalid numbers of a search; raises BadSetting."""
     if not 0.0 < confidence < 1.0:
         raise BadSetting(f"--confidence is {confidence:g}; expected more than 0 and less than 1.")
     if repeat > MAX_REPEATS:
@@ -224,7 +224,7 @@ def search_and_write(
     options: EnvelopeOptions,
     command: Sequence[str],
 ) -> None:
-    """Search, write and say what was found."""
+    """Search, write and print the result."""
     from ..envelope.find import find, most_runs
     from ..envelope.plot import draw
     from ..results.provenance import carried, machine, save_beginning, save_provenance

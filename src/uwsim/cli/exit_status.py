@@ -1,4 +1,4 @@
-"""How the command line says what went wrong: one clean line an error, and an exit status."""
+"""Error messages and exit statuses of the command line."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ INTERRUPTED = interrupts.STATUS
 
 
 def exit_status(error: BaseException) -> int:
-    """Return the exit status that ``error`` earns (DESIGN 6)."""
+    """Return the exit status of ``error``."""
     if isinstance(error, KeyboardInterrupt):
         return INTERRUPTED
     if isinstance(error, RUN_ERRORS):
@@ -32,7 +32,7 @@ def exit_status(error: BaseException) -> int:
 
 
 def one_line(error: BaseException) -> str:
-    """Return what the reader is told; a wrong file has one line for each of its errors."""
+    """Return the message of an error; a file has one line for each of its errors."""
     if isinstance(error, KeyboardInterrupt | typer.Abort):
         return "uwsim: interrupted; what was finished is kept."
     if isinstance(error, SeveralErrors):
@@ -55,11 +55,11 @@ def one_line(error: BaseException) -> str:
 
 @contextmanager
 def running() -> Iterator[None]:
-    """Make what the system refuses in this block a failed run: what was asked for was checked."""
+    """Turn system errors in this block into `RunFailed`, because the inputs were checked before."""
     try:
         yield
     except BrokenPipeError:
-        raise  # whoever read our output has left
+        raise  # the reader of the output has closed it
     except OSError as error:
         raise RunFailed(_of_system(error)) from error
 

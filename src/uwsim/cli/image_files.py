@@ -1,4 +1,4 @@
-"""The files that ``uwsim render`` writes: colours, depth, and which thing each pixel shows."""
+"""The image files of ``uwsim render``: colours, depth and segmentation."""
 
 from __future__ import annotations
 

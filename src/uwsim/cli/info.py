@@ -1,4 +1,4 @@
-"""``uwsim info``: what is in a scene, before anything is written for it."""
+"""``uwsim info``: the content of a scene."""
 
 from __future__ import annotations
 

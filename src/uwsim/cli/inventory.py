@@ -1,4 +1,4 @@
-"""What is in a scene, as plain values: what ``uwsim info`` prints and ``--json`` gives to programs.
+"""The content of a scene as plain values, for ``uwsim info`` and its ``--json``.
 
 Lengths in metres, angles in radians unless a name says otherwise; places and z are in the file's
 frame L, as everywhere in files and on topics.

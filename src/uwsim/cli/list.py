@@ -1,4 +1,4 @@
-"""``uwsim list``: everything that has a name, with a line about each."""
+"""``uwsim list``: names for the command line and for files, with descriptions."""
 
 from __future__ import annotations
 

@@ -88,8 +88,8 @@ ModeOption = Annotated[
         INPUT,
         "--mode",
         metavar="MODE",
-        help="sequential (a seed's levels in one go) or independent (each level alone); without "
-        "it what the benchmark says (u:mode).",
+        help="sequential (a seed's levels in one go) or independent (each level alone); without it "
+        "that of the benchmark (u:mode).",
         autocompletion=one_of(("sequential", "independent")),
     ),
 ]

@@ -1,4 +1,4 @@
-"""How far a command is: a bar in a terminal, a line now and then in a log."""
+"""Progress of a command: a bar in a terminal, lines in a log."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SAY_EVERY = 10.0
 
 
 class TimeLeft:
-    r"""How long the rest will take, from the pieces that were done so far.
+    r"""Estimates the time left from the pieces done so far.
 
     What comes before the first piece, loading and compiling, comes once; and pieces of w workers
     are done at about one time, in waves. So waves are counted, and from the moment :math:`t_w` at
@@ -58,7 +58,7 @@ class TimeLeft:
 
     @property
     def seconds(self) -> float | None:
-        """How long the rest will take [s]; None while nobody can say."""
+        """Estimated time left [s]; None while unknown."""
         if self._began is None or self._done <= self._first:
             return None
         waves = math.ceil((self._done - self._first) / self._wave)
@@ -67,7 +67,7 @@ class TimeLeft:
 
 
 class TimeLeftColumn(ProgressColumn):
-    """``0:01:40``, counted down between two pieces; ``-:--:--`` while nobody can say."""
+    """``0:01:40``, counted down between two pieces; ``-:--:--`` while unknown."""
 
     def __init__(self, left: TimeLeft) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""``uwsim render``: what a camera of a scene sees, or a view of it, as image files."""
+"""``uwsim render``: images of a scene's cameras, or free views of it."""
 
 from __future__ import annotations
 

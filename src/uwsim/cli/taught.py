@@ -1,4 +1,4 @@
-"""How a command of uwsim shows its help and says what is wrong with its options.
+"""The help texts of commands, and the errors of their options.
 
 Options stand in groups, each option where `in_group` put it; arguments are named as they are typed.
 """
@@ -15,7 +15,7 @@ from typer.core import TyperCommand
 from ..errors import AllErrors, BadSetting
 
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
-"""How help is asked for, of ``uwsim`` and of each command."""
+"""The help options of ``uwsim`` and of each command."""
 
 INPUT = "What is run"
 RUN = "Repeats and processes"
@@ -37,7 +37,7 @@ def in_group(group: str, *names: str, **about: Any) -> Any:
 
 
 class TaughtCommand(TyperCommand):
-    """A command that says of all its options what is wrong with them, not of the first alone."""
+    """A command that reports the errors of all its options at once."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Read the options; raises SeveralErrors, or typer's own where there is but one."""

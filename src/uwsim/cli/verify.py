@@ -1,4 +1,4 @@
-"""``uwsim verify``: is a stored result what its recorded inputs give, byte for byte?"""
+"""``uwsim verify``: replay a stored result and compare it byte for byte."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 SEEDS = 2**32
 """How many samples there are to draw from."""
 SHOWN = 20
-"""So many differences are said in full."""
+"""Greatest number of differences printed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -170,7 +170,7 @@ def replayed_run(stored: Result, directory: Path, overrides: FileOverrides) -> R
 
 
 def head(stored: Result, directory: Path, n_whole: int, n_units: int) -> str:
-    """Say what is verified, and that its files are there."""
+    """Print what is verified and which files were found."""
     run = stored.run
     names = [named_input(stored, kind)[0] for kind in ("benchmark", "scene")]
     n_others = len(stored.inputs.assets or {})
@@ -185,7 +185,7 @@ def head(stored: Result, directory: Path, n_whole: int, n_units: int) -> str:
 
 
 def tell(found: Verification, n_whole: int, others: Mapping[str, str]) -> list[str]:
-    """Say what came out, the verdict last."""
+    """Return the lines of the outcome, the verdict last."""
     from ..verify.environment import blame
 
     messages = [str(difference) for difference in found.differences[:SHOWN]]

@@ -1,4 +1,4 @@
-"""What ``uwsim render`` is to draw: a camera of the scene, or a view from elsewhere."""
+"""The views of ``uwsim render``: a camera of the scene, or a free view."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ NAMED: tuple[Named, ...] = ("orbit", "top", "viewer")
 MAX_SIDE = 16384
 """Edge of an image [px]."""
 FOG = "oceanState.fog"
-"""Begins the ``--set`` that ask for fog."""
+"""Prefix of the ``--set`` that concern fog."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ class RenderedView:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Wanted:
-    """What the options ask for; nothing: whatever the scene offers."""
+    """The camera or view given by the options; without them, the scene's default."""
 
     camera: str | None = None
     """Name of a virtual camera."""
@@ -52,7 +52,7 @@ class Wanted:
     size: tuple[int, int] | None = None
     """Width and height [px]."""
     has_fog: bool = False
-    """Whether fog is asked for, so that views show it."""
+    """Whether fog is set, so that views show it."""
 
     @staticmethod
     def of(
@@ -67,7 +67,7 @@ class Wanted:
         given = {"--camera": camera, "--view": view, "--from": eye or at}
         asked = [option for option, value in given.items() if value is not None]
         if len(asked) > 1:
-            raise BadSetting(f"{' and '.join(asked)}: one image can be asked for at a time.")
+            raise BadSetting(f"{' and '.join(asked)}: only one image at a time.")
         if (eye is None) != (at is None):
             raise BadSetting("--from and --at belong together: where to look from, and at what.")
         return Wanted(

@@ -67,7 +67,7 @@ class LogProfileSpec(CurrentSpec):
     depth: float = element(namespaced=True, above=0)
     """Of the ground below the still surface [m]."""
     roughness: float = element(namespaced=True, default=0.001, above=0)
-    """Height z0 above ground up to which the water stands: mud 0.0002, gravel 0.005 [m]."""
+    """Roughness length z0 of the bottom: mud 0.0002, gravel 0.005 [m]."""
 
     @property
     def friction_velocity(self) -> float:

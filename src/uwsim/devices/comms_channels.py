@@ -72,7 +72,7 @@ class AcousticCommsChannelSpec:
     absorption: Literal["francoisGarrison", "thorp"] = element(
         namespaced=True, default="francoisGarrison"
     )
-    """Whose formula for the absorption; Thorp's knows neither temperature nor salinity."""
+    """Formula of the absorption; Thorp's ignores temperature and salinity."""
 
     @property
     def name(self) -> str:

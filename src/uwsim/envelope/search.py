@@ -38,10 +38,10 @@ FINER = 8
 """Levels are rounded to a decimal place that divides the tolerance at least so often."""
 
 Ask = Callable[[Sequence[tuple[int, float]]], list[bool]]
-"""Plays (seed, level) and tells of each whether it is broken."""
+"""Runs pairs (seed, level); returns of each whether it is broken."""
 T = TypeVar("T")
 Questions = Generator[float, bool, T]
-"""Yields levels to be played with one seed, takes in whether they broke; returns what it found."""
+"""Yields levels to run with one seed, receives whether they broke; returns the breaking point."""
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ def strategy(seeds: Sequence[int], where: Range) -> Strategy:
     """
     grid = [where.at(where.start, where.stop, i / GRID) for i in range(GRID + 1)]
     seen: list[bool] = yield [SeedSearch(seeds[0], _once(level)) for level in grid]
-    if not any(seen):  # most likely nothing breaks: one question a seed tells
+    if not any(seen):  # most likely nothing breaks: one run of each seed decides
         broken: list[bool] = yield [SeedSearch(seed, _once(where.stop)) for seed in seeds]
         holding = [s for s, breaks in zip(seeds, broken, strict=True) if not breaks]
         known = {s: Threshold(seed=s, held=where.stop, broken=None) for s in holding}
@@ -176,7 +176,7 @@ def search(seeds: Sequence[int], where: Range, ask: Ask) -> Search:
     Args:
         seeds: at least one.
         where: the range.
-        ask: plays runs; the same question has always the same answer.
+        ask: executes runs; the same run always has the same result.
     """
     steps = strategy(seeds, where)
     tasks = next(steps)

@@ -178,7 +178,7 @@ def fixed_levels(plan: Plan, over: str, chosen: list[tuple[str, float]]) -> Leve
     for name, spec in zip(names, chain(plan.benchmark.scene_updater), strict=True):
         given = [value for wanted, value in chosen if wanted == name]
         if len(given) > 1:
-            raise BadSetting(f"--level {name} is given twice; a search plays one.")
+            raise BadSetting(f"--level {name} is given twice; a search uses one value.")
         if name != over and not given and len(spec.values()) > 1:
             raise BadSetting(
                 f"The benchmark also sweeps {name} ({len(spec.values())} levels); choose one, as "

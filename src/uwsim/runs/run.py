@@ -32,7 +32,7 @@ class Run:
     """A plan and the directory its result goes to."""
 
     plan: Plan
-    """What to play."""
+    """The plan."""
     out: Path
     """The result directory."""
     inputs: Inputs

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 class Stopwatch:
     """When a command began, and how long it has taken since.
 
-    The time of day may be set while a run lasts; what has passed is told by a clock that is not.
+    The time of day may be set while a run lasts; durations are measured by a monotonic clock.
     """
 
     began: float = field(default_factory=time.time)

@@ -42,7 +42,7 @@ class SimParamsSpec:
     enable_physics: bool = False
     """Whether contacts and gravity act on objects."""
     gravity: Triple = ZERO
-    """In the world; all zero stands for (0, 0, -1) [m/s2]."""
+    """In the world; all zero means (0, 0, -1) [m/s2]."""
     physics_frequency: float = element(default=60.0, above=0)
     """Steps of the original's physics [Hz]."""
     physics_sub_steps: int = 0

@@ -130,7 +130,7 @@ def _check_files(found: Verification, directory: Path, result: Result, run: Run)
         name = journal.path_of(directory, trial.index).name
         found.add(f"{journal.FOLDER}/{name}", what)
     if gone:
-        found.not_compared.append("result.json and the files beside it: units/ is not whole")
+        found.not_compared.append("result.json and the files next to it: units/ is incomplete")
     for trial in run.plan.units():
         path = journal.path_of(directory, trial.index)
         head, stored = journal.read_any(path)
@@ -256,7 +256,7 @@ def _check_rows(found: Verification, result: Result, again: Run) -> None:
     for key, row in _rows_by_level(made, again.plan).items():
         for column, cell in zip(made.columns, made.rows[row], strict=True):
             if column.name == "ended_at" and len(made.rows) < len(result.rows):
-                continue  # counts what was played before, too
+                continue  # includes earlier parts of the run
             there = result.values(column.name)[expected[key]] if column.name in names else None
             if leaves(there) != leaves(cell):
                 found.is_replayed = False

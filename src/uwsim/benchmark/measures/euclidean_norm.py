@@ -117,7 +117,7 @@ class EuclideanNorm(Measure):
 
     Compatibility ``last-norm`` keeps the last norm, however old it is, as the original does,
     and reads estimates that come after it went off; where its log has no new estimate, the
-    components are 0 beside it.
+    components are 0.
     """
 
     unit = "1"

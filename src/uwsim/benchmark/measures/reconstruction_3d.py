@@ -102,7 +102,7 @@ class Reconstruction3D(Measure):
     near [1] (`uwsim.benchmark.metrics.coverage`); ``outlier_share``, outliers among outliers and
     inliers [1]; and how many points and clouds there were of each kind. An error of 0 needs a
     perfect *box*: what of the body's shape lies within its bounding box counts as error. Repeating
-    one good point makes the mean small: look at the coverage beside it.
+    one good point makes the mean small: compare the coverage.
 
     Compatibility ``reconstruction-transform``: clouds are brought to the body's frame as both
     stood when the level began. ``reconstruction-box``: two corners of the box are turned into W

@@ -34,7 +34,7 @@ class _Face:
     """A side of the grid, and which of its nodes are marked."""
 
     axis: int
-    """The axis it stands across."""
+    """The axis normal to it."""
     at: int
     """Its place along that axis, in cells."""
     others: tuple[int, int]

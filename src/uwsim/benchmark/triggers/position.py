@@ -43,7 +43,7 @@ class PositionSpec(TriggerSpec):
 class Position(Trigger):
     r"""On, for good, once :math:`\lVert p - q \rVert < 0.3` m for the body's origin :math:`p`.
 
-    The place :math:`q` stands in the file in L, as all positions do. (The original means the
+    The position :math:`q` is given in L, as all positions in files. (The original means the
     same, but converts it with the wrong numbers.)
     """
 

@@ -44,7 +44,7 @@ class FogSweepSpec(SweepSpec):
     is_single: ClassVar[bool] = True
 
     initial_value: float = element(original=Original(aliases=("initialFog",)), minimum=0.0)
-    """Fog density of the first level [1/m]; or a length [m], as ``u:unit`` says."""
+    """Fog density of the first level [1/m]; or a length [m] with another ``u:unit``."""
     final_value: float = element(original=Original(aliases=("finalFog",)), minimum=0.0)
     """Fog density, or length, that is not passed."""
     step: float = element()

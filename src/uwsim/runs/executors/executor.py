@@ -29,7 +29,7 @@ OnLevel = Callable[[], None]
 MAX_RETRIES = 3
 """How often a trial is repeated after it has lost its worker."""
 ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
-"""Of a worker, where the user has not said otherwise: no threads beside its own, for there is one
+"""Environment of a worker, unless the user has set it: one thread only, for there is one
 worker a core."""
 
 

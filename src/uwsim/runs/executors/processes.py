@@ -163,7 +163,7 @@ class WorkerProcess:
         """End it if the call into the algorithm has taken longer than ``limit`` [s].
 
         Args:
-            queue: is told.
+            queue: receives the events.
             waited: time since the last look [s].
             limit: how long a call may take [s].
         """
