@@ -128,10 +128,13 @@ def convex_shapes(
 
 
 def _is_box(points: Array) -> bool:
-    """Whether all points are corners of the box around them: flat pairs of boxes hold best."""
+    """Whether points are the eight corners of the box around them: flat pairs hold best."""
     low, high = points.min(axis=0), points.max(axis=0)
     near = SQUARE * (high - low)
-    return bool(np.all((points - low <= near) | (high - points <= near)))
+    is_high = high - points <= near  # (n, 3)
+    if not np.all(is_high | (points - low <= near)):
+        return False
+    return len({tuple(corner) for corner in is_high.tolist()}) == 8
 
 
 def is_convex(triangles: Array) -> bool:
