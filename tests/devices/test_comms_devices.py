@@ -14,7 +14,7 @@ import pytest
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
 from uwsim.devices.acoustic_comms_device import AcousticCommsDeviceSpec, EnergyModelSpec
 from uwsim.devices.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
-from uwsim.devices.comms_device import MacProtocolSpec
+from uwsim.devices.comms_device import CommsMeshSpec, MacProtocolSpec
 from uwsim.devices.custom_comms_device import CustomCommsDeviceSpec, RateErrorModelSpec
 from uwsim.errors import BadMessage
 from uwsim.messages import MultiArrayDimension, MultiArrayLayout, String, UInt8MultiArray
@@ -288,3 +288,18 @@ def test_a_scene_with_a_tracing_script_publishes_what_becomes_of_packets(tmp_pat
         ["left/left_modem", "sent"],
         ["right/right_modem", "received"],
     ]
+
+
+def test_a_mesh_is_drawn_where_the_device_is(tmp_path: Path) -> None:
+    cube = tmp_path / "modem.obj"
+    cube.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n")
+    mesh = CommsMeshSpec(path=str(cube), scale_factor=(0.5, 0.5, 0.25))
+    scene = scene_in(
+        tmp_path, lambda name, mac: modem(name, mac, mesh=mesh, position=(0.0, 2.0, 0.0))
+    )
+    with Simulation(scene) as simulation:
+        scenery = simulation.world.scenery
+        part = next(each for each in scenery.parts if each.name == "right/right_modem")
+        corners = scenery.corners(part)
+    assert corners.min(axis=0) == pytest.approx([1500.0, 2.0, -50.0])
+    assert corners.max(axis=0) == pytest.approx([1500.5, 2.5, -49.75])

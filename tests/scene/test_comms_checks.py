@@ -10,14 +10,22 @@ from uwsim.cli.check import diagnostics_of
 
 DEVICE = """
 <CustomCommsDevice> <dccommsId>{name}</dccommsId> <txChannelId>{channel}</txChannelId>
-  <rxChannelId>{channel}</rxChannelId> <relativeTo>part0</relativeTo> <mac>{mac}</mac>
+  <rxChannelId>{channel}</rxChannelId> <relativeTo>part0</relativeTo> <mac>{mac}</mac> {mesh}
   <macProtocol> <name>{protocol}</name> </macProtocol> <bitrate>1000</bitrate>
   <rateErrorModel> <errorUnit>{unit}</errorUnit> <errorRateExpr>{formula}</errorRateExpr>
   </rateErrorModel>
   <txPacketBuilder> <className>VariableLengthPacketBuilder</className> </txPacketBuilder>
   <rxPacketBuilder> <className>VariableLengthPacketBuilder</className> </rxPacketBuilder>
 </CustomCommsDevice>"""
-GOOD = {"name": "rf", "channel": 1, "mac": 1, "protocol": "", "unit": "bit", "formula": "0.01*m"}
+GOOD = {
+    "name": "rf",
+    "channel": 1,
+    "mac": 1,
+    "protocol": "",
+    "unit": "bit",
+    "formula": "0.01*m",
+    "mesh": "",
+}
 
 
 def reported(folder: Path, *devices: dict[str, object]) -> list[tuple[str, str]]:
@@ -49,6 +57,7 @@ def test_devices_that_fit_together_are_simulated_without_a_word(tmp_path: Path) 
         ),
         ({"protocol": "FAMA"}, "warning", "read as ALOHA; known: ALOHA, slottedALOHA, CSMA"),
         ({"mac": -1}, "error", "-1"),
+        ({"mesh": "<mesh> <path>nowhere.osg</path> </mesh>"}, "error", "'nowhere.osg'"),
     ],
 )
 def test_what_does_not_fit_is_named(

@@ -87,7 +87,7 @@ class PacketBuilderSpec:
 
 @dataclass(frozen=True, kw_only=True)
 class CommsMeshSpec:
-    """A ``<mesh>`` that shows where a device is."""
+    """A ``<mesh>`` that shows where a device is; nothing touches it."""
 
     path: str
     """The file."""

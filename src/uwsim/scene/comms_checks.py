@@ -12,6 +12,7 @@ from ..expression import ScoreError
 from ..network import mac_kind
 from ..schema import Diagnostics
 from .spec import SceneSpec
+from .vehicle import VehicleSpec
 
 CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
 
@@ -22,7 +23,7 @@ def check_comms(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     channels |= {each.name for each in scene.acoustic_comms_channels}
     names: dict[str, None] = {}
     addresses: dict[tuple[str, int], str] = {}
-    for device in comms_devices(scene):
+    for device in (each for vehicle in scene.vehicles for each in comms_devices(vehicle)):
         node = diagnostics.node_of(device)
         if device.name in names:
             said = f"two devices are called {device.name!r}: they share their topics"
@@ -44,11 +45,10 @@ def check_comms(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             _check_formula(device, diagnostics)
 
 
-def comms_devices(scene: SceneSpec) -> Iterator[CommsDeviceSpec]:
-    """Every device of every vehicle, in the file's order."""
-    for vehicle in scene.vehicles:
-        yield from vehicle.parts_of(CustomCommsDeviceSpec)
-        yield from vehicle.parts_of(AcousticCommsDeviceSpec)
+def comms_devices(vehicle: VehicleSpec) -> Iterator[CommsDeviceSpec]:
+    """Every communication device of a vehicle."""
+    yield from vehicle.parts_of(CustomCommsDeviceSpec)
+    yield from vehicle.parts_of(AcousticCommsDeviceSpec)
 
 
 def _channels_of(device: CommsDeviceSpec) -> tuple[str, ...]:

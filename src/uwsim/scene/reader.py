@@ -12,9 +12,9 @@ from ..errors import AssetError, Diagnostic, SceneError
 from ..schema import Diagnostics, Document, check_head, parse, read
 from .angle_checks import check_angles, remember_twins
 from .checks import check_names
+from .comms_checks import comms_devices
 from .legacy import upgrade
 from .look_checks import check_looks
-from .object import ObjectSpec
 from .size_checks import check_sizes
 from .spec import SceneSpec
 from .unsupported import not_simulated
@@ -193,17 +193,20 @@ def _robots(
 def _check_models(
     scene: SceneSpec, document: Document, library: Library, diagnostics: Diagnostics
 ) -> None:
-    """Report models of objects that are not found, or cannot be read."""
-    first: dict[str, ObjectSpec] = {}
+    """Report models of objects and devices that are not found, or cannot be read."""
+    first: dict[str, object] = {}
+    for device in (each for vehicle in scene.vehicles for each in comms_devices(vehicle)):
+        if device.mesh is not None:
+            first.setdefault(device.mesh.path, device.mesh)
     for thing in scene.objects:
         first.setdefault(thing.file, thing)
         if thing.physics is not None and thing.physics.collision_shape:
             first.setdefault(thing.physics.collision_shape, thing)
-    for name, thing in itertools.islice(first.items(), MAX_FILES):
+    for name, spec in itertools.islice(first.items(), MAX_FILES):
         if why := library.unreadable(name, document.path):
-            diagnostics.error(diagnostics.node_of(thing), why)
+            diagnostics.error(diagnostics.node_of(spec), why)
         elif not library.has_model(name, document.path):
-            _lost(f"model {name!r}", thing, document, library, diagnostics)
+            _lost(f"model {name!r}", spec, document, library, diagnostics)
 
 
 def _meshes(robot: RobotSpec) -> Iterator[str]:

@@ -16,9 +16,11 @@ from ..assets.weathering import weathered
 from ..errors import AssetNotFound
 from ..geometry import Pose
 from ..linear import product
+from ..scene.comms_checks import CommsDeviceSpec, comms_devices
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec, VisualSpec
+from ..scene.vehicle import VehicleSpec
 
 THINNEST = 1e-4
 """Least edge of a box, cylinder or sphere; robot files have some without any thickness [m]."""
@@ -51,6 +53,7 @@ def parts_of(
 ) -> list[Part]:
     """All visible models of a scene; those of one link or object share a number and a name."""
     parts: list[Part] = []
+    load = object_models(scene, data_path)
     number = 0
     for index, vehicle in enumerate(scene.vehicles):
         robot = robots[index]
@@ -70,7 +73,11 @@ def parts_of(
                         is_hidden=bool(vehicle.vr),
                     )
                 )
-    load = object_models(scene, data_path)
+        for device in comms_devices(vehicle):
+            if device.mesh is not None and robot.link(device.relative_to) is not None:
+                number += 1
+                model = load(device.mesh.path, None)
+                parts.append(_device_part(number, index, vehicle, device, model))
     for index, thing in enumerate(scene.objects):
         number += 1
         parts.append(
@@ -88,6 +95,23 @@ def parts_of(
             )
         )
     return parts
+
+
+def _device_part(
+    number: int, index: int, vehicle: VehicleSpec, device: CommsDeviceSpec, model: Model
+) -> Part:
+    assert device.mesh is not None
+    link_from_device = Pose.from_rpy(device.position, device.orientation).matrix
+    return Part(
+        id=number,
+        name=f"{vehicle.name}/{device.name}",
+        model=model,
+        vehicle=index,
+        link=device.relative_to,
+        object=None,
+        frame_from_mesh=product(link_from_device, np.diag([*device.mesh.scale_factor, 1.0])),
+        is_hidden=bool(vehicle.vr),
+    )
 
 
 def _worn(model: Model, thing: ObjectSpec) -> Model:
