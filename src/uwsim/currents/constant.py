@@ -24,7 +24,7 @@ class ConstantSpec(CurrentSpec):
     velocity: tuple[float, float, float] = element(
         namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
-    """Of the water, in L [m/s]."""
+    """Velocity of the water, in L [m/s]."""
 
     def bind(self, place: Place) -> Constant:
         """Make the current; it needs nothing of the scene."""

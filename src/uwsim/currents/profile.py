@@ -47,11 +47,11 @@ class PowerProfileSpec(CurrentSpec):
     """A ``<u:powerProfile>``: speed grows with a power of the height above ground."""
 
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Of the water at the surface, in L [m/s]."""
+    """Velocity of the water at the surface, in L [m/s]."""
     depth: float = element(namespaced=True, above=0)
-    """Of the ground below the still surface [m]."""
+    """Depth of the ground below the still surface [m]."""
     exponent: float = element(namespaced=True, default=1.0 / 7.0, above=0)
-    """Of the power law [1]."""
+    """Exponent of the power law [1]."""
 
     def bind(self, place: Place) -> PowerProfile:
         """Take the surface and the direction down from the scene."""
@@ -63,9 +63,9 @@ class LogProfileSpec(CurrentSpec):
     """A ``<u:logProfile>``: speed grows with the logarithm of the height above ground."""
 
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Of the water at the surface, in L [m/s]."""
+    """Velocity of the water at the surface, in L [m/s]."""
     depth: float = element(namespaced=True, above=0)
-    """Of the ground below the still surface [m]."""
+    """Depth of the ground below the still surface [m]."""
     roughness: float = element(namespaced=True, default=0.001, above=0)
     """Roughness length z0 of the bottom: mud 0.0002, gravel 0.005 [m]."""
 
@@ -95,7 +95,7 @@ class LayerSpec:
     depth: float = element(namespaced=True)
     """Below the still surface [m]."""
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Of the water there, in L [m/s]."""
+    """Velocity of the water there, in L [m/s]."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -79,15 +79,15 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     bit_error_rate: float = element(default=0.0, minimum=0, maximum=1)
     """Probability that a bit is damaged, besides what the noise does [1]."""
     tx_fifo_size: int = element(default=500000, minimum=0)
-    """How much waits to be sent at most [byte]."""
+    """Size of the transmission queue [byte]."""
     tf_id: str = ""
     """Name of its frame; ``<vehicle>/<device>`` when empty."""
     relative_tf_id: str = ""
     """Name of the frame it rides on; ``<vehicle>/<relativeTo>`` when empty."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Of the device in the link's frame [m]."""
+    """Position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the device in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """Orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     mesh: CommsMeshSpec | None = None
     """Its body."""
     range: float = element(default=100.0, minimum=0)
@@ -99,11 +99,11 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     k: float = element("K", default=2.0, minimum=0.0, maximum=10.0)
     """Spreading: 1 cylindrical, 2 spherical [1]."""
     energy_model: EnergyModelSpec | None = None
-    """What it consumes."""
+    """Energy model."""
     preamble: float = element(default=0.0, minimum=0, maximum=1e6)
     """Length of the preamble of each packet [s]."""
     mac_protocol: MacProtocolSpec | None = None
-    """Who may send when."""
+    """Medium access protocol."""
     tx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)
     """Packs what is sent."""
     rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)

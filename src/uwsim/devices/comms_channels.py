@@ -58,9 +58,9 @@ class AcousticCommsChannelSpec:
     bandwidth: float = element(default=4096.0, minimum=1e-3, maximum=1e9)
     """In which receivers hear noise [Hz]."""
     temperature: float = element(default=25.0, minimum=-4.0, maximum=50.0)
-    """Of the water, for the speed of sound and the absorption [degC]."""
+    """Temperature of the water, for the speed of sound and the absorption [degC]."""
     salinity: float = element(default=35.0, minimum=0.0, maximum=50.0)
-    """Of the water, for the speed of sound and the absorption [g/kg]."""
+    """Salinity of the water, for the speed of sound and the absorption [g/kg]."""
     noise_lvl: float = element(default=0.0, minimum=-300.0, maximum=300.0)
     """Level of the noise in 1 Hz, to which that of the sea is added [dB re 1 uPa2/Hz]."""
     log_level: str = "off"

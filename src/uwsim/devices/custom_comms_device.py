@@ -85,19 +85,19 @@ class CustomCommsDeviceSpec(DeviceSpec):
     mac: int = element(minimum=0, maximum=65535)
     """Its address."""
     mac_protocol: MacProtocolSpec | None = None
-    """Who may send when."""
+    """Medium access protocol."""
     bitrate: float = element(default=1000.0, original=REQUIRED, minimum=1e-3, maximum=1e12)
     """How fast it sends [bit/s]."""
     tx_fifo_size: int = element(default=500000, minimum=0)
-    """How much waits to be sent at most [byte]."""
+    """Size of the transmission queue [byte]."""
     tf_id: str = ""
     """Name of its frame; ``<vehicle>/<device>`` when empty."""
     relative_tf_id: str = ""
     """Name of the frame it rides on; ``<vehicle>/<relativeTo>`` when empty."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Of the device in the link's frame [m]."""
+    """Position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the device in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """Orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     mesh: CommsMeshSpec | None = None
     """Its body."""
     intrinsic_delay: float = element(default=0.0, minimum=0, maximum=MAX_MS)

@@ -40,9 +40,9 @@ class LampSpec(DeviceSpec):
     orientation: tuple[float, float, float] = element(
         namespaced=True, default=(0.0, 0.0, 0.0), parts="rpy"
     )
-    """Of the lamp in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """Orientation of the lamp in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """Where it shines at the start, instead of ``orientation``: a point in L [m], or a direction
+    """Target of its light at first, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""
     fov: float = element(namespaced=True, default=60.0, above=0, maximum=160)
     """Angle of the whole cone [deg]."""

@@ -29,11 +29,11 @@ class LedArraySpec:
     relative_to: str
     """The link it rides on."""
     position: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
-    """Of the device in the link's frame [m]."""
+    """Position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), parts="rpy", original=REQUIRED
     )
-    """Of the device in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """Orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     radio: float = element(default=0.02, above=0)
     """Radius of each lamp [m]."""
     space: float = 0.2

@@ -28,9 +28,9 @@ class ObjectPickerSpec:
     visible: bool = False
     """Read and not used: the ray is always drawn."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Of the device in the link's frame [m]."""
+    """Position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the device in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """Orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """Where it looks at the start, instead of ``orientation``: a point in L [m], or a direction
+    """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""

@@ -31,7 +31,7 @@ class SwaySpec(DeviceSpec):
     axis: Literal["x", "y", "z", "roll", "pitch", "yaw"] = element(namespaced=True)
     """Of L for x, y, z; of the vehicle's orientation for roll, pitch, yaw."""
     amplitude: float = element(namespaced=True)
-    """How far it swings; of angles in radians [m or rad]."""
+    """Amplitude; of angles in radians [m or rad]."""
     period: float = element(namespaced=True, above=0)
     """Time of one swing [s]."""
     phase: float = element(namespaced=True, default=0.0)

@@ -39,9 +39,9 @@ class TfSpec(DeviceSpec):
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Of the vehicle in that frame [m]."""
+    """Position of the vehicle in that frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the vehicle in that frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """Orientation of the vehicle in that frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
 
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> TfFollower:
         """Listen to ``/tf`` from now on."""

@@ -27,7 +27,7 @@ class LinkBudget:
     """Levels of a link."""
 
     source_level: float
-    """Of the sender [dB re 1 uPa at 1 m]."""
+    """Source level of the sender [dB re 1 uPa at 1 m]."""
     frequency: float
     """Carrier [Hz]."""
     bandwidth: float
@@ -41,9 +41,9 @@ class LinkBudget:
     absorption: AbsorptionModel = "francoisGarrison"
     """Whose formula."""
     temperature: float = 10.0
-    """Of the water, for Francois and Garrison [degrees Celsius]."""
+    """Temperature of the water, for Francois and Garrison [degrees Celsius]."""
     salinity: float = 35.0
-    """Of the water, for Francois and Garrison [g/kg]."""
+    """Salinity of the water, for Francois and Garrison [g/kg]."""
 
     @staticmethod
     def in_water(

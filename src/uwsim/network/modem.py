@@ -40,7 +40,7 @@ class ModemSettings:
     max_range: float = float("inf")
     """Farther devices do not hear it [m]."""
     queue_size: int = 500_000
-    """How much waits to be sent at most [byte]."""
+    """Size of the transmission queue [byte]."""
     send_delay: float = 0.0
     """Between the order to send a packet and its sending [s]."""
     send_jitter: float = 0.0
@@ -48,7 +48,7 @@ class ModemSettings:
     receive_jitter: float = 0.0
     """Largest delay of a packet received, uniformly distributed from 0 [s]."""
     mac: Mac = field(default_factory=Mac)
-    """Who may send when."""
+    """Medium access protocol."""
     energy: EnergyModel | None = None
     """What it uses; None: it never runs out."""
 

@@ -63,7 +63,7 @@ def owner_of(name: str) -> str:
 
 
 def name_of(scene: SceneSpec, owner: str) -> str:
-    """How the scene calls it."""
+    """Its name in the scene."""
     kind, _, index = owner.partition("/")
     if kind == "vehicle":
         return scene.vehicles[int(index)].name

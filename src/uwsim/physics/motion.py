@@ -47,7 +47,7 @@ class Motion:
 
     @property
     def size(self) -> int:
-        """How many numbers there are in all."""
+        """Length of the row of numbers."""
         return len(self._order)
 
     def read(self, into: Array) -> None:

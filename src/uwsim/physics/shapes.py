@@ -63,7 +63,7 @@ class CollisionShape:
     size: tuple[float, ...] = ()
     """Half edges of a box; radius of a ball; radius and half length of a cylinder [m]."""
     corners: Array | None = None
-    """Of a hull, in the shape's frame, (n, 3) [m]."""
+    """Corners of a hull, in the shape's frame, (n, 3) [m]."""
 
 
 def shapes_of(

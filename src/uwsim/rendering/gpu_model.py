@@ -38,11 +38,11 @@ class Batch:
     opacity: float
     """1 hides what is behind it, 0 is not seen."""
     centre: npt.NDArray[np.float64]
-    """Of the bounding sphere, model frame, (3,) [m]."""
+    """Centre of the bounding sphere, model frame, (3,) [m]."""
     radius: float
-    """Of the bounding sphere [m]."""
+    """Radius of the bounding sphere [m]."""
     corners: npt.NDArray[np.float64]
-    """Of the bounding box, model frame, (8, 3) [m]."""
+    """Corners of the bounding box, model frame, (8, 3) [m]."""
     normal: npt.NDArray[np.float64]
     """Of its plane, model frame, (3,); 0 if it is bent."""
     density: float

@@ -43,7 +43,7 @@ class Instances:
         self.ids: list[int] = []
         """Their numbers in the id image, 1..65535."""
         self.batches: list[tuple[Batch, ...]] = []
-        """What is drawn for each."""
+        """The batches of each instance."""
         self.world_from_model: Array = np.zeros((0, 4, 4))
         """(n, 4, 4); may carry scale, uneven or mirroring."""
 

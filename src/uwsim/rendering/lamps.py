@@ -58,7 +58,7 @@ class Lamps:
         self._slots = [Slots(context) for _ in range(MAX_LAMPS)]
         self._drawn: list[object] = [None] * MAX_LAMPS
         self.n_drawn = 0
-        """How many maps were drawn since the beginning."""
+        """Number of shadow maps drawn so far."""
 
     def update(
         self,

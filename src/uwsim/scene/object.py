@@ -98,7 +98,7 @@ class ObjectSpec:
     offsetr: Triple = ZERO
     """Turn of the mesh in the object, about x, y, z: Rx Ry Rz [rad]."""
     physics: PhysicsSpec | None = None
-    """How it moves when physics is on."""
+    """Its physics, where physics is on."""
     buried: float = element(attribute=True, default=0.0)
     """How much of its height lies under sand [1]."""
     is_solid: bool | None = element("solid", namespaced=True, default=None)

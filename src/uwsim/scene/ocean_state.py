@@ -33,9 +33,9 @@ class ProfileSpec:
     """A ``<u:profile>``: stratified water, linear between levels, constant above and below them."""
 
     depth: Numbers = element(namespaced=True, minimum=0.0)
-    """Of the levels below the surface, rising, two or more [m]."""
+    """Depth of the levels below the surface, rising, two or more [m]."""
     density: Numbers = element(namespaced=True, default=(), minimum=100.0, maximum=20000.0)
-    """Of the water at each level [kg/m3]."""
+    """Density of the water at each level [kg/m3]."""
     temperature: Numbers = element(namespaced=True, default=(), minimum=-2.0, maximum=40.0)
     """Instead of the density: temperature at each level, for EOS-80 [degrees Celsius]."""
     salinity: Numbers = element(namespaced=True, default=(), minimum=0.0, maximum=42.0)
@@ -89,7 +89,7 @@ class OceanStateSpec:
     is_not_choppy: bool = element(default=False, original=Original(invalid=True))
     """Whether waves move points only up and down."""
     choppy_factor: float = 2.5
-    """How far waves move points sideways [1]."""
+    """Horizontal displacement of points by waves [1]."""
     crest_foam_height: float = 2.2
     """Height from which crests foam; read and not used, as in the original [m]."""
     ocean_surface_height: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
@@ -115,7 +115,7 @@ class OceanStateSpec:
         "current", namespaced=True, default=(),
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in CURRENTS.items()},
     )  # fmt: skip
-    """How the water moves; several add up."""
+    """Currents; their velocities add up."""
 
     @property
     def sea_water(self) -> SeaWater:

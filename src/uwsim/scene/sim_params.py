@@ -87,6 +87,6 @@ class ViewerCameraSpec:
     position: Triple = element(
         default=(-5.0, -5.0, 8.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Of the viewer in the world [m]."""
+    """Position of the viewer in the world [m]."""
     look_at: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Where it looks, in the world [m]."""

@@ -40,7 +40,7 @@ class VisualSpec:
     scale: Triple = (1.0, 1.0, 1.0)
     """Scale of a mesh along x, y, z [1]."""
     position: Triple = ZERO
-    """Of the shape in the link's frame [m]."""
+    """Position of the shape in the link's frame [m]."""
     rpy: Triple = ZERO
     """Of the shape in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     colour: Colour | None = None
@@ -102,7 +102,7 @@ class JointSpec:
     child: str
     """The child link."""
     position: Triple = ZERO
-    """Of the joint in the parent's frame [m]."""
+    """Position of the joint in the parent's frame [m]."""
     rpy: Triple = ZERO
     """Of the joint in the parent's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     axis: Triple = (1.0, 0.0, 0.0)

@@ -38,14 +38,14 @@ class RangeSensorSpec(SensorSpec):
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Of the sensor in the link's frame [m]."""
+    """Position of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """Orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """Where it looks at the start, instead of ``orientation``: a point in L [m], or a direction
+    """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""
     beam_width: float = element(namespaced=True, default=0.0, minimum=0, maximum=120)
-    """Of the beam between its points of half power [deg]; 0 is a ray."""
+    """Beam width of the beam between its points of half power [deg]; 0 is a ray."""
     std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
     """Noise of the distance, standard deviation [m]."""
 

@@ -50,7 +50,7 @@ class Simulation:
                 f"A Simulation is made of what read_scene returns, not of {_shown(scene)}."
             )
         self.world = world = SceneStage(scene, **options)
-        """What is in the scene."""
+        """The world of the scene."""
         scene, state = world.scene, world.state
         self._drifting = [(i, v) for i, v in enumerate(scene.vehicles) if not state.is_simulated(i)]
         self._watchers: list[Callable[[], None]] = []

@@ -95,14 +95,14 @@ class SceneWorld:
             compatibility=compatibility,
             pool=pool,
         )
-        """What it looks like."""
+        """The visual side of the scene."""
         self.rays = SceneRays(scene, self.scenery.parts, self.state)
-        """What the rays of sensors meet."""
+        """Ray casting against the scene."""
         self._bodies = name_bodies(
             scene, self.robots, self.state, self.scenery.parts, compatibility
         )
         self.touch = Contacts(scene, self.robots, self.state, data_path, timestep)
-        """Who touches whom."""
+        """Contacts between bodies."""
         self._sensors = self._bound_sensors()
         self._cameras = {
             name: sensor

@@ -40,7 +40,7 @@ class Sonar(Sensor, Protocol):
     """A sonar at work."""
 
     def image(self, time: float) -> Image:
-        """What it heard, for people, stamped ``time`` [s]."""
+        """Its last echoes as an image, stamped ``time`` [s]."""
 
 
 class SonarPublisher(Interface):

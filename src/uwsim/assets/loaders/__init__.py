@@ -13,7 +13,7 @@ from .openscenegraph import BY_OSGCONV, converted, has_osgconv, without_osgconv
 __all__ = ["BY_OSGCONV", "READABLE", "can_read", "read_model", "why_not_read"]
 
 KEPT = 256
-"""So many models are kept in memory."""
+"""Number of models kept in memory."""
 
 _Stamp = tuple[int, int]
 _Key = tuple[Path, str, tuple[Path, ...], int | None]

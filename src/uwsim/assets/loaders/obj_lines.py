@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 SHOWN = 60
-"""So many letters of a line are shown."""
+"""Number of characters of a line that are shown."""
 MAX_LINES = 2_000_000
-"""So many lines are looked at."""
+"""Number of lines that are checked."""
 COUNTED = {"v": 3, "vt": 1, "vn": 3}
 """What is numbered -> the fewest numbers it has."""
 

@@ -125,7 +125,7 @@ class Autopilot:
         body = vehicle.body(link)
         self._reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
         self.allocation = allocate(thrusters, self._reference, stiffness)
-        """What the thrusters can do."""
+        """The thrust allocation."""
         self._autopilot = _autopilot_record(vehicle, link, mass, gains or Gains(), self.allocation)
         for name in ("place", "dof", "body", "is_over_ground"):
             self._autopilot[name] = getattr(seat, name)

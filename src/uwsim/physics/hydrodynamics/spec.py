@@ -109,7 +109,7 @@ class ThrusterSpec:
     position: Triple = ZERO
     """In the link's frame [m]."""
     direction: Triple = (1.0, 0.0, 0.0)
-    """Of the force on the vehicle at a positive command, in the link's frame [1]."""
+    """Direction of the force on the vehicle at a positive command, in the link's frame [1]."""
     forward: Numbers
     """Thrust = c1 x + c2 x^2 + ... of the command x > 0, up to nine coefficients [N]."""
     backward: Numbers | None = None
@@ -125,7 +125,7 @@ class ThrusterSpec:
     torque: float = 0.0
     """Torque about the direction per thrust, positive right-handed [m]."""
     radius: float = element(default=0.05, minimum=MIN_RADIUS)
-    """Of the propeller, for the loss of thrust at the surface and the power it draws [m]."""
+    """Radius of the propeller, for the loss of thrust at the surface and the power it draws [m]."""
     efficiency: float | None = element(default=None, above=0.0, maximum=BEST_EFFICIENCY)
     """From the battery to the ideal propeller of that radius (`uwsim.physics.actuation.power`);
     without it and without ``power``: 0.4 [1]."""
@@ -219,7 +219,7 @@ class VehicleHydrodynamics:
     source: str = ""
     """Where the numbers come from, and which are estimates."""
     density: float = element(default=1000.0, minimum=LIQUIDS[0], maximum=LIQUIDS[1])
-    """Of the water that the numbers are for: volumes were trimmed in it [kg/m3]."""
+    """Density of the water that the numbers are for: volumes were trimmed in it [kg/m3]."""
     include: tuple[str, ...] = ()
     """Other hydrodynamics files in its folder; what they have is added when it is read."""
     bodies: tuple[BodyHydrodynamics, ...] = element("body", default=())

@@ -41,7 +41,7 @@ MICROPASCAL = -120.0
 
 
 class Echoes:
-    """What a sonar hears of its pings.
+    """Echoes of a sonar's pings.
 
     Args:
         spec: of the sonar.

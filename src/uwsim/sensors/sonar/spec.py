@@ -1,4 +1,4 @@
-"""What a scene file says of any sonar that measures echoes."""
+"""The spec of sonars that measure echoes."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class SonarSpec(SensorSpec):
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Of the sonar in the link's frame [m]."""
+    """Position of the sonar in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the sonar in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """Orientation of the sonar in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """Where it looks at the start, instead of ``orientation``: a point in L [m], or a direction
+    """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""
     range: float = element(default=20.0, above=0, maximum=10000)
     """End of the last bin of range [m]."""
@@ -39,9 +39,9 @@ class SonarSpec(SensorSpec):
     """Rays of a beam one above the other. What is lower than the distance of two rays may be
     missed."""
     frequency: float = element(default=900e3, minimum=1000, maximum=5e6)
-    """Of the sound, for its absorption [Hz]."""
+    """Frequency of the sound, for its absorption [Hz]."""
     source_level: float = element(default=210.0, minimum=0, maximum=300)
-    """Of the ping on the axis of the beam [dB re 1 uPa at 1 m]."""
+    """Source level of the ping on the axis of the beam [dB re 1 uPa at 1 m]."""
     noise_level: float = element(default=80.0, minimum=0, maximum=300)
     """Of what a beam receives without any echo, in the band of the sonar [dB re 1 uPa]."""
     speckle: bool = True

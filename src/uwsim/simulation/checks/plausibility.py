@@ -26,9 +26,9 @@ from .thrust_warnings import thrust_said
 from .vehicle_doubts import OF_SIMULATED, candidate_of, size_said
 
 MAX_VEHICLES = 50
-"""So many vehicles of a scene are looked at."""
+"""Number of vehicles of a scene that are checked."""
 MAX_LOOSE = 200
-"""So many loose objects, too."""
+"""Number of free objects that are checked."""
 
 
 def doubts_about(
