@@ -75,7 +75,7 @@ def unfit(message: object, of: str = "") -> str | None:
 
 def freeze(message: M) -> M:
     """Make every array inside a message read-only, and return it."""
-    for name in _names(cast(Hashable, message.__class__)):
+    for name in _with_arrays(cast(Hashable, message.__class__)):
         _freeze_value(getattr(message, name))
     return message
 
@@ -127,6 +127,20 @@ def _names(cls: Hashable) -> tuple[str, ...]:
 
 
 @functools.cache
+def _with_arrays(cls: Hashable) -> tuple[str, ...]:
+    """Fields that are, or may hold, arrays; those of a message that none of its fields has not."""
+    assert isinstance(cls, type)
+    kinds = {name: kind for name, kind, _ in _definition(cls)}
+    found = []
+    for field in dataclasses.fields(cls):
+        inner = _class_in(cls, str(field.type)) if kinds.get(field.name) == "message" else None
+        is_plain = kinds.get(field.name) in _FITTING
+        if not is_plain and (inner is None or _with_arrays(cast(Hashable, inner))):
+            found.append(field.name)
+    return tuple(found)
+
+
+@functools.cache
 def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
     """Field, kind (a key of `_WORDS`), and what is in it.
 
@@ -150,8 +164,14 @@ def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
 def _message_type(cls: type, message: str) -> str:
     """ROS's name of a message that a definition mentions; ``str`` stays."""
     name = message.rpartition(".")[2]
-    found = getattr(sys.modules[cls.__module__], name, None)
+    found = _class_in(cls, message)
     return str(getattr(found, "__msgtype__", name.replace("__", "/")))
+
+
+def _class_in(cls: type, message: str) -> type | None:
+    """The class of a message that a definition mentions; None if its module does not have it."""
+    found = getattr(sys.modules[cls.__module__], message.rpartition(".")[2], None)
+    return found if dataclasses.is_dataclass(found) and isinstance(found, type) else None
 
 
 def _array(value: object, dtype: str) -> np.ndarray[Any, Any] | None:
@@ -164,4 +184,4 @@ def _array(value: object, dtype: str) -> np.ndarray[Any, Any] | None:
 
 
 def _is_message(value: object, type: str) -> bool:
-    return dataclasses.is_dataclass(value) and getattr(value, "__msgtype__", None) == type
+    return getattr(value, "__msgtype__", None) == type and dataclasses.is_dataclass(value)

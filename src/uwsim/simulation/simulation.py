@@ -131,8 +131,10 @@ class Simulation:
         water that is not the same everywhere and what drifts with it have to do in every step.
         """
         world, now = self.world, self.step
+        delivery = self.bus.next_delivery
         if (
-            self._watchers
+            delivery <= now
+            or self._watchers
             or world.touch.is_laid
             or not world.state.is_dynamic
             or not world.water.is_uniform
@@ -140,7 +142,7 @@ class Simulation:
         ):
             return 1
         due = min(
-            self.bus.next_delivery,
+            delivery,
             world.next_tick,
             min((each.timer.due for each in self.images.values()), default=math.inf),
             min((node.next_tick for node in self._nodes), default=math.inf),

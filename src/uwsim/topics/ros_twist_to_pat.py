@@ -7,6 +7,7 @@ original took the wall's.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
@@ -55,14 +56,14 @@ class TwistCommand(Interface):
         """Take a twist in the base's axes; one that is not finite is ignored."""
         time = self._gap.take()
         v, w = twist.linear, twist.angular
-        numbers = np.array([v.x, v.y, v.z, w.x, w.y, w.z])
-        if not np.isfinite(numbers).all():
+        numbers = [float(x) for x in (v.x, v.y, v.z, w.x, w.y, w.z)]
+        if not all(map(math.isfinite, numbers)):
             return
-        numbers = np.clip(numbers, -MAX_COMMAND, MAX_COMMAND)
+        numbers = [min(max(x, -MAX_COMMAND), MAX_COMMAND) for x in numbers]
         if (autopilot := self._vehicle.autopilot) is not None:
-            autopilot.command(numbers[:3].tolist(), numbers[3:].tolist())
+            autopilot.command(numbers[:3], numbers[3:])
             return
-        step = numbers * time  # (6,) [m, rad]
+        step = np.array(numbers) * time  # (6,) [m, rad]
         before_from_after = Pose(step[:3], rotation_from_xyz(*step[3:].tolist()))
         self._vehicle.place(self._vehicle.world_from_base @ before_from_after)
 

@@ -154,7 +154,9 @@ class Autopilot:
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Take a twist [m/s, rad/s] in the base frame; it is held until the next."""
         self._change_to(VELOCITY, takes_over=True)
-        self._state["wanted"] = np.clip([*linear, *angular], -MAX_COMMAND, MAX_COMMAND)
+        self._state["wanted"] = [
+            min(max(x, -MAX_COMMAND), MAX_COMMAND) for x in (*linear, *angular)
+        ]
 
     def go_to(self, world_from_base: Pose) -> None:
         """Go to a place and its heading, and stay there; roll and pitch are not followed."""
