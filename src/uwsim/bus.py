@@ -251,7 +251,7 @@ class Bus:
         entry = self._topics.get(_without_slash(topic))
         return bool(entry and entry.readers)
 
-    def unheard(self, topic: str) -> str | None:
+    def without_subscriber(self, topic: str) -> str | None:
         """Report that a topic has no subscriber, with the nearest that has; None if it has one."""
         read = [name for name, entry in self._topics.items() if entry.readers]
         return (
@@ -260,7 +260,7 @@ class Bus:
             else f"it has no subscriber.{did_you_mean(topic, read)}"
         )
 
-    def unsaid(self, topic: str) -> str | None:
+    def without_publisher(self, topic: str) -> str | None:
         """Report that a topic has no publisher, with the nearest that has; None if it has one."""
         published = [name for name, entry in self._topics.items() if entry.has_writers]
         if _without_slash(topic) in published:

@@ -44,7 +44,7 @@ def is_of_user(error: BaseException) -> bool:
 
 
 @contextmanager
-def born_deaf() -> Iterator[None]:
+def ignoring_interrupts() -> Iterator[None]:
     """Start processes in this block that ignore Ctrl-C for as long as they run.
 
     For this process it waits until the block is left.

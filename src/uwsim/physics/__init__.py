@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ..interrupts import born_deaf
+from ..interrupts import ignoring_interrupts
 
-with born_deaf():  # its window library starts a process, which would show a traceback at Ctrl-C
+# MuJoCo's window library starts a process, which would show a traceback at Ctrl-C.
+with ignoring_interrupts():
     import mujoco  # noqa: F401

@@ -151,12 +151,16 @@ class InProcessNode:
             self._guard(callback, message)
 
         self._close.append(self._bus.subscribe(topic, type, receive))
-        self._heard[f"it subscribes to {topic!r}, but "] = lambda: self._bus.unsaid(topic)
+        self._heard[f"it subscribes to {topic!r}, but "] = lambda: self._bus.without_publisher(
+            topic
+        )
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``; delayed by the parameter ``latency_s``."""
         self._check(topic)
-        self._published[f"it publishes on {topic!r}, but "] = lambda: self._bus.unheard(topic)
+        self._published[f"it publishes on {topic!r}, but "] = lambda: self._bus.without_subscriber(
+            topic
+        )
         give = self._bus.publisher(topic, type, delay_steps=self._delay_steps)
 
         def publish(message: M) -> None:

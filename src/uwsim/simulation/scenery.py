@@ -54,8 +54,8 @@ class Scenery:
         pool: RendererPool | None,
     ) -> None:
         self._state = state
-        self._own_studio = RendererPool()
-        self._pool = pool or self._own_studio
+        self._own_pool = RendererPool()
+        self._pool = pool or self._own_pool
         self._renderer: Renderer | None = None
         self._handles: list[int] = []  # of each part
         self._drawn_version = -1
@@ -210,7 +210,7 @@ class Scenery:
             self._renderer = None
             self._handles = []
             self._drawn_version = -1
-        self._own_studio.close()
+        self._own_pool.close()
 
 
 def _shining(lamp: MountedLamp) -> Lamp:
