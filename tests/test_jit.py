@@ -128,3 +128,25 @@ def test_without_a_place_to_keep(cache: Path) -> None:
     cache.rmdir()
     cache.touch()
     assert module.twice(1.5) == 3.0
+
+
+def test_a_c_function_is_read_back(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import ctypes
+
+    source = """
+from numba import types
+from uwsim import jit
+
+def thrice(x):
+    return 3.0 * x
+
+COMPILED = jit.c_function(thrice, types.float64(types.float64))
+"""
+    (cache.parent / "doubles.py").write_text(source)
+    call = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)
+    assert call(fresh(cache).COMPILED.address)(2.0) == 6.0
+    assert len(files(cache)) == 1
+    monkeypatch.setattr(
+        "numba.core.ccallback._CFuncCompiler.compile", lambda *_, **__: pytest.fail("compiled")
+    )
+    assert call(fresh(cache).COMPILED.address)(2.0) == 6.0

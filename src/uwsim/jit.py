@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import importlib
 import os
 import pickle
 from collections.abc import Callable
@@ -24,6 +25,7 @@ import numba
 import numpy as np
 import numpy.typing as npt
 from numba.core.caching import FunctionCache, NullCache
+from numba.core.ccallback import CFunc
 from numba.core.serialize import dumps
 
 from .compiled_source import source_digest
@@ -47,6 +49,21 @@ def elementwise(function: Callable[..., float]) -> Elementwise:
     compiled: Any = numba.vectorize(function)  # type: ignore[no-untyped-call]
     compiled._dispatcher.cache = _cache(function)
     return cast("Elementwise", compiled)
+
+
+def link_library(path: str) -> None:
+    """Let compiled code call the functions of a shared library by their names."""
+    binding: Any = importlib.import_module("llvmlite.binding")  # of numba; it has no types
+    binding.load_library_permanently(path)
+
+
+def c_function(function: Callable[..., object], signature: Any) -> Any:
+    """Compile a function of the module's level as a C function, with ``address``; cached alike."""
+    arguments = (signature.args, signature.return_type)
+    compiled: Any = CFunc(function, arguments, {}, {})
+    compiled._cache = _cache(cast("FunctionType", function))
+    compiled.compile()
+    return compiled
 
 
 class HashedCache(FunctionCache):

@@ -24,8 +24,19 @@ import numpy as np
 from numba import types
 
 from ...errors import UwsimError
+from ...jit import c_function, link_library
 from . import free_bodies, kernel, layout
 from .memory import Floats, Ints64
+
+_SIGNATURE = types.void(types.intp, types.intp)
+_make: Any
+_factor: Any
+_project: Any
+_make, _factor, _project = (
+    types.ExternalFunction(name, _SIGNATURE)
+    for name in ("mj_makeM", "mj_factorM", "mj_projectConstraint")
+)
+_AT = layout.offsets()
 
 
 class CallbackTaken(UwsimError):
@@ -46,34 +57,29 @@ def library() -> ctypes.CDLL:
 @functools.cache
 def offsets() -> Ints64:
     """The field offsets of this MuJoCo, checked on a small model once."""
-    at = layout.offsets()
     model = mujoco.MjModel.from_xml_string(_SMALL)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    layout.check(model, data, at)
-    return at
+    layout.check(model, data, _AT)
+    return _AT
+
+
+def _add_water(m: int, d: int) -> None:
+    if kernel.has_tables(m, _AT):
+        if kernel.has_water(d, _AT):
+            _make(m, d)
+        kernel.add_water(m, d, _AT)
+        _factor(m, d)
+        if kernel.needs_projection(m, _AT):
+            _project(m, d)
 
 
 @functools.cache
 def wrapper() -> Any:
-    """Compile the C function ``void (const mjModel*, mjData*)``."""
-    at = offsets()
-    make, factor, project = (
-        _native(name) for name in ("mj_makeM", "mj_factorM", "mj_projectConstraint")
-    )
-    has_tables, has_water, add_water = kernel.has_tables, kernel.has_water, kernel.add_water
-    needs_projection = kernel.needs_projection
-
-    def water(m: int, d: int) -> None:
-        if has_tables(m, at):
-            if has_water(d, at):
-                make(m, d)
-            add_water(m, d, at)
-            factor(m, d)
-            if needs_projection(m, at):
-                project(m, d)
-
-    return numba.cfunc(types.void(types.intp, types.intp))(water)
+    """Compile the C function ``void (const mjModel*, mjData*)``, or read it from the disk."""
+    offsets()
+    link_library(library()._name)  # where MuJoCo's functions are
+    return c_function(_add_water, _SIGNATURE)
 
 
 @functools.cache
