@@ -17,15 +17,17 @@ from uwsim.simulation.vehicles import SceneVehicle
 
 
 class FakeState:
+    """Remembers what is done to it."""
+
     def __init__(self) -> None:
         self.losses: list[tuple[int, float]] = []
         self.placed: list[Pose] = []
-
-    def thrusters(self, index: int) -> tuple[str, ...]:
-        return ("port", "starboard")
-
-    def set_loss(self, index: int, thruster: int, loss: float) -> None:
-        self.losses.append((thruster, loss))
+        self.actuation = {
+            0: SimpleNamespace(
+                thrusters=("port", "starboard"),
+                set_loss=lambda thruster, loss: self.losses.append((thruster, loss)),
+            )
+        }
 
     def place_vehicle(self, index: int, pose: Pose) -> None:
         self.placed.append(pose)

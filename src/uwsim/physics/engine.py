@@ -17,7 +17,7 @@ from ..scene.kinematics import joint_positions
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..world import Contact
-from .actuation.vehicle_actuation import VehicleActuation
+from .actuation.vehicle_actuation import actuation_of
 from .compile import compile_scene, vehicle_joint
 from .contacts import EngineContacts, body_name
 from .engine_warnings import StepCheck
@@ -72,14 +72,14 @@ class Engine:
         free = {i: model.joint(vehicle_joint(i, "")).id for i in robots}
         self._free_places = {i: int(model.jnt_qposadr[joint]) for i, joint in free.items()}
         self._free_dofs = {i: int(model.jnt_dofadr[joint]) for i, joint in free.items()}
-        self._joint_places = {i: self._places_of(i, robots[i]) for i in robots}
+        self._joint_places = {i: joint_places(model, robots[i], i) for i in robots}
         self._scaled = {
             i: ScaledLinks(model, robots[i], i, vehicle.scale_factor)
             for i, vehicle in enumerate(scene.vehicles)
             if i not in dynamics and vehicle.scale_factor != (1.0, 1.0, 1.0)
         }
         self._water: Hydrodynamics | None = _water_of(model) if dynamics else None
-        self.actuation = self._make_actuation(scene)
+        self.actuation = actuation_of(scene, robots, dynamics, data, self._water, self.poses)
         """What moves each simulated vehicle, by its number."""
         self._set_first_joints(scene)
         self._wet, self._felt_at = self._wet_points()
@@ -130,11 +130,8 @@ class Engine:
 
     def submerged_vehicles(self) -> tuple[int | None, ...]:
         """Return the number of the vehicle that each of them belongs to."""
-        numbers: list[int | None] = []
-        for i in self._wet.tolist():
-            parts = self._model.body(i).name.split("/")
-            numbers.append(int(parts[1]) if parts[0] == "vehicle" else None)
-        return tuple(numbers)
+        parts = [self._model.body(i).name.split("/") for i in self._wet.tolist()]
+        return tuple(int(part[1]) if part[0] == "vehicle" else None for part in parts)
 
     def step(self, n: int, water: Array | None) -> None:
         """Advance all simulated bodies by some steps.
@@ -214,28 +211,6 @@ class Engine:
                 self._scaled[index].follow(values)
         self.poses.moved()
 
-    def _places_of(self, index: int, robot: RobotSpec) -> npt.NDArray[np.intp]:
-        """Where the joint vector of a vehicle lies among all positions, (n,)."""
-        names = [vehicle_joint(index, joint.name) for joint in robot.movable]
-        return np.array([self._model.joint(name).qposadr[0] for name in names], dtype=np.intp)
-
-    def _make_actuation(self, scene: SceneSpec) -> dict[int, VehicleActuation]:
-        """Make the actuation of each simulated vehicle."""
-        if self._water is None:
-            return {}
-        return {
-            i: VehicleActuation(
-                i,
-                scene.vehicles[i],
-                self._robots[i],
-                dynamics,
-                self._data,
-                self._water,
-                self.poses,
-            )
-            for i, dynamics in self._dynamics.items()
-        }
-
     def _set_first_joints(self, scene: SceneSpec) -> None:
         for index, vehicle in enumerate(scene.vehicles):
             n_joints = len(self._robots[index].movable)
@@ -268,6 +243,12 @@ class Engine:
             self._wet.tolist(),
             self._check,
         )
+
+
+def joint_places(model: mujoco.MjModel, robot: RobotSpec, index: int) -> npt.NDArray[np.intp]:
+    """Where the joint vector of a vehicle lies in ``qpos``, (n,)."""
+    names = [vehicle_joint(index, joint.name) for joint in robot.movable]
+    return np.array([model.joint(name).qposadr[0] for name in names], dtype=np.intp)
 
 
 def _water_of(model: mujoco.MjModel) -> Hydrodynamics:

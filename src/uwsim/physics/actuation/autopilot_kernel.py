@@ -253,10 +253,7 @@ def command(thruster: Record, force: float) -> float:
     """Return a thruster's command for a thrust [N], as far as it reaches [1]."""
     x, y = thruster.thrusts, thruster.commands
     j = np.searchsorted(x, force, side="right") - 1
-    if j < 0:
-        found: float = y[0]
-    elif j >= len(x) - 1:
-        found = y[-1]
-    else:
+    found: float = y[min(max(j, 0), len(y) - 1)]
+    if 0 <= j < len(x) - 1:
         found = y[j] + (y[j + 1] - y[j]) * (force - x[j]) / (x[j + 1] - x[j])
     return found

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import mujoco
 
 from ...geometry import Array, Pose
+from ...scene.spec import SceneSpec
 from ...scene.urdf import RobotSpec
 from ...scene.vehicle import VehicleSpec
 from ..balance import balance_of
@@ -111,3 +113,20 @@ class VehicleActuation:
             self._index,
             self._refresh,
         )
+
+
+def actuation_of(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    dynamics: Mapping[int, VehicleHydrodynamics],
+    data: mujoco.MjData,
+    water: Hydrodynamics | None,
+    poses: Poses,
+) -> dict[int, VehicleActuation]:
+    """The actuation of every simulated vehicle, by its number; none without water."""
+    if water is None:
+        return {}
+    return {
+        i: VehicleActuation(i, scene.vehicles[i], robots[i], one, data, water, poses)
+        for i, one in dynamics.items()
+    }
