@@ -275,3 +275,13 @@ class SensorWorld(World, Protocol):
             random: the camera's random stream.
             grey: give (h, w), each term of the sum cut to a whole number; else (h, w, 3).
         """
+
+    def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
+        """Measure the distance along the optical axis of each pixel, (h, w) [m].
+
+        What is nearer than the near plane is not seen; +inf where nothing is before the far plane.
+
+        Args:
+            world_from_camera: where the camera is; OpenGL axes.
+            intrinsics: its pinhole.
+        """

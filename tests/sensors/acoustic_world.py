@@ -7,8 +7,9 @@ import numpy as np
 from tests.fakes import FakeBody
 from uwsim import rng
 from uwsim.acoustics import MATERIALS, Material, SeaWater
-from uwsim.geometry import Pose
+from uwsim.geometry import Intrinsics, Pose
 from uwsim.rays import RayScene, Surface
+from uwsim.sensors.pinhole import cast_depth
 
 
 class Materials(RayScene):
@@ -34,6 +35,9 @@ class AcousticWorld:
 
     def stream(self, name: str) -> np.random.Generator:
         return rng.stream(self.seed, name)
+
+    def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> np.ndarray:
+        return cast_depth(self.rays, world_from_camera, intrinsics)
 
 
 class FakeCarrier:

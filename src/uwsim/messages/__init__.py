@@ -8,7 +8,7 @@ Headers are ROS 2's; the ROS 1 adapter adds ``seq``.
 
 from __future__ import annotations
 
-from .build import floats, header, image, pixels_of, seconds, time_from_seconds
+from .build import depth_image, floats, header, image, pixels_of, seconds, time_from_seconds
 from .point_cloud import point_cloud, points
 from .services import Empty, EmptyResponse, GTpublish, GTpublishResponse, Service
 from .sonar import PingInfo, ProjectedSonarImage, SonarImageData
@@ -92,6 +92,7 @@ __all__ = [
     "Vector3",
     "Wrench",
     "WrenchStamped",
+    "depth_image",
     "floats",
     "header",
     "image",

@@ -43,6 +43,20 @@ def image(pixels: npt.NDArray[np.uint8], *, time: float, frame_id: str = "") -> 
     )
 
 
+def depth_image(depth: npt.NDArray[np.float64], *, time: float, frame_id: str = "") -> Image:
+    """Build a ``32FC1`` image, as in REP 118, from depths (h, w) [m]; row 0 is the top."""
+    height, width = depth.shape
+    return Image(
+        header=header(time, frame_id),
+        height=height,
+        width=width,
+        encoding="32FC1",
+        is_bigendian=0,
+        step=4 * width,
+        data=np.ascontiguousarray(depth, dtype="<f4").reshape(-1).view(np.uint8),
+    )
+
+
 def pixels_of(message: Image) -> npt.NDArray[np.uint8]:
     """Return the pixels of an ``rgb8`` (h, w, 3) or ``mono8`` (h, w) image, without a copy."""
     if message.encoding == "mono8":

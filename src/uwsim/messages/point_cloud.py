@@ -72,16 +72,22 @@ def _place(cloud: PointCloud2, axis: str, step: int) -> tuple[int, str]:
 def point_cloud(
     places: npt.NDArray[np.float64], *, time: float = 0.0, frame_id: str = ""
 ) -> PointCloud2:
-    """Build an unordered cloud of points (n, 3) [m], as float32 x, y, z."""
-    n = len(places)
+    """Build a cloud of points [m], as float32 x, y, z.
+
+    Args:
+        places: the points, (n, 3); or (h, w, 3), one a pixel, row 0 at the top.
+        time: of the cloud [s].
+        frame_id: the frame of the points.
+    """
+    height, width = (1, len(places)) if places.ndim == 2 else places.shape[:2]
     return PointCloud2(
         header=header(time, frame_id),
-        height=1,
-        width=n,
+        height=height,
+        width=width,
         fields=[PointField(name=a, offset=4 * i, datatype=7, count=1) for i, a in enumerate("xyz")],
         is_bigendian=False,
         point_step=12,
-        row_step=12 * n,
+        row_step=12 * width,
         data=np.frombuffer(np.ascontiguousarray(places, dtype="<f4").tobytes(), dtype=np.uint8),
         is_dense=bool(np.isfinite(places).all()),
     )

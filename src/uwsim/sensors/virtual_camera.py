@@ -19,10 +19,11 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Intrinsics, Pose
-from ..messages import CameraInfo, Image, RegionOfInterest, header, image
+from ..geometry import Array, Intrinsics, Pose
+from ..messages import CameraInfo, Image, image
 from ..schema import MAX_DISTANCE, element
 from ..world import Body, SensorWorld
+from .pinhole import camera_info
 from .sensor import OPTICAL_AXES, Carrier, LookAt, SensorSpec
 
 
@@ -178,27 +179,16 @@ class VirtualCamera:
         if self.std > 0.0:
             self._random.integers(2**63)
 
-    def info(self, time: float) -> CameraInfo:
-        """Build its CameraInfo, stamped ``time`` [s]: no distortion, Tx = -fx * baseline.
+    def depth(self, time: float) -> Array:
+        """Return the distance along the optical axis of each pixel, (h, w) [m]; +inf: nothing."""
+        return self._world.depth(self.world_from_camera, self._intrinsics)
 
-        As in ROS and OpenCV the principal point counts from the *centre* of the first pixel, half a
-        pixel less than from the corner of the image.
-        """
-        lens = self._intrinsics
-        fx, fy, skew = lens.fx, lens.fy, -lens.skew  # ROS: y points down
-        cx, cy = lens.cx - 0.5, self._published_cy - 0.5
-        return CameraInfo(
-            header=header(time, self.frame_id),
-            height=lens.height,
-            width=lens.width,
-            distortion_model="",
-            d=np.zeros(4),
-            k=np.array([fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
-            r=np.eye(3).reshape(-1),
-            p=np.array([fx, skew, cx, -fx * self._baseline, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]),
-            binning_x=0,
-            binning_y=0,
-            roi=RegionOfInterest(
-                x_offset=0, y_offset=0, height=lens.height, width=lens.width, do_rectify=False
-            ),
+    def info(self, time: float) -> CameraInfo:
+        """Build its CameraInfo, stamped ``time`` [s]: no distortion, Tx = -fx * baseline."""
+        return camera_info(
+            self._intrinsics,
+            time=time,
+            frame_id=self.frame_id,
+            cy=self._published_cy,
+            baseline=self._baseline,
         )

@@ -113,6 +113,12 @@ class Scenery:
             pixels = rendered.colour.view(np.uint8)
         return grey_truncated(pixels) if grey else pixels
 
+    def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
+        """Render the distance along the optical axis, (h, w) [m]; +inf = nothing there."""
+        wanted = frozenset({"range"})
+        rendered = self._draw(world_from_camera, intrinsics, self.water, targets=wanted)
+        return rendered.depth.astype(np.float64)
+
     def render_clean(
         self, world_from_camera: Pose, intrinsics: Intrinsics, *, fog: float | None = None
     ) -> RenderedImage:

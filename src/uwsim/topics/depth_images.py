@@ -1,19 +1,51 @@
-"""Interfaces that publish depth cameras."""
+"""Interfaces that publish depth: images of range as in REP 118, and point clouds.
+
+Colour cameras may be named, too: their depth is exact, and none of it is what the water hides.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Protocol, runtime_checkable
 
+import numpy as np
+
+from ..errors import UnknownName
+from ..geometry import Array, Intrinsics
+from ..messages import CameraInfo, Image, PointCloud2, depth_image, point_cloud
 from ..schema import element
-from .interface import InterfaceSpec
+from .interface import Interface, InterfaceSpec, TopicWorld
+
+CAMERAS = ("virtualRangeImage", "virtualCamera")
+"""Elements whose depth may be published."""
+
+
+@runtime_checkable
+class DepthCamera(Protocol):
+    """A camera that measures depth."""
+
+    @property
+    def frame_id(self) -> str:
+        """The frame in the headers of its messages."""
+
+    @property
+    def intrinsics(self) -> Intrinsics:
+        """Its pinhole."""
+
+    def depth(self, time: float) -> Array:
+        """Measure at ``time`` [s]: along the optical axis, (h, w) [m]; +inf: nothing there."""
+
+    def info(self, time: float) -> CameraInfo:
+        """Build its CameraInfo, stamped ``time`` [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RangeImageSensorToROSImageSpec(InterfaceSpec):
     """Publishes a depth camera as sensor_msgs/Image and CameraInfo."""
 
-    sources: ClassVar[tuple[str, ...]] = ("virtualRangeImage", "virtualCamera")
+    sources: ClassVar[tuple[str, ...]] = CAMERAS
+    messages: ClassVar[Mapping[str, type]] = {"image_topic": Image, "info_topic": CameraInfo}
 
     camera_name: str
     """Name of the depth camera."""
@@ -24,12 +56,38 @@ class RangeImageSensorToROSImageSpec(InterfaceSpec):
     rate: int = element(default=10, minimum=1)
     """How often [Hz]."""
 
+    def bind(self, world: TopicWorld) -> DepthImagePublisher:
+        """Publish from now on; raises UnknownName if there is no such camera."""
+        return publish_depth(
+            world, self.camera_name, (self.image_topic, self.info_topic), self.rate
+        )
+
+
+class DepthImagePublisher(Interface):
+    """Publishes the depth of a camera; without a reader nothing is measured."""
+
+    def __init__(self, camera: DepthCamera, image_topic: str, info_topic: str, world: TopicWorld):
+        self._camera, self._world = camera, world
+        self._image_topic, self._info_topic = image_topic, info_topic
+        self._publish_image = world.bus.publisher(image_topic, Image)
+        self._publish_info = world.bus.publisher(info_topic, CameraInfo)
+
+    def publish(self) -> None:
+        """Take the sample that is due and publish it."""
+        time, bus, camera = self._world.time, self._world.bus, self._camera
+        if bus.has_readers(self._info_topic):
+            self._publish_info(camera.info(time))
+        if bus.has_readers(self._image_topic):
+            depth = camera.depth(time)
+            self._publish_image(depth_image(depth, time=time, frame_id=camera.frame_id))
+
 
 @dataclass(frozen=True, kw_only=True)
 class RangeCameraToPCLSpec(InterfaceSpec):
     """Publishes a depth camera as sensor_msgs/PointCloud2."""
 
-    sources: ClassVar[tuple[str, ...]] = ("virtualRangeImage",)
+    sources: ClassVar[tuple[str, ...]] = CAMERAS
+    messages: ClassVar[Mapping[str, type]] = {"topic": PointCloud2}
 
     camera_name: str
     """Name of the depth camera."""
@@ -37,3 +95,56 @@ class RangeCameraToPCLSpec(InterfaceSpec):
     """Name of the topic."""
     rate: int = element(default=10, minimum=1)
     """How often [Hz]."""
+
+    def bind(self, world: TopicWorld) -> PointCloudPublisher:
+        """Publish from now on; raises UnknownName if there is no such camera."""
+        camera = _find(world, self.camera_name)
+        publisher = PointCloudPublisher(camera, self.camera_name, self.topic, world)
+        world.every(self.rate, publisher.publish)
+        return publisher
+
+
+class PointCloudPublisher(Interface):
+    """Publishes the depth of a camera as points in its optical frame, one a pixel.
+
+    The frame has the name of the camera, as on ``/tf``. A pixel that sees nothing is NaN.
+    """
+
+    def __init__(self, camera: DepthCamera, frame_id: str, topic: str, world: TopicWorld) -> None:
+        self._camera, self._frame_id = camera, frame_id
+        self._topic, self._world = topic, world
+        self._publish = world.bus.publisher(topic, PointCloud2)
+
+    def publish(self) -> None:
+        """Take the sample that is due and publish it."""
+        if self._world.bus.has_readers(self._topic):
+            time = self._world.time
+            places = optical_points(self._camera.depth(time), self._camera.intrinsics)
+            self._publish(point_cloud(places, time=time, frame_id=self._frame_id))
+
+
+def optical_points(depth: Array, lens: Intrinsics) -> Array:
+    """Return the point of each pixel, (h, w, 3) [m]: x right, y down, z ahead; NaN: nothing."""
+    ahead = np.where(np.isfinite(depth), depth, np.nan)
+    points: Array = lens.rays() * [1.0, -1.0, -1.0] * ahead[..., None]
+    return points
+
+
+def publish_depth(
+    world: TopicWorld, camera: str, topics: tuple[str, str], rate: float
+) -> DepthImagePublisher:
+    """Publish the depth of a camera at a rate, on topics for images and for CameraInfo.
+
+    Raises:
+        UnknownName: there is no such camera.
+    """
+    publisher = DepthImagePublisher(_find(world, camera), *topics, world)
+    world.every(rate, publisher.publish)
+    return publisher
+
+
+def _find(world: TopicWorld, name: str) -> DepthCamera:
+    camera = world.sensor(name, CAMERAS)
+    if not isinstance(camera, DepthCamera):
+        raise UnknownName("camera", name, ())
+    return camera

@@ -10,11 +10,11 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import UnknownName
 from ..messages import CameraInfo, Image, image, pixels_of
 from ..sampling import SampleTimer
 from ..schema import element
 from ..sensors.virtual_camera import VirtualCamera
+from .depth_images import DepthImagePublisher, publish_depth
 from .interface import Interface, InterfaceSpec, TopicWorld
 
 
@@ -36,10 +36,11 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
     depth: bool = False
     """Whether depth is published instead of colour (range cameras only)."""
 
-    def bind(self, world: TopicWorld) -> ImagePublisher:
+    def bind(self, world: TopicWorld) -> ImagePublisher | DepthImagePublisher:
         """Find the camera; raises UnknownName if it is not there, or no colour camera."""
         if self.depth:
-            raise UnknownName("camera of depth that is simulated", self.camera_name, ())
+            topics = self.image_topic, self.info_topic
+            return publish_depth(world, self.camera_name, topics, self.rate)
         return ImagePublisher(self, world.camera(self.camera_name), world)
 
 

@@ -1,0 +1,58 @@
+"""What colour cameras and depth cameras have in common: CameraInfo, and depth by ray casting."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..geometry import Array, Intrinsics, Pose
+from ..messages import CameraInfo, RegionOfInterest, header
+from ..world import Rays
+
+
+def camera_info(
+    lens: Intrinsics, *, time: float, frame_id: str, cy: float, baseline: float = 0.0
+) -> CameraInfo:
+    """Build the CameraInfo of a pinhole, stamped ``time`` [s]: no distortion.
+
+    As in ROS and OpenCV the principal point counts from the *centre* of the first pixel, half a
+    pixel less than from the corner of the image.
+
+    Args:
+        lens: the pinhole.
+        time: of the message [s].
+        frame_id: of the message.
+        cy: the principal point from the top edge, as it is to be published [px].
+        baseline: distance to the first camera of a stereo pair: Tx = -fx * baseline [m].
+    """
+    fx, fy, skew = lens.fx, lens.fy, -lens.skew  # ROS: y points down
+    cx, cy = lens.cx - 0.5, cy - 0.5
+    return CameraInfo(
+        header=header(time, frame_id),
+        height=lens.height,
+        width=lens.width,
+        distortion_model="",
+        d=np.zeros(4),
+        k=np.array([fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
+        r=np.eye(3).reshape(-1),
+        p=np.array([fx, skew, cx, -fx * baseline, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]),
+        binning_x=0,
+        binning_y=0,
+        roi=RegionOfInterest(
+            x_offset=0, y_offset=0, height=lens.height, width=lens.width, do_rectify=False
+        ),
+    )
+
+
+def cast_depth(rays: Rays, world_from_camera: Pose, lens: Intrinsics) -> Array:
+    """Cast a ray through the centre of each pixel; returns the depth along the axis, (h, w) [m].
+
+    As in an image, what is nearer than the near plane is not met; +inf where nothing is met before
+    the far plane.
+    """
+    through = lens.rays().reshape(-1, 3)
+    stretch = np.sqrt((through * through).sum(axis=1))
+    reach = lens.far * float(stretch.max(initial=1.0))
+    hits = rays.cast(world_from_camera, through / stretch[:, None], reach, lens.near * stretch)
+    depth = hits.distance / stretch
+    planar: Array = np.where(depth < lens.far, depth, np.inf).reshape(lens.height, lens.width)
+    return planar
