@@ -89,3 +89,18 @@ def test_a_scene_with_errors_is_refused_with_its_lines(
     file.write_text("<UWSimScene>\n<vehicle><name>x</name></vehicle></UWSimScene>")
     assert main(["info", str(file)]) == 2
     assert f"{file}:2: " in capsys.readouterr().err
+
+
+def test_topics_of_devices_are_listed_with_their_direction(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    found = json.loads(said(capsys, "two-vehicles-scene", "--json"))["topics"]
+    mine = {each["topic"]: each for each in found if each["interface"] == "AcousticCommsDevice"}
+    directions = {topic: (each["direction"], each["rate_hz"]) for topic, each in mine.items()}
+    assert directions == {
+        "/modem1/tx": ("listens", None),
+        "/modem1/rx": ("publishes", None),
+        "/modem1/energy": ("publishes", 1.0),
+        "/modem2/tx": ("listens", None),
+        "/modem2/rx": ("publishes", None),
+    }

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..devices.device import DeviceSpec
 from ..devices.lamp import LampSpec
 from ..devices.sway import SwaySpec
 from ..errors import Diagnostic
@@ -210,7 +211,7 @@ def _object(scene: SceneSpec, thing: ObjectSpec) -> Fields:
 
 
 def _topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
-    """Every topic of an interface: what it carries, which way, how often."""
+    """Every topic of an interface or device: what it carries, which way, how often."""
     types: Mapping[str, str] = simulation.bus.topics
     found = []
     for interface in scene.ros_interfaces:
@@ -232,7 +233,27 @@ def _topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
                     "limit": limit_of("rosInterfaces", name),
                 }
             )
-    return found
+    return found + _device_topics(scene, types)
+
+
+def _device_topics(scene: SceneSpec, types: Mapping[str, str]) -> list[Fields]:
+    """The topics that devices have without an interface; of a device that is left out none."""
+    return [
+        {
+            "topic": f"/{topic.name}",
+            "type": types[topic.name],
+            "direction": "listens" if topic.is_heard else "publishes",
+            "rate_hz": topic.rate,
+            "of": getattr(part, "name", ""),
+            "interface": element,
+            "limit": "",
+        }
+        for vehicle in scene.vehicles
+        for element, part in vehicle.all_parts()
+        if isinstance(part, DeviceSpec)
+        for topic in part.topics
+        if topic.name in types
+    ]
 
 
 def _of(interface: InterfaceSpec) -> str:

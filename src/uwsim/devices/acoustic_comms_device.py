@@ -23,8 +23,14 @@ from ..network import BitErrors, EnergyModel, LinkBudget, ModemSettings, WaterCh
 from ..schema import REQUIRED, element
 from ..world import Stage
 from .comms_channels import acoustic_channel
-from .comms_device import CommsDevice, CommsMeshSpec, MacProtocolSpec, PacketBuilderSpec
-from .device import DeviceSpec, DeviceVehicle
+from .comms_device import (
+    CommsDevice,
+    CommsMeshSpec,
+    MacProtocolSpec,
+    PacketBuilderSpec,
+    packet_topics,
+)
+from .device import DeviceSpec, DeviceTopic, DeviceVehicle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,6 +127,13 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     def name(self) -> str:
         """Its name."""
         return self.dccomms_id
+
+    @property
+    def topics(self) -> tuple[DeviceTopic, ...]:
+        """Its topics, besides that of its interface."""
+        if self.disable:
+            return ()
+        return packet_topics(self.name, has_energy=self.energy_model is not None)
 
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> CommsDevice:
         """Mount it and let it take part; raises UnknownName if there is no such link."""

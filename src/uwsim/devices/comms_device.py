@@ -33,7 +33,7 @@ from ..network import (
 from ..schema import MAX_DISTANCE, REQUIRED, Original, element
 from ..sensors.sensor import Mounted
 from ..world import Body, Stage
-from .device import Device, DeviceVehicle
+from .device import Device, DeviceTopic, DeviceVehicle
 
 SLOT_BYTES = 64
 """A slot of a protocol is long enough for a packet of this size, unless the file says otherwise."""
@@ -118,6 +118,13 @@ class _OnLink:
     relative_to: str
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def packet_topics(name: str, *, has_energy: bool = False) -> tuple[DeviceTopic, ...]:
+    """Return the topics of a device."""
+    packets = (DeviceTopic(name=f"{name}/tx", is_heard=True), DeviceTopic(name=f"{name}/rx"))
+    energy = DeviceTopic(name=f"{name}/energy", rate=ENERGY_RATE)
+    return (*packets, energy) if has_energy else packets
 
 
 class CommsDevice(Device):

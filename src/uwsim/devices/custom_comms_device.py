@@ -25,8 +25,14 @@ from ..network import BitErrors, DelayChannel, ErrorModel, ModemSettings, RateEr
 from ..schema import REQUIRED, element
 from ..world import Stage
 from .comms_channels import MAX_MS, custom_channel
-from .comms_device import CommsDevice, CommsMeshSpec, MacProtocolSpec, PacketBuilderSpec
-from .device import DeviceSpec, DeviceVehicle
+from .comms_device import (
+    CommsDevice,
+    CommsMeshSpec,
+    MacProtocolSpec,
+    PacketBuilderSpec,
+    packet_topics,
+)
+from .device import DeviceSpec, DeviceTopic, DeviceVehicle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,6 +131,11 @@ class CustomCommsDeviceSpec(DeviceSpec):
     def name(self) -> str:
         """Its name."""
         return self.dccomms_id
+
+    @property
+    def topics(self) -> tuple[DeviceTopic, ...]:
+        """Its topics, besides that of its interface."""
+        return () if self.disable else packet_topics(self.name)
 
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> CommsDevice:
         """Mount it and let it take part; raises UnknownName if there is no such link."""

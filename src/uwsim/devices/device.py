@@ -22,11 +22,28 @@ class DeviceVehicle(Vehicle, Carrier, Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
+class DeviceTopic:
+    """A topic that a device has without any interface."""
+
+    name: str
+    """Of the topic."""
+    is_heard: bool = False
+    """Whether the device listens to it; else it publishes."""
+    rate: float | None = None
+    """How often it publishes; None: when there is something [Hz]."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class DeviceSpec(abc.ABC):
     """A device that is simulated; the spec of one that is not has no ``bind``."""
 
     is_left_out: ClassVar[bool] = False
     """Whether the scene goes without it where what it names is not there, as in the original."""
+
+    @property
+    def topics(self) -> tuple[DeviceTopic, ...]:
+        """Its topics, besides those of interfaces."""
+        return ()
 
     @abc.abstractmethod
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Device:
