@@ -31,7 +31,7 @@ from .sonar.message import level_directions, sonar_image
 from .sonar.spec import SonarSpec
 
 RAYS_A_WIDTH = 4
-"""Rays side by side in the width of the beam."""
+"""Rays side by side in the width of the one beam."""
 
 
 @dataclass(frozen=True, kw_only=True)

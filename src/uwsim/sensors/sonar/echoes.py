@@ -30,6 +30,8 @@ from .spec import SonarSpec
 
 MARGIN = 1.25
 """A beam is summed up so many of its widths to either side."""
+RAYS_A_WIDTH = 2.5
+"""At least so many rays are side by side in the width of a beam."""
 HIGH = 0.6
 """Rays go so many vertical apertures up and down from the middle."""
 LINE_WIDTH = 0.4429
@@ -55,21 +57,21 @@ class Echoes:
         width = math.radians(spec.beam_width)
         self.azimuths = azimuths
         """Of the beams, (n,) [rad]."""
-        n_side = max(1, math.ceil(MARGIN * width / abs(step)))
-        taps = step * np.arange(-n_side, n_side + 1)
-        powers = [2.0 ** -((2.0 * angle / width) ** 2) for angle in taps.tolist()]
-        self._pattern = np.array(powers, dtype=np.float32)
-        edges = step * np.arange(1, n_side + 1)
-        self._ray_azimuths = np.concatenate(
-            [azimuths[0] - edges[::-1], azimuths, azimuths[-1] + edges]
-        )
+        n_phases = max(1, int(width / RAYS_A_WIDTH / abs(step)))
+        apart = n_phases * step
+        n_side = max(1, math.ceil(MARGIN * width / abs(apart)))
+        off = np.arange(-n_side, n_side + 2) * apart - np.arange(n_phases)[:, None] * step
+        powers = [[_gaussian(angle, width) for angle in line] for line in off.tolist()]
+        self._patterns = np.array(powers, dtype=np.float32)
+        n_rays = (len(azimuths) - 1) // n_phases + 2 * n_side + 2
+        self._ray_azimuths = azimuths[0] + apart * np.arange(-n_side, n_rays - n_side)
         aperture = math.radians(spec.vertical_aperture)
         rise = 2.0 * HIGH * aperture / spec.rows
         elevations: Array = rise * (np.arange(spec.rows, dtype=np.float64) + 0.5) - HIGH * aperture
         self.directions = _directions(self._ray_azimuths, elevations)
         """Of the rays in the sonar's frame, (n k, 3)."""
         patterns = np.array([_line(angle, aperture) ** 4 for angle in elevations.tolist()])
-        self._rows = patterns * np.cos(elevations) * rise * abs(step)
+        self._rows = patterns * np.cos(elevations) * rise * abs(apart)
         self.bin_size = (spec.range - spec.min_range) / spec.bins
         """Of range [m]."""
         self._rayleigh = _rayleigh() if spec.speckle else np.ones(65536, dtype=np.float32)
@@ -102,7 +104,7 @@ class Echoes:
         random = np.random.Generator(np.random.PCG64DXSM(key))
         shape = spec.bins, len(self.azimuths)
         draws = random.integers(0, 65536, size=shape, dtype=np.uint16)
-        return received(power, self._pattern, noise, draws, self._rayleigh)
+        return received(power, self._patterns, noise, draws, self._rayleigh)
 
     def power(self, world_from_sonar: Pose) -> Singles:
         """Mean power of the echoes of each bin and ray azimuth, (bins, m) [Pa2]."""
@@ -160,6 +162,11 @@ def _directions(azimuths: Array, elevations: Array) -> Array:
     azimuth, elevation = np.meshgrid(azimuths, elevations, indexing="ij")
     x, y = np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth)
     return np.ascontiguousarray(np.stack([x, y, np.sin(elevation)], axis=2).reshape(-1, 3))
+
+
+def _gaussian(angle: float, width: float) -> float:
+    """Power of a beam that has half of it at half of ``width`` [rad]; 0 beyond the margin."""
+    return 2.0 ** -((2.0 * angle / width) ** 2) if abs(angle) <= MARGIN * width else 0.0
 
 
 def _line(angle: float, width: float) -> float:

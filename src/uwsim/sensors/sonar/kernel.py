@@ -120,30 +120,36 @@ def _spread(power: Singles, i: int, echo: float, near: float, far: float) -> Non
 @njit
 def received(
     power: Singles,
-    pattern: Singles,
+    patterns: Singles,
     noise: float,
     random: npt.NDArray[np.uint16],
-    rayleigh: Singles,
+    speckle: Singles,
 ) -> Singles:
     """Amplitudes of the beams, (bins, beams) [Pa].
 
     Args:
-        power: of each bin and azimuth, (bins, n) [Pa2].
-        pattern: of a beam over neighbouring azimuths, (t,); beam b is of b to b + t - 1.
+        power: of each bin and ray azimuth, (bins, m) [Pa2].
+        patterns: of the beams over neighbouring rays, (s, t): there are s beams from ray to ray,
+            and beam ``s q + p`` hears the rays q to q + t - 1 by the pattern p.
         noise: mean power of what is received without any echo [Pa2].
         random: a number for each bin and beam, (bins, beams).
-        rayleigh: amplitude of speckle by random number, (65536,); all 1 without speckle.
+        speckle: amplitude by random number, (65536,).
     """
     n_bins, n_beams = random.shape
+    n_phases, n_taps = patterns.shape
     amplitude = np.empty((n_bins, n_beams), dtype=np.float32)
+    heard = np.empty(n_beams, dtype=np.float32)
     floor = np.float32(noise)
     for bin in range(n_bins):
-        for beam in range(n_beams):
-            amplitude[bin, beam] = floor
-        for tap in range(len(pattern)):
-            weight = pattern[tap]
-            for beam in range(n_beams):
-                amplitude[bin, beam] += weight * power[bin, beam + tap]
-        for beam in range(n_beams):
-            amplitude[bin, beam] = math.sqrt(amplitude[bin, beam]) * rayleigh[random[bin, beam]]
+        for phase in range(n_phases):
+            n = (n_beams - phase + n_phases - 1) // n_phases
+            for k in range(n):
+                heard[k] = floor
+            for tap in range(n_taps):
+                weight = patterns[phase, tap]
+                for k in range(n):
+                    heard[k] += weight * power[bin, k + tap]
+            for k in range(n):
+                beam = phase + k * n_phases
+                amplitude[bin, beam] = math.sqrt(heard[k]) * speckle[random[bin, beam]]
     return amplitude
