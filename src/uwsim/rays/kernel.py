@@ -23,6 +23,8 @@ TOUCH = 1e-9
 """How far outside of a triangle a ray still hits it, as a share of its sides."""
 TINY = 1e-300
 """Takes the place of a component of a direction that is zero."""
+GROUP = 8
+"""Rays that begin their search at a node of their own, found for all of them."""
 DEEPEST = 128
 """Nodes that can wait while the nearer child is looked at."""
 
@@ -87,8 +89,12 @@ def cast_rays(
             continue
         f = body_from_world[body]
         x, y, z = _placed(f, origin[0], origin[1], origin[2], 1.0)
-        hint = -1
+        hint, entry = -1, -1
         for i in range(n):
+            if i % GROUP == 0:
+                entry = _entry(trees, trees.roots[body], f, (x, y, z), directions, i, reach)
+            if entry < 0:
+                continue
             dx, dy, dz = _placed(f, directions[i, 0], directions[i, 1], directions[i, 2], 0.0)
             ray = (x, y, z, dx, dy, dz, _inverse(dx), _inverse(dy), _inverse(dz), begins[i])
             nearest, triangle = hits.distance[i], -1
@@ -96,9 +102,7 @@ def cast_rays(
                 at = _meets_triangle(trees.triangles[hint], trees.surfaces[hint, 1], ray)
                 if at < nearest:
                     nearest, triangle = at, hint
-            nearest, triangle = _nearest(
-                trees, trees.roots[body], ray, nearest, triangle, stack, entries
-            )
+            nearest, triangle = _nearest(trees, entry, ray, nearest, triangle, stack, entries)
             hint = triangle
             if triangle >= 0:
                 hits.distance[i], last[i], whose[i] = nearest, triangle, body
@@ -164,6 +168,61 @@ def _placed(f: Array, x: float, y: float, z: float, w: float) -> tuple[float, fl
 @njit
 def _inverse(component: float) -> float:
     return 1.0 / (component if abs(component) > TINY else TINY)
+
+
+@njit
+def _entry(
+    trees: Trees,
+    root: int,
+    f: Array,
+    origin: tuple[float, float, float],
+    directions: Array,
+    first: int,
+    reach: float,
+) -> int:
+    """The node below which is all that a group of rays can hit; -1 where that is nothing."""
+    low = high = (0.0, 0.0, 0.0)
+    for i in range(first, min(first + GROUP, len(directions))):
+        dx, dy, dz = _placed(f, directions[i, 0], directions[i, 1], directions[i, 2], 0.0)
+        x, y, z = _inverse(dx), _inverse(dy), _inverse(dz)
+        if i == first:
+            low = high = (x, y, z)
+        low = (min(low[0], x), min(low[1], y), min(low[2], z))
+        high = (max(high[0], x), max(high[1], y), max(high[2], z))
+    node = root
+    while True:
+        is_first = _can_enter(trees.boxes[node], 0, origin, low, high, reach)
+        is_second = _can_enter(trees.boxes[node], 6, origin, low, high, reach)
+        if is_first and is_second:
+            return node
+        if not is_first and not is_second:
+            return -1
+        child = 0 if is_first else 2
+        if trees.links[node, child + 1]:
+            return node
+        node = trees.links[node, child]
+
+
+@njit
+def _can_enter(
+    box: Array,
+    first: int,
+    origin: tuple[float, float, float],
+    low: tuple[float, float, float],
+    high: tuple[float, float, float],
+    reach: float,
+) -> bool:
+    """Whether any of several rays can enter a box, by the bounds of their inverse directions."""
+    enter, leave = 0.0, reach
+    for axis in range(3):
+        if low[axis] < 0.0 < high[axis]:
+            continue
+        near, far = box[first + axis] - origin[axis], box[first + 3 + axis] - origin[axis]
+        if high[axis] < 0.0:
+            near, far = far, near
+        enter = max(enter, min(near * low[axis], near * high[axis]))
+        leave = min(leave, max(far * low[axis], far * high[axis]))
+    return enter <= leave * (1.0 + 1e-12)
 
 
 @njit
