@@ -71,7 +71,7 @@ def view() -> Image.Image:
         width, height = SIZE
         eye, target = np.array(EYE), np.array(TARGET)
         shown = view_from(simulation, eye, target, (FINER * width, FINER * height))
-        colour = simulation.world.scenery.look(
+        colour = simulation.world.scenery.render_view(
             shown.world_from_camera, shown.intrinsics, fog=HAZE
         ).colour
     finally:

@@ -162,10 +162,10 @@ class FakeWorld:
     def stream(self, name: str) -> np.random.Generator:
         return rng.stream(self._seed, name)
 
-    def find(self, name: str, *, beside: str) -> Path:
-        path = Path(beside).parent / name
+    def find(self, name: str, *, named_by: str) -> Path:
+        path = Path(named_by).parent / name
         if not path.is_file():
-            raise AssetNotFound(f"{name!r} is not beside {beside}.", name=name)
+            raise AssetNotFound(f"{name!r} is not next to {named_by}.", name=name)
         return path
 
     @property

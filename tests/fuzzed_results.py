@@ -50,7 +50,7 @@ class Sound:
 
 
 def made(folder: Path) -> Sound:
-    """Play a tiny benchmark in two units."""
+    """Play a tiny benchmark in two trials."""
     benchmark = write_benchmark(folder, "0.1")
     levels = ["fog=0", "fog=0.4"]
     bench = bench_of(benchmark, folder / "out", mode="independent", levels=levels)
@@ -150,11 +150,11 @@ def read_for_verify(sound: Sound, directory: Path) -> None:
     )
     check_inputs(stored.inputs, sound.bench.inputs)
     bench = Run(plan=plan, out=directory, inputs=stored.inputs, renderer=sound.bench.renderer)
-    units = finished(directory, plan, stored)
-    printable(head(stored, directory, len(units), len(plan.units())))
-    if units:
+    trials = finished(directory, plan, stored)
+    printable(head(stored, directory, len(trials), len(plan.trials())))
+    if trials:
         made_otherwise(stored, directory, bench.info)
-        verify(directory, stored, bench, units, executor=Copies(sound))
+        verify(directory, stored, bench, trials, executor=Copies(sound))
 
 
 def read_for_resume(sound: Sound, directory: Path) -> None:

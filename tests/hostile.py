@@ -18,7 +18,7 @@ import numpy as np
 from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node
 from uwsim.messages import Float32MultiArray, PoseStamped, String, floats
-from uwsim.simulation import outbox
+from uwsim.simulation import undelivered
 
 TOPIC = "estimate"
 
@@ -70,7 +70,7 @@ class Floods(Attacker):
     """Goes on whatever it is told."""
 
     def attack(self) -> None:
-        for _ in range(2 * outbox.MAX_MESSAGES):
+        for _ in range(2 * undelivered.MAX_MESSAGES):
             with suppress(Exception):
                 self.publish(floats([1.0]))
 
@@ -87,7 +87,7 @@ class Swells(Attacker):
     """Publishes more than is let through, in pieces that are."""
 
     def attack(self) -> None:
-        piece = np.zeros(outbox.MAX_BYTES // 16, dtype=np.float32)  # a quarter
+        piece = np.zeros(undelivered.MAX_BYTES // 16, dtype=np.float32)  # a quarter
         for _ in range(5):
             self.publish(Float32MultiArray(data=piece))
 

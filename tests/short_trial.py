@@ -57,5 +57,5 @@ def make_plan(
 def rows_of(plan: Plan) -> list[LevelRow]:
     """Play every unit of a plan."""
     return [
-        row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, LevelRow)
+        row for trial in plan.trials() for row in execute(plan, trial) if isinstance(row, LevelRow)
     ]

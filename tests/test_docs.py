@@ -23,6 +23,7 @@ PAGES = sorted(
 FILES_OF_THE_USER = ("my-scene.xml", "simpleBenchmark.xml")
 INLINE = re.compile(r"`(uwsim [a-z]+ [^`]*)`")
 LINK = re.compile(r"(?<!`)\[[^\]]*\]\(([^)#\s]+)(?:#[^)]*)?\)")
+ANCHOR = re.compile(r"(?<!`)\[[^\]]*\]\(([^)#\s]*)#([^)\s]+)\)")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 
 
@@ -90,6 +91,24 @@ def test_scenes_and_benchmarks_have_names_that_are_there(page: Path) -> None:
 def test_every_link_to_a_file_leads_to_one(page: Path) -> None:
     targets = [link for link in LINK.findall(page.read_text()) if "://" not in link]
     assert [link for link in targets if not (page.parent / link).exists()] == []
+
+
+def anchors(page: Path) -> set[str]:
+    """The anchors of a page's headings: lower case, a hyphen for a blank, no punctuation."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+    headings = re.findall(r"^#+ (.+)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=ids)
+def test_every_link_to_a_heading_leads_to_one(page: Path) -> None:
+    targets = [link for link in ANCHOR.findall(page.read_text()) if "://" not in link[0]]
+    wrong = [
+        f"{name}#{anchor}"
+        for name, anchor in targets
+        if anchor not in anchors(page.parent / name if name else page)
+    ]
+    assert wrong == []
 
 
 def test_the_page_of_the_command_line_is_what_the_program_prints() -> None:

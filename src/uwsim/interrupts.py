@@ -33,14 +33,14 @@ def raise_from_now_on() -> None:
             signal.signal(number, signal.default_int_handler)
 
 
-def hears() -> bool:
+def are_interrupts_unblocked() -> bool:
     """Whether Ctrl-C reaches this process, so that a KeyboardInterrupt may be the user's."""
     return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 
 
 def is_of_user(error: BaseException) -> bool:
     """Whether an exception may be the user's Ctrl-C."""
-    return isinstance(error, KeyboardInterrupt) and hears()
+    return isinstance(error, KeyboardInterrupt) and are_interrupts_unblocked()
 
 
 @contextmanager

@@ -193,8 +193,8 @@ class Stage(World, Protocol):
     def fog_colour(self) -> tuple[float, float, float]:
         """Colour of the fog [0..1]."""
 
-    def find(self, name: str, *, beside: str) -> Path:
-        """Find a file that the file ``beside`` names; AssetNotFound lists the folders searched."""
+    def find(self, name: str, *, named_by: str) -> Path:
+        """Find a file named in the file ``named_by``; AssetNotFound lists the folders searched."""
 
     def set_fog(self, density: float) -> None:
         """Set the fog density [1/m] of the water; its colour stays the scene's."""

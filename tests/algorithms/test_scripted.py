@@ -53,7 +53,7 @@ def rows(
         is_blind=True,
     )
     return [
-        row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, LevelRow)
+        row for trial in plan.trials() for row in execute(plan, trial) if isinstance(row, LevelRow)
     ]
 
 

@@ -16,15 +16,15 @@ def touch(path: Path) -> Path:
 def test_a_file_beside_the_file_that_names_it_comes_before_the_data_path(tmp_path: Path) -> None:
     near = touch(tmp_path / "scenes" / "box.stl")
     touch(tmp_path / "data" / "box.stl")
-    found = find("box.stl", beside=tmp_path / "scenes" / "a.xml", data_path=(tmp_path / "data",))
+    found = find("box.stl", named_by=tmp_path / "scenes" / "a.xml", data_path=(tmp_path / "data",))
     assert found == near
 
 
 def test_parent_folders_and_their_data_folders_are_searched(tmp_path: Path) -> None:
     mesh = touch(tmp_path / "data" / "objects" / "box.stl")
     scene = touch(tmp_path / "data" / "scenes" / "deep" / "a.xml")
-    assert find("objects/box.stl", beside=scene) == mesh
-    assert find("box.stl", beside=scene) == mesh
+    assert find("objects/box.stl", named_by=scene) == mesh
+    assert find("box.stl", named_by=scene) == mesh
 
 
 @pytest.mark.parametrize(
@@ -75,7 +75,7 @@ def test_blanks_and_url_prefixes_do_not_belong_to_a_name(tmp_path: Path) -> None
 
 def test_folders_are_listed_once_each_in_order(tmp_path: Path) -> None:
     scene = tmp_path / "deep" / "a.xml"
-    folders = folders_searched(beside=scene, data_path=(tmp_path,))
+    folders = folders_searched(named_by=scene, data_path=(tmp_path,))
     assert len(folders) == len(set(folders))
     assert folders[0] == Path()
     assert folders.index(scene.parent) < folders.index(tmp_path)
@@ -85,8 +85,8 @@ def test_folders_are_listed_once_each_in_order(tmp_path: Path) -> None:
 def test_neither_the_home_folder_nor_what_is_above_it_is_searched(home: Path) -> None:
     touch(home / "secret.stl")
     scene = touch(home / "projects" / "sea" / "scene.xml")
-    assert find("secret.stl", beside=scene) is None
-    assert find("secret.stl", beside=home / "scene.xml") == home / "secret.stl"
+    assert find("secret.stl", named_by=scene) is None
+    assert find("secret.stl", named_by=home / "scene.xml") == home / "secret.stl"
 
 
 OUTSIDE = "is outside the folders that are searched, so that it is not read; --data-path adds"
@@ -104,9 +104,9 @@ def test_what_a_file_names_lies_under_the_folders_searched(tmp_path: Path, by: s
         patch.setenv("HOME", str(tmp_path / "home"))
         for ask in (find, load_model, has_model):
             with pytest.raises(AssetError, match=OUTSIDE):
-                ask(name, beside=scene)
-        assert OUTSIDE in why_unreadable(name, beside=scene)
-        assert find(name, beside=scene, data_path=(secret.parent,)) is not None
+                ask(name, named_by=scene)
+        assert OUTSIDE in why_unreadable(name, named_by=scene)
+        assert find(name, named_by=scene, data_path=(secret.parent,)) is not None
 
 
 def test_what_a_program_names_may_lie_anywhere(tmp_path: Path) -> None:
@@ -117,4 +117,4 @@ def test_what_a_program_names_may_lie_anywhere(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["/dev/zero", "pipe.stl"])
 def test_a_device_or_a_pipe_is_no_file(tmp_path: Path, name: str) -> None:
     os.mkfifo(tmp_path / "pipe.stl")
-    assert find(name, beside=tmp_path / "scene.xml") is None
+    assert find(name, named_by=tmp_path / "scene.xml") is None

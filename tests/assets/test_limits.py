@@ -96,7 +96,7 @@ def test_what_a_mesh_names_stays_in_its_folder(inside: Path, way: str, suffix: s
     else:
         path = obj(inside, *((name,) if suffix == ".mtl" else ("m.mtl", name)))
     with pytest.raises(AssetError, match="which is outside its folder; --data-path adds one") as e:
-        load_model(path.name, beside=path)
+        load_model(path.name, named_by=path)
     assert str(e.value).startswith(f"{path}: names the file '{name}'")
 
 
@@ -104,7 +104,7 @@ def test_what_a_mesh_names_stays_in_its_folder(inside: Path, way: str, suffix: s
 def test_a_data_path_opens_a_folder(inside: Path, name: str) -> None:
     (inside / "link.png").symlink_to(inside.parent / "secret.png")
     path = obj(inside, "m.mtl", name)
-    model = load_model(path.name, beside=path, data_path=(inside.parent,))
+    model = load_model(path.name, named_by=path, data_path=(inside.parent,))
     assert model.meshes[0].texture is not None
 
 

@@ -20,7 +20,7 @@ from uwsim.results.result import Result
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.run import Run
-from uwsim.simulation import outbox
+from uwsim.simulation import undelivered
 
 LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
 <step>0.2</step> <interval>0.7</interval> </sceneFogUpdater>"""
@@ -34,8 +34,8 @@ MEASURES = f"""{TIME} <euclideanNorm> <name>e</name>
 def test_an_attack_ends_the_row_with_its_reason(
     tmp_path: Path, algorithm: type[Attacker], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(outbox, "MAX_MESSAGES", 100)
-    monkeypatch.setattr(outbox, "MAX_BYTES", 2**20)
+    monkeypatch.setattr(undelivered, "MAX_MESSAGES", 100)
+    monkeypatch.setattr(undelivered, "MAX_BYTES", 2**20)
     rows = rows_of(make_plan(tmp_path, algorithm, LEVELS, measures=MEASURES, start=INIT))
     assert [row.status for row in rows] == ["algorithm error"] * 2
     assert "algorithm raised at 0.4 s: " in rows[0].missing["total"]
@@ -72,7 +72,7 @@ class Delayed(Attacker):
 def test_messages_that_wait_for_their_latency_count(
     tmp_path: Path, latency: float, status: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(outbox, "MAX_MESSAGES", 100)
+    monkeypatch.setattr(undelivered, "MAX_MESSAGES", 100)
     plan = make_plan(tmp_path, Delayed, LEVELS, measures=MEASURES.split("<positionError>")[0])
     [row, _] = rows_of(replace(plan, parameters={"latency_s": latency}))
     assert row.status == status

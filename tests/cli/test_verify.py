@@ -54,7 +54,7 @@ BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="tank.xml" u:algorithm="
 
 @pytest.fixture(scope="module")
 def played(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with a benchmark, its scene, and the result of two units."""
+    """A folder with a benchmark, its scene, and the result of two trials."""
     folder = tmp_path_factory.mktemp("played")
     (folder / "b.xml").write_text(BENCHMARK)
     scene = bundled("scenes")["visibility-scene"].read_text()
@@ -100,7 +100,7 @@ def test_a_result_that_was_left_alone_is_the_same(
     status, said = verify(capsys)
     assert (status, said.splitlines()[-1]) == (
         0,
-        "the same, byte for byte: all of 2 units replayed, 2 levels",
+        "the same, byte for byte: all of 2 trials replayed, 2 levels",
     )
     assert "files: the same (b.xml, tank.xml and 11 more)" in said
     assert sorted(path.name for path in folder.iterdir()) == ["b.xml", "out", "tank.xml"]
@@ -122,12 +122,12 @@ def test_a_changed_cell_sample_and_fingerprint_are_each_named_with_their_place(
     change(folder, sample_and_mark, unit=1)
     status, said = verify(capsys)
     assert status == 3
-    assert "unit 0 (seed 3), level fog=0: column corners: stored 0." in said
+    assert "trial 0 (seed 3), level fog=0: column corners: stored 0." in said
     assert "result.json: row 0, column corners: 0." in said
     assert said.count("log of corners, first at sample 2 (0.1 s): stored") == 1
     assert "measure-corners.csv: line 9, column total" in said
     assert (
-        "unit 1 (seed 3): motion and images are the same up to step 320 (0.64 s), "
+        "trial 1 (seed 3): motion and images are the same up to step 320 (0.64 s), "
         "no more at step 384 (0.768 s); first differs: girona500/base_link" in said
     )
     assert "It begins in the physics: girona500/base_link moved otherwise." in said
@@ -160,8 +160,10 @@ def test_a_result_json_that_says_other_than_its_units_is_found_without_a_replay(
     status, said = verify(capsys, "--sample", "1")
     assert status == 3
     assert 'result.json: row 0, column status: "lost" there, "ok" by units/' in said
-    assert "Every replayed unit gave what it stored; other parts of the result were changed" in said
-    assert "1 of 2 units replayed" in said
+    assert (
+        "Every replayed trial gave what it stored; other parts of the result were changed" in said
+    )
+    assert "1 of 2 trials replayed" in said
 
 
 @pytest.mark.parametrize(
@@ -312,7 +314,7 @@ def test_which_units_are_replayed_is_drawn_anew_and_can_be_drawn_again(
     monkeypatch.setattr("uwsim.verify.verify.verify", lambda *_, **__: Verification())
     for number in (7, 4_000_000_000):
         _, said = verify(capsys, "--sample", "1")
-        line = "sample: 1 of 2 units, by chance; the same again with --sample-seed "
+        line = "sample: 1 of 2 trials, by chance; the same again with --sample-seed "
         assert f"{line}{number}\n" in said
     assert "--sample-seed 12\n" in verify(capsys, "--sample", "1", "--sample-seed", "12")[1]
     assert "sample" not in verify(capsys, "--all", "--sample-seed", "12")[1]
@@ -341,12 +343,12 @@ def test_a_forged_total_or_value_is_found_though_units_and_result_agree(
 
 
 def test_a_sample_is_chosen_by_its_seed_and_keeps_the_order() -> None:
-    units: list[Any] = list(range(50))
-    samples = {choose(units, 3, seed) for seed in range(20)}
+    trials: list[Any] = list(range(50))
+    samples = {choose(trials, 3, seed) for seed in range(20)}
     assert len(samples) > 15
     assert all(list(sample) == sorted(set(sample)) for sample in samples)
-    assert choose(units, 3, 4) == choose(units, 3, 4)
-    assert choose(units, None, 0) == choose(units, 60, 0) == tuple(units)
+    assert choose(trials, 3, 4) == choose(trials, 3, 4)
+    assert choose(trials, None, 0) == choose(trials, 60, 0) == tuple(trials)
 
 
 def test_leaves_are_compared_as_text() -> None:
@@ -374,9 +376,9 @@ def test_a_unit_that_is_gone_or_junk_is_named_and_nothing_is_held_against_the_ot
     status, said = verify(capsys)
     assert status == 3
     assert said.splitlines()[2:] == [
-        f"units/00000.jsonl: unit 0 (seed 3): {what}; result.json has 1 of it",
+        f"units/00000.jsonl: trial 0 (seed 3): {what}; result.json has 1 of it",
         "not compared: result.json and the files next to it: units/ is incomplete",
-        "DIFFERS: all of 1 unit replayed, 1 level. Every replayed unit gave what it stored; "
+        "DIFFERS: all of 1 trial replayed, 1 level. Every replayed trial gave what it stored; "
         "other parts of the result were changed.",
     ]
 

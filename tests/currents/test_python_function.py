@@ -110,7 +110,7 @@ def test_a_module_that_is_not_there_is_an_error(name: str, said: str) -> None:
     with pytest.raises(BadSetting, match=said):
         PythonFunctionSpec(function=name).bind(Place(stream=lambda _: stream(0, "")))
     with pytest.raises(BadSetting, match=said):
-        PythonFunctionSpec(function=name).look()
+        PythonFunctionSpec(function=name).look_up()
 
 
 def test_a_module_is_looked_for_without_running_it(
@@ -121,11 +121,11 @@ def test_a_module_is_looked_for_without_running_it(
     for name in ("__init__.py", "fjord.py"):
         (folder / name).write_text("1 / 0\n")
     monkeypatch.syspath_prepend(tmp_path)
-    PythonFunctionSpec(function="my_waters_of_the_tests.fjord:eddy").look()
+    PythonFunctionSpec(function="my_waters_of_the_tests.fjord:eddy").look_up()
     with pytest.raises(BadSetting, match=r"no module 'my_waters_of_the_tests\.fjrd'"):
-        PythonFunctionSpec(function="my_waters_of_the_tests.fjrd:eddy").look()
+        PythonFunctionSpec(function="my_waters_of_the_tests.fjrd:eddy").look_up()
     with pytest.raises(BadSetting, match=r"no module 'math\.nothing'"):
-        PythonFunctionSpec(function="math.nothing:eddy").look()
+        PythonFunctionSpec(function="math.nothing:eddy").look_up()
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from uwsim.devices import DEVICES
 from uwsim.devices.device import DeviceSpec
 from uwsim.devices.thruster_fault import ThrusterFault, ThrusterFaultSpec
 from uwsim.geometry import Pose
-from uwsim.scene.mounts import Stand
+from uwsim.scene.mounts import MountFrames
 from uwsim.scene.unsupported import limit_of
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation.vehicles import SceneVehicle
@@ -36,7 +36,7 @@ class FakeState:
 def vehicle_on(state: FakeState) -> SceneVehicle:
     spec = VehicleSpec(name="v", file="v.urdf", position=(1.0, 2.0, 3.0))
     robot = SimpleNamespace(movable=())
-    return SceneVehicle(0, Stand(spec, robot, Pose.identity()), state)  # type: ignore[arg-type]
+    return SceneVehicle(0, MountFrames(spec, robot, Pose.identity()), state)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("name", DEVICES)

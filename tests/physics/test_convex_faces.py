@@ -134,7 +134,7 @@ def test_a_cylinder_has_one_face_for_each_side_and_end() -> None:
 
 
 def test_the_tank_is_a_few_plates_with_the_tanks_area() -> None:
-    tank = load_model("terrain/CIRS/cirs_trident.osg", beside=None, data_path=())
+    tank = load_model("terrain/CIRS/cirs_trident.osg", named_by=None, data_path=())
     triangles = np.concatenate(
         [mesh.vertices.astype(float)[mesh.triangles] for mesh in tank.meshes]
     )

@@ -106,7 +106,7 @@ def test_a_flat_patch_that_is_no_rectangle_becomes_a_prism_behind_its_face() -> 
 
 
 def test_the_tank_is_open_in_its_middle_and_has_a_floor() -> None:
-    tank = load_model("terrain/CIRS/cirs_trident.osg", beside=None, data_path=())
+    tank = load_model("terrain/CIRS/cirs_trident.osg", named_by=None, data_path=())
     plates = shapes_of(tank, SAME, "trimesh", is_fixed=True)
     assert len(plates) < MAX_PIECES
     inside = [plate for plate in plates if holds(plate, (0.0, 0.0, -2.0))]

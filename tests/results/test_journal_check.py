@@ -83,7 +83,7 @@ def test_a_row_that_says_other_than_its_unit_is_refused_everywhere(
 ) -> None:
     one = altered(written(tmp_path / "esm"), before, after)
     other = written(tmp_path / "orb", "orb")
-    with pytest.raises(ResultError, match="not what its units have stored") as caught:
+    with pytest.raises(ResultError, match="differs from the journals of its trials") as caught:
         checked(one)
     assert said in str(caught.value)
     out = str(tmp_path / "comparison")
@@ -115,7 +115,7 @@ def test_what_cannot_be_checked_is_reported(
     (one / "units" / "00000.jsonl").unlink()
     altered(one, '"timestep"', '"units": [2, 2], "timestep"')
     shutil.rmtree(other / "units")
-    some = "2 of 4 rows are not checked: their units are not in units/"
+    some = "2 of 4 rows are not checked: their trials are not in units/"
     none = "rows are not checked: there is no units/ next to them"
     assert remarks(read_entries([one, other])) == (f"esm: {some}", f"orb: {none}")
     assert f"<p>{none.capitalize()}.</p>" in write_report(other).read_text()
@@ -130,7 +130,7 @@ def test_a_row_that_was_left_out_is_missed(tmp_path: Path) -> None:
         line for line in file.read_text().splitlines() if not line.startswith("    [1, 1, 0.0")
     ]
     file.write_text("\n".join(lines).replace('"row": 3', '"row": 2'))
-    with pytest.raises(ResultError, match=r"stored: it has no row of seed 1, level 0\.0\. uwsim"):
+    with pytest.raises(ResultError, match=r"trials: it has no row of seed 1, level 0\.0\. uwsim"):
         checked(tmp_path)
 
 

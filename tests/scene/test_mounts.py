@@ -13,7 +13,7 @@ from uwsim import schema
 from uwsim.cli.check import diagnostics_of
 from uwsim.devices.object_picker import ObjectPickerSpec
 from uwsim.geometry import Pose, rotation_from_rpy
-from uwsim.scene.mounts import Stand, in_words
+from uwsim.scene.mounts import MountFrames, in_words
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.scene.settings import apply_setting
 from uwsim.scene.urdf import JointSpec, LinkSpec, RobotSpec, VisualSpec
@@ -41,9 +41,9 @@ VEHICLE = VehicleSpec(
 BELLY_UP = replace(VEHICLE, position=(1.0, 2.0, -3.0), orientation=(math.pi, 0.0, 0.5))
 Z_UP_BASE = replace(VEHICLE, position=(1.0, 2.0, -3.0), orientation=(0.0, 0.1, 0.5))
 STANDS = {
-    "z down, L is NED": Stand(VEHICLE, ROBOT, NED),
-    "z down, L is z up": Stand(BELLY_UP, ROBOT, Pose.identity()),
-    "z up": Stand(Z_UP_BASE, ROBOT, Pose.identity()),
+    "z down, L is NED": MountFrames(VEHICLE, ROBOT, NED),
+    "z down, L is z up": MountFrames(BELLY_UP, ROBOT, Pose.identity()),
+    "z up": MountFrames(Z_UP_BASE, ROBOT, Pose.identity()),
 }
 
 
@@ -53,7 +53,7 @@ def camera(look_at: object, **given: object) -> VirtualCameraSpec:
 
 
 @pytest.mark.parametrize("stand", STANDS.values(), ids=STANDS)
-def test_the_directions_of_a_vehicle_are_a_sailors(stand: Stand) -> None:
+def test_the_directions_of_a_vehicle_are_a_sailors(stand: MountFrames) -> None:
     words = stand.directions
     assert words["down"][2] < 0.0 < words["up"][2]
     assert np.cross(words["down"], words["forward"]) == pytest.approx(words["starboard"])
@@ -72,7 +72,7 @@ def test_the_directions_of_a_vehicle_are_a_sailors(stand: Stand) -> None:
     ],
 )  # fmt: skip
 def test_a_camera_looks_where_the_word_says_with_the_top_of_its_image_as_nodding_leaves_it(
-    word: str, top: str, visual: bool, stand: Stand
+    word: str, top: str, visual: bool, stand: MountFrames
 ) -> None:
     ahead, up = stand.looks(camera(word), visual=visual)
     assert ahead == pytest.approx(stand.directions[word], abs=1e-12)
@@ -82,7 +82,7 @@ def test_a_camera_looks_where_the_word_says_with_the_top_of_its_image_as_nodding
 @pytest.mark.parametrize("stand", STANDS.values(), ids=STANDS)
 @pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (2.0, 0.5, 3.0)])
 def test_a_camera_looks_at_a_point_of_l_with_the_worlds_up_on_top(
-    stand: Stand, scale: tuple[float, float, float]
+    stand: MountFrames, scale: tuple[float, float, float]
 ) -> None:
     stand = replace(stand, vehicle=replace(stand.vehicle, scale_factor=scale))
     point = (4.0, -2.0, 5.0)
@@ -98,7 +98,7 @@ def test_a_camera_looks_at_a_point_of_l_with_the_worlds_up_on_top(
 
 
 def test_a_camera_that_looks_straight_down_at_a_point_has_the_bow_on_top() -> None:
-    stand = Stand(replace(VEHICLE, orientation=(0.0, 0.0, 0.6)), ROBOT, NED)
+    stand = MountFrames(replace(VEHICLE, orientation=(0.0, 0.0, 0.6)), ROBOT, NED)
     eye = NED.inverse() @ stand.world_from_link("base")
     x, y, z = eye.position
     ahead, up = stand.looks(camera((x, y, z + 2.0), relative_to="base", position=(0.0,) * 3))
@@ -128,7 +128,7 @@ def test_without_lookat_the_angles_say() -> None:
 
 
 def test_a_point_in_the_camera_itself_is_no_direction_and_no_nan() -> None:
-    stand = Stand(replace(VEHICLE, position=(0.0,) * 3), ROBOT, Pose.identity())
+    stand = MountFrames(replace(VEHICLE, position=(0.0,) * 3), ROBOT, Pose.identity())
     ahead, _ = stand.looks(camera((0.0, 0.0, 0.0), relative_to="base", position=(0.0,) * 3))
     assert ahead == pytest.approx(stand.directions["forward"])
 

@@ -33,7 +33,7 @@ def test_cameras_do_not_see_a_ghost_and_viewers_do(tmp_path: Path, vr: bool) -> 
                       and each.name == "seen/base_link")  # fmt: skip
         by_camera = simulation.image("eye").ids
         camera = simulation.world.camera("eye")
-        from_outside = simulation.world.scenery.look(
+        from_outside = simulation.world.scenery.render_view(
             camera.world_from_camera, camera.intrinsics, targets={"ids"}
         ).ids
     assert by_camera is not None

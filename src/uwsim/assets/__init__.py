@@ -42,7 +42,7 @@ __all__ = [
 def load_model(
     name: str,
     *,
-    beside: Path | None = None,
+    named_by: Path | None = None,
     data_path: tuple[Path, ...] = (),
     max_triangles: int | None = None,
 ) -> Model:
@@ -50,7 +50,7 @@ def load_model(
 
     Args:
         name: Path, absolute or relative, of a mesh file.
-        beside: The file that names it, or that file's folder.
+        named_by: The file that names it, or that file's folder.
         data_path: Further folders to search.
         max_triangles: Meshes of files with more triangles than this are simplified.
 
@@ -58,11 +58,11 @@ def load_model(
         AssetNotFound: Neither a file nor a stand-in; names the folders searched.
         AssetError: The file was found and cannot be read.
     """
-    path = _path_of(name, beside, data_path)
+    path = _path_of(name, named_by, data_path)
     name = plain_name(name)
     stem = _stem(name)
     if path is not None:
-        above = roots(beside=beside or path, data_path=data_path)
+        above = roots(named_by=named_by or path, data_path=data_path)
         own = max(above, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1)
         within = (own.absolute(), *data_path)
         return read_model(path, name=name, max_triangles=max_triangles, within=within)
@@ -72,23 +72,23 @@ def load_model(
     raise AssetNotFound(
         f"There is no file {name!r}, nor a stand-in of that name."
         f"{did_you_mean(stem.removeprefix('data/'), STAND_INS)} Searched, in order: "
-        + ", ".join(str(root) for root in roots(beside=beside, data_path=data_path))
+        + ", ".join(str(root) for root in roots(named_by=named_by, data_path=data_path))
         + f"; each also under {', '.join(UNDER[1:])}."
     )
 
 
-def has_model(name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> bool:
+def has_model(name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()) -> bool:
     """Whether `load_model` finds a file or a stand-in."""
-    is_there = _path_of(name, beside, data_path) is not None
+    is_there = _path_of(name, named_by, data_path) is not None
     return is_there or _stand_in_name(_stem(plain_name(name))) is not None
 
 
 def why_unreadable(
-    name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()
+    name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
     """Why the file that `load_model` finds cannot be read; empty if it can, or is not there."""
     try:
-        load_model(name, beside=beside, data_path=data_path)
+        load_model(name, named_by=named_by, data_path=data_path)
     except AssetNotFound:
         return ""
     except AssetError as error:
@@ -96,11 +96,11 @@ def why_unreadable(
     return ""
 
 
-def _path_of(name: str, beside: Path | None, data_path: tuple[Path, ...]) -> Path | None:
+def _path_of(name: str, named_by: Path | None, data_path: tuple[Path, ...]) -> Path | None:
     """The file of a model: of its name or its stem, one that can be read if there is any."""
     name = plain_name(name)
     names = [name, *(_stem(name) + suffix for suffix in (*READABLE, *BY_OSGCONV))]
-    found = list(candidates(names, beside=beside, data_path=data_path))
+    found = list(candidates(names, named_by=named_by, data_path=data_path))
     return next((path for path in found if can_read(path)), next(iter(found), None))
 
 

@@ -40,10 +40,10 @@ def _file(name: str, kind: str, data_path: tuple[Path, ...], named_by: Path | No
     known = bundled(kind)
     if name in known and not Path(name).is_file():
         return known[name]
-    found = find(name, beside=named_by, data_path=data_path)
+    found = find(name, named_by=named_by, data_path=data_path)
     if found is not None:
         return found
-    folders = folders_searched(beside=named_by, data_path=data_path)
+    folders = folders_searched(named_by=named_by, data_path=data_path)
     raise AssetNotFound(
         f"{name!r} is neither a file nor one of the bundled {kind} ({', '.join(known)})."
         f"{did_you_mean(name, known)} "

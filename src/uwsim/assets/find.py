@@ -37,16 +37,16 @@ def plain_name(name: str) -> str:
     return name
 
 
-def roots(*, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> list[Path]:
+def roots(*, named_by: Path | None = None, data_path: tuple[Path, ...] = ()) -> list[Path]:
     """The folders that are searched together with their sub-folders `UNDER`, in order, each once.
 
     Args:
-        beside: The file that names the file, or its folder.
+        named_by: The file that names the file, or its folder.
         data_path: Folders the user gave.
     """
     folders = [Path()]
-    if beside is not None:
-        start = beside.absolute()
+    if named_by is not None:
+        start = named_by.absolute()
         start = start if start.is_dir() else start.parent
         folders += [start, *(above for above in start.parents if not _holds_homes(above))]
     home = Path("~/.uwsim").expanduser()
@@ -54,9 +54,11 @@ def roots(*, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> li
     return list(dict.fromkeys(folders))
 
 
-def folders_searched(*, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> list[Path]:
+def folders_searched(
+    *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
+) -> list[Path]:
     """Every folder a relative name is looked for in, in order, each once; arguments as `roots`."""
-    found = roots(beside=beside, data_path=data_path)
+    found = roots(named_by=named_by, data_path=data_path)
     return list(dict.fromkeys(root / under for root in found for under in UNDER))
 
 
@@ -65,13 +67,15 @@ def _holds_homes(folder: Path) -> bool:
     return folder == folder.parent or Path.home().is_relative_to(folder)
 
 
-def find(name: str, *, beside: Path | None = None, data_path: tuple[Path, ...] = ()) -> Path | None:
+def find(
+    name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
+) -> Path | None:
     """The file called ``name``, or None when it is in none of the folders searched.
 
     Raises:
-        AssetError: it lies elsewhere, and a file (``beside``) names it.
+        AssetError: it lies elsewhere, and a file (``named_by``) names it.
     """
-    return next(candidates([name], beside=beside, data_path=data_path), None)
+    return next(candidates([name], named_by=named_by, data_path=data_path), None)
 
 
 def bundled_robot(name: str) -> Path | None:
@@ -82,17 +86,17 @@ def bundled_robot(name: str) -> Path | None:
 
 
 def candidates(
-    names: Sequence[str], *, beside: Path | None = None, data_path: tuple[Path, ...] = ()
+    names: Sequence[str], *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> Iterator[Path]:
     """Every file that has one of the names: those of the first name in the order of search, ...
 
     Raises:
-        AssetError: the only ones lie elsewhere, and a file (``beside``) names them.
+        AssetError: the only ones lie elsewhere, and a file (``named_by``) names them.
     """
-    allowed = roots(beside=beside, data_path=data_path)
+    allowed = roots(named_by=named_by, data_path=data_path)
     elsewhere, found = "", False
-    for name, path in _paths(names, folders_searched(beside=beside, data_path=data_path)):
-        if beside is None or is_inside(path, allowed):
+    for name, path in _paths(names, folders_searched(named_by=named_by, data_path=data_path)):
+        if named_by is None or is_inside(path, allowed):
             found = True
             yield path
         else:

@@ -234,7 +234,7 @@ def run_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> 
 
     names = ", ".join(run.plan.algorithm_name for run in runs)
     title = f"{Path(runs[0].plan.benchmark.path).stem} ({names})"
-    total = sum(len(unit.levels) for run in runs for unit in run.plan.units())
+    total = sum(len(trial.levels) for run in runs for trial in run.plan.trials())
     done = sum(run.n_finished() for run in runs)
     with progress(title, total, done=done, of="levels", at_once=at_once) as on_level:
         return run_each(runs, executor, on_level=on_level)

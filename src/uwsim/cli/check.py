@@ -282,35 +282,35 @@ class Folders:
     def __init__(self, data_path: tuple[Path, ...]) -> None:
         self._data_path = data_path
 
-    def find(self, name: str, beside: Path) -> Path | None:
-        """Return the file ``name``, which the file ``beside`` names."""
+    def find(self, name: str, named_by: Path) -> Path | None:
+        """Return the file ``name``, which the file ``named_by`` names."""
         from ..assets import find
 
-        return find(name, beside=beside, data_path=self._data_path)
+        return find(name, named_by=named_by, data_path=self._data_path)
 
-    def find_robot(self, name: str, beside: Path) -> Path | None:
+    def find_robot(self, name: str, named_by: Path) -> Path | None:
         """Return the robot file ``name``, or else the bundled one of the same file name."""
         from ..assets import bundled_robot
 
-        return self.find(name, beside) or bundled_robot(name)
+        return self.find(name, named_by) or bundled_robot(name)
 
-    def unreadable(self, name: str, beside: Path) -> str:
+    def unreadable(self, name: str, named_by: Path) -> str:
         """Return why the file of a model cannot be read here; empty if it can, or is not there."""
         from ..assets import why_unreadable
 
-        return why_unreadable(name, beside=beside, data_path=self._data_path)
+        return why_unreadable(name, named_by=named_by, data_path=self._data_path)
 
-    def has_model(self, name: str, beside: Path) -> bool:
+    def has_model(self, name: str, named_by: Path) -> bool:
         """Whether there is a model of that name: its file, one of the same stem, or a stand-in."""
         from ..assets import has_model
 
-        return has_model(name, beside=beside, data_path=self._data_path)
+        return has_model(name, named_by=named_by, data_path=self._data_path)
 
-    def searched(self, beside: Path) -> str:
+    def searched(self, named_by: Path) -> str:
         """Return the folders that were searched, those that exist."""
         from ..assets import folders_searched
 
-        folders = folders_searched(beside=beside, data_path=self._data_path)
+        folders = folders_searched(named_by=named_by, data_path=self._data_path)
         return ", ".join(str(folder) for folder in folders if folder.is_dir())
 
 

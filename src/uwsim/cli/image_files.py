@@ -28,10 +28,10 @@ def save_depth(out: Path, image: RenderedImage) -> list[Path]:
     metres = image.depth  # (h, w) [m]
     seen = np.isfinite(metres)
     rounded = np.rint(np.where(seen, metres, 0.0) * MILLIMETRES)
-    exact = beside(out, "-depth.npy")
+    exact = sibling(out, "-depth.npy")
     np.save(exact, metres)
     return [
-        save(beside(out, "-depth.png"), np.minimum(rounded, MAX_DEPTH_MM).astype(np.uint16)),
+        save(sibling(out, "-depth.png"), np.minimum(rounded, MAX_DEPTH_MM).astype(np.uint16)),
         exact,
     ]
 
@@ -40,15 +40,15 @@ def save_ids(out: Path, image: RenderedImage, names: dict[int, str]) -> list[Pat
     """Write which thing each pixel shows, and what the numbers mean."""
     assert image.ids is not None
     numbers, counts = np.unique(image.ids, return_counts=True)
-    legend = beside(out, "-ids.csv")
+    legend = sibling(out, "-ids.csv")
     with legend.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["id", "name", "pixels"])
         for number, count in zip(numbers.tolist(), counts.tolist(), strict=True):
             table.writerow([number, names.get(number, ""), count])
-    return [save(beside(out, "-ids.png"), image.ids), legend]
+    return [save(sibling(out, "-ids.png"), image.ids), legend]
 
 
-def beside(out: Path, ending: str) -> Path:
+def sibling(out: Path, ending: str) -> Path:
     """``view.png`` and ``-ids.csv`` -> ``view-ids.csv``."""
     return out.with_name(out.stem + ending)

@@ -71,14 +71,14 @@ class SampleOptions:
         if not whole:
             command = resuming(run.out)
             how = f" Go on with: {command}" if command else ""
-            raise ResultError(f"{run.out}: no unit of it is finished: nothing to verify.{how}")
+            raise ResultError(f"{run.out}: no trial of it is finished: nothing to verify.{how}")
         drawn = secrets.randbelow(SEEDS) if self.sample_seed is None else self.sample_seed
-        units = choose(whole, None if self.whole else self.sample, drawn)
-        typer.echo(head(stored, run.out, len(whole), len(run.plan.units())))
-        if len(units) < len(whole):
-            which = f"{len(units)} of {count(len(whole), 'unit')}"
+        trials = choose(whole, None if self.whole else self.sample, drawn)
+        typer.echo(head(stored, run.out, len(whole), len(run.plan.trials())))
+        if len(trials) < len(whole):
+            which = f"{len(trials)} of {count(len(whole), 'trial')}"
             typer.echo(f"sample: {which}, by chance; the same again with --sample-seed {drawn}")
-        return len(whole), units
+        return len(whole), trials
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,14 +139,14 @@ def verify(
     executor = by.executor()
     stored, directory = load(result), file_of(result).parent
     run = replayed_run(stored, directory, places.overrides())
-    n_whole, units = sample.choose(run, stored)
-    n_levels = sum(len(trial.levels) for trial in units)
+    n_whole, trials = sample.choose(run, stored)
+    n_levels = sum(len(trial.levels) for trial in trials)
     others = made_otherwise(stored, directory, run.info)
     for line in others.values():
         typer.echo(printable(line))
     raise_from_now_on()
     with running(), progress("replaying", n_levels, of="levels", at_once=by.at_once) as on_level:
-        found = compare(directory, stored, run, units, executor=executor, on_level=on_level)
+        found = compare(directory, stored, run, trials, executor=executor, on_level=on_level)
     for line in tell(found, n_whole, others):
         typer.echo(printable(line))
     if found.differences:
@@ -169,13 +169,13 @@ def replayed_run(stored: Result, directory: Path, overrides: FileOverrides) -> R
     return replace(run, inputs=stored.inputs, renderer=renderer)
 
 
-def head(stored: Result, directory: Path, n_whole: int, n_units: int) -> str:
+def head(stored: Result, directory: Path, n_whole: int, n_trials: int) -> str:
     """Print what is verified and which files were found."""
     run = stored.run
     names = [named_input(stored, kind)[0] for kind in ("benchmark", "scene")]
     n_others = len(stored.inputs.assets or {})
-    finished = count(n_units, "unit")
-    if n_whole < n_units:
+    finished = count(n_trials, "trial")
+    if n_whole < n_trials:
         finished = f"{n_whole} of {finished} finished"
     return printable(
         f"{directory}: {run.algorithm}, seed {run.seed}, {run.mode}, "
@@ -192,9 +192,9 @@ def tell(found: Verification, n_whole: int, others: Mapping[str, str]) -> list[s
     if len(found.differences) > SHOWN:
         messages.append(f"and {len(found.differences) - SHOWN} more differences")
     messages += [f"not compared: {what}" for what in found.not_compared]
-    n = len(found.units)
-    which = f"{n} of {count(n_whole, 'unit')}" if n < n_whole else f"all of {count(n, 'unit')}"
-    played = f"{which} replayed, {count(sum(len(trial.levels) for trial in found.units), 'level')}"
+    n = len(found.trials)
+    which = f"{n} of {count(n_whole, 'trial')}" if n < n_whole else f"all of {count(n, 'trial')}"
+    played = f"{which} replayed, {count(sum(len(trial.levels) for trial in found.trials), 'level')}"
     if not found.differences:
         return [*messages, f"the same, byte for byte: {played}"]
     return [*messages, f"DIFFERS: {played}. {blame(found, others)}"]

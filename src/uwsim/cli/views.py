@@ -109,7 +109,9 @@ class Wanted:
         fog = 0.0 if view.is_clear and not self.has_fog else None
 
         def draw() -> RenderedImage:
-            return simulation.world.scenery.look(view.world_from_camera, view.intrinsics, fog=fog)
+            return simulation.world.scenery.render_view(
+                view.world_from_camera, view.intrinsics, fog=fog
+            )
 
         pixels = draw().colour
         assert pixels is not None

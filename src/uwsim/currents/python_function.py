@@ -48,7 +48,7 @@ class PythonFunctionSpec(CurrentSpec):
             BadSetting: there is no such module, or no such function in it.
         """
         if not place.runs_code:
-            self.look()
+            self.look_up()
             return PythonFunction(self.function, still)
         module_name, name = self._names()
         try:
@@ -68,7 +68,7 @@ class PythonFunctionSpec(CurrentSpec):
             )
         return PythonFunction(self.function, function)
 
-    def look(self) -> str:
+    def look_up(self) -> str:
         """Locate the module without running it.
 
         Raises:

@@ -78,7 +78,7 @@ class Evaluations:
         assert queue.found is not None
         return queue.found
 
-    def look(self, seed: int, value: float) -> bool | None:
+    def stored(self, seed: int, value: float) -> bool | None:
         """Return whether a run is broken; None if it was not run yet."""
         if (seed, value) not in self.made:
             trial = self.trial(seed, value)
@@ -134,7 +134,7 @@ class _JobQueue(JobQueue):
         super().done(job)
         values = dict(job.trial.levels[0].values)
         key = (job.trial.seed, values[self._runs._over])
-        answer = self._runs.look(*key)
+        answer = self._runs.stored(*key)
         assert answer is not None
         for task in self._awaited.pop(key):
             self._go_on(task, answer)
@@ -153,7 +153,7 @@ class _JobQueue(JobQueue):
             while True:
                 # None begins a generator
                 level = task.questions.send(answer)  # type: ignore[arg-type]
-                answer = self._runs.look(task.seed, level)
+                answer = self._runs.stored(task.seed, level)
                 if answer is None:
                     self._await(i, (task.seed, level))
                     return

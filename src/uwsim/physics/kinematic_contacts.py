@@ -35,7 +35,7 @@ class KinematicContacts:
         timestep: length of a step [s].
     """
 
-    STATE = ("_seen", "_step", "_is_stale", "_movers")
+    STATE = ("_seen", "_step", "_is_stale", "_bodies")
     """Attributes of its state, for snapshots."""
 
     def __init__(
@@ -48,7 +48,7 @@ class KinematicContacts:
     ) -> None:
         self._names, self._version = names, version
         self._seen = version()
-        self._movers = [_Mover(poses[name], timestep) for name in shapes]
+        self._bodies = [_KinematicBody(poses[name], timestep) for name in shapes]
         self._model = _model(shapes)
         self._data = mujoco.MjData(self._model)
         owners = [_owner(self._model.geom(i).name) for i in range(self._model.ngeom)]
@@ -57,14 +57,14 @@ class KinematicContacts:
         self._step = 0
         self._is_stale = True
 
-    def look(self, step: int) -> None:
+    def record(self, step: int) -> None:
         """Record the poses of all bodies; to be called at every step."""
         self._step = step
         if (version := self._version()) == self._seen:
             return
         self._seen = version
-        for mover in self._movers:
-            self._is_stale |= mover.look(step)
+        for body in self._bodies:
+            self._is_stale |= body.record(step)
 
     def contacts(self, kind: str, index: int) -> list[Contact] | None:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""
@@ -95,9 +95,9 @@ class KinematicContacts:
         return contacts
 
     def _lay(self) -> None:
-        for i, mover in enumerate(self._movers):
-            self._data.qpos[7 * i : 7 * i + 3] = mover.now.position
-            self._data.qpos[7 * i + 3 : 7 * i + 7] = quaternion_from_rotation(mover.now.rotation)
+        for i, body in enumerate(self._bodies):
+            self._data.qpos[7 * i : 7 * i + 3] = body.now.position
+            self._data.qpos[7 * i + 3 : 7 * i + 7] = quaternion_from_rotation(body.now.rotation)
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_collision(self._model, self._data)
         self._is_stale = False
@@ -105,10 +105,10 @@ class KinematicContacts:
     def _velocity(self, geom: int, point: Array) -> Array:
         """Velocity of a body's point, W, (3,) [m/s]."""
         body = int(self._model.geom_bodyid[geom])
-        return self._movers[body - 1].velocity(point, self._step)
+        return self._bodies[body - 1].velocity(point, self._step)
 
 
-class _Mover:
+class _KinematicBody:
     """A kinematic body, with the velocity of its last displacement."""
 
     STATE = ("now", "_before", "_jumped_at", "_n_steps")
@@ -121,7 +121,7 @@ class _Mover:
         self._jumped_at = 0
         self._n_steps = 0  # that its last jump took
 
-    def look(self, step: int) -> bool:
+    def record(self, step: int) -> bool:
         """Record its pose; returns whether it moved."""
         pose = self._pose()
         is_there = np.array_equal(pose.position, self.now.position)

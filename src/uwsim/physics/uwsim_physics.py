@@ -37,7 +37,7 @@ class UwsimPhysics:
         data: its state.
     """
 
-    STATE = ("_movers",)
+    STATE = ("_vehicles",)
     """Attributes of its state, for snapshots."""
 
     def __init__(self, scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -61,24 +61,24 @@ class UwsimPhysics:
         model.stat.meaninertia = float(own.mean())  # the solver's scale: not the vehicles' own
         damped = [(scene.objects[index].solid, joint) for index, joint in loose]
         self._damped = [
-            _Damped(physics, model, data, joint)
+            _DampedObject(physics, model, data, joint)
             for physics, joint in damped
             if physics.linear_damping > 0.0 or physics.angular_damping > 0.0
         ]
-        self._movers = [_Mover(model, data, of_vehicle) for of_vehicle in joints]
+        self._vehicles = [_KinematicVehicle(model, data, of_vehicle) for of_vehicle in joints]
 
     def step(self) -> None:
         """Take a step; vehicles stay where they are."""
-        for mover in self._movers:
-            mover.look()
+        for vehicle in self._vehicles:
+            vehicle.set_speed()
         for thing in self._damped:
             thing.slow_down()
         mujoco.mj_step(self._model, self._data)
-        for mover in self._movers:
-            mover.put_back()
+        for vehicle in self._vehicles:
+            vehicle.put_back()
 
 
-class _Damped:
+class _DampedObject:
     """A free object with UWSim's velocity damping."""
 
     def __init__(
@@ -102,7 +102,7 @@ class _Damped:
         self._velocity[:3] = self._keeps * of_middle - lever
 
 
-class _Mover:
+class _KinematicVehicle:
     """A kinematic vehicle with the speed of its last displacement."""
 
     STATE = ("_now", "_velocity", "_since", "_n_steps")
@@ -119,7 +119,7 @@ class _Mover:
         self._since = 0  # steps since the last jump
         self._n_steps = 0  # that it took
 
-    def look(self) -> None:
+    def set_speed(self) -> None:
         """Record its pose, and set the speed of its last displacement."""
         data, here = self._data, self._data.qpos[self._q].copy()
         self._since += 1

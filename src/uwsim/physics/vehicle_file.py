@@ -212,7 +212,7 @@ def _include(
         )
         inner = Diagnostics(other)
         whole = other.resolve()
-        if not is_inside(other, [*roots(beside=path), bundled_folder()]):
+        if not is_inside(other, [*roots(named_by=path), bundled_folder()]):
             diagnostics.error(node, f"<include> {cut(name)} is outside the folders of its file")
             return
         if whole in (one.resolve() for one in (*above, path)):

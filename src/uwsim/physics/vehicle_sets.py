@@ -17,20 +17,20 @@ def vehicle_sets() -> dict[str, Path]:
     return {path.stem: path for path in sorted(bundled_folder().glob("*.xml"))}
 
 
-def find_vehicle(name: str, beside: Path | None = None) -> Path:
+def find_vehicle(name: str, named_by: Path | None = None) -> Path:
     """Find the hydrodynamics file of a set: ``name.xml`` next to the scene, or a bundled one.
 
     Raises:
         UnknownName: there is none.
     """
-    if beside is not None and name == Path(name).name:
-        own = beside.parent / f"{name}.xml"
+    if named_by is not None and name == Path(name).name:
+        own = named_by.parent / f"{name}.xml"
         with suppress(OSError, ValueError):  # no name of a file
             if own.is_file():
                 return own
     known = vehicle_sets()
     if name not in known:
-        raise UnknownName("hydrodynamics set", name, [*_own_sets(beside), *known])
+        raise UnknownName("hydrodynamics set", name, [*_own_sets(named_by), *known])
     return known[name]
 
 
@@ -39,11 +39,11 @@ def bundled_folder() -> Path:
     return Path(str(files("uwsim"))) / "data" / "vehicles"
 
 
-def _own_sets(beside: Path | None) -> list[str]:
+def _own_sets(named_by: Path | None) -> list[str]:
     """Names of the hydrodynamics files next to a scene."""
     found = []
     with suppress(OSError):
-        found_here = [] if beside is None else sorted(beside.parent.glob("*.xml"))
+        found_here = [] if named_by is None else sorted(named_by.parent.glob("*.xml"))
         for path in filter(Path.is_file, found_here):
             with path.open("rb") as file:
                 if b"<hydrodynamics" in file.read(HEAD):

@@ -63,12 +63,12 @@ def page() -> str:
             done.add(cls)
             limit = limit_of(parent, clark(name))
             parts.append(_section(name, cls, limit=limit, homes=_scene_homes()))
-    return "\n".join([*parts, _doubts(), _old_names()])
+    return "\n".join([*parts, _plausibility_warnings(), _old_names()])
 
 
-def _doubts() -> str:
+def _plausibility_warnings() -> str:
     """The plausibility warnings of `uwsim check`."""
-    from ..scene.doubts import DOUBTS
+    from ..scene.plausibility import PLAUSIBILITY_WARNINGS
 
     lines = [
         "## Plausibility warnings", "",
@@ -78,7 +78,9 @@ def _doubts() -> str:
         "`passable`, `size` and `start` concern simulated vehicles only.", "",
         "| name | warns when |", "|---|---|",
     ]  # fmt: skip
-    return "\n".join([*lines, *(f"| `{name}` | {when} |" for name, when in DOUBTS.items()), ""])
+    return "\n".join(
+        [*lines, *(f"| `{name}` | {when} |" for name, when in PLAUSIBILITY_WARNINGS.items()), ""]
+    )
 
 
 def _old_names() -> str:

@@ -1,8 +1,8 @@
 """Messages about directories without a result: interrupted runs and how to resume them.
 
 A run that was killed leaves the rows it had finished, how it was begun (`save_beginning`), and no
-``result.json``. Where a program has played, and no command is known, it is put together from what
-the first line of a unit's file says of the run.
+``result.json``. Where the run was started from Python, no command is known, and it is derived
+from the first line of a journal.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Journals: a file for each trial, with a line for each finished row.
 
 A line is written whole and flushed before the next level begins, so a killed run loses at most the
-level it was in. The first line says what the unit is, the last that it is done. A line that was
-cut off does not count.
+level it was in. The first line identifies the trial, the last says that it is finished. A line
+that was cut off does not count.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ NOTHING = Stored((), None)
 
 
 def path_of(directory: Path, index: int) -> Path:
-    """Return where the unit number ``index`` is kept."""
+    """Return where the trial number ``index`` is kept."""
     return directory / FOLDER / f"{index:05d}.jsonl"
 
 

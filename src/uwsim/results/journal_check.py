@@ -1,7 +1,7 @@
 """Checks the rows of a result against the journals of its trials.
 
-``result.json`` is put together from what each unit has stored (`unit_file`). Where its journals
-lie beside it, every row has to say what they say. A result without them can be read, but is not
+``result.json`` is collected from the journals of the trials (`journal`). Where they are in the same
+directory, every row has to agree with them. A result without journals can be read, but is not
 checked.
 """
 
@@ -29,9 +29,9 @@ class Journals:
     rows: dict[Key, Record]
     """What is stored of each level; ``ended_at`` as the result counts it."""
     ended: tuple[Key, ...]
-    """Those of finished units."""
+    """Those of finished trials."""
     n_ended: int
-    """How many units are finished."""
+    """How many trials are finished."""
 
 
 def check_rows(result: Result, directory: Path) -> str | None:
@@ -53,13 +53,13 @@ def check_rows(result: Result, directory: Path) -> str | None:
     if message:
         more = f"; and {len(message) - SHOWN} more" if len(message) > SHOWN else ""
         raise ResultError(
-            f"{directory / 'result.json'}: not what its units have stored: "
+            f"{directory / 'result.json'}: differs from the journals of its trials: "
             f"{'; '.join(message[:SHOWN])}{more}. uwsim verify lists all differences; "
             "uwsim bench --resume writes it anew."
         )
     if without:
         n = len(result.rows)
-        return f"{without} of {n} rows are not checked: their units are not in {FOLDER}/"
+        return f"{without} of {n} rows are not checked: their trials are not in {FOLDER}/"
     return None
 
 

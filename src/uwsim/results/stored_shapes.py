@@ -1,4 +1,4 @@
-"""The shapes of ``result.json``, of a unit's file and of ``provenance.json`` (`shapes`)."""
+"""The shapes of ``result.json``, of journals and of ``provenance.json`` (`shapes`)."""
 
 from __future__ import annotations
 

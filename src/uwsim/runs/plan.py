@@ -113,7 +113,7 @@ class Plan:
         """
         return chosen_levels(levels_of(self.benchmark.scene_updater), self.chosen)
 
-    def units(self) -> tuple[Trial, ...]:
+    def trials(self) -> tuple[Trial, ...]:
         """Divide the plan into trials, repeat by repeat, level by level."""
         levels = self.levels()
         groups = [levels] if self.mode == "sequential" else [(level,) for level in levels]

@@ -1,8 +1,7 @@
 """A run: executes the trials of a plan and collects their rows into a result.
 
-Rows go to disk as levels end (`journal`); when the run is over, or breaks, they are put together
-in the order of the plan. Whoever executed them (`executor`), killed and resumed or not: the same
-bytes.
+Rows are written to disk as levels end (`journal`); when the run ends, or fails, they are collected
+in the order of the plan. The bytes are the same with every executor, resumed or not.
 """
 
 from __future__ import annotations
@@ -54,7 +53,7 @@ class Run:
         return described(self.plan, self.renderer)
 
     def begin(self) -> list[Trial]:
-        """Make the directory, and return the units that are not finished."""
+        """Make the directory, and return the trials that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
         self._forget_what_was_stopped()
         self.n_resumed = self.n_finished()
@@ -67,38 +66,38 @@ class Run:
         final; but a trial without an end is repeated anyhow, and may go better.
         """
         name = self.plan.algorithm_name
-        for unit in self.plan.units():
-            stored = self.stored(unit)
+        for trial in self.plan.trials():
+            stored = self.stored(trial)
             is_to_go = ended_its_process if stored.end is not None else was_stopped
             for n, row in enumerate(stored.rows):
                 if is_to_go(name, row["missing"].get("total")):
-                    journal.cut_back(self.out, unit.index, n)
+                    journal.cut_back(self.out, trial.index, n)
                     break
 
     def unfinished(self) -> list[Trial]:
-        """Return the units whose end is not on disk."""
-        return [unit for unit in self.plan.units() if self.stored(unit).end is None]
+        """Return the trials whose end is not on disk."""
+        return [trial for trial in self.plan.trials() if self.stored(trial).end is None]
 
     def n_finished(self) -> int:
         """Count the levels that are on disk."""
-        return sum(self.n_rows(unit) for unit in self.plan.units())
+        return sum(self.n_rows(trial) for trial in self.plan.trials())
 
-    def n_rows(self, unit: Trial) -> int:
-        """Count the levels of one unit that are on disk."""
-        return len(self.stored(unit).rows)
+    def n_rows(self, trial: Trial) -> int:
+        """Count the levels of one trial that are on disk."""
+        return len(self.stored(trial).rows)
 
-    def head(self, unit: Trial) -> journal.Record:
+    def head(self, trial: Trial) -> journal.Record:
         """Return the identity of a trial: equal heads mean that its rows must be equal."""
         return {
             "inputs": _as_stored(self.inputs.stored()),
             "run": _as_stored(self.info.stored()),
-            "seed": unit.seed,
-            "levels": [[value for _, value in level.values] for level in unit.levels],
+            "seed": trial.seed,
+            "levels": [[value for _, value in level.values] for level in trial.levels],
         }
 
     def write(self) -> Result:
         """Collect the rows on disk and write result, summary of repeats and logs."""
-        stored = [(trial, self.stored(trial)) for trial in self.plan.units()]
+        stored = [(trial, self.stored(trial)) for trial in self.plan.trials()]
         result, logs, self.simulated_s = collect(self.plan, self.inputs, self.info, stored)
         save(result, self.out)
         save_dat(
@@ -116,11 +115,11 @@ class Run:
             save_data(log, measures[log.measure], self.out, files[log.measure])
         return result
 
-    def stored(self, unit: Trial) -> journal.Stored:
+    def stored(self, trial: Trial) -> journal.Stored:
         """Return the stored rows of a trial; raises ResultError if they are of another run."""
-        if not journal.path_of(self.out, unit.index).exists():
+        if not journal.path_of(self.out, trial.index).exists():
             return journal.NOTHING
-        return journal.read(self.out, unit.index, self.head(unit))
+        return journal.read(self.out, trial.index, self.head(trial))
 
 
 def _as_stored(value: object) -> object:

@@ -10,7 +10,7 @@ from ..schema import Diagnostics, uses_extensions
 from ..sensors.sensor import Looking, Mounted
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
-from .mounts import Stand, in_words
+from .mounts import MountFrames, in_words
 from .spec import SceneSpec
 from .urdf import RobotSpec
 from .vehicle import VehicleSpec
@@ -31,7 +31,7 @@ def check_looks(
     """
     for index, robot in robots.items():
         vehicle = scene.vehicles[index]
-        stand = Stand(vehicle, robot, scene.world_from_localized)
+        frames = MountFrames(vehicle, robot, scene.world_from_localized)
         for spec in looking(vehicle):
             if spec.look_at is not None and any(spec.orientation):
                 message = "its <orientation> is not used: <u:lookAt> says where it looks"
@@ -39,10 +39,10 @@ def check_looks(
             is_camera = isinstance(spec, VirtualCameraSpec | VirtualRangeImageSpec)
             if is_camera and robot.link(spec.relative_to) is not None:
                 diagnostics.warning(
-                    diagnostics.node_of(spec), f"{_called(spec)} {_looks(spec, stand)}"
+                    diagnostics.node_of(spec), f"{_called(spec)} {_looks(spec, frames)}"
                 )
         if not uses_extensions(scene):
-            _check_age(stand, diagnostics)
+            _check_age(frames, diagnostics)
     cameras = [spec.name for one in scene.vehicles for spec in one.parts_of(VirtualCameraSpec)]
     for name, count in Counter(cameras).items():
         if count > 1:
@@ -56,9 +56,9 @@ def looking(vehicle: VehicleSpec) -> Iterator[Looking]:
     return (part for part in vehicle.parts if isinstance(part, Looking))
 
 
-def _looks(spec: Mounted, stand: Stand) -> str:
-    ahead, top = stand.looks(spec)
-    words = stand.directions
+def _looks(spec: Mounted, frames: MountFrames) -> str:
+    ahead, top = frames.looks(spec)
+    words = frames.directions
     return f"looks {in_words(ahead, words)}; the top of its image is {in_words(top, words)}"
 
 
@@ -66,15 +66,15 @@ def _called(spec: Mounted) -> str:
     return repr(str(getattr(spec, "name", "")))
 
 
-def _check_age(stand: Stand, diagnostics: Diagnostics) -> None:
+def _check_age(frames: MountFrames, diagnostics: Diagnostics) -> None:
     """Until July 2014 sensors hung on visual frames: those on turned ones may now look up."""
     turned: list[Looking] = []
     n_right = 0
-    for spec in looking(stand.vehicle):
-        if isinstance(spec, ObjectPickerSpec) or stand.robot.link(spec.relative_to) is None:
+    for spec in looking(frames.vehicle):
+        if isinstance(spec, ObjectPickerSpec) or frames.robot.link(spec.relative_to) is None:
             continue
         is_up, was_up = (
-            float(stand.looks(spec, visual=visual)[0][2]) > STEEP for visual in (False, True)
+            float(frames.looks(spec, visual=visual)[0][2]) > STEEP for visual in (False, True)
         )
         if is_up and not was_up:
             turned.append(spec)

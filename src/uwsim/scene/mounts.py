@@ -28,7 +28,7 @@ STRAIGHT = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Stand:
+class MountFrames:
     """A vehicle at its pose in the file, from which mounts are computed.
 
     Args:

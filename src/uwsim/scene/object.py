@@ -8,8 +8,8 @@ from ..acoustics import MaterialName
 from ..geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
 from ..linear import product
 from ..schema import MAX_DISTANCE, REQUIRED, element
-from .doubts import ObjectDoubt
 from .on_floor import OnFloorSpec
+from .plausibility import ObjectWarning
 
 TERRAIN = "terrain"
 """An object of this name is the ground: nothing picks it up, and without ``<physics>`` it is
@@ -110,9 +110,9 @@ class ObjectSpec:
     """What sonars take it for; without it an object called `terrain` is sand, others are steel."""
     weathering: WeatheringSpec | None = element(namespaced=True, default=None)
     """Clouds of light and dark on its textures; None: as they are."""
-    accepts: tuple[ObjectDoubt, ...] = element("accept", namespaced=True, default=())
+    accepts: tuple[ObjectWarning, ...] = element("accept", namespaced=True, default=())
     """Warnings of `uwsim check` that do not apply here, because the value is intended; the
-    section *Doubts* of the reference lists the names."""
+    section *Plausibility warnings* of the reference lists the names."""
 
     @property
     def solid(self) -> PhysicsSpec:

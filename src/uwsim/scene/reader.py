@@ -31,19 +31,19 @@ MAX_FILES = 200
 class Library(Protocol):
     """Look-up of the files that a scene names, implemented by ``uwsim.assets``."""
 
-    def find(self, name: str, beside: Path) -> Path | None:
-        """The file ``name``, which the file ``beside`` names; None when it is nowhere."""
+    def find(self, name: str, named_by: Path) -> Path | None:
+        """The file ``name``, which the file ``named_by`` names; None when it is nowhere."""
 
-    def find_robot(self, name: str, beside: Path) -> Path | None:
+    def find_robot(self, name: str, named_by: Path) -> Path | None:
         """The robot file ``name``, or else ours of the same file name; None without either."""
 
-    def has_model(self, name: str, beside: Path) -> bool:
+    def has_model(self, name: str, named_by: Path) -> bool:
         """Whether there is a model of that name, or a stand-in."""
 
-    def unreadable(self, name: str, beside: Path) -> str:
+    def unreadable(self, name: str, named_by: Path) -> str:
         """Why the file of a model cannot be read here; empty if it can, or is not there."""
 
-    def searched(self, beside: Path) -> str:
+    def searched(self, named_by: Path) -> str:
         """The folders that were searched."""
 
 

@@ -128,7 +128,7 @@ class SceneSpec:
 
     @property
     def simulated_solids(self) -> dict[int, PhysicsSpec]:
-        """What can be touched beside vehicles in simulated water, by number.
+        """What can be touched besides vehicles in simulated water, by number.
 
         Objects with ``<physics>`` or ``u:solid`` 1, and ``terrain``; nothing with ``u:solid`` 0.
         """

@@ -26,8 +26,8 @@ from ..geometry import ONE, ZERO, Pose, Triple
 from ..schema import MAX_DISTANCE, element
 from ..schema.names import local
 from ..sensors import SENSORS
-from .doubts import VehicleDoubt
 from .on_floor import OnFloorSpec
+from .plausibility import VehicleWarning
 
 T = TypeVar("T")
 
@@ -78,9 +78,9 @@ class VehicleSpec:
     """What the velocity loop of a simulated vehicle measures its speed against."""
     on_floor: OnFloorSpec | None = element(namespaced=True, default=None)
     """Whether it begins on the ground."""
-    accepts: tuple[VehicleDoubt, ...] = element("accept", namespaced=True, default=())
+    accepts: tuple[VehicleWarning, ...] = element("accept", namespaced=True, default=())
     """Warnings of `uwsim check` that do not apply here, because the value is intended; the
-    section *Doubts* of the reference lists the names."""
+    section *Plausibility warnings* of the reference lists the names."""
 
     def all_parts(self) -> Iterator[tuple[str, object]]:
         """Element name and spec of everything it carries, in the order of the grammar."""

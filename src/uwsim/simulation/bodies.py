@@ -44,25 +44,25 @@ class SceneBody:
         return self._box
 
 
-def find_file(name: str, beside: str, data_path: tuple[Path, ...]) -> Path:
-    """Find a file that the file ``beside`` names; AssetNotFound names every folder searched."""
-    folder = Path(beside).parent if beside else None
-    path = find(name, beside=folder, data_path=data_path)
+def find_file(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
+    """Find a file named in the file ``named_by``; AssetNotFound names every folder searched."""
+    folder = Path(named_by).parent if named_by else None
+    path = find(name, named_by=folder, data_path=data_path)
     if path is None:
-        searched = folders_searched(beside=folder, data_path=data_path)
+        searched = folders_searched(named_by=folder, data_path=data_path)
         folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
         raise AssetNotFound(f"{name!r} is in none of the folders searched: {folders}.", name=name)
     return path
 
 
-def find_robot(name: str, beside: str, data_path: tuple[Path, ...]) -> Path:
+def find_robot(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
     """Find a robot file; if it is not found, the bundled one of the same file name replaces it.
 
     Raises:
         AssetNotFound: there is none of that name either; names every folder searched.
     """
     try:
-        return find_file(name, beside, data_path)
+        return find_file(name, named_by, data_path)
     except AssetNotFound:
         path = bundled_robot(name)
         if path is None:
@@ -72,11 +72,11 @@ def find_robot(name: str, beside: str, data_path: tuple[Path, ...]) -> Path:
 
 def robot_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dict[str, Path]:
     """Robot files that are not found, and the bundled ones that replace them."""
-    beside = Path(scene.path).parent if scene.path else None
+    named_by = Path(scene.path).parent if scene.path else None
     lost = {
         vehicle.file: bundled_robot(vehicle.file)
         for vehicle in scene.vehicles
-        if find(vehicle.file, beside=beside, data_path=data_path) is None
+        if find(vehicle.file, named_by=named_by, data_path=data_path) is None
     }
     return {name: path for name, path in lost.items() if path is not None}
 

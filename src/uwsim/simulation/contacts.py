@@ -82,7 +82,7 @@ class Contacts:
         """Record the poses of all bodies; to be called at every step."""
         self._step = step
         if self._touching is not None:
-            self._touching.look(step)
+            self._touching.record(step)
 
     def contacts(self, name: str) -> list[Contact]:
         """Find where the vehicle or object of that name touches others.
@@ -96,7 +96,7 @@ class Contacts:
         if contacts is None:
             if self._touching is None:
                 self._touching = self._lay()
-                self._touching.look(self._step)
+                self._touching.record(self._step)
             contacts = self._touching.contacts(kind, index)
         if contacts is None:
             what = "none of its links has a <collision> or a <visual>"

@@ -87,11 +87,11 @@ class Search:
         self._follow_currents(is_thorough)
 
     def _read(self, index: int, name: str, robot: RobotSpec) -> None:
-        beside = Path(self._scene.path) if self._scene.path else None
+        named_by = Path(self._scene.path) if self._scene.path else None
         links = [link.name for link in robot.links]
         joints = [joint.name for joint in robot.joints if joint.moves]
         try:
-            path = find_vehicle(name, beside)
+            path = find_vehicle(name, named_by)
             diagnostics = Diagnostics(path)
             dynamics = read_vehicle_into(path, links, diagnostics, joints)
         except VehicleError as error:
@@ -281,7 +281,7 @@ class Search:
             try:
                 current.files(place)
                 if is_thorough and isinstance(current, PythonFunctionSpec):
-                    current.look()
+                    current.look_up()
                 elif is_thorough:
                     current.bind(place)
             except UwsimError as error:

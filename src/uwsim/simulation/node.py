@@ -17,7 +17,7 @@ from ..errors import BadSetting, NotAllowed
 from ..interrupts import is_of_user
 from ..message_fields import copied
 from .calls import Calls, Stopped
-from .outbox import Outbox
+from .undelivered import UndeliveredMessages
 
 M = TypeVar("M")
 STOPPED = "was stopped"
@@ -93,7 +93,7 @@ class InProcessNode:
         self._bus = bus
         self._raises = raises
         self._calls = calls or Calls()
-        self._outbox = Outbox()
+        self._undelivered = UndeliveredMessages()
         self._thread = threading.get_ident()
         self._is_started = True
         self._heard: dict[str, Callable[[], str | None]] = {}
@@ -169,7 +169,7 @@ class InProcessNode:
                 give(message)
                 return
             try:
-                self._outbox.add(message, step=self._bus.step, delay_steps=self._delay_steps)
+                self._undelivered.add(message, step=self._bus.step, delay_steps=self._delay_steps)
             except NotAllowed as refused:
                 self._break_rule(str(refused))
             give(copied(message))

@@ -123,16 +123,16 @@ def _worn(model: Model, thing: ObjectSpec) -> Model:
 
 
 def placed_visual(
-    visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]
+    visual: VisualSpec, named_by: Path, data_path: tuple[Path, ...]
 ) -> tuple[Model, npt.NDArray[np.float64]]:
     """Return the model of a shape of a link and ``link_from_mesh`` with its scale, (4, 4) [m]."""
-    model, scale = visual_model(visual, beside, data_path)
+    model, scale = visual_model(visual, named_by, data_path)
     link_from_visual = Pose.from_rpy(visual.position, visual.rpy).matrix
     return model, product(link_from_visual, np.diag([*scale, 1.0]))
 
 
 def visual_model(
-    visual: VisualSpec, beside: Path, data_path: tuple[Path, ...]
+    visual: VisualSpec, named_by: Path, data_path: tuple[Path, ...]
 ) -> tuple[Model, tuple[float, float, float]]:
     """Load or make what a shape of a link looks like, in its colour; and the scale of its mesh.
 
@@ -141,7 +141,7 @@ def visual_model(
     scale = visual.scale
     if visual.kind == "mesh":
         try:
-            model = load_model(visual.file, beside=beside, data_path=data_path)
+            model = load_model(visual.file, named_by=named_by, data_path=data_path)
         except AssetNotFound:  # reported by `uwsim check`
             return unknown_model(visual.file), (1.0, 1.0, 1.0)
     else:
@@ -159,12 +159,14 @@ def object_models(
     A file of more triangles is simplified to about as many; one that is nowhere is a labelled box
     in a scene of the original.
     """
-    beside = Path(scene.path).parent if scene.path else None
+    named_by = Path(scene.path).parent if scene.path else None
 
     @functools.cache
     def load(name: str, max_triangles: int | None) -> Model:
         try:
-            return load_model(name, beside=beside, data_path=data_path, max_triangles=max_triangles)
+            return load_model(
+                name, named_by=named_by, data_path=data_path, max_triangles=max_triangles
+            )
         except AssetNotFound:
             if not scene.is_original:
                 raise

@@ -69,7 +69,7 @@ class Scenery:
         self._mounted_lamps: tuple[MountedLamp, ...] = ()
         self._lamps: tuple[Lamp, ...] = ()
 
-    def hang(self, lamps: Iterable[MountedLamp]) -> None:
+    def set_lamps(self, lamps: Iterable[MountedLamp]) -> None:
         """Set the lamps of the scene; raises UwsimError if there are too many."""
         self._mounted_lamps = tuple(lamps)
         if (n_lamps := len(self._mounted_lamps)) > MAX_LAMPS:
@@ -126,7 +126,7 @@ class Scenery:
         water = self.water if fog is None else replace(self.water, fog=fog)
         return self._draw(world_from_camera, intrinsics, water)
 
-    def look(
+    def render_view(
         self,
         world_from_camera: Pose,
         intrinsics: Intrinsics,

@@ -53,7 +53,7 @@ class SceneStage(SceneWorld):
         path = self.scene.path
         place = Place(
             stream=self.stream,
-            find=lambda name: self.find(name, beside=path),
+            find=lambda name: self.find(name, named_by=path),
             world_from_localized=self.scene.world_from_localized,
             runs_code=self._runs_code,
             surface_height=self.scene.ocean_state.ocean_surface_height,
@@ -91,7 +91,7 @@ class SceneStage(SceneWorld):
                         self._sensors.setdefault((element, getattr(part, "name", "")), device)
                     if isinstance(device, MountedLamp) and not spec.vr:
                         lamps.append(device)
-        self.scenery.hang(lamps)
+        self.scenery.set_lamps(lamps)
 
     def _bound_device(self, spec: DeviceSpec, vehicle: SceneVehicle) -> Device | None:
         try:

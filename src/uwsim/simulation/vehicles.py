@@ -10,7 +10,7 @@ from ..errors import UnknownName
 from ..geometry import Array, Pose
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
-from ..scene.mounts import Stand, link_from_frame
+from ..scene.mounts import MountFrames, link_from_frame
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from ..sensors.sensor import Mounted
@@ -25,18 +25,18 @@ class SceneVehicle:
 
     Args:
         index: its number in the scene.
-        stand: the vehicle at its pose in the file.
+        frames: the vehicle at its pose in the file.
         state: where its links are.
     """
 
     STATE = ("_offsets", "_losses")
     """Attributes of its state, for snapshots."""
 
-    def __init__(self, index: int, stand: Stand, state: Engine) -> None:
-        self._index, self._stand, self._state = index, stand, state
-        self.name = stand.vehicle.name
+    def __init__(self, index: int, frames: MountFrames, state: Engine) -> None:
+        self._index, self._frames, self._state = index, frames, state
+        self.name = frames.vehicle.name
         """Its name in the scene."""
-        self.joint_names = tuple(joint.name for joint in stand.robot.movable)
+        self.joint_names = tuple(joint.name for joint in frames.robot.movable)
         """Names of the joints of the joint vector."""
         self._offsets: list[tuple[int, float]] = []  # axis and [m or rad], one a displacer
         self._losses: dict[int, list[float]] = {}  # of each thruster, one a setter
@@ -94,9 +94,9 @@ class SceneVehicle:
 
     def put_back(self) -> None:
         """Put it where the scene puts it now, at rest."""
-        spec = self._stand.vehicle
+        spec = self._frames.vehicle
         localized_from_base = displaced(spec.position, spec.orientation, self._offsets)
-        self.place(self._stand.world_from_localized @ localized_from_base)
+        self.place(self._frames.world_from_localized @ localized_from_base)
 
     def displacer(self, axis: int) -> Callable[[float], None]:
         """Return a function that displaces it along or about an axis; displacements add up."""
@@ -127,10 +127,10 @@ class SceneVehicle:
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> SceneBody:
         """Fix something to its link; raises UnknownName if there is no such link."""
-        link, robot = spec.relative_to, self._stand.robot
+        link, robot = spec.relative_to, self._frames.robot
         if robot.link(link) is None:
             raise UnknownName("link", link, [each.name for each in robot.links])
-        link_from_part = link_from_frame(robot, link, visual) @ self._stand.frame_from_mounted(
+        link_from_part = link_from_frame(robot, link, visual) @ self._frames.frame_from_mounted(
             spec, visual=visual
         )
         pose: Callable[[], Pose] = partial(
@@ -144,6 +144,6 @@ def vehicles_of(
 ) -> tuple[SceneVehicle, ...]:
     """The vehicles of a scene, in the file's order."""
     return tuple(
-        SceneVehicle(index, Stand(vehicle, robots[index], scene.world_from_localized), state)
+        SceneVehicle(index, MountFrames(vehicle, robots[index], scene.world_from_localized), state)
         for index, vehicle in enumerate(scene.vehicles)
     )

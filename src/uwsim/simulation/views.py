@@ -157,7 +157,9 @@ def _share_seen(simulation: Simulation, focus: Focus, world_from_camera: Pose) -
     rest = frozenset(part.id for part in simulation.world.scenery.parts) - focus.ids
     shares = []
     alone, all_there = (
-        simulation.world.scenery.look(world_from_camera, lens, targets={"ids"}, hidden=hidden).ids
+        simulation.world.scenery.render_view(
+            world_from_camera, lens, targets={"ids"}, hidden=hidden
+        ).ids
         for hidden in (rest, frozenset[int]())
     )
     assert alone is not None

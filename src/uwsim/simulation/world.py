@@ -26,7 +26,7 @@ from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact
 from .bodies import SceneBody, find_body, find_file, name_bodies, read_robots
-from .checks.plausibility import doubts_about
+from .checks.plausibility import plausibility_warnings
 from .collision_shapes import simulated_shapes
 from .contacts import Contacts
 from .dynamics import read_dynamics
@@ -126,8 +126,8 @@ class SceneWorld:
     def warnings(self) -> tuple[Diagnostic, ...]:
         """Warnings about the scene, with the lines of the file."""
         scene = self._as_written
-        doubts = doubts_about(scene, self.robots, self.dynamics, self._data_path)
-        return (*angle_warnings(scene), *doubts)
+        implausible = plausibility_warnings(scene, self.robots, self.dynamics, self._data_path)
+        return (*angle_warnings(scene), *implausible)
 
     @property
     def bus(self) -> Bus:
@@ -228,9 +228,9 @@ class SceneWorld:
         """Return the random generator of that name."""
         return stream(self._seed, self._prefix + name)
 
-    def find(self, name: str, *, beside: str) -> Path:
-        """Find a file that the file ``beside`` names; AssetNotFound lists the folders searched."""
-        return find_file(name, beside, self._data_path)
+    def find(self, name: str, *, named_by: str) -> Path:
+        """Find a file named in the file ``named_by``; AssetNotFound lists the folders searched."""
+        return find_file(name, named_by, self._data_path)
 
     def render(
         self,

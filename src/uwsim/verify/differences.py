@@ -22,7 +22,7 @@ class Difference:
     """A difference."""
 
     where: str
-    """File, or unit and level."""
+    """File, or trial and level."""
     what: str
     """Column, sample, topic or steps; what is stored, what came out."""
 

@@ -64,7 +64,7 @@ def blame(found: Verification, others: Mapping[str, str]) -> str:
         where = f"Every body moved the same; the images on {', '.join(found.parts)} are others."
         return where + _because(others, ("version", "renderer", "numpy", "cpu", "code", "system"))
     if found.is_replayed:
-        return "Every replayed unit gave what it stored; other parts of the result were changed."
+        return "Every replayed trial gave what it stored; other parts of the result were changed."
     if not found.is_steady:
         return "Its stored fingerprints are not those of a replay."
     return (

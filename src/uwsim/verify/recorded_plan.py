@@ -142,7 +142,7 @@ def find_input(
             f"The {kind} is not the one that was played, {name} ({_shortened(wanted)}): "
             f"{', '.join(others)}. Give the right one with --{kind}."
         )
-    searched = folders_searched(beside=directory.absolute(), data_path=overrides.data_path)
+    searched = folders_searched(named_by=directory.absolute(), data_path=overrides.data_path)
     folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
     raise AssetNotFound(
         f"The {kind} {name!r} ({_shortened(wanted)}) was not found; give it with --{kind}. "

@@ -1,10 +1,10 @@
 """Verifying a result: consistency of its files, and replays of trials.
 
-First, without playing anything, every total is worked out from its row, and every file of the
-result is made anew from what its trials stored and compared. Then whole trials are replayed from
-the recorded inputs and compared with what is stored: every cell, every sample, every image, byte
-for byte; where they differ, the fingerprints on the way (`trace`) say from which step on and in
-which body or image.
+First, without running anything, every total is computed from its row, and every file of the
+result is written again from the journals of its trials and compared. Then whole trials are replayed
+from the recorded inputs and compared with what is stored: every cell, every sample, every image,
+byte for byte; where they differ, the fingerprints (`runs.trial.fingerprint`) say from which step on
+and in which body or image.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class Verification:
     """What is not there to be compared."""
     n_files: int = 0
     """Files that were made anew from the stored trials."""
-    units: tuple[Trial, ...] = ()
-    """Units that were replayed."""
+    trials: tuple[Trial, ...] = ()
+    """Trials that were replayed."""
 
     def add(self, where: str, what: str) -> None:
         """Record a difference."""
@@ -58,28 +58,28 @@ class Verification:
 
 def finished(directory: Path, plan: Plan, result: Result) -> list[Trial]:
     """Return the trials that are whole: by their files or, without those, by their rows."""
-    units = plan.units()
-    if _has_units(directory):
-        files = [journal.path_of(directory, trial.index) for trial in units]
+    trials = plan.trials()
+    if _has_journals(directory):
+        files = [journal.path_of(directory, trial.index) for trial in trials]
         stored = [journal.read_any(file)[1] for file in files]
-        return [trial for trial, found in zip(units, stored, strict=True) if found.end is not None]
+        return [trial for trial, found in zip(trials, stored, strict=True) if found.end is not None]
     rows = _rows_by_level(result, plan)
-    return [trial for trial in units if all(key in rows for key in _keys(trial, plan))]
+    return [trial for trial in trials if all(key in rows for key in _keys(trial, plan))]
 
 
-def choose(units: Sequence[Trial], sample: int | None, seed: int) -> tuple[Trial, ...]:
+def choose(trials: Sequence[Trial], sample: int | None, seed: int) -> tuple[Trial, ...]:
     """Choose ``sample`` trials by chance (None: all), in their order."""
-    if sample is None or sample >= len(units):
-        return tuple(units)
-    picked = stream(seed, "verify").choice(len(units), size=sample, replace=False)
-    return tuple(units[i] for i in sorted(picked.tolist()))
+    if sample is None or sample >= len(trials):
+        return tuple(trials)
+    picked = stream(seed, "verify").choice(len(trials), size=sample, replace=False)
+    return tuple(trials[i] for i in sorted(picked.tolist()))
 
 
 def verify(
     directory: Path,
     result: Result,
     run: Run,
-    units: Sequence[Trial],
+    trials: Sequence[Trial],
     *,
     executor: Executor | None = None,
     on_level: OnLevel = lambda: None,
@@ -90,36 +90,36 @@ def verify(
         directory: the result's.
         result: as it was read.
         run: the same run anew, from the recorded inputs; its directory is not used.
-        units: what to replay.
+        trials: what to replay.
         executor: who executes the trials; without one, this process.
-        on_level: called for every level played.
+        on_level: called for every level executed.
 
     Raises:
-        UwsimError: a replay could not be played.
+        UwsimError: a replay could not be executed.
     """
-    found = Verification(units=tuple(units))
+    found = Verification(trials=tuple(trials))
     found.differences += contradictions(result, run.plan.benchmark)
     with scratch_folder("uwsim-verify-") as scratch:
-        if _has_units(directory):
+        if _has_journals(directory):
             _check_files(found, directory, result, replace(run, out=scratch / "stored"))
         else:
             found.not_compared.append("units/: rows are compared with result.json alone")
         again = replace(run, out=scratch / "replayed")
         again.out.mkdir()
-        queue = JobQueue([Job(again, trial) for trial in units], on_level)
+        queue = JobQueue([Job(again, trial) for trial in trials], on_level)
         (executor or SerialExecutor()).execute(queue)
         if queue.failure is not None:
             raise queue.failure
-        if _has_units(directory):
-            for trial in units:
-                _check_unit(found, directory, again, trial)
+        if _has_journals(directory):
+            for trial in trials:
+                _check_trial(found, directory, again, trial)
         else:
             _check_rows(found, result, again)
         _check_images(found, directory, again.out)
     return found
 
 
-def _has_units(directory: Path) -> bool:
+def _has_journals(directory: Path) -> bool:
     return (directory / journal.FOLDER).is_dir()
 
 
@@ -131,7 +131,7 @@ def _check_files(found: Verification, directory: Path, result: Result, run: Run)
         found.add(f"{journal.FOLDER}/{name}", what)
     if gone:
         found.not_compared.append("result.json and the files next to it: units/ is incomplete")
-    for trial in run.plan.units():
+    for trial in run.plan.trials():
         path = journal.path_of(directory, trial.index)
         head, stored = journal.read_any(path)
         if head is None or trial in gone:
@@ -168,12 +168,12 @@ def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
     """Trials whose rows are in the result but not in their journals, with the reason."""
     rows = _rows_by_level(result, plan)
     gone = {}
-    for trial in plan.units():
+    for trial in plan.trials():
         file = journal.path_of(directory, trial.index)
         n_stored = len(journal.read_any(file)[1].rows) if file.is_file() else 0
         n_told = sum(key in rows for key in _keys(trial, plan))
         if n_stored < n_told:
-            name = f"unit {trial.index} (seed {trial.seed})"
+            name = f"trial {trial.index} (seed {trial.seed})"
             what = f"{n_stored} rows can be read" if file.exists() else "is not there"
             gone[trial] = f"{name}: {what}; result.json has {n_told} of it"
     return gone
@@ -223,13 +223,13 @@ def _check_result(found: Verification, result: Result, made: Result) -> None:
         found.add("result.json", f"{where}: {before} there, {after} by units/")
 
 
-def _check_unit(found: Verification, directory: Path, again: Run, trial: Trial) -> None:
+def _check_trial(found: Verification, directory: Path, again: Run, trial: Trial) -> None:
     """Compare a replayed trial with the stored one, level by level."""
     stored, played = (
         journal.read_any(journal.path_of(folder, trial.index))[1]
         for folder in (directory, again.out)
     )
-    name = f"unit {trial.index} (seed {trial.seed})"
+    name = f"trial {trial.index} (seed {trial.seed})"
     before = len(found.differences)
     for n, level in enumerate(trial.levels):
         rows = [each.rows[n] if n < len(each.rows) else {} for each in (stored, played)]

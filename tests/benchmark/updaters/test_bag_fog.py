@@ -220,7 +220,7 @@ def test_a_recording_that_breaks_in_the_middle_is_a_failed_run(tmp_path: Path) -
 
 def test_what_is_missing_is_found_when_it_is_bound(tmp_path: Path) -> None:
     stage = world()
-    with pytest.raises(AssetNotFound, match=r"'dive\.bag' is not beside"):
+    with pytest.raises(AssetNotFound, match=r"'dive\.bag' is not next to"):
         spec(tmp_path).bind(stage)
     write_bag(tmp_path, "ros1", images())
     with pytest.raises(UnknownName, match="Did you mean '/camera/image_raw'"):
@@ -315,8 +315,8 @@ def test_in_a_sequence_the_replay_lives_on_and_the_scenes_fog_colour_counts(
 
 def test_an_independent_level_begins_with_the_first_image(tmp_path: Path) -> None:
     plan = a_plan(tmp_path, mode="independent")
-    for unit, fog in zip(plan.units(), (0.0, 0.5), strict=True):
-        list(execute(plan, unit))
+    for trial, fog in zip(plan.trials(), (0.0, 0.5), strict=True):
+        list(execute(plan, trial))
         level = [(time, pixels) for time, pixels in Watches.seen if time > 2.0001]
         assert [round(time, 3) for time, _ in level] == [2.002, 2.1, 2.25, 2.376]
         for (_, pixels), index in zip(level, (0, 1, 2, 0), strict=True):
@@ -328,8 +328,8 @@ def test_an_independent_level_begins_with_the_first_image(tmp_path: Path) -> Non
 
 def test_the_result_has_the_number_of_images_published_and_their_hash(tmp_path: Path) -> None:
     plan = a_plan(tmp_path)
-    (unit,) = plan.units()
-    ends = [next(x for x in execute(plan, unit) if isinstance(x, TrialEnd)) for _ in range(2)]
+    (trial,) = plan.trials()
+    ends = [next(x for x in execute(plan, trial) if isinstance(x, TrialEnd)) for _ in range(2)]
     assert ends[0].streams == ends[1].streams
     ((topic, n_frames, sha256),) = ends[0].streams
     assert (topic, n_frames, len(sha256)) == (IMAGE, 8, 64)

@@ -137,7 +137,7 @@ def test_a_lost_unit_is_the_next_to_be_played_and_three_times_at_most(tmp_path: 
         assert queue.failure is None
     queue.lost(first, "killed by SIGSEGV")
     assert str(queue.failure) == (
-        "unit 0 (esm, seed 0, fog=0.5) lost its worker 4 times, the last time killed by SIGSEGV. "
+        "trial 0 (esm, seed 0, fog=0.5) lost its worker 4 times, the last time killed by SIGSEGV. "
         "Finished rows are kept; go on with --resume."
     )
     assert queue.take() is None
@@ -170,7 +170,7 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
     benchmark: Path, tmp_path: Path, why: str, is_finished: bool, n_left: int
 ) -> None:
     bench = bench_of(benchmark, tmp_path / "out")
-    [trial] = bench.plan.units()
+    [trial] = bench.plan.trials()
     file = Journal(bench.out, trial.index, bench.head(trial))
     broken = stored_row(missing={"total": f"esm was stopped at 0.3 s: {why}"})
     for row in (stored_row(), broken, broken):
@@ -229,7 +229,7 @@ def test_a_unit_that_is_gone_when_all_are_played_is_missed_and_played_with_resum
             first.unlink()
 
     bench = bench_of(benchmark, out, mode="independent")
-    said = r"units/00000\.jsonl: unit 0 .* its file is incomplete now\. Continue with --resume\.$"
+    said = r"units/00000\.jsonl: trial 0 .* its file is incomplete now\. Continue with --resume\.$"
     with pytest.raises(RunFailed, match=said):
         run_all([bench], on_level=harm)
     assert len(load(out).rows) == 2

@@ -70,7 +70,7 @@ def test_a_cluster_of_two_that_loses_a_worker_gives_the_same_bytes(
 
 def test_a_worker_sends_home_all_that_is_kept(tmp_path: Path) -> None:
     bench = bench_of(write_benchmark(tmp_path, "0.2"), tmp_path / "a", mode="independent")
-    trial = bench.plan.units()[1]
+    trial = bench.plan.trials()[1]
     level, end = RayWorker().execute(bench, trial, bench.head(trial))
     assert isinstance(level, LevelEnded)
     assert isinstance(end, TrialEnded)
@@ -82,7 +82,7 @@ def test_a_worker_sends_home_all_that_is_kept(tmp_path: Path) -> None:
 
 def test_a_worker_with_other_files_versions_or_renderer_refuses_to_play(tmp_path: Path) -> None:
     bench = bench_of(write_benchmark(tmp_path, "0.2"), tmp_path / "a")
-    trial = bench.plan.units()[0]
+    trial = bench.plan.trials()[0]
     head = bench.head(trial)
     head["run"]["renderer"] = "a graphics card"
     head["inputs"]["scene"][1] = "sha256:0"

@@ -102,8 +102,8 @@ def told(
         mode=mode,  # type: ignore[arg-type]
     )
     found = []
-    for unit in plan.units():
-        assert [row for row in execute(plan, unit) if isinstance(row, LevelRow)]
+    for trial in plan.trials():
+        assert [row for row in execute(plan, trial) if isinstance(row, LevelRow)]
         found += Asked.told
     return found
 

@@ -93,11 +93,11 @@ def test_info_comes_ten_times_a_second_and_names_the_outermost_updater_that_step
 @pytest.mark.usefixtures("observed")
 def test_an_independent_level_hears_of_its_own_scene_once(tmp_path: Path) -> None:
     plan = make_plan(tmp_path, Deaf, NESTED, mode="independent")
-    for unit, expected in zip(
-        plan.units(), ([], ["Updated scene 2"], ["Updated scene 1"], ["Updated scene 1"]),
+    for one, expected in zip(
+        plan.trials(), ([], ["Updated scene 2"], ["Updated scene 1"], ["Updated scene 1"]),
         strict=True,
     ):  # fmt: skip
-        list(trial.execute(plan, unit))
+        list(trial.execute(plan, one))
         assert [text for _, text in Listens.info if text] == expected
 
 

@@ -64,7 +64,7 @@ def test_guesses_published_in_a_burst_score_what_they_are_worth(tmp_path: Path) 
 def blind(algorithm: str, out: Path) -> dict[str, float]:
     """Play the clear level without drawing anything; returns the measures."""
     plan = replace(plan_of(algorithm, ["fog=0"]), is_blind=True)
-    [row] = [row for row in execute(plan, plan.units()[0]) if isinstance(row, LevelRow)]
+    [row] = [row for row in execute(plan, plan.trials()[0]) if isinstance(row, LevelRow)]
     assert row.status == "ok"
     return {name: value for name, (value, _) in row.measures.items() if value is not None}
 

@@ -134,7 +134,7 @@ def plan_of(file: Path, scene: SceneSpec, compatibility: frozenset[str]) -> Plan
 
 def played(plan: Plan) -> list[LevelRow]:
     return [
-        row for unit in plan.units() for row in execute(plan, unit) if isinstance(row, LevelRow)
+        row for trial in plan.trials() for row in execute(plan, trial) if isinstance(row, LevelRow)
     ]
 
 

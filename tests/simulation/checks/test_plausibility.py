@@ -15,12 +15,12 @@ import pytest
 from uwsim.cli.app import main
 from uwsim.cli.check import diagnostics_of
 from uwsim.errors import Diagnostic
-from uwsim.scene.doubts import DOUBTS, VehicleDoubt
+from uwsim.scene.plausibility import PLAUSIBILITY_WARNINGS, VehicleWarning
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf import LinkSpec, RobotSpec
 from uwsim.simulation import Simulation
 from uwsim.simulation.checks.plausibility import warnings_of
-from uwsim.simulation.checks.vehicle_doubts import size_said
+from uwsim.simulation.checks.vehicle_plausibility import size_said
 from uwsim.simulation.hull import Hull, LinkBox
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
@@ -230,12 +230,12 @@ WRONG = {
         "Not held: depth (heave)",
     ),
 }
-"""Mistake: the doubt, the file, what stands there, what is written instead, what is said."""
+"""Mistake: the warning, the file, what stands there, what is written instead, what is said."""
 
 
 @pytest.mark.parametrize("mistake", WRONG)
 def test_a_mistake_is_warned_of_until_it_is_accepted(mistake: str, tmp_path: Path) -> None:
-    doubt, kind, right, wrong, said = WRONG[mistake]
+    warning, kind, right, wrong, said = WRONG[mistake]
     texts = {"robot": ROBOT, "water": WATER, "scene": SCENE}
     assert right in texts[kind]
     texts[kind] = texts[kind].replace(right, wrong)
@@ -243,14 +243,14 @@ def test_a_mistake_is_warned_of_until_it_is_accepted(mistake: str, tmp_path: Pat
     about = [
         diagnostic
         for diagnostic in found
-        if diagnostic.message.endswith(f"<u:accept>{doubt}</u:accept>")
+        if diagnostic.message.endswith(f"<u:accept>{warning}</u:accept>")
     ]
     assert len(about) == 1
     assert about[0].message.startswith("the vehicle 'rov': ")
     assert said in about[0].message
     assert about[0].severity == "warning"
     lines = texts["scene"].splitlines()
-    place = {"size": "<file>", "start": "<position>"}.get(doubt, "<u:dynamics>")
+    place = {"size": "<file>", "start": "<position>"}.get(warning, "<u:dynamics>")
     assert about[0].line is not None
     assert place in lines[about[0].line - 1]
     others = {re.search(r"accept>(\w+)<", diagnostic.message)[1] for diagnostic in found}  # type: ignore[index]
@@ -352,7 +352,7 @@ def test_nothing_is_asked_about_a_bundled_vehicle(
 
 
 def test_every_doubt_has_a_name_and_a_sentence() -> None:
-    assert tuple(DOUBTS) == get_args(VehicleDoubt)
+    assert tuple(PLAUSIBILITY_WARNINGS) == get_args(VehicleWarning)
 
 
 def test_what_is_asked_costs_a_simulation_nothing_until_somebody_reads_it(tmp_path: Path) -> None:

@@ -131,9 +131,9 @@ def _parts(
     """The meshes of a file at the poses of its nodes, with their materials."""
     import trimesh
 
-    beside = [path.parent, *([] if original is None else [original.parent])]
+    folders = [path.parent, *([] if original is None else [original.parent])]
     references: Any = References(
-        beside,
+        folders,
         [path.parent, *within] if original is not None else within,
         lambda found, place: _referred(
             found, str(PurePosixPath(name).parent / place), original, place.suffix.lower()

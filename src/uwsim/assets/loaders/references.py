@@ -19,18 +19,18 @@ class References:
     Its readers of formats swallow errors: what was refused is kept, and raised by `check`.
 
     Args:
-        beside: The folders that a name is looked for in.
+        folders: The folders that a name is looked for in.
         within: The folders that it may lie in.
         read: Reads a file that was found, by its path and its name.
     """
 
     def __init__(
         self,
-        beside: Iterable[Path],
+        folders: Iterable[Path],
         within: Iterable[Path],
         read: Callable[[Path, PurePosixPath], bytes],
     ) -> None:
-        self._beside, self._within, self._read = tuple(beside), tuple(within), read
+        self._folders, self._within, self._read = tuple(folders), tuple(within), read
         self._refused: list[AssetError] = []
 
     def get(self, name: str) -> bytes:
@@ -51,11 +51,11 @@ class References:
     def _found(self, name: str) -> bytes:
         asked = PurePosixPath(name.strip().replace("\\", "/"))
         for place in (asked, PurePosixPath(asked.name)):
-            for folder in self._beside:
+            for folder in self._folders:
                 path = folder / place
                 if not place.is_absolute() and path.exists() and is_inside(path, self._within):
                     return self._read(path, place)
-        leads_out = any((folder / asked).exists() for folder in self._beside)
+        leads_out = any((folder / asked).exists() for folder in self._folders)
         if asked.is_absolute() or ".." in asked.parts or leads_out:
             raise AssetError(
                 f"names the file {name[:200]!r}, which is outside its folder; --data-path adds one"

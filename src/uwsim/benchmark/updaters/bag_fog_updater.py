@@ -76,10 +76,10 @@ class BagFogUpdaterSpec(FogSweepSpec):
     def find(self, stage: Stage) -> Path:
         """Find the recording; AssetNotFound names every folder searched."""
         try:
-            return stage.find(self.bag, beside=self.path)
+            return stage.find(self.bag, named_by=self.path)
         except AssetNotFound as nowhere:
             try:
-                return stage.find(f"{self.bag}/metadata.yaml", beside=self.path).parent
+                return stage.find(f"{self.bag}/metadata.yaml", named_by=self.path).parent
             except AssetNotFound:
                 raise nowhere from None
 

@@ -49,7 +49,7 @@ class Job:
         which = ", ".join(f"{name}={value:g}" for name, value in levels[0].values)
         played = which if len(levels) == 1 else f"{len(levels)} levels"
         name = self.run.plan.algorithm_name
-        return f"unit {self.trial.index} ({name}, seed {self.trial.seed}, {played})"
+        return f"trial {self.trial.index} ({name}, seed {self.trial.seed}, {played})"
 
 
 class Executor(Protocol):

@@ -1,12 +1,13 @@
 """Fingerprints of a run: hashes of the state that locate where two runs diverge.
 
 The motion of every body is sampled every 16th step and hashed as the run goes on, body by body and
-without ever beginning anew; so are the images on each topic. Now and then a *mark* is set: what
-the hashes are by then, four bytes each. A difference shows in all marks behind it, so the first
-mark that differs says between which steps, and in what, two runs parted.
+without ever beginning anew; so are the images on each topic. At intervals a *checkpoint* is stored:
+the hashes so far, four bytes each. A difference shows in all later checkpoints, so the first one
+that differs says between which steps, and in what, two runs diverged.
 
-A unit has at most 64 marks: when there are more every second one goes, and the distance doubles.
-That costs a third of a microsecond a step and a few kilobytes a unit, however long the unit is.
+A trial has at most 64 checkpoints: when there are more every second one is dropped, and the
+distance doubles. That costs a third of a microsecond a step and a few kilobytes a trial, however
+long the trial is.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ BLOCK = 4
 """Samples that are hashed at a time."""
 MAX_CHECKPOINTS = 64
 BYTES = 4
-"""Of each hash in a mark."""
+"""Of each hash in a checkpoint."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,9 +35,9 @@ class Checkpoints:
     """The checkpoints of one trial."""
 
     every: int
-    """Steps from one mark to the next."""
+    """Steps from one checkpoint to the next."""
     n_steps: int
-    """Steps of the whole unit; the last mark was set at its end."""
+    """Steps of the whole trial; the last checkpoint is at its end."""
     parts: tuple[str, ...]
     """What is hashed: bodies, then topics of images."""
     marks: tuple[str, ...]

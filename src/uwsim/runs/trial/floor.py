@@ -112,7 +112,7 @@ def _corners_of(spec: EuclideanNormSpec) -> CornersFromCameraSpec | None:
 
 
 def largest(facts: Iterable[Mapping[str, list[Any]]]) -> dict[str, list[Any]]:
-    """Put together the floors of several units: the largest of each."""
+    """Put together the floors of several trials: the largest of each."""
     found: dict[str, list[Any]] = {}
     for each in facts:
         for name, fact in each.items():

@@ -36,7 +36,7 @@ class LevelRow:
     log_headers: dict[str, tuple[str, ...]]
     """Measure -> columns of its samples after the time, with units."""
     fingerprint: str
-    """Of every body's motion and of every image, since the unit began (`trace`)."""
+    """Of every body's motion and of every image, since the trial began (`fingerprint`)."""
     snapshots: tuple[Snapshot, ...]
     """The cameras' last images."""
 

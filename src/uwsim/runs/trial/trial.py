@@ -52,14 +52,14 @@ RAMP = 1.0
 
 
 def execute(
-    plan: Plan, unit: Trial, *, pool: RendererPool | None = None, calls: Calls | None = None
+    plan: Plan, trial: Trial, *, pool: RendererPool | None = None, calls: Calls | None = None
 ) -> Iterator[LevelRow | TrialEnd]:
-    """Play a unit; yields a LevelRow as each level ends, and at last the TrialEnd.
+    """Run a trial; yields a LevelRow as each level ends, and at last the TrialEnd.
 
     Args:
         plan: the benchmark to run.
-        unit: one of its units.
-        pool: lends the renderer; without one the unit has a renderer of its own.
+        trial: one of its trials.
+        pool: lends the renderer; without one the trial has a renderer of its own.
         calls: counts those into the algorithm.
 
     Raises:
@@ -67,8 +67,8 @@ def execute(
     """
     simulation = Simulation(
         plan.scene,
-        seed=unit.seed,
-        stream_prefix=unit.stream_prefix,
+        seed=trial.seed,
+        stream_prefix=trial.stream_prefix,
         timestep=plan.timestep,
         data_path=plan.data_path,
         compatibility=plan.compatibility,
@@ -78,7 +78,7 @@ def execute(
     try:
         with (
             attribute_errors_to(plan.plugins, is_running=True),
-            closing(_Execution(plan, unit, simulation, calls or Calls())) as playing,
+            closing(_Execution(plan, trial, simulation, calls or Calls())) as playing,
         ):
             yield from playing.rows()
     finally:
@@ -101,9 +101,9 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
 class _Execution:
     """A trial during its execution."""
 
-    def __init__(self, plan: Plan, unit: Trial, simulation: Simulation, calls: Calls) -> None:
-        self._plan, self._unit, self._simulation = plan, unit, simulation
-        benchmark = benchmark_of_seed(plan.benchmark, unit.seed)
+    def __init__(self, plan: Plan, trial: Trial, simulation: Simulation, calls: Calls) -> None:
+        self._plan, self._trial, self._simulation = plan, trial, simulation
+        benchmark = benchmark_of_seed(plan.benchmark, trial.seed)
         self._updater = benchmark.scene_updater
         self._fingerprinter = Fingerprinter(simulation)
         self._updaters = bind_updaters(self._updater, simulation.world)
@@ -144,8 +144,8 @@ class _Execution:
             target_motion = TargetMotion(simulation, plan)
             floor = Floor(simulation, plan)
         before: Level | None = None
-        for level in self._unit.levels:
-            if self._unit.is_alone:
+        for level in self._trial.levels:
+            if self._trial.is_alone:
                 if floor is not None:
                     floor.start()
                 self._prelude(level)
@@ -258,7 +258,7 @@ class _Execution:
 
     def _step_to(self, level: Level, before: Level | None) -> None:
         """Bring the scene to a level; the first of a sequence is no step."""
-        if before is None and not self._unit.is_alone:
+        if before is None and not self._trial.is_alone:
             begin_level(self._updaters, level)
         else:
             apply_level(self._updaters, level, after=before)
@@ -266,7 +266,7 @@ class _Execution:
     def _begin(self, level: Level, before: Level | None) -> None:
         """Bring the scene to a level, and wait until it may begin."""
         self._step_to(level, before)
-        from_initial = initial_level(self._updater) if self._unit.is_alone else before
+        from_initial = initial_level(self._updater) if self._trial.is_alone else before
         self._live.changed(level, after=from_initial)
         self._triggers.arm()
         if self._wait(f"Level {level} never began"):

@@ -1,7 +1,7 @@
 """Likely mistakes of a scene, each with its line and how a file accepts it.
 
 `uwsim check` says it, and `uwsim bench` and `uwsim render` before anything moves. All are warnings:
-no run is refused for them. `uwsim.scene.doubts` has their names.
+no run is refused for them. `uwsim.scene.plausibility` has their names.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Literal
 
 from ...errors import Diagnostic, UwsimError
 from ...physics.hydrodynamics.spec import VehicleHydrodynamics
-from ...scene.doubts import VehicleDoubt, unless_meant
+from ...scene.plausibility import VehicleWarning, unless_meant
 from ...scene.reader import angle_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf import RobotSpec
@@ -21,9 +21,9 @@ from ..bodies import read_robots
 from ..dynamics import read_dynamics
 from ..hull import hull_of
 from .scene_lines import SceneLines
-from .start_doubts import Starts
+from .start_plausibility import Starts
 from .thrust_warnings import thrust_said
-from .vehicle_doubts import OF_SIMULATED, candidate_of, size_said
+from .vehicle_plausibility import OF_SIMULATED, candidate_of, size_said
 
 MAX_VEHICLES = 50
 """Number of vehicles of a scene that are checked."""
@@ -31,7 +31,7 @@ MAX_LOOSE = 200
 """Number of free objects that are checked."""
 
 
-def doubts_about(
+def plausibility_warnings(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
     dynamics: Mapping[int, VehicleHydrodynamics],
@@ -50,9 +50,9 @@ def doubts_about(
     found = []
     for index in vehicles:
         vehicle = scene.vehicles[index]
-        for doubt, child, text in _of_vehicle(scene, index, robots, dynamics, data_path):
-            if text and doubt not in vehicle.accepts:
-                message = f"the vehicle {vehicle.name!r}: {text}. {unless_meant(doubt)}"
+        for warning, child, text in _of_vehicle(scene, index, robots, dynamics, data_path):
+            if text and warning not in vehicle.accepts:
+                message = f"the vehicle {vehicle.name!r}: {text}. {unless_meant(warning)}"
                 found.append(lines.diagnostic(message, "vehicle", index, child, severity="warning"))
     for kind, index, text in _of_starts(scene, vehicles, robots, data_path):
         name = (scene.vehicles if kind == "vehicle" else scene.objects)[index].name
@@ -66,7 +66,7 @@ def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnosti
     """Report every likely mistake of a scene that is not open, those of its angles included."""
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(scene, robots, data_path)
-    return [*angle_warnings(scene), *doubts_about(scene, robots, dynamics, data_path)]
+    return [*angle_warnings(scene), *plausibility_warnings(scene, robots, dynamics, data_path)]
 
 
 def _of_vehicle(
@@ -75,7 +75,7 @@ def _of_vehicle(
     robots: Mapping[int, RobotSpec],
     dynamics: Mapping[int, VehicleHydrodynamics],
     data_path: tuple[Path, ...],
-) -> Iterator[tuple[VehicleDoubt, str, str]]:
+) -> Iterator[tuple[VehicleWarning, str, str]]:
     """Each check of a vehicle: its name, the element concerned, and a message or nothing."""
     hull = None
     with suppress(UwsimError):  # reported where models are checked
@@ -84,8 +84,8 @@ def _of_vehicle(
         yield "size", "file", size_said(hull, robots[index])
     if index in dynamics:
         one = candidate_of(scene, index, robots[index], dynamics[index], hull)
-        for doubt, say in OF_SIMULATED.items():
-            yield doubt, "u:dynamics", say(one)
+        for warning, say in OF_SIMULATED.items():
+            yield warning, "u:dynamics", say(one)
         yield "thrust", "u:dynamics", thrust_said(scene, index, robots[index], dynamics[index])
 
 

@@ -14,7 +14,7 @@ from ..bodies import find_robot
 from ..collision_shapes import collision_shapes, simulated_solids
 from ..dynamics import Search
 from ..floor import set_on_floor
-from .plausibility import doubts_about
+from .plausibility import plausibility_warnings
 from .scene_lines import SceneLines
 
 
@@ -32,7 +32,7 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
     search = Search(scene, robots, data_path, is_thorough=True)
     found = search.found
     if not any(diagnostic.severity == "error" for diagnostic in found):
-        found += doubts_about(scene, robots, search.dynamics, data_path)
+        found += plausibility_warnings(scene, robots, search.dynamics, data_path)
     try:
         set_on_floor(scene, robots, data_path)
     except SceneError as error:

@@ -13,7 +13,7 @@ MAX_BYTES = 256 * 2**20
 """So much they may hold together."""
 
 
-class Outbox:
+class UndeliveredMessages:
     """Number and size of an algorithm's published messages that are not delivered yet."""
 
     def __init__(self) -> None:

@@ -17,8 +17,8 @@ from ...physics.actuation.allocation import curve, thrusters_on_base
 from ...physics.balance import Balance, balance_of
 from ...physics.compile import MIN_INERTIA
 from ...physics.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
-from ...scene.doubts import VehicleDoubt
 from ...scene.kinematics import link_poses
+from ...scene.plausibility import VehicleWarning
 from ...scene.spec import SceneSpec
 from ...scene.urdf import LinkSpec, RobotSpec
 from ...world import TIMESTEP
@@ -232,7 +232,7 @@ def _list(values: object) -> str:
     return " ".join(f"{value:.3g}" for value in np.asarray(values).tolist())
 
 
-OF_SIMULATED: Mapping[VehicleDoubt, Callable[[Candidate], str]] = {
+OF_SIMULATED: Mapping[VehicleWarning, Callable[[Candidate], str]] = {
     "buoyancy": buoyancy_said,
     "balance": balance_said,
     "places": places_said,

@@ -10,15 +10,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal
 
-VehicleDoubt = Literal[
+VehicleWarning = Literal[
     "balance", "buoyancy", "drag", "inertia", "passable", "places", "size", "start", "strength",
     "thrust",
 ]  # fmt: skip
 """Warnings about a vehicle."""
-ObjectDoubt = Literal["start"]
+ObjectWarning = Literal["start"]
 """Warnings about an object."""
 
-DOUBTS: Mapping[VehicleDoubt, str] = {
+PLAUSIBILITY_WARNINGS: Mapping[VehicleWarning, str] = {
     "balance": "Its centre of buoyancy lies below its centre of mass as it begins: it turns over.",
     "buoyancy": "What it displaces is far from its mass, or more than its shape has room for.",
     "drag": "A link has more drag than its mass bears in one step, or drag and no mass at all.",
@@ -30,9 +30,9 @@ DOUBTS: Mapping[VehicleDoubt, str] = {
     "strength": "A thruster would accelerate it by more than 50 m/s2.",
     "thrust": "Its thrusters cannot drive surge, sway, heave and yaw.",
 }
-"""Doubt -> when it is raised."""
+"""Name of the warning -> when it is raised."""
 
 
-def unless_meant(doubt: VehicleDoubt) -> str:
+def unless_meant(warning: VehicleWarning) -> str:
     """Describe how a file accepts a value that is intended."""
-    return f"If that is meant: <u:accept>{doubt}</u:accept>"
+    return f"If that is meant: <u:accept>{warning}</u:accept>"
