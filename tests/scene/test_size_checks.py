@@ -1,4 +1,4 @@
-"""Images and fans of beams have a largest size, which a scene file is held to when it is read."""
+"""Images, fans of beams and sonars have a largest size, to which a scene file is held."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from uwsim.scene.reader import read_scene
 def diagnostics(cameras: str, folder: Path) -> list[str]:
     path = folder / "scene.xml"
     path.write_text(
-        "<UWSimScene>\n<vehicle><name>v</name><file>g500ARM5.urdf</file>"
+        "<UWSimScene xmlns:u='urn:uwsim:1'>\n<vehicle><name>v</name><file>g500ARM5.urdf</file>"
         f"{cameras}</vehicle></UWSimScene>"
     )
     try:
@@ -66,3 +66,30 @@ def test_a_fan_of_beams_has_a_largest_number(kind: str, tmp_path: Path) -> None:
     for step in ("1e-9", "5e-324"):
         (said,) = diagnostics(sonar(step, kind), tmp_path)
         assert said.endswith("are more than 100000 beams")
+
+
+def imaging(kind: str, **fields: object) -> str:
+    inside = "".join(f"<{name}>{value}</{name}>" for name, value in fields.items())
+    return f"<u:{kind}><name>s</name><relativeTo>part0</relativeTo>{inside}</u:{kind}>"
+
+
+def test_the_first_bin_of_a_sonar_begins_before_the_last_ends(tmp_path: Path) -> None:
+    assert diagnostics(imaging("imagingSonar", range=5, minRange=6), tmp_path) == [
+        "<minRange> is 6; expected less than <range>, 5 m"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields", "said"),
+    [
+        ("imagingSonar", {"bins": 9000, "beams": 4096}, "9000 bins of 4096 beams or pings"),
+        ("scanningSonar", {"bins": 9000, "angleIncr": 0.05}, "9000 bins of 7200 beams or pings"),
+        ("sideScanSonar", {"bins": 9000, "lines": 9000}, "9000 bins of 18000 beams or pings"),
+        ("imagingSonar", {"bins": 9, "beams": 4096, "rows": 999}, "4096 beams of 999 rows"),
+    ],
+)
+def test_sonars_have_a_largest_size(
+    kind: str, fields: dict[str, object], said: str, tmp_path: Path
+) -> None:
+    (found,) = diagnostics(imaging(kind, **fields), tmp_path)
+    assert found.startswith(f"{said}; at most")

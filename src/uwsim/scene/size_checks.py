@@ -1,4 +1,4 @@
-"""Limits on the sizes of images and fans of beams, which cost memory and time."""
+"""Limits on the sizes of images, fans of beams and sonars, which cost memory and time."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ..schema import Diagnostics
 from ..sensors.multibeam_sensor import MultibeamSensorSpec
 from ..sensors.profiling_sonar import ProfilingSonarSpec
+from ..sensors.sonar.spec import SonarSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from .sim_params import SimParamsSpec
@@ -18,12 +19,16 @@ MAX_PIXELS_IN_ALL = 4 * MAX_PIXELS
 """Of all cameras of a scene [px]."""
 MAX_BEAMS = 100_000
 """Most beams of one sensor."""
+MAX_CELLS = 20_000_000
+"""Most bins of all beams of a sonar, or of all pings that it keeps: 80 MB."""
+MAX_RAYS = 1_000_000
+"""Most rays of a ping of a sonar."""
 
 ImageSpec = VirtualCameraSpec | VirtualRangeImageSpec | SimParamsSpec
 
 
 def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Report cameras, windows and fans of beams that are too large."""
+    """Report cameras, windows, fans of beams and sonars that are too large."""
     n_all = 0
     for image in (scene.sim_params, *_cameras(scene)):
         n = image.resw * image.resh
@@ -49,6 +54,24 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
                 f"from {fan.init_angle:g} to {fan.final_angle:g} degrees in steps of "
                 f"{fan.angle_incr:g} are more than {MAX_BEAMS} beams",
             )
+    for sonar in (each for vehicle in scene.vehicles for each in vehicle.parts_of(SonarSpec)):
+        for error in _sonar_errors(sonar):
+            diagnostics.error(diagnostics.node_of(sonar), error)
+
+
+def _sonar_errors(sonar: SonarSpec) -> Iterator[str]:
+    if sonar.min_range >= sonar.range:
+        yield f"<minRange> is {sonar.min_range:g}; expected less than <range>, {sonar.range:g} m"
+    if sonar.n_cells > MAX_CELLS:
+        yield (
+            f"{sonar.bins} bins of {sonar.n_cells // sonar.bins} beams or pings; at most "
+            f"{MAX_CELLS / 1e6:.0f} million are kept in all"
+        )
+    if sonar.n_rays > MAX_RAYS:
+        yield (
+            f"{sonar.n_rays // sonar.rows} beams of {sonar.rows} rows; at most "
+            f"{MAX_RAYS / 1e6:.0f} million rays are cast in a ping"
+        )
 
 
 def _cameras(scene: SceneSpec) -> Iterator[VirtualCameraSpec | VirtualRangeImageSpec]:

@@ -43,6 +43,16 @@ class ImagingSonarSpec(SonarSpec):
     """Beams side by side."""
 
     @property
+    def n_cells(self) -> int:
+        """Bins of all beams."""
+        return self.bins * self.beams
+
+    @property
+    def n_rays(self) -> int:
+        """Rays of a ping, but for those beside the outermost beams."""
+        return self.rows * self.beams
+
+    @property
     def azimuths(self) -> Array:
         """Of the beams from starboard to port, positive to port, (n,) [rad]."""
         half = 0.5 * math.radians(self.horizontal_aperture)

@@ -44,15 +44,25 @@ class ScanningSonarSpec(SonarSpec):
     """Azimuth of the first ping, positive to port [deg]."""
     final_angle: float = element(default=180.0, minimum=-360, maximum=360)
     """Azimuth at which it turns back [deg]; 360 from the first it goes on round."""
-    angle_incr: float = element(default=1.8, above=0, maximum=180)
+    angle_incr: float = element(default=1.8, minimum=0.001, maximum=180)
     """Step of the head from ping to ping [deg]."""
+
+    @property
+    def n_pings(self) -> int:
+        """Pings of a scan."""
+        n_steps = round(abs(self.final_angle - self.init_angle) / self.angle_incr)
+        return max(1, n_steps + (not self.is_round))
+
+    @property
+    def n_cells(self) -> int:
+        """Bins of all pings of a scan."""
+        return self.bins * self.n_pings
 
     @property
     def azimuths(self) -> Array:
         """Of the pings of a scan, positive to port, (n,) [rad]."""
         way = self.final_angle - self.init_angle
-        number = max(1, round(abs(way) / self.angle_incr) + (not self.is_round))
-        steps = math.copysign(self.angle_incr, way) * np.arange(number)
+        steps = math.copysign(self.angle_incr, way) * np.arange(self.n_pings)
         found: Array = np.radians(self.init_angle + steps)
         return found
 

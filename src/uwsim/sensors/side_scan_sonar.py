@@ -54,6 +54,11 @@ class SideScanSonarSpec(SonarSpec):
     lines: int = element(default=400, minimum=1, maximum=10000)
     """Pings in the waterfall."""
 
+    @property
+    def n_cells(self) -> int:
+        """Bins of all pings of the waterfall."""
+        return 2 * self.bins * self.lines
+
     def bind(self, world: SensorWorld, vehicle: Carrier) -> SideScanSonar:
         """Mount it on its link; raises UnknownName if the vehicle has no such link."""
         random = world.stream(f"{vehicle.name}/{self.name}/noise")

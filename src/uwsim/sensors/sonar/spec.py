@@ -52,3 +52,13 @@ class SonarSpec(SensorSpec):
     """Target strength that is black in images [dB re 1 m2]."""
     image_range: float = element(default=50.0, above=0, maximum=300)
     """From black to white in images [dB]."""
+
+    @property
+    def n_cells(self) -> int:
+        """Bins of all beams, or of all pings that it keeps."""
+        return self.bins
+
+    @property
+    def n_rays(self) -> int:
+        """Rays of a ping, but for those beside the outermost beams."""
+        return self.rows
