@@ -45,6 +45,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "world": BASE,
     "vehicle": BASE,
     "statistics": GROUND | {"statistics"},
+    "recording": BASE | {"recording"},
     "currents": BASE | {"currents"},
     "sensors": BASE | {"sensors", "devices"},
     "devices": BASE | {"sensors", "devices"},
@@ -64,7 +65,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "__main__": {"cli", "interrupts"},
-    "cli": TASKS | ENGINES | {"runs", "analysis", "envelope", "verify", "cli"},
+    "cli": TASKS | ENGINES | {"runs", "analysis", "envelope", "verify", "recording", "cli"},
     "reference": PARTS | {"algorithms", "benchmark", "runs", "cli", "reference"},
 }
 MAY_IMPORT["api"] = MAY_IMPORT["cli"]

@@ -150,6 +150,7 @@ class Bus:
         self._due_later: list[tuple[int, int, str, object]] = []
         self._posted = 0
         self._withheld: set[str] = set()
+        self._observers: list[Callable[[str, type], None]] = []
         self.step = 0
         """The current step; set by the owner of the clock."""
 
@@ -179,6 +180,22 @@ class Bus:
                 entry.readers.remove(callback)
                 if check is not None:
                     entry.checks.remove(check)
+
+        return stop
+
+    def observe(self, appeared: Callable[[str, type], None]) -> Callable[[], None]:
+        """Call ``appeared(topic, type)`` for every topic, now and when a new one comes.
+
+        Returns the way to stop it. The topic has no leading slash.
+        """
+        self._observers.append(appeared)
+        for name in sorted(self._topics):
+            if (known := self._topics[name].type) is not None:
+                appeared(name, known)
+
+        def stop() -> None:
+            if appeared in self._observers:
+                self._observers.remove(appeared)
 
         return stop
 
@@ -361,6 +378,8 @@ class Bus:
             return entry
         if entry.type is None:
             entry.type = type
+            for appeared in list(self._observers):
+                appeared(_without_slash(topic), type)
         elif entry.type is not type:
             raise BadSetting(
                 f"Topic {topic!r} carries {_type_name(entry.type)}, {_but_not(entry.type, type)}.",

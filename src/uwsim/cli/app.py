@@ -102,6 +102,15 @@ COMMANDS: dict[str, Command] = {
         summary="Draw the report and the plots of a result again.",
         examples=("uwsim report visibility.result",),
     ),
+    "run": Command(
+        module="run",
+        function="run",
+        summary="Run a scene for a time: topics, rates, a recording, your program.",
+        examples=(
+            "uwsim run cirs --for 10s --hz",
+            "uwsim run my-scene.xml --program my_controller.py --for 1min --record dive.mcap",
+        ),
+    ),
     "verify": Command(
         module="verify",
         function="verify",
@@ -117,6 +126,7 @@ FIRST_STEPS = """\b
 First steps:
   $ uwsim list benchmarks
   $ uwsim info visibility-scene
+  $ uwsim run cirs --for 5s --hz
   $ uwsim bench visibility --seed 1
   $ uwsim COMMAND -h                    what a command does, with examples
 """

@@ -15,6 +15,7 @@ from .sonar import PingInfo, ProjectedSonarImage, SonarImageData
 from .types import (
     Bool,
     CameraInfo,
+    CompressedImage,
     Float32MultiArray,
     Float64,
     Float64MultiArray,
@@ -52,6 +53,7 @@ from .types import (
 __all__ = [
     "Bool",
     "CameraInfo",
+    "CompressedImage",
     "Empty",
     "EmptyResponse",
     "Float32MultiArray",

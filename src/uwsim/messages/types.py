@@ -341,3 +341,12 @@ class PointCloud2(ros.sensor_msgs__msg__PointCloud2):
     row_step: int = 0
     data: np.ndarray[tuple[int, ...], np.dtype[np.uint8]] = field(default_factory=_BYTES_0)
     is_dense: bool = False
+
+
+@dataclass
+class CompressedImage(ros.sensor_msgs__msg__CompressedImage):
+    """An image as the bytes of a PNG or JPEG file."""
+
+    header: Header = field(default_factory=Header)
+    format: str = ""
+    data: np.ndarray[tuple[int, ...], np.dtype[np.uint8]] = field(default_factory=_BYTES_0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,6 +19,7 @@ from .option_values import (
     pairs_of,
 )
 from .plan_request import PlanRequest
+from .program import load_program
 from .stand_ins import warn_of_stand_ins
 from .tables import read_plugins
 
@@ -213,8 +213,6 @@ def algorithm_of(
     Raises:
         BadSetting: none is given, or there is none of that name.
     """
-    from ..algorithms import load_algorithm
-
     if not wanted and spec is not None:
         raise BadSetting(
             f"{spec.path}: the benchmark does not name an algorithm (u:algorithm); "
@@ -222,9 +220,7 @@ def algorithm_of(
         )
     if not wanted or tables is None:
         return None
-    if ":" in wanted and "" not in sys.path and str(Path.cwd()) not in sys.path:
-        sys.path.insert(0, str(Path.cwd()))  # module:Class may be in the current directory
-    return load_algorithm(wanted, tables.algorithms)
+    return load_program(wanted, tables.algorithms)
 
 
 def check_parameters(

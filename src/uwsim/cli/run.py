@@ -1,0 +1,264 @@
+"""``uwsim run``: run a scene for a time, with or without a program of one's own."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from ..errors import AllErrors, BadSetting, RunFailed, did_you_mean
+from ..interrupts import raise_from_now_on
+from ..runs.foreign_code import announce_code, refuse_code
+from ..runs.make_plan import OF_ALGORITHM, check_parameters
+from ..runs.option_values import compatibility_of, number_or_text, pairs_of
+from ..runs.program import load_program
+from ..runs.stand_ins import warn_of_stand_ins
+from ..terminal import print_warnings, warn
+from .completion import algorithm_names, one_of
+from .exit_status import running
+from .options import DataPathOption, JsonOption, NoCodeOption, SceneArgument, SettingOptions
+from .progress import progress
+from .render import scene_of
+from .taught import INPUT, OUTPUT, RUN, in_group
+from .topic_table import print_json, print_topics
+
+if TYPE_CHECKING:
+    from ..bus import Algorithm
+    from ..recording import ImageStorage, Recorder
+    from ..scene.spec import SceneSpec
+    from ..simulation import Simulation
+
+UNITS = {"ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
+DURATION = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*([a-z]*)\s*")
+MAX_DURATION = 1e8
+"""Longest simulation time; longer is taken for a typing error [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProgramOptions:
+    """For how long, and with what program."""
+
+    duration: Annotated[
+        str,
+        in_group(
+            INPUT,
+            "--for",
+            metavar="TIME",
+            help="How long, in simulation time: 10s, 500ms, 2min, 1h.",
+        ),
+    ] = "10s"
+    program: Annotated[
+        str | None,
+        in_group(
+            INPUT,
+            "--program",
+            metavar="FILE.py|module:Class",
+            help="A program of your own: a class with start(node), as of an algorithm "
+            "(FILE.py:Class where the file has several); or a name of `uwsim list algorithms`. "
+            "--set algorithm.NAME=VALUE sets its parameters.",
+            autocompletion=algorithm_names,
+        ),
+    ] = None
+    udp_address: Annotated[
+        str | None,
+        in_group(
+            INPUT,
+            "--udp-address",
+            metavar="ADDRESS",
+            help="Address of this computer at which the element fdm of a vehicle takes UDP "
+            "packets, as 127.0.0.1; such a run is not repeatable.",
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordOptions:
+    """What is written."""
+
+    hz: Annotated[
+        bool,
+        in_group(
+            OUTPUT,
+            "--hz",
+            help="Read every topic, images too, and report number, rate and gaps of its messages.",
+        ),
+    ] = False
+    record: Annotated[
+        Path | None,
+        in_group(
+            OUTPUT,
+            "--record",
+            metavar="FILE.mcap",
+            help="Record every topic as ROS 2 messages; read by ros2 bag, Foxglove, rosbags.",
+        ),
+    ] = None
+    images: Annotated[
+        str,
+        in_group(
+            OUTPUT,
+            "--images",
+            metavar="raw|png|none",
+            help="In the recording: images as they are, as TOPIC/compressed without loss (smaller, "
+            "slower), or none.",
+            autocompletion=one_of(("raw", "png", "none")),
+        ),
+    ] = "raw"
+    overwrite: Annotated[
+        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier recording.")
+    ] = False
+    as_json: JsonOption = False
+
+
+def run(
+    scene: SceneArgument,
+    *,
+    what: ProgramOptions,
+    changes: SettingOptions,
+    seed: Annotated[
+        int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of every random stream.")
+    ] = 0,
+    output: RecordOptions,
+    no_code: NoCodeOption = False,
+    data_path: DataPathOption = None,
+) -> None:
+    """Run a scene for a time, and list its topics; with --hz, how often their messages came.
+
+    Time is simulation time: the scene runs as fast as it can, and waits for your program, whose
+    callbacks take no simulation time. Same files, program and seed: the same messages, and the
+    same bytes of the recording. Without --hz and --record, images that no program reads are not
+    drawn. Ctrl-C ends the run; the recording is complete up to there.
+    """
+    from ..simulation import Simulation
+
+    folders = tuple(data_path or ())
+    wrong = AllErrors()
+    spec = scene_of(scene, folders, settings_of_scene(changes), wrong)
+    with wrong.kept():
+        if spec is not None and no_code:
+            refuse_code(spec)
+    quirks = compatibility_of(changes.compat or [], wrong)
+    wanted = wanted_of(what, output, changes, wrong)
+    wrong.check()
+    assert spec is not None
+    announce_code(spec)
+    warn_of_stand_ins(spec, folders)
+    with Simulation(
+        spec, seed=seed, data_path=folders, compatibility=quirks, udp_address=what.udp_address
+    ) as simulation:
+        print_warnings(simulation.world.warnings)
+        raise_from_now_on()
+        run_and_report(simulation, spec, wanted, output)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wanted:
+    """What the options ask for, checked."""
+
+    duration: float
+    """Simulation time [s]."""
+    program: type[Algorithm] | None
+    """What is attached."""
+    parameters: dict[str, float | str]
+    """Its parameters."""
+    images: ImageStorage
+    """How images are recorded."""
+
+
+def wanted_of(
+    what: ProgramOptions, output: RecordOptions, changes: SettingOptions, wrong: AllErrors
+) -> Wanted:
+    """Check the options; collects their errors."""
+    from ..algorithms import ALGORITHMS
+    from ..recording import check_path, image_storage
+
+    duration, program, images = 0.0, None, image_storage("raw")
+    own = [each for each in changes.settings or () if each.startswith(OF_ALGORITHM)]
+    with wrong.kept():
+        duration = duration_of(what.duration)
+    with wrong.kept():
+        if what.program is not None:
+            program = load_program(what.program, ALGORITHMS)
+        elif own:
+            raise BadSetting(f"--set {own[0]}: there is no --program whose parameter it could be.")
+    parameters = {
+        name.removeprefix(OF_ALGORITHM): number_or_text(value)
+        for name, value in pairs_of(own, wrong)
+    }
+    check_parameters(program, parameters, wrong)
+    with wrong.kept():
+        images = image_storage(output.images)
+    with wrong.kept():
+        if output.record is not None:
+            check_path(output.record, overwrite=output.overwrite)
+    return Wanted(duration=duration, program=program, parameters=parameters, images=images)
+
+
+def settings_of_scene(changes: SettingOptions) -> list[str]:
+    """Return the settings that are not of the program."""
+    return [each for each in changes.settings or () if not each.startswith(OF_ALGORITHM)]
+
+
+def duration_of(text: str) -> float:
+    """Return a time [s] as it is typed: ``10s``, ``2min``, ``0.5``; raises BadSetting."""
+    found = DURATION.fullmatch(text)
+    if found is None:
+        raise BadSetting(f"--for {text!r}: expected a time, as 10s, 500ms, 2min or 1h.")
+    number, unit = float(found[1]), found[2] or "s"
+    if unit not in UNITS:
+        near = did_you_mean(unit, UNITS)
+        raise BadSetting(f"--for {text!r}: expected one of the units {', '.join(UNITS)}.{near}")
+    if not number * UNITS[unit] <= MAX_DURATION:
+        raise BadSetting(f"--for {text!r}: at most {MAX_DURATION:g} s of simulation time.")
+    return number * UNITS[unit]
+
+
+def run_and_report(
+    simulation: Simulation, spec: SceneSpec, wanted: Wanted, output: RecordOptions
+) -> None:
+    """Run, and print what came; also of a run that fails or is interrupted."""
+    from ..recording import Recorder, TopicRates
+
+    node = None
+    if wanted.program is not None:
+        node = simulation.attach(wanted.program(), parameters=wanted.parameters, raises=False)
+        for sentence in node.unconnected():
+            warn(sentence)
+    show = print_json if output.as_json else print_topics
+    with running(), ExitStack() as last, ExitStack() as stack:
+        recorder = None
+        if output.record is not None:
+            recorder = Recorder(simulation.bus, output.record, images=wanted.images)
+            stack.enter_context(recorder)
+            recorder.start(lambda: simulation.time)
+            stack.callback(warn_of_left_out, recorder)
+        rates = TopicRates(
+            simulation.bus,
+            lambda: simulation.time,
+            reads=lambda type: output.hz or (recorder is not None and recorder.reads(type)),
+        )
+        last.callback(lambda: show(spec.path, simulation, rates.rates(), output.record))
+        for _ in pieces(simulation, wanted.duration, Path(spec.path).stem):
+            if node is not None and node.error is not None:
+                raise RunFailed(f"{node.name} {node.how}: {node.error}")
+
+
+def pieces(simulation: Simulation, duration: float, title: str) -> Iterator[None]:
+    """Advance by a second at a time, showing progress."""
+    total = max(1, math.ceil(duration))
+    with progress(title, total, of="s of simulation time") as on_piece:
+        simulation.advance(0.0)
+        yield
+        for i in range(total):
+            simulation.advance(duration * (i + 1) / total - simulation.time)
+            on_piece()
+            yield
+
+
+def warn_of_left_out(recorder: Recorder) -> None:
+    """Name the topics that cannot be recorded."""
+    for topic, type_name in recorder.left_out.items():
+        warn(f"/{topic} is not recorded: {type_name} has no message definition")

@@ -1,0 +1,23 @@
+"""Messages of a running scene on disk, and how often they come.
+
+.. code-block:: python
+
+    with uwsim.load("cirs") as simulation, Recorder(simulation.bus, Path("run.mcap")) as recorder:
+        recorder.start(lambda: simulation.time)
+        simulation.advance(10.0)
+"""
+
+from __future__ import annotations
+
+from .mcap_file import check_path
+from .recorder import ImageStorage, Recorder, image_storage
+from .topic_rates import TopicRate, TopicRates
+
+__all__ = [
+    "ImageStorage",
+    "Recorder",
+    "TopicRate",
+    "TopicRates",
+    "check_path",
+    "image_storage",
+]

@@ -1,0 +1,79 @@
+"""An MCAP file of ROS 2 messages: CDR, with the definition of each type inside.
+
+It is written by rosbags, which writes a folder (a rosbag2); its one file is what is kept. The
+folder lies next to the file until `McapFile.close`, so that a run that is killed loses no disk.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+
+from ..errors import BadSetting
+from ..interrupts import ignoring_interrupts
+from .definitions import definitions
+
+SUFFIX = ".mcap"
+BAG = "recording"
+"""Name of the rosbag2 inside; the same for every file, so that equal runs give equal bytes."""
+
+
+def check_path(path: Path, *, overwrite: bool) -> None:
+    """Refuse a path to which nothing can be recorded; raises BadSetting."""
+    if path.suffix.lower() != SUFFIX:
+        raise BadSetting(f"--record {path}: only {SUFFIX} files are written.")
+    if path.is_dir():
+        raise BadSetting(f"--record {path}: is a folder.")
+    if path.exists() and not overwrite:
+        raise BadSetting(f"--record {path}: exists; --overwrite replaces it.")
+
+
+class McapFile:
+    """Writes messages into one MCAP file, compressed by zstd.
+
+    Args:
+        path: the file; it is there after `close`.
+
+    Raises:
+        OSError: its folder cannot be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self._folder = Path(tempfile.mkdtemp(prefix=f".{path.stem}-", dir=path.parent))
+        self._writer = Writer(
+            self._folder / BAG, version=Writer.VERSION_LATEST, storage_plugin=StoragePlugin.MCAP
+        )
+        self._writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+        self._writer.open()
+        self._channels: dict[str, Any] = {}
+
+    def write(self, topic: str, type_name: str, time: int, message: object) -> None:
+        """Append a message.
+
+        Args:
+            topic: its topic.
+            type_name: ``package/msg/Name``, one of `definitions`.
+            time: when it was delivered, since the simulation began [ns].
+            message: an object with the fields of the type.
+        """
+        store = definitions()
+        data = store.serialize_cdr(message, type_name)
+        with ignoring_interrupts():
+            if topic not in self._channels:
+                self._channels[topic] = self._writer.add_connection(
+                    topic, type_name, typestore=store
+                )
+            self._writer.write(self._channels[topic], time, data)
+
+    def close(self) -> None:
+        """Write the index and put the file in its place."""
+        with ignoring_interrupts():
+            self._writer.close()
+            (self._folder / BAG / f"{BAG}{SUFFIX}").replace(self._path)
+            shutil.rmtree(self._folder, ignore_errors=True)

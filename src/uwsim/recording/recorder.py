@@ -1,0 +1,114 @@
+"""Recording of all topics of a bus into an MCAP file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Literal, Self, get_args
+
+import cv2
+import numpy as np
+
+from ..bus import Bus
+from ..errors import BadSetting, did_you_mean
+from ..messages import CompressedImage, Image, pixels_of
+from ..messages.build import NANOSECONDS
+from .definitions import message_type_name
+from .mcap_file import McapFile
+
+ImageStorage = Literal["raw", "png", "none"]
+"""How images are kept: as they are, as ``TOPIC/compressed`` without loss, or not at all."""
+PNG_ENCODINGS = ("rgb8", "mono8")
+"""Encodings of images that PNG holds as they are; others are kept raw."""
+
+
+def image_storage(text: str) -> ImageStorage:
+    """Return how images are kept, as ``--images`` names it; raises BadSetting."""
+    known: tuple[ImageStorage, ...] = get_args(ImageStorage)
+    for each in known:
+        if text == each:
+            return each
+    near = did_you_mean(text, known)
+    raise BadSetting(f"--images {text!r}: expected one of {', '.join(known)}.{near}")
+
+
+class Recorder:
+    """Writes every message that a bus delivers, from `start` on.
+
+    Args:
+        bus: what is recorded, topics that come later included.
+        path: the ``.mcap`` file.
+        images: how images are kept.
+    """
+
+    def __init__(self, bus: Bus, path: Path, *, images: ImageStorage = "raw") -> None:
+        self._bus = bus
+        self._images = images
+        self._stops: list[Callable[[], None]] = []
+        self._file = McapFile(path)
+        self.n_messages = 0
+        """Messages recorded so far."""
+        self.left_out: dict[str, str] = {}
+        """Topic -> name of its type, of topics whose type has no definition."""
+
+    def start(self, clock: Callable[[], float]) -> None:
+        """Subscribe to every topic; ``clock`` returns the simulation time [s]."""
+
+        def appeared(topic: str, type: type) -> None:
+            if not self.reads(type):
+                return
+            name = message_type_name(type)
+            if name is None:
+                self.left_out[topic] = getattr(type, "__name__", str(type))
+                return
+
+            def receive(message: object) -> None:
+                self._keep(f"/{topic}", name, round(clock() * NANOSECONDS), message)
+
+            self._stops.append(self._bus.subscribe(topic, type, receive))
+
+        self._stops.append(self._bus.observe(appeared))
+
+    def reads(self, type: type) -> bool:
+        """Whether topics of that message type are recorded, if it has a definition."""
+        return type is not Image or self._images != "none"
+
+    def _keep(self, topic: str, name: str, time: int, message: object) -> None:
+        if (
+            self._images == "png"
+            and isinstance(message, Image)
+            and message.encoding in PNG_ENCODINGS
+        ):
+            topic, message = f"{topic}/compressed", as_png(message)
+            name = CompressedImage.__msgtype__
+        self._file.write(topic, name, time, message)
+        self.n_messages += 1
+
+    def close(self) -> None:
+        """Stop, and finish the file."""
+        for stop in self._stops:
+            stop()
+        self._stops.clear()
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def as_png(image: Image) -> CompressedImage:
+    """Return an ``rgb8`` or ``mono8`` image as PNG, without loss."""
+    pixels = pixels_of(image)
+    ordered = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
+    _, packed = cv2.imencode(".png", ordered)
+    return CompressedImage(
+        header=image.header, format=f"{image.encoding}; png compressed", data=packed.reshape(-1)
+    )

@@ -1,0 +1,132 @@
+"""Recordings open in other tools, hold what the bus delivered, and repeat byte for byte."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_typestore
+
+from uwsim import messages
+from uwsim.bus import Bus
+from uwsim.messages import Float64, Image, PingInfo, ProjectedSonarImage, String, image
+from uwsim.recording import ImageStorage, Recorder, TopicRates
+from uwsim.recording.definitions import message_type_name
+
+PIXELS = (np.arange(4 * 5 * 3) * 13 % 256).astype(np.uint8).reshape(4, 5, 3)
+
+
+def record(path: Path, images: ImageStorage = "raw") -> Recorder:
+    """Record three topics, one of which comes later."""
+    bus, now = Bus(), [0.0]
+    numbers = bus.publisher("/depth", Float64)
+    with Recorder(bus, path, images=images) as recorder:
+        recorder.start(lambda: now[0])
+        for step in range(4):
+            now[0] = 0.1 * step
+            numbers(Float64(data=float(step)))
+            if step == 2:
+                bus.publisher("camera", Image)(image(PIXELS, time=now[0], frame_id="bow"))
+                bus.publisher("/sonar", ProjectedSonarImage)(
+                    ProjectedSonarImage(ping_info=PingInfo(frequency=9e5))
+                )
+            bus.deliver()
+    return recorder
+
+
+def read(path: Path) -> list[tuple[str, int, object]]:
+    with AnyReader([path], default_typestore=get_typestore(Stores.EMPTY)) as reader:
+        return [
+            (connection.topic, time, reader.deserialize(data, connection.msgtype))
+            for connection, time, data in reader.messages()
+        ]
+
+
+def test_rosbags_reads_every_message_from_the_definitions_in_the_file(tmp_path: Path) -> None:
+    recorder = record(tmp_path / "run.mcap")
+    found = read(tmp_path / "run.mcap")
+    assert recorder.n_messages == len(found) == 6
+    depths = [(time, m.data) for topic, time, m in found if topic == "/depth"]  # type: ignore[attr-defined]
+    assert depths == [(0, 0.0), (10**8, 1.0), (2 * 10**8, 2.0), (3 * 10**8, 3.0)]
+    by_topic = {topic: message for topic, _, message in found}
+    assert by_topic["/sonar"].ping_info.frequency == 9e5  # type: ignore[attr-defined]
+    assert np.array_equal(by_topic["/camera"].data, PIXELS.reshape(-1))  # type: ignore[attr-defined]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["run.mcap"]
+
+
+def test_mcap_ros2_support_reads_it(tmp_path: Path) -> None:
+    decoder = pytest.importorskip("mcap_ros2.decoder")
+    reader = pytest.importorskip("mcap.reader")
+    record(tmp_path / "run.mcap")
+    with (tmp_path / "run.mcap").open("rb") as stream:
+        decoded = reader.make_reader(
+            stream, decoder_factories=[decoder.DecoderFactory()]
+        ).iter_decoded_messages()
+        found = {channel.topic: message for _, channel, _, message in decoded}
+    assert found["/depth"].data == 3.0
+    assert found["/sonar"].ping_info.frequency == 9e5
+
+
+def test_two_recordings_of_the_same_messages_have_the_same_bytes(tmp_path: Path) -> None:
+    record(tmp_path / "one.mcap")
+    record(tmp_path / "other.mcap")
+    digests = {hashlib.sha256(path.read_bytes()).digest() for path in tmp_path.iterdir()}
+    assert len(digests) == 1
+
+
+def test_images_are_kept_as_png_without_loss_or_not_at_all(tmp_path: Path) -> None:
+    record(tmp_path / "png.mcap", "png")
+    by_topic = {topic: message for topic, _, message in read(tmp_path / "png.mcap")}
+    packed = by_topic["/camera/compressed"]
+    back = cv2.imdecode(packed.data, cv2.IMREAD_COLOR)[..., ::-1]  # type: ignore[attr-defined]
+    assert np.array_equal(back, PIXELS)
+    assert packed.header.frame_id == "bow"  # type: ignore[attr-defined]
+    record(tmp_path / "none.mcap", "none")
+    assert {topic for topic, _, _ in read(tmp_path / "none.mcap")} == {"/depth", "/sonar"}
+
+
+def test_without_images_nothing_subscribes_to_them(tmp_path: Path) -> None:
+    bus = Bus()
+    bus.publisher("camera", Image)
+    with Recorder(bus, tmp_path / "run.mcap", images="none") as recorder:
+        recorder.start(lambda: 0.0)
+        assert not bus.has_readers("camera")
+
+
+def test_a_type_without_a_definition_is_left_out_and_named(tmp_path: Path) -> None:
+    class Own:
+        """A message class that ROS does not know."""
+
+    bus = Bus()
+    bus.publisher("own", Own)
+    bus.publisher("text", String)
+    with Recorder(bus, tmp_path / "run.mcap") as recorder:
+        recorder.start(lambda: 0.0)
+    assert recorder.left_out == {"own": "Own"}
+
+
+def test_every_message_class_of_uwsim_has_a_definition() -> None:
+    kinds = [getattr(messages, name) for name in messages.__all__]
+    types = [kind for kind in kinds if "/msg/" in getattr(kind, "__msgtype__", "")]
+    assert len(types) > 30
+    assert [kind for kind in types if message_type_name(kind) is None] == []
+
+
+def test_rates_count_the_messages_of_every_topic() -> None:
+    bus, now = Bus(), [0.0]
+    rates = TopicRates(bus, lambda: now[0])
+    publish = bus.publisher("/depth", Float64)
+    bus.subscribe("/thrust", Float64, lambda message: None)
+    for now[0] in (0.0, 0.1, 0.3):
+        publish(Float64())
+        bus.deliver()
+    depth, thrust = rates.rates()
+    assert (depth.topic, depth.n_messages, depth.is_published) == ("/depth", 3, True)
+    assert depth.rate == pytest.approx(2 / 0.3)
+    assert (depth.min_gap, depth.max_gap) == (pytest.approx(0.1), pytest.approx(0.2))
+    assert depth.std_gap == pytest.approx(0.05)
+    assert (thrust.n_messages, thrust.rate, thrust.is_published) == (0, None, False)
