@@ -183,10 +183,10 @@ class Stage(World, Protocol):
     def ned_origin(self) -> Geodetic:
         """Where on Earth the origin of W is."""
 
-    def datagrams(self, port: int) -> Callable[[], Sequence[bytes]]:
+    def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
         """Return what returns the UDP packets that have come to a port since its last call.
 
-        There are none where the simulation takes none.
+        None where the simulation takes none.
         """
 
     @property

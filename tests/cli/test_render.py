@@ -120,7 +120,11 @@ def test_a_scene_without_any_camera_is_seen_from_where_all_of_its_vehicle_is(
     assert np.count_nonzero(ids) > 0.1 * ids.size
 
 
-@pytest.mark.parametrize("path", SCENES, ids=lambda path: f"{path.parents[1].name}-{path.stem}")
+ALONE = [path for path in SCENES if path.read_text().count("<vehicle>") == 1]
+"""Scenes with one vehicle: two of them may be too far apart to be seen in one view."""
+
+
+@pytest.mark.parametrize("path", ALONE, ids=lambda path: f"{path.parents[1].name}-{path.stem}")
 @pytest.mark.parametrize("view", ["orbit", "top"])
 def test_every_bundled_and_original_scene_shows_all_of_its_vehicle(
     path: Path, view: str, tmp_path: Path
@@ -128,7 +132,7 @@ def test_every_bundled_and_original_scene_shows_all_of_its_vehicle(
     draw(path, tmp_path / "a.png", "--view", view, "--size", "160x120", "--segmentation")
     ids = np.asarray(Image.open(tmp_path / "a-ids.png"))
     with (tmp_path / "a-ids.csv").open() as file:
-        rows = [row for row in csv.DictReader(file) if row["name"].startswith("girona500/")]
+        rows = [row for row in csv.DictReader(file) if "/" in row["name"]]  # vehicle/link
     own = np.isin(ids, [int(row["id"]) for row in rows])
     frame = np.concatenate([own[0], own[-1], own[:, 0], own[:, -1]])
     assert own.mean() > 0.01

@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from uwsim.assets.bundled import scene_file
 from uwsim.bus import Bus
 from uwsim.devices.tf import HeardFrames, TfSpec
 from uwsim.messages import Quaternion, TFMessage, Transform, TransformStamped, Vector3, header
+from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SimParamsSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
@@ -90,3 +92,19 @@ def test_a_transform_that_is_none_is_left_out() -> None:
     pose = found.find("a")
     assert pose is not None
     assert pose.position.tolist() == [1.0, 0.0, 0.0]
+
+
+def test_a_vehicle_in_water_follows_the_same_in_steps_taken_one_by_one(tmp_path: Path) -> None:
+    def end(*, at_once: bool) -> np.ndarray:
+        scene = read_scene(scene_file("currents-scene", ())).nominal
+        vehicle = replace(scene.vehicles[0], parts=(), tf=TfSpec(tf_id="leader"))
+        with Simulation(replace(scene, vehicles=(vehicle,), ros_interfaces=())) as simulation:
+            x, y, z = vehicle.position
+            leader = frame("world", "leader", x + 0.5, y, z)
+            simulation.publish("/tf", TFMessage(transforms=[leader]))
+            for _ in range(1 if at_once else 250):
+                simulation.advance(0.5 if at_once else 0.002)
+            return simulation.pose("girona500").position
+
+    moved = end(at_once=True)
+    assert np.array_equal(moved, end(at_once=False))

@@ -89,7 +89,8 @@ class FdmInput(Device):
 
     Args:
         vehicle: the vehicle.
-        receive: returns the packets that have come since the last call, oldest first.
+        receive: returns the packets that have come since the last call, oldest first; None: the
+            simulation takes none.
         origin: where north, east and down count from.
         frames: what has been on ``/tf``.
         world_from_localized: W from L.
@@ -100,7 +101,7 @@ class FdmInput(Device):
     def __init__(
         self,
         vehicle: Vehicle,
-        receive: Callable[[], Sequence[bytes]],
+        receive: Callable[[], Sequence[bytes]] | None,
         origin: Geodetic,
         frames: HeardFrames,
         world_from_localized: Pose,
@@ -110,8 +111,14 @@ class FdmInput(Device):
         self.n_taken, self.n_dropped = 0, 0
         """Packets that could be read, and those that could not."""
 
+    def rests_until(self, time: float) -> float:
+        """Return when it looks for packets again: at the next step, or never."""
+        return math.inf if self._receive is None else time
+
     def step(self, time: float) -> None:
         """Take the packets that have come since the last step."""
+        if self._receive is None:
+            return
         poses = [read_packet(data, self._origin) for data in self._receive()]
         sound = [pose for pose in poses if pose is not None]
         self.n_taken += len(sound)

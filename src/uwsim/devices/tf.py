@@ -11,6 +11,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -114,6 +115,10 @@ class TfFollower(Device):
         self._frame_from_vehicle = frame_from_vehicle
         self._world_from_localized = world_from_localized
         self._n_followed = 0
+
+    def rests_until(self, time: float) -> float:
+        """Return inf: it does something only where a message has been delivered."""
+        return math.inf
 
     def step(self, time: float) -> None:
         """Follow what has come since the last step."""

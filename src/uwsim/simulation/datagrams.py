@@ -24,14 +24,14 @@ class Datagrams:
         self._address = address
         self._sockets: list[socket.socket] = []
 
-    def open(self, port: int) -> Callable[[], Sequence[bytes]]:
-        """Return what returns the packets that have come to a port since its last call.
+    def open(self, port: int) -> Callable[[], Sequence[bytes]] | None:
+        """Return what returns the packets that have come to a port since its last call, or None.
 
         Raises:
             UwsimError: the port is not free, or the address is not one of this computer.
         """
         if self._address is None:
-            return tuple
+            return None
         found = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
             found.setblocking(False)

@@ -114,7 +114,7 @@ class SceneStage(SceneWorld):
         origin = self.scene.ned_origin or NedOriginSpec()
         return Geodetic(latitude=math.radians(origin.lat), longitude=math.radians(origin.lon))
 
-    def datagrams(self, port: int) -> Callable[[], Sequence[bytes]]:
+    def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
         """Return what returns the UDP packets that have come to a port since its last call."""
         return self._datagrams.open(port)
 
