@@ -19,6 +19,7 @@ COMPATIBILITY: dict[str, str] = {
     "current-target": "a benchmark's current moves its target alone, not all that floats",
     "fog-distance": "fog uses the clip-space z of the camera, not the distance along the ray",
     "last-norm": "an estimate of any age is scored; without a new one the last norm is kept",
+    "multibeam-images": "multibeams are depth images: blind to 0.8 m, interpolated between pixels",
     "never-started": "a measure that never started is 0 (positionError 100, collision 1)",
     "path-frame": "to the points of a path the place of its frame in W is added",
     "path-ise": "the ISE of a path is the integral of the error, not of its square",
@@ -36,7 +37,7 @@ COMPATIBILITY: dict[str, str] = {
     "thresholds": "trigger distances are compared squared: onMove 0.447 m, position 0.548 m",
     "time-log": "a time is 0 as long as it runs, in its log and in what is published",
     "unseen": "what is outside an image, or behind the camera, is projected all the same",
-    "visual-frames": "cameras are on the visual frame of their link (scenes before July 2014)",
+    "visual-frames": "cameras and sonars are on the visual frame of their link (before July 2014)",
     "y0": "the camera parameter y0 counts from the bottom edge, but is published as it is",
 }
 """Name -> what the original does. In alphabetical order."""

@@ -91,3 +91,33 @@ def test_its_own_vehicle_hides_nothing_from_inside_but_from_outside() -> None:
     ranges = make(AcousticWorld(floor, hull, foot)).sample(0.0).ranges
     assert ranges[120] == pytest.approx(1.0)
     assert ranges[0] == pytest.approx(10.0)
+
+
+IMAGES = frozenset({"multibeam-images"})
+
+
+@pytest.mark.parametrize("half", [60.0, 80.0])
+def test_the_originals_multibeam_finds_a_floor_between_its_pixels(half: float) -> None:
+    """One camera up to 120 degrees: depth is the same everywhere; two beyond, interpolated."""
+    world = AcousticWorld(plate(100.0, -2.0), compatibility=IMAGES)
+    message = make(world, init_angle=-half, final_angle=half).sample(0.0)
+    angles = message.angle_min + message.angle_increment * np.arange(len(message.ranges))
+    expected = np.minimum(2.0 / np.cos(angles), 30.0)
+    np.testing.assert_allclose(message.ranges, expected, rtol=1e-6 if half == 60.0 else 0.03)
+
+
+def test_the_originals_multibeam_is_blind_to_what_is_near() -> None:
+    foot = box((-0.1, -0.1, -0.6), (0.1, 0.1, -0.4))
+    original = AcousticWorld(plate(100.0, -5.0), foot, compatibility=IMAGES)
+    assert make(original).sample(0.0).ranges[120] == pytest.approx(5.0)
+    assert make(AcousticWorld(plate(100.0, -5.0), foot)).sample(0.0).ranges[120] == pytest.approx(
+        0.4
+    )
+
+
+def test_an_edge_is_smeared_between_two_pixels_of_the_original() -> None:
+    """The depth between a pixel on the top of a wall and one on the floor behind is of neither."""
+    wall = box((-1.0, 3.0, -4.9), (1.0, 3.2, -3.0))
+    smeared = make(AcousticWorld(plate(100.0, -5.0), wall, compatibility=IMAGES)).sample(0.0)
+    exact = make(AcousticWorld(plate(100.0, -5.0), wall)).sample(0.0)
+    assert np.abs(smeared.ranges - exact.ranges).max() > 0.3

@@ -25,6 +25,7 @@ from ..geometry import Array
 from ..messages import LaserScan, header
 from ..schema import MAX_DISTANCE, element
 from ..world import Body, SensorWorld
+from .multibeam_images import DepthImages
 from .pencil import pencil
 from .sensor import SCAN_AXES, Carrier, LookAt, SensorSpec
 
@@ -61,6 +62,11 @@ class FanSpec(SensorSpec):
     """Noise of each range, standard deviation [m]."""
 
     @property
+    def camera_field(self) -> float:
+        """The original's cameras see so much at most [deg]."""
+        return 120.0
+
+    @property
     def n_beams(self) -> int:
         """Number of beams, as the original counts them."""
         return int(abs(self.final_angle - self.init_angle) / self.angle_incr) + 1
@@ -92,11 +98,15 @@ class BeamFan:
         sign = 1.0 if spec.final_angle >= spec.init_angle else -1.0
         self._first = math.radians(spec.init_angle)
         self._step = sign * math.radians(spec.angle_incr)
-        angles = self._first + self._step * np.arange(spec.n_beams)
+        angles: Array = self._first + self._step * np.arange(spec.n_beams, dtype=np.float64)
         axes = np.stack([np.zeros(len(angles)), np.sin(angles), -np.cos(angles)], axis=1)
         beside = np.broadcast_to([1.0, 0.0, 0.0], axes.shape)
         rays, self._weights = pencil(axes, beside, math.radians(spec.beam_width))
         self._rays = np.ascontiguousarray(rays.reshape(-1, 3))
+        self._images: DepthImages | None = None
+        if "multibeam-images" in world.compatibility:
+            field = math.radians(spec.camera_field)
+            self._images = DepthImages(angles, self._step, field, spec.range)
 
     def sample(self, time: float) -> LaserScan:
         """Measure now, at ``time`` [s]."""
@@ -118,6 +128,9 @@ class BeamFan:
     def _ranges(self) -> Array:
         """Without noise, (n,) [m]; that of the sensor where nothing is hit."""
         reach = self._spec.range
+        if self._images is not None:
+            found = self._images.ranges(self._world.rays, self._mount.world_from_body)
+            return np.minimum(found, reach)
         hits = self._world.rays.cast(self._mount.world_from_body, self._rays, reach)
         distances = hits.distance.reshape(-1, len(self._weights))
         if len(self._weights) == 1:

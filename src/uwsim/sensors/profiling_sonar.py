@@ -25,3 +25,8 @@ class ProfilingSonarSpec(FanSpec):
 
     fov: float = element(above=0)
     """Of each of the original's depth cameras [deg]; rays need none."""
+
+    @property
+    def camera_field(self) -> float:
+        """The original's cameras see so much at most [deg]."""
+        return self.fov
