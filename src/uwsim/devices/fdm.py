@@ -124,7 +124,8 @@ class FdmInput(Device):
         self.n_taken += len(sound)
         self.n_dropped += len(poses) - len(sound)
         if sound:
-            go_or_place(self._vehicle, self._world_from_ned() @ sound[-1])
+            ned_from_vehicle = sound[-1]
+            go_or_place(self._vehicle, self._world_from_ned() @ ned_from_vehicle)
 
     def _world_from_ned(self) -> Pose:
         localized_from_ned = self._frames.find(NED_FRAME)
