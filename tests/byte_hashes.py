@@ -11,10 +11,13 @@ from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
 
+from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, plate, sphere
 from tests.short_benchmark import fingerprint, run, write_benchmark
 from uwsim.assets.model_cache import _make
 from uwsim.assets.stand_ins import STAND_INS
 from uwsim.expression import parse
+from uwsim.geometry import Pose
+from uwsim.sensors.imaging_sonar import ImagingSonarSpec
 
 TRACKERS = ("ecc", "esm", "orb")
 MODELS = (
@@ -39,6 +42,16 @@ def models() -> Iterator[tuple[str, str]]:
         yield name, _make(name).sha256
 
 
+def echoes() -> str:
+    """A ping of an imaging sonar over a floor with a ball on it, and its image."""
+    ball = sphere((5.0, 1.0, -2.5), 0.5, n=24)
+    world = AcousticWorld(plate(30.0, -3.0), ball, surface_height=4.0)
+    spec = ImagingSonarSpec(name="fls", relative_to="base", beams=64, bins=200, multipath=True)
+    sonar = spec.bind(world, FakeCarrier(Pose.from_rpy((0.0, 0.0, 0.0), (0.1, 0.4, 0.2))))  # type: ignore[arg-type]
+    heard = sonar.sample(0.0).image.data.tobytes() + sonar.image(0.0).data.tobytes()
+    return hashlib.sha256(heard).hexdigest()
+
+
 def scores() -> str:
     text = "exp(a)+ln(b)+a^b+atan2(a,b)+tanh(a)+tan(b)+acos(a)+sinh(b)+log2(b)+asinh(b)"
     expression = parse(text, ["a", "b"])
@@ -47,7 +60,7 @@ def scores() -> str:
 
 
 def hashes(folder: Path) -> dict[str, str]:
-    found = {**dict(models()), "scores": scores()}
+    found = {**dict(models()), "scores": scores(), "echoes": echoes()}
     fog = write_benchmark(folder, "0.5")
     for tracker in TRACKERS:
         found[tracker] = played(folder, fog, tracker, "fog=0.4")

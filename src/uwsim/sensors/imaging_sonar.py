@@ -93,10 +93,6 @@ class ImagingSonar:
             time=time,
         )
 
-    def skip(self) -> None:
-        """Draw the random numbers of an unread ping without computing it."""
-        self._random.integers(2**63)
-
     def image(self, time: float) -> Image:
         """The last ping as a fan, ahead is up, stamped ``time`` [s]."""
         losses = self._echoes.losses(self._mount.world_from_body)
