@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .geometry import Array
-from .linear import turned_back
+from .linear import turned, turned_back
 
 SEMI_MAJOR_AXIS = 6378137.0
 """Of the ellipsoid [m]."""
@@ -72,3 +72,22 @@ class Geodetic:
     def north_east_down(self, place: Geodetic) -> Array:
         """Return where another place is in the local frame of this one, (3,) [m]."""
         return turned_back(self.axes, place.earth_centred - self.earth_centred)
+
+    def place(self, north_east_down: Array) -> Geodetic:
+        """Return the place at these local coordinates (3,) [m]: the inverse of the above.
+
+        By iterating over the latitude; altitudes as Bowring's, Survey Review 28, 1985. Exact to
+        1e-8 m near the ellipsoid.
+        """
+        x, y, z = (self.earth_centred + turned(self.axes, north_east_down)).tolist()
+        e2 = FLATTENING * (2.0 - FLATTENING)
+        level = math.hypot(x, y)
+        latitude = math.atan2(z, level * (1.0 - e2))
+        for _ in range(8):
+            sine = math.sin(latitude)
+            curvature = SEMI_MAJOR_AXIS / math.sqrt(1.0 - e2 * sine * sine)
+            latitude = math.atan2(z + e2 * curvature * sine, level)
+        sine, cosine = math.sin(latitude), math.cos(latitude)
+        root = math.sqrt(1.0 - e2 * sine * sine)
+        altitude = level * cosine + z * sine - SEMI_MAJOR_AXIS * root
+        return Geodetic(latitude=latitude, longitude=math.atan2(y, x), altitude=altitude)

@@ -23,6 +23,8 @@ from .rays import Hits
 
 TIMESTEP = 0.002
 """Default length of a physics step [s]."""
+GRAVITY = 9.81
+"""Acceleration of free fall [m/s2]."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,29 @@ class Body(Protocol):
     @property
     def box(self) -> Box | None:
         """Local bounding box of its meshes; None when it has none."""
+
+
+@dataclass(frozen=True, eq=False)
+class BodyMotion:
+    """How a body moves over ground; in W."""
+
+    velocity: npt.NDArray[np.float64]
+    """Of its origin, (3,) [m/s]."""
+    angular_velocity: npt.NDArray[np.float64]
+    """Of the body, (3,) [rad/s]."""
+    acceleration: npt.NDArray[np.float64]
+    """Of its origin, (3,) [m/s2]."""
+
+
+class MovingBody(Body, Protocol):
+    """A body whose motion can be read."""
+
+    def motion(self, time: float) -> BodyMotion:
+        """Return how it moves at ``time`` [s].
+
+        Of a simulated vehicle that is the engine's; of another one it is the mean between this
+        call and the one before, and 0 at the first.
+        """
 
 
 class Camera(Protocol):
@@ -256,6 +281,14 @@ class SensorWorld(World, Protocol):
     @property
     def surface_height(self) -> float:
         """Height of the water's surface in W [m]."""
+
+    @property
+    def density_levels(self) -> Sequence[tuple[float, float]]:
+        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
+
+    @property
+    def earth_origin(self) -> Geodetic | None:
+        """Where on Earth the origin of W is: x east, y north; None if the scene does not say."""
 
     def render(
         self,

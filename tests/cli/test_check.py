@@ -22,7 +22,7 @@ def status(*words: str) -> int:
 def test_a_file_without_errors_is_status_0(capsys: pytest.CaptureFixture[str]) -> None:
     assert status(str(DATA / "scenes" / "cirs.xml"), str(DATA / "scenes" / "g500ARM5.urdf")) == 0
     said = capsys.readouterr().out
-    assert "read, not simulated yet: imu" in said
+    assert "read, not simulated yet: waves" in said
     assert said.count(": no errors") == 2
 
 

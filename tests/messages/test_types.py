@@ -68,7 +68,11 @@ def test_messages_share_nothing() -> None:
 
 def test_every_message_type_that_is_public_has_defaults() -> None:
     public = {getattr(messages, name) for name in messages.__all__}
-    known = {*CLASSES, messages.PingInfo, messages.SonarImageData, messages.ProjectedSonarImage}
+    known = {
+        *CLASSES,
+        *(messages.PingInfo, messages.SonarImageData, messages.ProjectedSonarImage),
+        *(messages.DVL, messages.Pressure),
+    }
     assert {kind for kind in public if "/msg/" in getattr(kind, "__msgtype__", "")} == known
 
 

@@ -7,9 +7,13 @@ import numpy as np
 from tests.fakes import FakeBody
 from uwsim import rng
 from uwsim.acoustics import MATERIALS, Material, SeaWater
+from uwsim.geodesy import Geodetic
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rays import RayScene, Surface
 from uwsim.sensors.pinhole import cast_depth
+
+WORLD_FROM_NED = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+"""W is east, north, up."""
 
 
 class Materials(RayScene):
@@ -32,6 +36,9 @@ class AcousticWorld:
         self.surface_height = surface_height
         self.compatibility = compatibility
         self.seed = seed
+        self.world_from_localized = Pose(np.zeros(3), WORLD_FROM_NED)
+        self.density_levels: tuple[tuple[float, float], ...] = ((0.0, 1000.0),)
+        self.earth_origin: Geodetic | None = None
 
     def stream(self, name: str) -> np.random.Generator:
         return rng.stream(self.seed, name)

@@ -17,7 +17,7 @@ from uwsim.schema import fields_of
 from uwsim.schema.names import local
 from uwsim.sensors import SENSORS
 from uwsim.sensors.pressure_sensor import PressureSensorSpec
-from uwsim.sensors.sensor import Carrier, measured_by
+from uwsim.sensors.sensor import Carrier, SensorSpec, measured_by
 from uwsim.simulation import Simulation
 from uwsim.topics import INTERFACES, InterfaceSpec, element_of
 from uwsim.topics.sensor_topic import ImuToROSImuSpec, PressureSensorToROSSpec, SensorTopicSpec
@@ -48,13 +48,16 @@ def test_sensors_on_one_interface_measure_the_same() -> None:
             assert len(types) <= 1
 
 
-def test_an_interface_of_a_sensor_that_is_simulated_is_simulated() -> None:
+def test_an_interface_of_a_sensor_that_is_simulated_is_simulated(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     @dataclasses.dataclass(frozen=True, kw_only=True)
     class CameraTopicSpec(SensorTopicSpec):
         sources: ClassVar[tuple[str, ...]] = ("virtualCamera",)
 
     assert CameraTopicSpec.is_simulated()
-    assert not ImuToROSImuSpec.is_simulated()
+    monkeypatch.setitem(SENSORS, "virtualCamera", SensorSpec)
+    assert not CameraTopicSpec.is_simulated()
 
 
 def test_an_interface_knows_its_element() -> None:
@@ -67,7 +70,7 @@ class DepthSpec(PressureSensorSpec):
 
     message_type: ClassVar[type] = Float64
 
-    def bind(self, world: SensorWorld, vehicle: Carrier) -> Depth:
+    def bind(self, world: SensorWorld, vehicle: Carrier) -> Depth:  # type: ignore[override]
         return Depth(vehicle.mount(self))
 
 
@@ -89,6 +92,7 @@ def test_a_sensor_is_published_as_soon_as_its_spec_has_a_bind(
     topic = PressureSensorToROSSpec(name="depth", topic="/depth", rate=100)
     missing = PressureSensorToROSSpec(name="other", topic="/other")
     vehicle = dataclasses.replace(scene.vehicles[0], parts=(sensor,))
+    monkeypatch.setitem(SENSORS, "pressureSensor", SensorSpec)
     assert not topic.is_simulated()
     monkeypatch.setitem(SENSORS, "pressureSensor", DepthSpec)
     assert topic.is_simulated()

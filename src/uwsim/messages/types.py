@@ -350,3 +350,45 @@ class CompressedImage(ros.sensor_msgs__msg__CompressedImage):
     header: Header = field(default_factory=Header)
     format: str = ""
     data: np.ndarray[tuple[int, ...], np.dtype[np.uint8]] = field(default_factory=_BYTES_0)
+
+
+@dataclass
+class Imu(ros.sensor_msgs__msg__Imu):
+    """Attitude, angular velocity [rad/s], specific force [m/s2]; 3x3 covariances by rows."""
+
+    header: Header = field(default_factory=Header)
+    orientation: Quaternion = field(default_factory=Quaternion)
+    orientation_covariance: np.ndarray[tuple[int, ...], np.dtype[np.float64]] = field(
+        default_factory=_ZEROS_9
+    )
+    angular_velocity: Vector3 = field(default_factory=Vector3)
+    angular_velocity_covariance: np.ndarray[tuple[int, ...], np.dtype[np.float64]] = field(
+        default_factory=_ZEROS_9
+    )
+    linear_acceleration: Vector3 = field(default_factory=Vector3)
+    linear_acceleration_covariance: np.ndarray[tuple[int, ...], np.dtype[np.float64]] = field(
+        default_factory=_ZEROS_9
+    )
+
+
+@dataclass
+class NavSatStatus(ros.sensor_msgs__msg__NavSatStatus):
+    """Whether a receiver of satellites knows its position."""
+
+    status: int = 0
+    service: int = 0
+
+
+@dataclass
+class NavSatFix(ros.sensor_msgs__msg__NavSatFix):
+    """Latitude and longitude [deg], altitude [m], and their 3x3 covariance east, north, up [m2]."""
+
+    header: Header = field(default_factory=Header)
+    status: NavSatStatus = field(default_factory=NavSatStatus)  # type: ignore[assignment]
+    latitude: float = 0.0
+    longitude: float = 0.0
+    altitude: float = 0.0
+    position_covariance: np.ndarray[tuple[int, ...], np.dtype[np.float64]] = field(
+        default_factory=_ZEROS_9
+    )
+    position_covariance_type: int = 0

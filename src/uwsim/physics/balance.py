@@ -20,10 +20,8 @@ from ..geometry import Array, Pose
 from ..linear import dot, product
 from ..scene.kinematics import link_poses
 from ..scene.urdf import RobotSpec
+from ..world import GRAVITY
 from .hydrodynamics.spec import VehicleHydrodynamics
-
-GRAVITY = 9.81
-"""[m/s2]"""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -20,6 +20,7 @@ from ..linear import product
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
+from ..world import GRAVITY
 from .engine_warnings import hush
 from .free_objects import loose_hydrodynamics, loose_link
 from .hydrodynamics import (
@@ -35,8 +36,6 @@ from .world_tree import rebuild_world_tree
 MAX_STEP = 0.02
 """Of what is simulated: held in soaks up to 0.01 s, seen to diverge from 0.03 s on; the autopilot
 thinks this often [s]."""
-GRAVITY = 9.81
-"""[m/s2]"""
 MIN_MASS = 0.01
 """Of a link whose URDF gives none [kg]."""
 MIN_INERTIA = 1e-4

@@ -22,6 +22,7 @@ from .compile import compile_scene, vehicle_joint
 from .contacts import EngineContacts, body_name
 from .engine_warnings import StepCheck
 from .hydrodynamics import VehicleHydrodynamics
+from .link_motion import LinkMotion
 from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
@@ -46,6 +47,7 @@ class Engine:
         "_uwsim_physics",
         "_n_steps",
         "poses",
+        "link_motion",
         "_contacts",
     )
     """Attributes of its state, for snapshots."""
@@ -66,6 +68,8 @@ class Engine:
         """Positions and velocities of all bodies, as one row of numbers."""
         self.poses = Poses(scene, robots, model, data)
         """Where everything is, as frames."""
+        self.link_motion = LinkMotion(model, data, self.poses)
+        """How the links of simulated vehicles move."""
         self._contacts = EngineContacts(scene, model, data, shapes)
         self._check = StepCheck(model, data, names)
         self._n_steps = 0

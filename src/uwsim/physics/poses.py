@@ -75,6 +75,10 @@ class Poses:
         """Return the engine's number of a vehicle's base."""
         return self._bases[index]
 
+    def link_body(self, index: int, link: str) -> int:
+        """Return the engine's number of a vehicle's link."""
+        return self._links[index, link]
+
     def vehicle(self, index: int) -> Pose:
         """Return ``world_from_base`` of a vehicle."""
         return self._body(self._bases[index])

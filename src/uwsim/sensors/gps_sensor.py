@@ -1,29 +1,107 @@
-"""Position at the surface.
+"""Position on Earth, at the surface.
 
 .. code-block:: xml
 
-    <gpsSensor>
-      <name>gpsSensor</name> <relativeTo>base_link</relativeTo> <std>0.02</std>
-    </gpsSensor>
+    <nedOrigin> <lat>41.775</lat> <lon>3.033</lon> </nedOrigin>
+    <vehicle> ...
+      <gpsSensor>
+        <name>gpsSensor</name> <relativeTo>base_link</relativeTo> <std>0.5</std>
+      </gpsSensor>
+
+With ``<nedOrigin>`` it measures latitude and longitude on WGS84 [deg] and the altitude [m]; without
+it x and y of L in metres, as the original does. Under water there is no fix.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import ClassVar
 
+import numpy as np
+
+from ..geometry import Array
+from ..messages import NavSatFix, NavSatStatus, header
 from ..schema import MAX_DISTANCE, element
-from .sensor import SensorSpec
+from ..world import Body, SensorWorld
+from .sensor import Carrier, SensorSpec
+
+NO_FIX, FIX = -1, 0
+"""Of NavSatStatus."""
+GPS = 1
+"""The service of NavSatStatus."""
+UNKNOWN, DIAGONAL = 0, 2
+"""What is known of the covariance, of NavSatFix."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class GpsSensorSpec(SensorSpec):
     """A ``<gpsSensor>``."""
 
+    message_type: ClassVar[type] = NavSatFix
+
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Position of the sensor in the link's frame [m]."""
+    """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
-    std: float = element(default=0.0, minimum=0, maximum=10)
+    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    std: float = element(default=0.0, minimum=0, maximum=1000)
     """Noise of each coordinate, standard deviation [m]."""
+    max_depth: float = element(namespaced=True, default=0.5, minimum=0, maximum=MAX_DISTANCE)
+    """How far below the surface it still has a fix [m]."""
+
+    def bind(self, world: SensorWorld, vehicle: Carrier) -> GpsSensor:
+        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        random = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return GpsSensor(self, vehicle.mount(self), world, random)
+
+
+class GpsSensor:
+    """A receiver of satellites."""
+
+    STATE: ClassVar[tuple[str, ...]] = ("_random",)
+    """Attributes of its state, for snapshots."""
+
+    def __init__(
+        self, spec: GpsSensorSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+    ) -> None:
+        self._spec, self._mount, self._world, self._random = spec, mount, world, random
+        self._is_original = "gps-metres" in world.compatibility
+
+    def sample(self, time: float) -> NavSatFix | None:
+        """Measure now, at ``time`` [s]."""
+        position = self._mount.world_from_body.position
+        noise = self._spec.std * self._random.standard_normal(3)  # east, north, up [m]
+        if self._world.surface_height - float(position[2]) >= self._spec.max_depth:
+            return None if self._is_original else self._lost(time)
+        latitude, longitude, altitude = self._coordinates(position, noise)
+        return NavSatFix(
+            header=header(0.0) if self._is_original else header(time, self._spec.name),
+            status=NavSatStatus(status=FIX, service=0 if self._is_original else GPS),
+            latitude=latitude,
+            longitude=longitude,
+            altitude=altitude,
+            position_covariance=(self._spec.std**2 * np.eye(3)).reshape(9),
+            position_covariance_type=DIAGONAL,
+        )
+
+    def _coordinates(self, position: Array, noise: Array) -> tuple[float, float, float]:
+        """Latitude and longitude [deg] and altitude [m] of a place in W; or x and y of L [m]."""
+        origin = self._world.earth_origin
+        if origin is None or self._is_original:
+            x, y, _ = self._world.world_from_localized.inverse().transform(position[None])[0]
+            return float(x + noise[0]), float(y + noise[1]), 0.0
+        east, north, up = (position + noise).tolist()
+        place = origin.place(np.array([north, east, -up]))
+        return math.degrees(place.latitude), math.degrees(place.longitude), place.altitude
+
+    def _lost(self, time: float) -> NavSatFix:
+        return NavSatFix(
+            header=header(time, self._spec.name),
+            status=NavSatStatus(status=NO_FIX, service=GPS),
+            latitude=math.nan,
+            longitude=math.nan,
+            altitude=math.nan,
+            position_covariance_type=UNKNOWN,
+        )

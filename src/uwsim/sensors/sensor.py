@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
-from ..world import Body, SensorWorld
+from ..world import Body, MovingBody, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
 """Of the vehicle, at its pose in the file."""
@@ -84,6 +84,9 @@ class Carrier(Protocol):
             UnknownName: the vehicle has no such link.
         """
 
+    def moving_mount(self, spec: Mounted) -> MovingBody:
+        """Fix something to its link whose motion is read; UnknownName if there is no such link."""
+
 
 @runtime_checkable
 class Sensor(Protocol):
@@ -93,7 +96,7 @@ class Sensor(Protocol):
     """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
 
     def sample(self, time: float) -> object:
-        """Measure now, at ``time`` [s]; the message is of its spec's ``message_type``."""
+        """Measure now, at ``time`` [s]: a message of its spec's ``message_type``, None for none."""
 
 
 @runtime_checkable

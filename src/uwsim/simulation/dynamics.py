@@ -26,6 +26,7 @@ from ..schema import NAMESPACE, Diagnostics
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
+from ..world import GRAVITY
 from .bodies import find_file
 from .checks.scene_lines import SceneLines
 
@@ -178,7 +179,7 @@ class Search:
         self.dynamics[index] = before.in_water(density)
         if self._scene.ocean_state.profile is not None:
             density = self._scene.ocean_state.profile.density_at(self._depth(index))
-        lift = 9.81 * (density - before.density) * sum(body.volume for body in before.bodies)
+        lift = GRAVITY * (density - before.density) * sum(body.volume for body in before.bodies)
         name = self._scene.vehicles[index].name
         if abs(lift) >= MIN_LIFT:
             self._say(

@@ -17,7 +17,7 @@ from ..geometry import Array
 from ..messages import String
 from ..network import Channel, Network, nanoseconds
 from ..sampling import SampleTimer
-from ..scene.spec import NedOriginSpec, SceneSpec
+from ..scene.spec import SceneSpec
 from ..sensors.sensor import Sensor
 from ..topics.frames import Frame
 from ..topics.interface import Binds, Interface
@@ -111,8 +111,7 @@ class SceneStage(SceneWorld):
     @property
     def ned_origin(self) -> Geodetic:
         """Where on Earth the origin of W is."""
-        origin = self.scene.ned_origin or NedOriginSpec()
-        return Geodetic(latitude=math.radians(origin.lat), longitude=math.radians(origin.lon))
+        return self.earth_origin or Geodetic(latitude=0.0, longitude=0.0)
 
     def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
         """Return what returns the UDP packets that have come to a port since its last call."""

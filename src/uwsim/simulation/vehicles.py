@@ -16,6 +16,7 @@ from ..scene.urdf import RobotSpec
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
 from .bodies import SceneBody
+from .moving_bodies import EngineBody, PlacedBody
 
 
 class SceneVehicle:
@@ -127,16 +128,25 @@ class SceneVehicle:
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> SceneBody:
         """Fix something to its link; raises UnknownName if there is no such link."""
+        return SceneBody(f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual), None)
+
+    def moving_mount(self, spec: Mounted) -> EngineBody | PlacedBody:
+        """Fix something to its link whose motion is read; UnknownName if there is no such link."""
+        name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, False)
+        if not self._state.is_simulated(self._index):
+            return PlacedBody(name, pose)
+        motion = partial(self._state.link_motion.of, self._index, spec.relative_to)
+        return EngineBody(name, pose, motion)
+
+    def _pose_of(self, spec: Mounted, visual: bool) -> Callable[[], Pose]:
+        """Return what says where something on a link is."""
         link, robot = spec.relative_to, self._frames.robot
         if robot.link(link) is None:
             raise UnknownName("link", link, [each.name for each in robot.links])
         link_from_part = link_from_frame(robot, link, visual) @ self._frames.frame_from_mounted(
             spec, visual=visual
         )
-        pose: Callable[[], Pose] = partial(
-            self._state.poses.mounted, self._index, link, link_from_part
-        )
-        return SceneBody(f"{self.name}/{link}", pose, None)
+        return partial(self._state.poses.mounted, self._index, link, link_from_part)
 
 
 def vehicles_of(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import cached_property
@@ -14,10 +15,13 @@ from ..acoustics import SeaWater
 from ..bus import Bus
 from ..devices.device import DeviceSpec
 from ..errors import Diagnostic, UnknownName
+from ..geodesy import Geodetic
 from ..geometry import Intrinsics, Pose
 from ..physics.engine import Engine
 from ..rng import stream
+from ..scene.ocean_state import MILD
 from ..scene.reader import angle_warnings
+from ..scene.seawater import sea_water_density
 from ..scene.sim_params import Integrator
 from ..scene.spec import SceneSpec, with_integrator
 from ..scene.variation import varied
@@ -35,6 +39,9 @@ from .renderer_pool import RendererPool
 from .scene_rays import SceneRays
 from .scenery import Scenery
 from .vehicles import SceneVehicle, vehicles_of
+
+SEA = sea_water_density(MILD, 35.0)
+"""Density of water of which nothing is given [kg/m3]."""
 
 
 class SceneWorld:
@@ -163,6 +170,27 @@ class SceneWorld:
     def surface_height(self) -> float:
         """Height of the water's surface in W [m]."""
         return self.scene.ocean_state.ocean_surface_height
+
+    @property
+    def density_levels(self) -> tuple[tuple[float, float], ...]:
+        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water.
+
+        Where neither the scene nor a set of hydrodynamics says: that of the sea at 15 degrees.
+        """
+        ocean = self.scene.ocean_state
+        if ocean.density_levels:
+            return ocean.density_levels
+        given = [ocean.water_density, *(each.density for each in self.dynamics.values())]
+        known = (density for density in given if density is not None)
+        return ((0.0, next(known, SEA)),)
+
+    @property
+    def earth_origin(self) -> Geodetic | None:
+        """Where on Earth the origin of W is: x east, y north; None if the scene does not say."""
+        origin = self.scene.ned_origin
+        if origin is None:
+            return None
+        return Geodetic(latitude=math.radians(origin.lat), longitude=math.radians(origin.lon))
 
     @property
     def compatibility(self) -> frozenset[str]:

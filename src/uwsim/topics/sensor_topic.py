@@ -60,7 +60,9 @@ class SensorPublisher(Interface):
 
     def publish(self) -> None:
         """Take a sample and publish it, even if nobody reads it: the random stream advances."""
-        self._publish(self._sensor.sample(self._clock()))
+        message = self._sensor.sample(self._clock())
+        if message is not None:
+            self._publish(message)
 
 
 @dataclass(frozen=True, kw_only=True)

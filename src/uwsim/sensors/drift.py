@@ -1,0 +1,88 @@
+r"""Noise of inertial sensors: white noise, bias instability and random walk.
+
+With the time :math:`\Delta t` since the last sample,
+
+.. math::
+
+    n_k &= \frac{N}{\sqrt{\Delta t}} w_1 + b_0 + b_k + r_k \\
+    b_k &= e^{-\Delta t / T} b_{k-1} + s \sqrt{1 - e^{-2 \Delta t / T}} \, w_2 \\
+    r_k &= r_{k-1} + K \sqrt{\Delta t} \, w_3
+
+where the w are normal with a deviation of 1: N is the noise density, K the random walk, and b a
+Gauss-Markov process of the correlation time T. Its Allan variance,
+
+.. math:: \sigma^2(\tau) = \frac{2 s^2 T}{\tau}
+    \Bigl[1 - \frac{T}{2 \tau} (3 - 4 e^{-\tau/T} + e^{-2\tau/T})\Bigr],
+
+is greatest at 1.89 T, with a deviation of 0.6174 s. The bias instability B of a data sheet
+is the floor of the Allan deviation divided by :math:`\sqrt{2 \ln 2 / \pi} = 0.664`; s is chosen so
+that the greatest deviation of b is that floor. Those of white noise and random walk are
+:math:`N / \sqrt\tau` and :math:`K \sqrt{\tau / 3}`. After IEEE Std 952-1997, annex C.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..geometry import Array
+from ..schema import element
+
+FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)
+"""Allan deviation of flicker noise of the bias instability 1 [1]."""
+PEAK = 0.6174
+"""Greatest Allan deviation of a Gauss-Markov process of the standard deviation 1 [1]."""
+FIRST = 0.01
+"""What the first sample is a mean over [s]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DriftSpec:
+    """A ``<u:gyro>`` or ``<u:accelerometer>``: errors, the same for each axis."""
+
+    noise_density: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
+    """White noise, N [rad/s/sqrt(Hz), or m/s2/sqrt(Hz)]."""
+    bias_instability: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
+    """B of a data sheet, from the floor of the Allan deviation [rad/s, or m/s2]."""
+    correlation_time: float = element(namespaced=True, default=300.0, above=0, maximum=1e9)
+    """Of the bias, T [s]."""
+    random_walk: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
+    """Of the rate or the acceleration, K [rad/s/sqrt(s), or m/s2/sqrt(s)]."""
+    turn_on_bias: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
+    """Constant bias of a run, standard deviation [rad/s, or m/s2]."""
+
+    @property
+    def bias_std(self) -> float:
+        """Standard deviation of the bias that wanders, s [rad/s, or m/s2]."""
+        return self.bias_instability * FLOOR / PEAK
+
+
+class Drift:
+    """The errors of three axes, from sample to sample."""
+
+    STATE: ClassVar[tuple[str, ...]] = ("_random", "_time", "_constant", "_bias", "_walk")
+    """Attributes of its state, for snapshots."""
+
+    def __init__(self, spec: DriftSpec, random: np.random.Generator) -> None:
+        self._spec, self._random = spec, random
+        self._constant = spec.turn_on_bias * random.standard_normal(3)
+        self._bias = spec.bias_std * random.standard_normal(3)
+        self._walk = np.zeros(3)
+        self._time: float | None = None
+
+    def sample(self, time: float) -> tuple[Array, float]:
+        """Return the errors at ``time`` [s], (3,), and the variance of each."""
+        spec = self._spec
+        lasted = 0.0 if self._time is None else time - self._time
+        self._time = time
+        white, wander, walk = self._random.standard_normal((3, 3))
+        kept = math.exp(-lasted / spec.correlation_time)
+        self._bias = kept * self._bias + spec.bias_std * math.sqrt(1.0 - kept * kept) * wander
+        self._walk = self._walk + spec.random_walk * math.sqrt(lasted) * walk
+        variance = spec.noise_density**2 / (lasted or FIRST)
+        slow = spec.turn_on_bias**2 + spec.bias_std**2 + spec.random_walk**2 * time
+        error = math.sqrt(variance) * white + self._constant + self._bias + self._walk
+        return error, variance + slow
