@@ -101,9 +101,7 @@ class Echoes:
         spec = self._spec
         power = self.power(world_from_sonar)
         noise = 10.0 ** (0.1 * (spec.noise_level + MICROPASCAL))
-        random = np.random.Generator(np.random.PCG64DXSM(key))
-        shape = spec.bins, len(self.azimuths)
-        draws = random.integers(0, 65536, size=shape, dtype=np.uint16)
+        draws = _draws(key, (spec.bins, len(self.azimuths)))
         return received(power, self._patterns, noise, draws, self._rayleigh)
 
     def power(self, world_from_sonar: Pose) -> Singles:
@@ -187,6 +185,14 @@ def _numbers(materials: list[Material]) -> Array:
             for each in materials
         ]
     )
+
+
+def _draws(key: int, shape: tuple[int, int]) -> npt.NDArray[np.uint16]:
+    """Random whole numbers from 0 to 65535, four of each that is drawn."""
+    random = np.random.Generator(np.random.PCG64DXSM(key))
+    n = shape[0] * shape[1]
+    wide = random.integers(0, 2**64, size=-(-n // 4), dtype=np.uint64)
+    return wide.astype("<u8", copy=False).view("<u2")[:n].reshape(shape)
 
 
 def _rayleigh() -> npt.NDArray[np.float32]:
