@@ -208,6 +208,13 @@ class Stage(World, Protocol):
     def ned_origin(self) -> Geodetic:
         """Where on Earth the origin of W is."""
 
+    @property
+    def rays(self) -> Rays:
+        """The surfaces of the scene where they are now."""
+
+    def catchable(self, surface: int) -> int | None:
+        """Return the number of the object with a surface; None where nothing may pick it up."""
+
     def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
         """Return what returns the UDP packets that have come to a port since its last call.
 

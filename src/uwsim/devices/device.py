@@ -20,6 +20,12 @@ from ..world import Stage
 class DeviceVehicle(Vehicle, Carrier, Protocol):
     """A vehicle as its devices see it: they are mounted on its links, and act on it."""
 
+    def hold(self, thing: int, link: str) -> None:
+        """Fix an object, by its number, to a link of the vehicle, where it is now."""
+
+    def let_go(self, thing: int) -> None:
+        """Release an object that is held."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class DeviceTopic:

@@ -10,17 +10,41 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..errors import UnknownName
+from ..messages import String
 from ..schema import REQUIRED, element
+from ..world import Stage
+from .device import Device, DeviceSpec, DeviceVehicle
 
 
 @dataclass(frozen=True, kw_only=True)
-class EchoSpec:
+class EchoSpec(DeviceSpec):
     """An ``<echo>``."""
+
+    is_left_out: ClassVar[bool] = True
+    message_type: ClassVar[type] = String
 
     name: str
     """Its name."""
     info: str = element(default="", original=REQUIRED)
     """The text; an empty one switches the device off."""
+
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Echo:
+        """Have the text published; raises UnknownName if it is empty."""
+        if not self.info:
+            raise UnknownName("echo with a text", self.name, ())
+        return Echo(self.info)
+
+
+class Echo(Device):
+    """A fixed text."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def sample(self, time: float) -> String:
+        """Return the text."""
+        return String(data=self._text)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,14 +10,32 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
+import numpy as np
+
+from ..messages import Bool, Range, header
 from ..schema import element
 from ..sensors.sensor import LookAt
+from ..world import Body, Stage
+from .device import Device, DeviceSpec, DeviceVehicle
+
+RATE = 60.0
+"""How often a picker looks for an object, as often as the original draws an image [Hz]."""
+AHEAD = np.array([[1.0, 0.0, 0.0]])
+"""Direction of the ray."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class ObjectPickerSpec:
-    """An ``<objectPicker>``; it rides on the link's visual frame."""
+class ObjectPickerSpec(DeviceSpec):
+    """An ``<objectPicker>``; it rides on the link's visual frame.
+
+    It releases what it holds, and picks nothing up, while the last ``std_msgs/Bool`` on the topic
+    ``<name>/release`` was true.
+    """
+
+    is_left_out: ClassVar[bool] = True
+    message_type: ClassVar[type] = Range
 
     name: str
     """Its name."""
@@ -34,3 +52,64 @@ class ObjectPickerSpec:
     look_at: LookAt = element(namespaced=True, default=None)
     """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""
+
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> ObjectPicker:
+        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        mount = vehicle.mount(self, visual=True)
+        picker = ObjectPicker(self, mount, stage, vehicle)
+        stage.bus.subscribe(f"{self.name}/release", Bool, picker.command)
+        stage.every(RATE, picker.look)
+        return picker
+
+
+class ObjectPicker(Device):
+    """A ray that takes what it hits; it measures the distance to it, as a range sensor does.
+
+    Not modelled: how it holds; whatever is within the range of its ray is fixed to its link.
+    """
+
+    STATE = ("held", "_distance", "_is_released")
+
+    def __init__(
+        self, spec: ObjectPickerSpec, mount: Body, stage: Stage, vehicle: DeviceVehicle
+    ) -> None:
+        self._spec, self._mount, self._stage, self._vehicle = spec, mount, stage, vehicle
+        self.held: int | None = None
+        """Number of the object that it holds."""
+        self._distance = spec.range  # at which it took it [m]
+        self._is_released = False
+
+    def command(self, message: Bool) -> None:
+        """Release what it holds, or look for an object again."""
+        self._is_released = bool(message.data)
+        if self._is_released and self.held is not None:
+            self._vehicle.let_go(self.held)
+            self.held = None
+
+    def look(self) -> None:
+        """Take the first object in its ray, if it holds none."""
+        if self.held is not None or self._is_released:
+            return
+        distance, surface = self._cast()
+        thing = self._stage.catchable(surface)
+        if thing is not None and distance <= self._spec.range:
+            self._vehicle.hold(thing, self._spec.relative_to)
+            self.held, self._distance = thing, distance
+
+    def sample(self, time: float) -> Range:
+        """Measure now, at ``time`` [s]: the distance at which it took what it holds."""
+        spec = self._spec
+        distance = self._distance if self.held is not None else min(self._cast()[0], spec.range)
+        return Range(
+            header=header(time, spec.name),
+            radiation_type=Range.ULTRASOUND,
+            field_of_view=0.0,
+            min_range=0.0,
+            max_range=spec.range,
+            range=distance,
+        )
+
+    def _cast(self) -> tuple[float, int]:
+        """Distance to the first surface [m], and its number."""
+        hits = self._stage.rays.cast(self._mount.world_from_body, AHEAD, self._spec.range)
+        return float(hits.distance[0]), int(hits.surface[0])

@@ -9,11 +9,12 @@ friction `FRICTION`, soft enough to take a few steps.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import mujoco
 import numpy as np
 
+from ..devices.object_picker import ObjectPickerSpec
 from ..errors import BadSetting, UwsimError
 from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..linear import product
@@ -105,6 +106,16 @@ def loose_joint(index: int) -> str:
     return f"object/{index}/joint"
 
 
+def grip(vehicle: int, link: str, thing: int) -> str:
+    """Name in the model of the constraint by which a link holds a loose object."""
+    return f"grip/{vehicle}/{link}/{thing}"
+
+
+def vehicle_bit(index: int) -> int:
+    """Collision bit of the vehicle number ``index``."""
+    return 2 << (index % 29)
+
+
 def compile_scene(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
@@ -173,6 +184,7 @@ def compile_scene(
             for name, physics in loose.items()
         }
         _add_water(spec, scene, dynamics, wet)
+        _add_grips(spec, scene, robots, dynamics, loose)
     try:
         model = spec.compile()
     except ValueError as error:
@@ -208,7 +220,7 @@ def _add_shapes(
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = IMPRATIO
     kind, owner = name.split("/")[:2]
-    bit = OBJECTS if kind == "object" else 2 << (int(owner) % 29)
+    bit = OBJECTS if kind == "object" else vehicle_bit(int(owner))
     for i, shape in enumerate(shapes):
         place = body_from_owner @ shape.body_from_shape
         geom = body.add_geom(
@@ -336,6 +348,31 @@ def _add_servo(spec: mujoco.MjSpec, joint: str, effort: float) -> None:
     if math.isfinite(effort):
         servo.forcerange = [-effort, effort]
         servo.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
+
+
+def _add_grips(
+    spec: mujoco.MjSpec,
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    dynamics: Collection[int],
+    loose: Collection[str],
+) -> None:
+    """Add a constraint, not active, between each picker's link and each loose object."""
+    for index in dynamics:
+        pickers = scene.vehicles[index].parts_of(ObjectPickerSpec)
+        for link in dict.fromkeys(picker.relative_to for picker in pickers):
+            if robots[index].link(link) is None:
+                continue
+            for name in loose:
+                weld = spec.add_equality(
+                    name=grip(index, link, int(name.split("/")[1])),
+                    type=mujoco.mjtEq.mjEQ_WELD,
+                    objtype=mujoco.mjtObj.mjOBJ_BODY,
+                    name1=vehicle_body(index, link),
+                    name2=name,
+                )
+                weld.active = False
+                weld.data[10] = 1.0  # turning counts as much as moving
 
 
 def _add_water(

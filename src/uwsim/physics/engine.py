@@ -21,6 +21,7 @@ from .actuation.vehicle_actuation import actuation_of
 from .compile import compile_scene, vehicle_joint
 from .contacts import EngineContacts, body_name
 from .engine_warnings import StepCheck
+from .grips import Grips
 from .hydrodynamics import VehicleHydrodynamics
 from .link_motion import LinkMotion
 from .motion import Motion
@@ -48,6 +49,7 @@ class Engine:
         "_n_steps",
         "poses",
         "link_motion",
+        "grips",
         "_contacts",
     )
     """Attributes of its state, for snapshots."""
@@ -70,6 +72,8 @@ class Engine:
         """Where everything is, as frames."""
         self.link_motion = LinkMotion(model, data, self.poses)
         """How the links of simulated vehicles move."""
+        self.grips = Grips(model, data, self.poses, dynamics, shapes)
+        """Objects that vehicles hold."""
         self._contacts = EngineContacts(scene, model, data, shapes)
         self._check = StepCheck(model, data, names)
         self._n_steps = 0
@@ -151,6 +155,7 @@ class Engine:
         """
         if self._stepper is None:
             return
+        self.grips.follow()
         try:
             self._stepper.run(n, self._n_steps, water)
         finally:
@@ -166,6 +171,7 @@ class Engine:
         """
         if self._uwsim_physics is None:
             return
+        self.grips.follow()
         self._uwsim_physics.step()
         self._n_steps += 1
         self._check.end_if_warned(self._n_steps)

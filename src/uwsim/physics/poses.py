@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from ..devices.object_picker import ObjectPickerSpec
 from ..geometry import Array, Pose, quaternion_from_rotation
 from ..linear import points_of, product, turned
 from ..scene.spec import SceneSpec
@@ -26,7 +27,7 @@ class Poses:
         data: its state.
     """
 
-    STATE = ("version", "_is_stale")
+    STATE = ("version", "_is_stale", "carried", "_put")
     """Attributes of its state, for snapshots."""
 
     def __init__(
@@ -54,6 +55,13 @@ class Poses:
             for i, thing in enumerate(scene.objects)
             if i not in self._loose
         }
+        has_picker = any(each.parts_of(ObjectPickerSpec) for each in scene.vehicles)
+        self._movable = frozenset(
+            i for i in self._fixed if has_picker and not scene.objects[i].is_ground
+        )
+        self._put: dict[int, Pose] = {}
+        self.carried: dict[int, tuple[int, str, Pose]] = {}
+        """Objects that follow a link: number of the vehicle, link, and where on it they are."""
         scales = {i: vehicle.scale_factor for i, vehicle in enumerate(scene.vehicles)}
         self._scales = {i: scale for i, scale in scales.items() if scale != (1.0, 1.0, 1.0)}
         self._is_stale = True
@@ -112,11 +120,20 @@ class Poses:
 
     def object(self, index: int) -> Pose:
         """Return ``world_from_object`` (before its offsets and its scale)."""
-        return self._fixed[index].copy() if index in self._fixed else self._body(self._loose[index])
+        if index in self.carried:
+            vehicle, link, link_from_object = self.carried[index]
+            return self.link(vehicle, link) @ link_from_object
+        if index in self._fixed:
+            return self._put.get(index, self._fixed[index]).copy()
+        return self._body(self._loose[index])
+
+    def put(self, index: int, world_from_object: Pose) -> None:
+        """Set the pose of an object that is no body of the engine."""
+        self._put[index] = world_from_object
 
     def is_fixed(self, index: int) -> bool:
-        """Whether an object stays where it is."""
-        return index in self._fixed
+        """Whether an object stays where it is for good."""
+        return index in self._fixed and index not in self._movable
 
     def points(self, bodies: npt.NDArray[np.int64], on_bodies: Array) -> Array:
         """Return where points (n, 3) [m] of some bodies are, in W, (n, 3) [m]."""

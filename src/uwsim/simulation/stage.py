@@ -113,6 +113,14 @@ class SceneStage(SceneWorld):
         """Where on Earth the origin of W is."""
         return self.earth_origin or Geodetic(latitude=0.0, longitude=0.0)
 
+    def catchable(self, surface: int) -> int | None:
+        """Return the number of the object with a surface; None where nothing may pick it up."""
+        objects = {part.id: part.object for part in self.scenery.parts}
+        thing = objects.get(surface)
+        if thing is None or self.scene.objects[thing].is_ground:
+            return None
+        return thing if self.state.grips.can_hold(thing) else None
+
     def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
         """Return what returns the UDP packets that have come to a port since its last call."""
         return self._datagrams.open(port)

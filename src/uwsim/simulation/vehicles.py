@@ -126,6 +126,14 @@ class SceneVehicle:
 
         return lose
 
+    def hold(self, thing: int, link: str) -> None:
+        """Fix an object, by its number, to a link of the vehicle, where it is now."""
+        self._state.grips.hold(thing, self._index, link)
+
+    def let_go(self, thing: int) -> None:
+        """Release an object that is held."""
+        self._state.grips.let_go(thing)
+
     def mount(self, spec: Mounted, *, visual: bool = False) -> SceneBody:
         """Fix something to its link; raises UnknownName if there is no such link."""
         return SceneBody(f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual), None)

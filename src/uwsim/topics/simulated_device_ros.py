@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..schema import element
-from .interface import InterfaceSpec
+from .interface import Interface, InterfaceSpec, TopicWorld
 from .sensor_topic import EchoROSSpec
 
 
@@ -15,3 +15,7 @@ class SimulatedDeviceROSSpec(InterfaceSpec):
 
     echo_ros: EchoROSSpec | None = element("echoROS", default=None)
     """Interface of an echo device."""
+
+    def bind(self, world: TopicWorld) -> Interface:
+        """Bind the interface in it; raises UnknownName if there is no such device."""
+        return Interface() if self.echo_ros is None else self.echo_ros.bind(world)
