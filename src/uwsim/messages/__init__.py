@@ -10,12 +10,22 @@ from __future__ import annotations
 
 from .build import depth_image, floats, header, image, pixels_of, seconds, time_from_seconds
 from .point_cloud import point_cloud, points
-from .services import Empty, EmptyResponse, GTpublish, GTpublishResponse, Service
+from .services import (
+    Empty,
+    EmptyResponse,
+    GTpublish,
+    GTpublishResponse,
+    Service,
+    SpawnMarker,
+    SpawnMarkerResponse,
+)
 from .sonar import PingInfo, ProjectedSonarImage, SonarImageData
 from .types import (
     Bool,
     CameraInfo,
+    ColorRGBA,
     CompressedImage,
+    Duration,
     Float32MultiArray,
     Float64,
     Float64MultiArray,
@@ -24,6 +34,8 @@ from .types import (
     Imu,
     JointState,
     LaserScan,
+    Marker,
+    MeshFile,
     MultiArrayDimension,
     MultiArrayLayout,
     NavSatFix,
@@ -58,7 +70,9 @@ __all__ = [
     "DVL",
     "Bool",
     "CameraInfo",
+    "ColorRGBA",
     "CompressedImage",
+    "Duration",
     "Empty",
     "EmptyResponse",
     "Float32MultiArray",
@@ -71,6 +85,8 @@ __all__ = [
     "Imu",
     "JointState",
     "LaserScan",
+    "Marker",
+    "MeshFile",
     "MultiArrayDimension",
     "MultiArrayLayout",
     "NavSatFix",
@@ -91,6 +107,8 @@ __all__ = [
     "RegionOfInterest",
     "Service",
     "SonarImageData",
+    "SpawnMarker",
+    "SpawnMarkerResponse",
     "String",
     "TFMessage",
     "Time",

@@ -69,6 +69,32 @@ def _place(cloud: PointCloud2, axis: str, step: int) -> tuple[int, str]:
     return offset, kind
 
 
+def packed_colours(cloud: PointCloud2) -> npt.NDArray[np.uint8]:
+    """Return red, green, blue of every point from its field ``rgb`` or ``rgba``, (n, 3).
+
+    Raises:
+        BadSetting: it has no such field, or its bytes are not all there.
+    """
+    found = next((field for field in cloud.fields if field.name in ("rgb", "rgba")), None)
+    if found is None:
+        raise BadSetting("it has four fields, and none is called 'rgb'")
+    offset, step = int(found.offset), int(cloud.point_step)
+    height, width, row = int(cloud.height), int(cloud.width), int(cloud.row_step)
+    if offset < 0 or offset + 4 > step:
+        raise BadSetting(
+            f"its field {found.name!r} at byte {offset} lies outside a point of {step}"
+        )
+    data = np.ascontiguousarray(cloud.data, dtype=np.uint8).reshape(-1)
+    if height <= 0 or width <= 0:
+        return np.empty((0, 3), dtype=np.uint8)
+    try:
+        word = np.ndarray((height, width, 4), np.uint8, data, offset, (row, step, 1))
+    except (TypeError, ValueError) as error:  # a message built by other code
+        raise BadSetting(f"it cannot be read: {error}") from error
+    order = [1, 2, 3] if cloud.is_bigendian else [2, 1, 0]
+    return word[..., order].reshape(-1, 3)
+
+
 def point_cloud(
     places: npt.NDArray[np.float64], *, time: float = 0.0, frame_id: str = ""
 ) -> PointCloud2:

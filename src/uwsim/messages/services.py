@@ -11,6 +11,8 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from .types import Marker
+
 
 @dataclass(frozen=True)
 class Service:
@@ -51,5 +53,26 @@ class GTpublishResponse:
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/GTpublish_Response"
 
 
+@dataclass(frozen=True, eq=False)
+class SpawnMarker:
+    """Request of ``underwater_sensor_msgs/srv/SpawnMarker``: adds, changes or deletes a marker."""
+
+    marker: Marker
+    """The marker; its pose is in L, whatever frame its header names."""
+    __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/SpawnMarker_Request"
+
+
+@dataclass(frozen=True)
+class SpawnMarkerResponse:
+    """Response of ``underwater_sensor_msgs/srv/SpawnMarker``."""
+
+    success: bool
+    """Whether it was done."""
+    status_message: str
+    """What was done, or why not."""
+    __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/SpawnMarker_Response"
+
+
 EMPTY = Service("std_srvs/srv/Empty", Empty, EmptyResponse)
 GT_PUBLISH = Service("underwater_sensor_msgs/srv/GTpublish", GTpublish, GTpublishResponse)
+SPAWN_MARKER = Service("underwater_sensor_msgs/srv/SpawnMarker", SpawnMarker, SpawnMarkerResponse)

@@ -392,3 +392,54 @@ class NavSatFix(ros.sensor_msgs__msg__NavSatFix):
         default_factory=_ZEROS_9
     )
     position_covariance_type: int = 0
+
+
+@dataclass
+class ColorRGBA(ros.std_msgs__msg__ColorRGBA):
+    """A colour and its opacity [0..1]."""
+
+    r: float = 0.0
+    g: float = 0.0
+    b: float = 0.0
+    a: float = 0.0
+
+
+@dataclass
+class Duration(ros.builtin_interfaces__msg__Duration):
+    """A span of time."""
+
+    sec: int = 0
+    nanosec: int = 0
+
+
+@dataclass
+class MeshFile(ros.visualization_msgs__msg__MeshFile):
+    """The content of a mesh file."""
+
+    filename: str = ""
+    data: np.ndarray[tuple[int, ...], np.dtype[np.uint8]] = field(default_factory=_BYTES_0)
+
+
+@dataclass
+class Marker(ros.visualization_msgs__msg__Marker):
+    """A shape to show: `ns` and `id` name it; type, pose, scale [m] and colour say what it is."""
+
+    header: Header = field(default_factory=Header)
+    ns: str = ""
+    id: int = 0
+    type: int = 0
+    action: int = 0
+    pose: Pose = field(default_factory=Pose)
+    scale: Vector3 = field(default_factory=Vector3)
+    color: ColorRGBA = field(default_factory=ColorRGBA)
+    lifetime: Duration = field(default_factory=Duration)
+    frame_locked: bool = False
+    points: list[ros.geometry_msgs__msg__Point] = field(default_factory=list)
+    colors: list[ros.std_msgs__msg__ColorRGBA] = field(default_factory=list)
+    texture_resource: str = ""
+    texture: CompressedImage = field(default_factory=CompressedImage)
+    uv_coordinates: list[ros.visualization_msgs__msg__UVCoordinate] = field(default_factory=list)
+    text: str = ""
+    mesh_resource: str = ""
+    mesh_file: MeshFile = field(default_factory=MeshFile)
+    mesh_use_embedded_materials: bool = False

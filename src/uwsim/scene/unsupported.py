@@ -43,7 +43,6 @@ UNSUPPORTED: dict[tuple[str, str], str] = {
     ("simParams", "physicsFrequency"): "physics of contacts",
     ("simParams", "physicsSubSteps"): "physics of contacts",
     ("simParams", "physicsSolver"): "physics of contacts",
-    ("simParams", "showTrajectory"): "trajectories",
     ("virtualCamera", "showpath"): "showpath",
     **{
         (parent, name): name

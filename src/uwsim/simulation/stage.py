@@ -14,7 +14,7 @@ from ..devices.lamp import MountedLamp
 from ..errors import UnknownName
 from ..geodesy import Geodetic
 from ..geometry import Array
-from ..messages import String
+from ..messages import SpawnMarker, String
 from ..network import Channel, Network, nanoseconds
 from ..sampling import SampleTimer
 from ..scene.spec import SceneSpec
@@ -24,6 +24,8 @@ from ..topics.interface import Binds, Interface
 from ..world import Flow
 from .datagrams import Datagrams
 from .frames import object_frames, vehicle_frames
+from .markers import SERVICE, Markers
+from .trajectories import RATE, Trajectory
 from .vehicles import SceneVehicle
 from .water_motion import WaterMotion
 from .world import SceneWorld
@@ -45,6 +47,7 @@ class SceneStage(SceneWorld):
     STATE = (
         *("_bus", "state", "scenery", "touch", "_timers", "_pending"),
         *("_vehicles", "_sensors", "devices", "interfaces", "network"),
+        *("markers", "trajectories"),
     )
     """Attributes of its state, for snapshots."""
 
@@ -75,6 +78,11 @@ class SceneStage(SceneWorld):
         self._commands: list[tuple[Callable[[Any], None], Any]] = []
         self.devices = tuple(self._bound_devices())
         """What acts in the step, in the file's order."""
+        self.markers = Markers(lambda: self.time)
+        """What programs have spawned."""
+        self.bus.serve(SERVICE, SpawnMarker, self.markers.answer)
+        self.trajectories = tuple(self._bound_trajectories())
+        """What ``showTrajectory`` asks for."""
         self.interfaces = tuple(self._bound_interfaces())
         """What publishes and listens, in the file's order."""
 
@@ -107,6 +115,15 @@ class SceneStage(SceneWorld):
             with suppress(UnknownName):
                 if spec.is_simulated() and isinstance(spec, Binds):
                     yield spec.bind(self)
+
+    def _bound_trajectories(self) -> Iterator[Trajectory]:
+        localized_from_world = self.world_from_localized.inverse()
+        for spec in self.scene.sim_params.show_trajectory:
+            with suppress(UnknownName):
+                body = self.body(spec.target.strip("/"))
+                trajectory = Trajectory(spec, body, localized_from_world, lambda: self.time)
+                self.every(RATE, trajectory.look)
+                yield trajectory
 
     @property
     def ned_origin(self) -> Geodetic:
@@ -177,6 +194,10 @@ class SceneStage(SceneWorld):
         """List the frames of vehicles, their links and sensors, and those of objects."""
         frames = [*vehicle_frames(self.scene, self.robots, self._vehicles, self.state)]
         return [*frames, *object_frames(self.scene, self.body)] if with_objects else frames
+
+    def marker_frames(self) -> Sequence[Frame]:
+        """List the frames of the markers that are there now."""
+        return self.markers.frames()
 
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""

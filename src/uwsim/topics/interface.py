@@ -38,6 +38,9 @@ class TopicWorld(World, Protocol):
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""
 
+    def marker_frames(self) -> Sequence[Frame]:
+        """List the frames of the markers that are there now."""
+
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
 

@@ -8,6 +8,7 @@ vehicle                 vehicle/root link        identity; the original says bas
 vehicle/link            vehicle/link             every joint of the robot, fixed ones too
 vehicle/link            sensor                   where the sensor is on its link, in ROS's axes
 ``rootName``            object                   the mesh frame in L, with ``enableObjects`` 1
+``rootName``            marker ``<id>+<ns>``     its pose in L, with ``enableObjects`` 1
 ======================  =======================  ===================================================
 
 ROS's axes: cameras look along +z of their frame, with x to the right of the image and y down; the
@@ -43,7 +44,7 @@ class WorldToROSTFSpec(InterfaceSpec):
     def bind(self, world: TopicWorld) -> FramePublisher:
         """Publish from now on."""
         frames = world.frames(with_objects=self.enable_objects)
-        publisher = FramePublisher(self.root_name, frames, world)
+        publisher = FramePublisher(self, frames, world)
         world.every(self.rate, publisher.publish)
         return publisher
 
@@ -51,20 +52,21 @@ class WorldToROSTFSpec(InterfaceSpec):
 class FramePublisher(Interface):
     """Publishes the transforms of frames."""
 
-    def __init__(self, root: str, frames: Sequence[Frame], world: TopicWorld) -> None:
-        self._root, self._frames, self._world = root, frames, world
+    def __init__(self, spec: WorldToROSTFSpec, frames: Sequence[Frame], world: TopicWorld) -> None:
+        self._spec, self._frames, self._world = spec, frames, world
         self._publish = world.bus.publisher(TF, TFMessage)
 
     def publish(self) -> None:
         """Publish all frames as they are now, if anybody reads them."""
         if not self._world.bus.has_readers(TF):
             return
-        time = self._world.time
+        time, root = self._world.time, self._spec.root_name
+        markers = self._world.marker_frames() if self._spec.enable_objects else ()
         self._publish(
             TFMessage(
                 transforms=[
-                    transform(each.parent or self._root, each.child, each.parent_from_child(), time)
-                    for each in self._frames
+                    transform(each.parent or root, each.child, each.parent_from_child(), time)
+                    for each in (*self._frames, *markers)
                 ]
             )
         )

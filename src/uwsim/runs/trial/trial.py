@@ -31,6 +31,7 @@ from ...expression import parse
 from ...interrupts import is_of_user
 from ...messages import String
 from ...simulation import Calls, RendererPool, Simulation, what_broke
+from ...simulation.markers import SERVICE as SPAWN_MARKER
 from ..plan import Plan, Trial
 from .fingerprint import Fingerprinter
 from .floor import Floor
@@ -107,6 +108,7 @@ class _Execution:
         self._updater = benchmark.scene_updater
         self._fingerprinter = Fingerprinter(simulation)
         self._updaters = bind_updaters(self._updater, simulation.world)
+        simulation.bus.withdraw(SPAWN_MARKER)  # not offered in a benchmark, as in the original
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # as they are bound for the next level
         ramp_level(self._updaters, initial_level(self._updater))

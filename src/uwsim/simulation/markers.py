@@ -1,0 +1,104 @@
+"""Markers that programs add by the service ``SpawnMarker``, for a viewer and on ``/tf``.
+
+A marker is named ``<id>+<ns>``. One that is there already is modified; ``DELETE`` removes it, and
+``DELETEALL`` all of them. Poses are in L, whatever frame the header names. Markers have no mass,
+touch nothing, and are not in the images of virtual cameras.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from ..geometry import Pose
+from ..messages import Marker, SpawnMarker, SpawnMarkerResponse
+from ..messages.build import NANOSECONDS
+from ..topics.frames import Frame
+
+SERVICE = "SpawnMarker"
+TYPES = {
+    **{Marker.ARROW: "ARROW", Marker.CUBE: "CUBE", Marker.SPHERE: "SPHERE"},
+    **{Marker.CYLINDER: "CYLINDER", Marker.LINE_STRIP: "LINE_STRIP", Marker.POINTS: "POINTS"},
+    **{Marker.LINE_LIST: "LINE_LIST", Marker.CUBE_LIST: "CUBE_LIST"},
+    **{Marker.SPHERE_LIST: "SPHERE_LIST", Marker.TEXT_VIEW_FACING: "TEXT_VIEW_FACING"},
+    **{Marker.MESH_RESOURCE: "MESH_RESOURCE", Marker.TRIANGLE_LIST: "TRIANGLE_LIST"},
+}
+"""Types of markers that are shown."""
+MAX_MARKERS = 10_000
+MAX_POINTS = 1_000_000
+"""Most points of a marker."""
+
+
+class Markers:
+    """The markers of a running scene.
+
+    Args:
+        clock: returns the simulation time [s].
+    """
+
+    STATE = ("_markers", "_ends")
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock = clock
+        self._markers: dict[str, Marker] = {}
+        self._ends: dict[str, float] = {}
+
+    @property
+    def shown(self) -> dict[str, Marker]:
+        """Name -> marker, in the order in which they were added; without those that ran out."""
+        now = self._clock()
+        return {name: each for name, each in self._markers.items() if now < self._ends[name]}
+
+    def frames(self) -> list[Frame]:
+        """Return the frames of the markers in L."""
+        return [Frame("", name, _in_l(marker)) for name, marker in self.shown.items()]
+
+    def answer(self, request: SpawnMarker) -> SpawnMarkerResponse:
+        """Add, modify or delete a marker."""
+        marker = request.marker
+        name, called = f"{marker.id}+{marker.ns}", f"object {marker.id} {marker.ns}"
+        self._markers = self.shown
+        if marker.action == Marker.DELETEALL:
+            self._markers = {}
+            return SpawnMarkerResponse(True, "all objects were successfully DELETED.")
+        if marker.action == Marker.DELETE:
+            if self._markers.pop(name, None) is None:
+                return SpawnMarkerResponse(False, f"{called} not found.")
+            return SpawnMarkerResponse(True, f"{called} was successfully DELETED.")
+        if wrong := self._wrong(name, marker):
+            return SpawnMarkerResponse(False, f"{called} was not added: {wrong}.")
+        done = "MODIFIED" if name in self._markers else "ADDED"
+        life = marker.lifetime.sec + marker.lifetime.nanosec / NANOSECONDS
+        self._markers[name] = marker
+        self._ends[name] = self._clock() + life if life > 0.0 else math.inf
+        return SpawnMarkerResponse(True, f"{called} was successfully {done}.")
+
+    def _wrong(self, name: str, marker: Marker) -> str | None:
+        """Why a marker cannot be shown; None: it can."""
+        if marker.type not in TYPES:
+            return f"its type is {marker.type}; expected one of {', '.join(sorted(TYPES.values()))}"
+        if name not in self._markers and len(self._markers) >= MAX_MARKERS:
+            return f"there are {MAX_MARKERS} markers already"
+        if len(marker.points) > MAX_POINTS:
+            return f"it has more than {MAX_POINTS} points"
+        place, turn = marker.pose.position, marker.pose.orientation
+        quaternion = (turn.w, turn.x, turn.y, turn.z)
+        if not all(map(math.isfinite, (place.x, place.y, place.z, *quaternion))):
+            return "its pose is not finite"
+        if not any(quaternion):
+            return "its quaternion is all zero"
+        if marker.type == Marker.TRIANGLE_LIST and len(marker.points) % 3:
+            return f"its {len(marker.points)} points are no triangles"
+        if marker.type == Marker.MESH_RESOURCE and not marker.mesh_resource:
+            return "it names no mesh_resource"
+        return None
+
+
+def _in_l(marker: Marker) -> Callable[[], Pose]:
+    place, turn = marker.pose.position, marker.pose.orientation
+    pose = Pose.from_quaternion(
+        np.array([place.x, place.y, place.z]), np.array([turn.w, turn.x, turn.y, turn.z])
+    )
+    return lambda: pose

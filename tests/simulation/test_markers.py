@@ -1,0 +1,90 @@
+"""Markers: the service ``SpawnMarker``, and the frames of what it adds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import uwsim
+from uwsim.messages import Duration, Marker, Point, Pose, SpawnMarker, SpawnMarkerResponse
+
+SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "cirs.xml"
+
+
+@pytest.fixture
+def simulation() -> Iterator[uwsim.Simulation]:
+    with uwsim.load("visibility-scene") as opened:
+        yield opened
+
+
+def spawn(simulation: uwsim.Simulation, **fields: object) -> SpawnMarkerResponse:
+    marker = Marker(**{"ns": "buoy", "id": 7, "type": Marker.CUBE, **fields})
+    answer = simulation.call("SpawnMarker", SpawnMarker(marker))
+    assert isinstance(answer, SpawnMarkerResponse)
+    return answer
+
+
+def test_a_marker_is_added_modified_and_deleted(simulation: uwsim.Simulation) -> None:
+    markers = simulation.world.markers
+    said = spawn(simulation)
+    assert (said.success, said.status_message) == (True, "object 7 buoy was successfully ADDED.")
+    said = spawn(simulation, type=Marker.SPHERE)
+    assert said.status_message == "object 7 buoy was successfully MODIFIED."
+    assert [(name, each.type) for name, each in markers.shown.items()] == [
+        ("7+buoy", Marker.SPHERE)
+    ]
+    said = spawn(simulation, action=Marker.DELETE)
+    assert said.status_message == "object 7 buoy was successfully DELETED."
+    said = spawn(simulation, action=Marker.DELETE)
+    assert (said.success, said.status_message) == (False, "object 7 buoy not found.")
+    spawn(simulation, id=1)
+    spawn(simulation, id=2)
+    assert spawn(simulation, action=Marker.DELETEALL).success
+    assert markers.shown == {}
+
+
+@pytest.mark.parametrize("kind", range(12))
+def test_every_type_is_kept(simulation: uwsim.Simulation, kind: int) -> None:
+    assert spawn(simulation, type=kind, mesh_resource="package://x/y.obj").success
+
+
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {"type": 12},
+        {"type": Marker.MESH_RESOURCE},
+        {"type": Marker.TRIANGLE_LIST, "points": [Point()]},
+        {"pose": Pose(position=Point(x=float("nan")))},
+    ],
+)
+def test_what_cannot_be_shown_is_refused(simulation: uwsim.Simulation, fields: dict) -> None:
+    said = spawn(simulation, **fields)
+    assert not said.success
+    assert said.status_message.startswith("object 7 buoy was not added: ")
+
+
+def test_a_marker_goes_when_its_lifetime_is_over(simulation: uwsim.Simulation) -> None:
+    spawn(simulation, lifetime=Duration(nanosec=10_000_000))
+    simulation.advance(0.008)
+    saved = simulation.save()
+    assert simulation.world.markers.shown
+    simulation.advance(0.004)
+    assert not simulation.world.markers.shown
+    simulation.restore(saved)
+    assert simulation.world.markers.shown
+
+
+def test_markers_are_on_tf_with_the_objects() -> None:
+    with uwsim.load(SCENE) as simulation:
+        simulation.latest("/tf")
+        spawn(simulation, pose=Pose(position=Point(1.0, 2.0, 3.0)))
+        simulation.advance(0.1)
+        frames = {each.child_frame_id: each for each in simulation.latest("/tf").transforms}
+        found = frames["7+buoy"]
+        assert found.header.frame_id == "world"
+        place = found.transform.translation
+        assert np.array([place.x, place.y, place.z]) == pytest.approx([1.0, 2.0, 3.0])
