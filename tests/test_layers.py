@@ -60,7 +60,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     },
     "benchmark": PARTS | {"benchmark"},
     "results": GROUND | {"statistics", "results"},
-    "runs": TASKS | {"runs"},
+    "runs": TASKS | {"physics", "runs"},
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},

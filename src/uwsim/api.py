@@ -167,6 +167,6 @@ def check(*paths: str | Path) -> tuple[Diagnostic, ...]:
 
     Errors come with their file, line and severity; a file without any gives none.
     """
-    from .cli.check import diagnostics_of
+    from .runs.check import diagnostics_of
 
     return tuple(diagnostic for path in paths for diagnostic in diagnostics_of(Path(path)))

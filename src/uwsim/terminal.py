@@ -24,7 +24,7 @@ def warn(message: str) -> None:
 def print_warnings(warnings: Iterable[Diagnostic]) -> None:
     """Print warnings about files; the command continues."""
     for warning in warnings:
-        print(printable(f"{warning} (warning)"), file=sys.stderr)
+        print(printable(str(warning)), file=sys.stderr)
 
 
 def printable(text: str) -> str:

@@ -66,7 +66,7 @@ import resource
 import sys
 import time
 from pathlib import Path
-from uwsim.cli.check import diagnostics_of
+from uwsim.runs.check import diagnostics_of
 small, hostile = map(Path, sys.argv[1:])
 assert diagnostics_of(small)  # now all is mapped that checking takes, however much that is here
 mapped = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
@@ -190,8 +190,10 @@ def test_what_a_vehicle_can_pass_through_is_named_until_the_file_says_that_it_is
     file.write_text(GHOSTLY)
     assert status(str(file)) == 0
     said = capsys.readouterr().out
-    assert f"{file}:7: simulated vehicles pass through what has no <physics>: 'wreck'" in said
-    assert f"{file}:6: vehicle 'other': simulated vehicles pass through it" in said
+    assert (
+        f"{file}:7: warning: simulated vehicles pass through what has no <physics>: 'wreck'" in said
+    )
+    assert f"{file}:6: warning: vehicle 'other': simulated vehicles pass through it" in said
     assert "'terrain'" not in said
     file.write_text(
         GHOSTLY.replace("osg</file> </object>\n<object>", "osg</file> <u:solid>0</u:solid> "

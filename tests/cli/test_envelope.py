@@ -168,7 +168,9 @@ def test_a_breaking_point_is_one_number_with_its_bound_and_its_runs_are_used_aga
     assert main(["report", "b.envelope"]) == 2
     how = shlex.join(["uwsim envelope b.xml --plugin own.py --over load", *search]).replace("'", "")
     said_now = capsys.readouterr().err.replace("'", "")
-    assert f"but the runs of an envelope: its search was interrupted. Go on with: {how}" in said_now
+    assert (
+        f"but the runs of an envelope: its search was interrupted. Resume with: {how}" in said_now
+    )
 
 
 @pytest.mark.slow

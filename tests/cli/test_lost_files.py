@@ -40,7 +40,7 @@ def test_a_bundled_robot_replaces_a_lost_file_of_its_name_and_that_is_reported(
     file = scene(tmp_path, LOST_BUT_OURS, doctype=doctype)
     status, out, _ = call("check", file, capfd=capfd)
     assert status == 0
-    assert "is nowhere; the bundled g500ARM5.urdf is used (warning)" in out
+    assert "is nowhere; the bundled g500ARM5.urdf is used" in out
     status, _, err = call("render", file, "--camera", "eye", "-o", tmp_path / "a.png", capfd=capfd)
     assert status == 0
     assert err.count("uwsim: warning: ") == 1

@@ -206,7 +206,7 @@ def test_where_no_result_is_the_error_says_what_is_there_and_how_to_go_on(
 
     (folder / "out" / "result.json").unlink()
     resume = (
-        "uwsim: out: no result here yet: its run was interrupted. Go on with: uwsim bench b.xml "
+        "uwsim: out: no result here yet: its run was interrupted. Resume with: uwsim bench b.xml "
         "--algorithm esm --seed 3 --mode independent --set algorithm.zncc_threshold=0.4 "
         "--out out --resume."
     )
@@ -229,7 +229,7 @@ def test_where_no_result_is_the_error_says_what_is_there_and_how_to_go_on(
     begun = ["--overwrite", "--scene", "tank.xml", "--data-path", "my models", "--out", "out"]
     save_provenance({"command": ["bench", "b.xml", *begun]}, folder / "both" / "esm")
     go_on = "--scene tank.xml --data-path 'my models' --out out --resume."
-    assert said("report", "both").endswith(f"Go on with: uwsim bench b.xml {go_on}")
+    assert said("report", "both").endswith(f"Resume with: uwsim bench b.xml {go_on}")
     (folder / "empty").mkdir()
     assert said("report", "empty") == "uwsim: empty: no result here (no result.json)."
     assert said("report", "nix") == (

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from uwsim import messages
-from uwsim.cli.check import diagnostics_of
 from uwsim.devices import DEVICES
 from uwsim.reference.sensor_tables import filled
+from uwsim.runs.check import diagnostics_of
 from uwsim.scene.unsupported import limit_of
 from uwsim.schema.names import local
 from uwsim.sensors import SENSORS

@@ -129,7 +129,7 @@ def test_to_go_on_clears_drafts_of_our_own_files_and_nothing_else(
 @pytest.mark.parametrize("name", ["notes.txt", "report.html", "mine/a", "provenance.json.txt"])
 def test_to_go_on_where_no_run_was_begun_is_refused(tmp_path: Path, name: str) -> None:
     before = content(make(tmp_path, name, ".result.json.123.part"))
-    with pytest.raises(BadSetting, match=r"no run of uwsim to go on with; nothing was changed"):
+    with pytest.raises(BadSetting, match=r"no run of uwsim to resume; nothing was changed"):
         enter(tmp_path, resume=True)
     assert content(tmp_path) == before
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.cli.check import diagnostics_of
+from uwsim.runs.check import diagnostics_of
 
 DEVICE = """
 <CustomCommsDevice> <dccommsId>{name}</dccommsId> <txChannelId>{channel}</txChannelId>

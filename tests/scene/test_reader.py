@@ -15,12 +15,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from uwsim.cli.check import diagnostics_of
 from uwsim.currents import UwsimSinusoidSpec
 from uwsim.devices.custom_comms_device import CustomCommsDeviceSpec
 from uwsim.devices.echo import EchoSpec, SimulatedDevicesSpec
 from uwsim.errors import SceneError
 from uwsim.geometry import Pose
+from uwsim.runs.check import diagnostics_of
 from uwsim.scene import SceneSpec, read_scene
 from uwsim.scene.kinematics import link_poses
 from uwsim.scene.object import ObjectSpec
@@ -538,7 +538,7 @@ def test_what_is_not_simulated_yet_is_one_line_a_kind(tmp_path: Path) -> None:
         tmp_path,
     )
     assert [str(diagnostic) for diagnostic in check_scene(file)] == [
-        f"{file}:3: read, not simulated yet: imu (lines 3, 4)"
+        f"{file}:3: warning: read, not simulated yet: imu (lines 3, 4)"
     ]
 
 
@@ -561,9 +561,11 @@ def test_objects_that_a_search_never_finds_and_topics_of_two_are_named(tmp_path:
         tmp_path,
     )  # fmt: skip
     assert [str(diagnostic) for diagnostic in check_scene(file)] == [
-        f"{file}:4: the object 'a' is called as an object before it; searches find the first",
-        f"{file}:6: the object 'g' is called as a vehicle before it; searches find the first",
-        f"{file}:8: the topic '/o' carries 'g' and 'g': who reads it gets both",
+        f"{file}:4: warning: the object 'a' is called as an object before it; "
+        "searches find the first",
+        f"{file}:6: warning: the object 'g' is called as a vehicle before it; "
+        "searches find the first",
+        f"{file}:8: warning: the topic '/o' carries 'g' and 'g': who reads it gets both",
     ]
 
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from uwsim.assets.bundled import bundled
-from uwsim.cli.check import diagnostics_of
 from uwsim.errors import BadMessage
 from uwsim.messages import Float64MultiArray, MultiArrayLayout
 from uwsim.physics.vehicle_sets import vehicle_sets
+from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 

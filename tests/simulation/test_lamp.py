@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.cli.check import diagnostics_of
 from uwsim.devices.lamp import LampSpec
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.geometry import Pose
 from uwsim.rendering.lamp import MAX_HALF_ANGLE
+from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation

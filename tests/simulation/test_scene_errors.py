@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from tests.simulation.girona500 import SCENE
-from uwsim.cli.check import diagnostics_of
 from uwsim.errors import SceneError
+from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 

@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.cli.check import diagnostics_of
 from uwsim.geometry import quaternion_from_rotation, rotation_from_rpy
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.physics.actuation.allocation import (
@@ -25,6 +24,7 @@ from uwsim.physics.balance import balance_of
 from uwsim.physics.hydrodynamics.spec import ThrusterSpec
 from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import find_vehicle
+from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.simulation import Simulation

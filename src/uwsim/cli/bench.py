@@ -22,7 +22,7 @@ from ..runs.plan_request import PlanRequest
 from ..runs.timing import Stopwatch, Timing
 from ..terminal import warn
 from .completion import algorithm_names
-from .console import Console
+from .console import standard_output
 from .exit_status import running
 from .options import (
     CodeOptions,
@@ -41,14 +41,6 @@ if TYPE_CHECKING:
     from ..runs.executors.executor import Executor, Outcome
     from ..runs.plan import Plan
     from ..runs.run import Run
-
-OTHER_CODE = (
-    "the run was begun where libraries chose other code for the processor: {}. What is bundled "
-    "gives the same bytes all the same; an algorithm or a measure of one's own may not."
-)
-"""What is said where a run is gone on with."""
-UNWRAPPED = 1000
-"""Columns for a reader that is a program: wide enough to leave every line whole."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,7 +92,7 @@ class BenchOptions:
         in_group(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
     ] = None
     resume: Annotated[
-        bool, in_group(OUTPUT, "--resume", help="Go on with an interrupted run in --out.")
+        bool, in_group(OUTPUT, "--resume", help="Resume an interrupted run in --out.")
     ] = False
     overwrite: Annotated[
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier result in --out.")
@@ -187,7 +179,7 @@ def run_and_finish(
 
     for run in runs:
         if message := save_beginning(command, run.out):
-            warn(OTHER_CODE.format(message))
+            warn(message)
     with BackgroundProcess(load_reporter) as background:
         controls = [control_of(run) for run in runs if wants_control(run.plan)]
         if controls:
@@ -267,7 +259,7 @@ def finish(run: Run, result: Result, background: BackgroundProcess, timing: Timi
 
     save_provenance({**timing.provenance(run), **carried(run.out)}, run.out)
     background.ask(run.out)
-    console = Console(width=None if sys.stdout.isatty() else UNWRAPPED)
+    console = standard_output()
     console.print(table(result, width=console.width))
     background.wait()
     report = run.out / REPORT

@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from ..terminal import printable
-from .console import Console
+from .console import standard_output
 from .options import JsonOption
 from .taught import COMPARED, OUTPUT, in_group
 
@@ -23,8 +23,6 @@ Results = Annotated[
         "algorithms.",
     ),
 ]
-UNWRAPPED = 1000
-"""Columns for a reader that is a program: wide enough to leave every line whole."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,7 +116,7 @@ def compare(
     if as_json:
         print(json_text(comparison), end="")
         return
-    console = Console(width=None if sys.stdout.isatty() else UNWRAPPED, highlight=False)
+    console = standard_output()
     for part in drawn(comparison, width=console.width):
         console.print(part)
     print(f"written: {out}/comparison.json, comparison.csv, plots; page: {page}")

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import sys
+
 import rich.console
 from rich.console import ConsoleOptions, RenderableType
 from rich.segment import Segment
 
 from ..terminal import legible
+
+UNWRAPPED = 1000
+"""Columns for a reader that is a program: wide enough to leave every line whole."""
 
 
 class Console(rich.console.Console):
@@ -20,3 +25,8 @@ class Console(rich.console.Console):
             segment if segment.control else Segment(legible(segment.text), segment.style)
             for segment in super().render(renderable, options)
         ]
+
+
+def standard_output(columns: int = UNWRAPPED) -> Console:
+    """Return the console of standard output, ``columns`` wide where that is no terminal."""
+    return Console(width=None if sys.stdout.isatty() else columns, highlight=False)

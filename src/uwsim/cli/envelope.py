@@ -19,7 +19,6 @@ from ..runs.option_values import chosen_level
 from ..runs.plan_request import PlanRequest
 from ..runs.timing import Stopwatch
 from ..terminal import printable, warn
-from .bench import OTHER_CODE
 from .completion import algorithm_names
 from .exit_status import running
 from .options import (
@@ -239,7 +238,7 @@ def search_and_write(
     asked = request.asked(options.seeds, options.search.confidence)
     with running(), prepared(directory, resume=options.resume, overwrite=options.overwrite):
         if message := save_beginning(command, directory):
-            warn(OTHER_CODE.format(message))
+            warn(message)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
         most = most_runs(asked)
         with progress(title, most, of="runs", at_once=options.by.at_once) as on_run:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
@@ -14,10 +13,10 @@ from rich.text import Text
 
 from ..assets.bundled import scene_file
 from ..errors import AllErrors
+from ..runs.check import diagnostics_of
 from ..runs.option_values import pairs_of
 from ..terminal import printable
-from .check import diagnostics_of
-from .console import Console
+from .console import standard_output
 from .options import DataPathOption, JsonOption, SceneArgument, SetOption
 
 DRAG_LAWS = {
@@ -29,8 +28,8 @@ DRAG_LAWS = {
     "matrix": "by a full matrix",
 }
 """``dragLaw`` of a hydrodynamics file, in words."""
-UNWRAPPED = 160
-"""Columns for a reader that is a program."""
+COLUMNS = 160
+"""Width where standard output is no terminal."""
 Fields = Mapping[str, Any]
 
 
@@ -67,7 +66,7 @@ def info(
     if as_json:
         print(json.dumps(found, indent=1))
         return
-    console = Console(highlight=False, width=None if sys.stdout.isatty() else UNWRAPPED)
+    console = standard_output(COLUMNS)
     for part in drawn(found):
         console.print(part)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,15 +14,15 @@ from ..assets.bundled import bundled
 from ..errors import UnknownName
 from ..runs.tables import read_plugins
 from .completion import one_of
-from .console import Console
+from .console import standard_output
 from .descriptions import family, first_line, head_comment, without_title
 from .options import JsonOption, PluginOption
 
 if TYPE_CHECKING:
     from ..benchmark.plugin_tables import Tables
 
-UNWRAPPED = 200
-"""Columns for a reader that is a program: wide enough to leave every line whole."""
+COLUMNS = 200
+"""Width of the tables where standard output is no terminal."""
 
 
 def list_names(
@@ -51,7 +50,7 @@ def list_names(
     if as_json:
         print(json.dumps({name: documents(name, each) for name, each in found.items()}, indent=1))
         return
-    console = Console(highlight=False, width=None if sys.stdout.isatty() else UNWRAPPED)
+    console = standard_output(COLUMNS)
     for name, entries in found.items():
         table = Table(box=None, show_header=False, padding=(0, 2, 0, 0), pad_edge=False)
         table.add_column(no_wrap=True, style="bold")

@@ -70,7 +70,7 @@ class SampleOptions:
         whole = finished(run.out, run.plan, stored)
         if not whole:
             command = resuming(run.out)
-            how = f" Go on with: {command}" if command else ""
+            how = f" Resume with: {command}" if command else ""
             raise ResultError(f"{run.out}: no trial of it is finished: nothing to verify.{how}")
         drawn = secrets.randbelow(SEEDS) if self.sample_seed is None else self.sample_seed
         trials = choose(whole, None if self.whole else self.sample, drawn)

@@ -111,7 +111,7 @@ def check_begun(
         held = next(_kept(place, ours, folders), None)
         if held is not None:
             raise BadSetting(
-                f"--out {place}: holds {held!r}, and no run of uwsim to go on with; "
+                f"--out {place}: holds {held!r}, and no run of uwsim to resume; "
                 "nothing was changed. Without --resume a new directory is begun."
             )
 

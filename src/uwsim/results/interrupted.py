@@ -39,7 +39,7 @@ def instead_of_a_result(path: Path) -> str:
         what = "yet: its run"
         if command.startswith("uwsim envelope "):
             what = "but the runs of an envelope: its search"
-        return f"no result here {what} was interrupted. Go on with: {command}"
+        return f"no result here {what} was interrupted. Resume with: {command}"
     return "no result here (no result.json)"
 
 

@@ -37,18 +37,22 @@ def save_beginning(command: Sequence[str], directory: Path) -> str:
         directory: of the result, or of the envelope.
 
     Returns:
-        What libraries had chosen for the processor when it was begun, and have not now; nothing
-        where that is the same. Both are recorded.
+        A warning if libraries had chosen other code for the processor when the run was begun,
+        else nothing. Both choices are recorded.
     """
     before = load_provenance(directory)
     if not before:
         save_provenance({"command": list(command), **machine()}, directory)
         return ""
     change = other_code(before.get("code"))
-    if change:
-        codes = {BEFORE: [*codes_of(before)[1:], before["code"]]}
-        save_provenance({**before, **machine(), **codes}, directory)
-    return change
+    if not change:
+        return ""
+    codes = {BEFORE: [*codes_of(before)[1:], before["code"]]}
+    save_provenance({**before, **machine(), **codes}, directory)
+    return (
+        f"the run was begun where libraries chose other code for the processor: {change}. What is "
+        "bundled gives the same bytes all the same; an algorithm or a measure of one's own may not."
+    )
 
 
 def codes_of(provenance: Mapping[str, object]) -> list[object]:

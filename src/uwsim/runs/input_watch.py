@@ -41,7 +41,7 @@ class Watch:
             more = [f"{len(messages) - NAMED} more"] if len(messages) > NAMED else []
             raise RunFailed(
                 f"While the run was going on {'; '.join([*messages[:NAMED], *more])}. "
-                "Finished rows are kept; with the files as they were go on with --resume."
+                "Finished rows are kept; restore the files and continue with --resume."
             )
 
     def _why_not(self, file: InputFile) -> str:

@@ -175,7 +175,7 @@ class VirtualCamera:
         return image(self.capture(), time=time, frame_id=self.frame_id)
 
     def skip(self) -> None:
-        """Draw the random numbers of an image that nobody reads, without rendering it."""
+        """Draw the random numbers of an image without subscribers, without rendering it."""
         if self.std > 0.0:
             self._random.integers(2**63)
 

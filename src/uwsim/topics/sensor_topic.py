@@ -59,7 +59,7 @@ class SensorPublisher(Interface):
         self._sensor, self._publish, self._clock = sensor, publish, clock
 
     def publish(self) -> None:
-        """Take a sample and publish it, even if nobody reads it: the random stream advances."""
+        """Take a sample and publish it, even without a subscriber: the random stream advances."""
         message = self._sensor.sample(self._clock())
         if message is not None:
             self._publish(message)

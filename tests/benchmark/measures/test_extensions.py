@@ -13,7 +13,7 @@ from tests.short_benchmark import run
 from uwsim.benchmark.measures import ControlSpec, EnergySpec, MeasureSpec
 from uwsim.benchmark.measures.energy import BatterySpec
 from uwsim.benchmark.reader import check_benchmark, read_benchmark
-from uwsim.cli.check import diagnostics_of
+from uwsim.runs.check import diagnostics_of
 from uwsim.schema import NAMESPACE, fields_of
 
 CURRENTS = Path(uwsim.__file__).parent / "data" / "benchmarks" / "currents.xml"

@@ -138,7 +138,7 @@ def test_a_lost_unit_is_the_next_to_be_played_and_three_times_at_most(tmp_path: 
     queue.lost(first, "killed by SIGSEGV")
     assert str(queue.failure) == (
         "trial 0 (esm, seed 0, fog=0.5) lost its worker 4 times, the last time killed by SIGSEGV. "
-        "Finished rows are kept; go on with --resume."
+        "Finished rows are kept; continue with --resume."
     )
     assert queue.take() is None
     assert first.run.n_lost == 4

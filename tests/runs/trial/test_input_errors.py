@@ -75,7 +75,7 @@ def said(capsys: pytest.CaptureFixture[str], file: Path) -> object:
         # an error of the function is followed by the function, and a caret under what is wrong
         checked = [line for line in out.out.splitlines() if line.startswith(f"{file}")]
         shown = [line for line in out.out.splitlines() if line.startswith("  ")]
-        warnings = {line for line in checked if line.endswith("(warning)")}
+        warnings = {line for line in checked if ": warning: " in line}
         *errors, count = (line for line in checked if line not in warnings)
         assert re.fullmatch(r".*: (1 error|\d+ errors)", count)
         folder = file.with_suffix(".out")
@@ -290,7 +290,7 @@ def test_an_updater_within_another_of_its_kind_is_a_warning(
     file.write_text(text)
     assert main(["check", str(file), "--scene", SCENE]) == 0
     line = line_of(text, "<sceneFogUpdater>", 2)
-    assert f"{file}:{line}: <sceneFogUpdater> within another: only the inner" in (
+    assert f"{file}:{line}: warning: <sceneFogUpdater> within another: only the inner" in (
         capsys.readouterr().out
     )
 

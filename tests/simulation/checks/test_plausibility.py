@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from uwsim.cli.app import main
-from uwsim.cli.check import diagnostics_of
 from uwsim.errors import Diagnostic
+from uwsim.runs.check import diagnostics_of
 from uwsim.scene.plausibility import PLAUSIBILITY_WARNINGS, VehicleWarning
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf import LinkSpec, RobotSpec
@@ -317,7 +317,7 @@ def test_render_says_it_before_it_draws(tmp_path: Path, capsys: pytest.CaptureFi
     path = written(tmp_path, water=WATER.replace("0.0201", "0.03"), scene=scene)
     assert main(["render", str(path), "-o", str(tmp_path / "a.png"), "--size", "8x8"]) == 0
     said = capsys.readouterr().err
-    assert f"{path}:6: the vehicle 'rov': it has 20 kg" in said
+    assert f"{path}:6: warning: the vehicle 'rov': it has 20 kg" in said
     assert "<orientation> is 0 0 90 in radians, more than a turn" in said
 
 

@@ -100,5 +100,5 @@ def _done(job: Job, reporter: Reporter) -> str | None:
         return str(error)
     except Exception as error:  # a full disk, a number that no plot can show
         what = "The control" if isinstance(job, Run) else "The report"
-        return f"{what} failed: {raised(error)}. Finished rows are kept; go on with --resume."
+        return f"{what} failed: {raised(error)}. Finished rows are kept; continue with --resume."
     return None

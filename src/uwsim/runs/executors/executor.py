@@ -133,7 +133,7 @@ class JobQueue:
             job,
             RunFailed(
                 f"{job} lost its worker {times} times, the last time {why}. "
-                "Finished rows are kept; go on with --resume."
+                "Finished rows are kept; continue with --resume."
             ),
         )
 

@@ -1,7 +1,7 @@
 """The topics BenchmarkInfo and BenchmarkResults, published while a benchmark runs.
 
 As the original's, but in simulation time, so that an observer may subscribe and every run says the
-same. Nothing is computed for a topic that nobody reads.
+same. Nothing is computed for a topic without subscribers.
 """
 
 from __future__ import annotations
