@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -12,14 +11,12 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 from rich.text import Text
 
-from .console import Console
+from .console import standard_output
 
 if TYPE_CHECKING:
     from ..recording import TopicRate
     from ..simulation import Simulation
 
-UNWRAPPED = 1000
-"""Columns for a reader that is a program: wide enough to leave every line whole."""
 NUMBERS = ("messages", "rate [Hz]", "min gap [s]", "max gap [s]", "std [s]")
 
 
@@ -27,7 +24,7 @@ def print_topics(
     scene: str, simulation: Simulation, rates: Sequence[TopicRate], recording: Path | None
 ) -> None:
     """Print what came on each topic."""
-    console = Console(highlight=False, width=None if sys.stdout.isatty() else UNWRAPPED)
+    console = standard_output()
     console.print(table_of(rates))
     seconds = f"{simulation.time:g} s of {Path(scene).name or 'the scene'}"
     written = "" if recording is None else f"; recorded: {recording} ({_size(recording)})"

@@ -393,7 +393,8 @@ def _add_water(
         for fin in vehicle.fins:
             fins[vehicle_fin(index, fin.name)] = (vehicle_body(index, fin.link), fin)
     density = next(iter(dynamics.values())).density
-    surface, levels = scene.ocean_state.ocean_surface_height, scene.ocean_state.density_levels
+    surface, profile = scene.ocean_state.ocean_surface_height, scene.ocean_state.profile
+    levels = () if profile is None else profile.levels
     prepare(spec, bodies, thrusters, fins, surface=surface, density=density, levels=levels)
 
 

@@ -125,11 +125,6 @@ class OceanStateSpec:
         return SeaWater(warmth, fresh if self.salinity is None else self.salinity)
 
     @property
-    def density_levels(self) -> tuple[tuple[float, float], ...]:
-        """Depth [m] and density [kg/m3] of the levels of stratified water; none of uniform."""
-        return () if self.profile is None else self.profile.levels
-
-    @property
     def water_density(self) -> float | None:
         """Density at the surface [kg/m3]; None if the file gives none."""
         if self.profile is not None:

@@ -26,7 +26,7 @@ class Below:
 
 def below_vehicle(world: SceneWorld, vehicle: str) -> tuple[Below, ...]:
     """Return the surfaces vertically below a vehicle's origin, the nearest first."""
-    index = world.vehicle_index(vehicle)
+    index = world.vehicle(vehicle).index
     parts = world.scenery.parts
     others = [part for part in parts if part.vehicle != index and not part.is_hidden]
     return below(world.state.poses.vehicle(index).position, world.scenery, others)

@@ -228,7 +228,7 @@ class Simulation:
             UnknownName: there is no such vehicle; names the nearest.
             UwsimError: the vehicle is kinematic.
         """
-        index = self.world.vehicle_index(name)
+        index = self.world.vehicle(name).index
         if not self.world.state.is_simulated(index):
             raise UwsimError(f"{name!r} is kinematic (no <u:dynamics>): it has no velocity.")
         return self.world.state.vehicle_velocity(index)

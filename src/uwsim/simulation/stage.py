@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, TypeVar
 
 from ..currents import Place
@@ -22,6 +23,7 @@ from ..sensors.sensor import Sensor
 from ..topics.frames import Frame
 from ..topics.interface import Binds, Interface
 from ..world import Flow
+from .bodies import find_file
 from .datagrams import Datagrams
 from .frames import object_frames, vehicle_frames
 from .markers import SERVICE, Markers
@@ -147,6 +149,14 @@ class SceneStage(SceneWorld):
         self.scenery.close()
         self._datagrams.close()
 
+    def find(self, name: str, *, named_by: str) -> Path:
+        """Find a file named in the file ``named_by``; AssetNotFound lists the folders searched."""
+        return find_file(name, named_by, self._data_path)
+
+    def is_touchable(self, name: str) -> bool:
+        """Whether there is a vehicle or object of that name, with a shape that others touch."""
+        return self.touch.is_possible(name)
+
     @property
     def fog_colour(self) -> tuple[float, float, float]:
         """Colour of the fog [0..1]."""
@@ -175,11 +185,11 @@ class SceneStage(SceneWorld):
 
     def joints(self, vehicle: str) -> Array:
         """Return the joint vector of a vehicle, (n,) [rad or m]; UnknownName if there is none."""
-        return self.state.joints(self.vehicle_index(vehicle))
+        return self.state.joints(self.vehicle(vehicle).index)
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their number in the joint vector [rad or m], clamped to limits."""
-        index = self.vehicle_index(vehicle)
+        index = self.vehicle(vehicle).index
         joints = self.state.joints(index)
         for number, value in values.items():
             if 0 <= number < len(joints):

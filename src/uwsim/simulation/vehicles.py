@@ -34,7 +34,9 @@ class SceneVehicle:
     """Attributes of its state, for snapshots."""
 
     def __init__(self, index: int, frames: MountFrames, state: Engine) -> None:
-        self._index, self._frames, self._state = index, frames, state
+        self._frames, self._state = frames, state
+        self.index = index
+        """Its number in the scene."""
         self.name = frames.vehicle.name
         """Its name in the scene."""
         self.joint_names = tuple(joint.name for joint in frames.robot.movable)
@@ -54,7 +56,7 @@ class SceneVehicle:
 
     @property
     def _actuation(self) -> VehicleActuation | None:
-        return self._state.actuation.get(self._index)
+        return self._state.actuation.get(self.index)
 
     @property
     def thrusters(self) -> tuple[str, ...]:
@@ -68,30 +70,30 @@ class SceneVehicle:
 
     def turn_fins(self, angles: Array) -> None:
         """Let its fins turn to these angles, (n,) [rad]."""
-        self._state.actuation[self._index].turn_fins(angles)
+        self._state.actuation[self.index].turn_fins(angles)
 
     @property
     def world_from_base(self) -> Pose:
         """Where its base is now."""
-        return self._state.poses.vehicle(self._index)
+        return self._state.poses.vehicle(self.index)
 
     @property
     def velocity(self) -> Array:
         """Twist of its base over ground, base axes, (6,) [m/s, rad/s]."""
-        return self._state.vehicle_velocity(self._index)
+        return self._state.vehicle_velocity(self.index)
 
     @property
     def joints(self) -> Array:
         """A copy of its joint vector, (n,) [rad or m]."""
-        return self._state.joints(self._index)
+        return self._state.joints(self.index)
 
     def place(self, world_from_base: Pose) -> None:
         """Set its pose, at rest."""
-        self._state.place_vehicle(self._index, world_from_base)
+        self._state.place_vehicle(self.index, world_from_base)
 
     def set_joints(self, values: Array) -> None:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
-        self._state.set_joints(self._index, values)
+        self._state.set_joints(self.index, values)
 
     def put_back(self) -> None:
         """Put it where the scene puts it now, at rest."""
@@ -122,13 +124,13 @@ class SceneVehicle:
 
         def lose(loss: float) -> None:
             self._losses[number][own] = loss
-            self._state.actuation[self._index].set_loss(number, max(self._losses[number]))
+            self._state.actuation[self.index].set_loss(number, max(self._losses[number]))
 
         return lose
 
     def hold(self, thing: int, link: str) -> None:
         """Fix an object, by its number, to a link of the vehicle, where it is now."""
-        self._state.grips.hold(thing, self._index, link)
+        self._state.grips.hold(thing, self.index, link)
 
     def let_go(self, thing: int) -> None:
         """Release an object that is held."""
@@ -141,9 +143,9 @@ class SceneVehicle:
     def moving_mount(self, spec: Mounted) -> EngineBody | PlacedBody:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
         name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, False)
-        if not self._state.is_simulated(self._index):
+        if not self._state.is_simulated(self.index):
             return PlacedBody(name, pose)
-        motion = partial(self._state.link_motion.of, self._index, spec.relative_to)
+        motion = partial(self._state.link_motion.of, self.index, spec.relative_to)
         return EngineBody(name, pose, motion)
 
     def _pose_of(self, spec: Mounted, visual: bool) -> Callable[[], Pose]:
@@ -154,7 +156,7 @@ class SceneVehicle:
         link_from_part = link_from_frame(robot, link, visual) @ self._frames.frame_from_mounted(
             spec, visual=visual
         )
-        return partial(self._state.poses.mounted, self._index, link, link_from_part)
+        return partial(self._state.poses.mounted, self.index, link, link_from_part)
 
 
 def vehicles_of(

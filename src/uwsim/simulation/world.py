@@ -29,7 +29,7 @@ from ..sensors.pinhole import cast_depth
 from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact
-from .bodies import SceneBody, find_body, find_file, name_bodies, read_robots
+from .bodies import SceneBody, find_body, name_bodies, read_robots
 from .checks.plausibility import plausibility_warnings
 from .collision_shapes import simulated_shapes
 from .contacts import Contacts
@@ -178,8 +178,8 @@ class SceneWorld:
         Where neither the scene nor a set of hydrodynamics says: that of the sea at 15 degrees.
         """
         ocean = self.scene.ocean_state
-        if ocean.density_levels:
-            return ocean.density_levels
+        if ocean.profile is not None:
+            return ocean.profile.levels
         given = [ocean.water_density, *(each.density for each in self.dynamics.values())]
         known = (density for density in given if density is not None)
         return ((0.0, next(known, SEA)),)
@@ -212,7 +212,7 @@ class SceneWorld:
 
     def actuators(self, name: str) -> Actuators | None:
         """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
-        actuation = self.state.actuation.get(self.vehicle_index(name))
+        actuation = self.state.actuation.get(self.vehicle(name).index)
         return None if actuation is None else actuation.actuators()
 
     def camera(self, name: str) -> VirtualCamera:
@@ -238,27 +238,15 @@ class SceneWorld:
         """Names of the vehicles, in the file's order."""
         return tuple(vehicle.name for vehicle in self.scene.vehicles)
 
-    def vehicle_index(self, name: str) -> int:
-        """Return the number of a vehicle in the file; UnknownName if there is none."""
-        if name not in self.vehicles:
-            raise UnknownName("vehicle", name, self.vehicles)
-        return self.vehicles.index(name)
-
     def vehicle(self, name: str) -> SceneVehicle:
         """Find a vehicle; UnknownName if there is none."""
-        return self._vehicles[self.vehicle_index(name)]
-
-    def is_touchable(self, name: str) -> bool:
-        """Whether there is a vehicle or object of that name, with a shape that others touch."""
-        return self.touch.is_possible(name)
+        if name not in self.vehicles:
+            raise UnknownName("vehicle", name, self.vehicles)
+        return self._vehicles[self.vehicles.index(name)]
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of that name."""
         return stream(self._seed, self._prefix + name)
-
-    def find(self, name: str, *, named_by: str) -> Path:
-        """Find a file named in the file ``named_by``; AssetNotFound lists the folders searched."""
-        return find_file(name, named_by, self._data_path)
 
     def render(
         self,
