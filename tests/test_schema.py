@@ -149,7 +149,7 @@ def test_an_old_name_is_read_with_a_warning(tmp_path: Path) -> None:
     spec, said = read_text("<thing><name>a</name><title>t</title></thing>", tmp_path)
     assert spec is not None
     assert spec.label == "t"
-    assert said == ["thing.xml:1: <title> is an old name of <label>"]
+    assert said == ["thing.xml:1: warning: <title> is an old name of <label>"]
 
 
 def test_of_text_split_by_comments_the_last_piece_wins(tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ def warnings(text: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> lis
     file.write_text(text)
     assert main(["check", str(file), "--scene", "visibility-scene"]) == 0
     said = capsys.readouterr().out
-    found = re.findall(r"b\.xml:(\d+): (.*) \(warning\)", said)
+    found = re.findall(r"b\.xml:(\d+): warning: (.*)", said)
     return [(int(line), words) for line, words in found]
 
 

@@ -302,9 +302,8 @@ def test_levels_that_are_over_before_their_current_begins_are_a_warning(
     file.write_text(text.replace("<interval>5<", "<interval>2<"))
     assert main(["check", str(file)]) == 0
     line = line_of(text, "<interval>", 2)
-    assert f"{file}:{line}: <interval> 2 s: for 2 s after each change of the current the" in (
-        capsys.readouterr().out
-    )
+    said = capsys.readouterr().out
+    assert f"{file}:{line}: warning: <interval> 2 s: for 2 s after each change of the" in said
 
 
 DECLARED = '<?xml version="1.0" encoding="ISO-8859-1"?>'
