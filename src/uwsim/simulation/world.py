@@ -81,8 +81,11 @@ class SceneWorld:
         self._as_written = scene
         self.scene = scene = set_on_floor(scene, self.robots, data_path)
         """Spec of the scene with the variations of this seed."""
-        self._seed, self._prefix, self._timestep = seed, stream_prefix, timestep
-        self._data_path, self._compatibility = data_path, compatibility
+        self._seed, self._prefix, self._data_path = seed, stream_prefix, data_path
+        self.timestep = timestep
+        """Length of a step [s]."""
+        self.compatibility = compatibility
+        """The compatibility quirks that are on."""
         self._runs_code = runs_code
         self.is_blind = is_blind
         """Whether images on topics are black."""
@@ -147,14 +150,9 @@ class SceneWorld:
         return self._bus.step
 
     @property
-    def timestep(self) -> float:
-        """Length of a step [s]."""
-        return self._timestep
-
-    @property
     def time(self) -> float:
         """``step * timestep`` [s]."""
-        return self._bus.step * self._timestep
+        return self._bus.step * self.timestep
 
     @property
     def world_from_localized(self) -> Pose:
@@ -191,11 +189,6 @@ class SceneWorld:
         if origin is None:
             return None
         return Geodetic(latitude=math.radians(origin.lat), longitude=math.radians(origin.lon))
-
-    @property
-    def compatibility(self) -> frozenset[str]:
-        """The compatibility quirks that are on."""
-        return self._compatibility
 
     def body(self, name: str) -> SceneBody:
         """Find a vehicle, link or object by its route (see `name_bodies`)."""
