@@ -102,7 +102,7 @@ def looking(eye: tuple[float, float, float], target: tuple[float, float, float])
 def pixel(eye: Pose, viewer: Intrinsics, point: Array) -> tuple[float, float]:
     """Image coordinates of a point of W [m] in the viewer's image [px]."""
     x, y, z = eye.inverse().transform(point[None])[0]
-    return viewer.cx - viewer.fx * x / z, viewer.cy + viewer.fy * y / z
+    return viewer.pixel(x, y, z)
 
 
 # ------------------------------------------------------------------ 12-15: over time

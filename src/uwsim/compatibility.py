@@ -41,7 +41,7 @@ COMPATIBILITY: dict[str, str] = {
     "time-log": "a time is 0 as long as it runs, in its log and in what is published",
     "unseen": "what is outside an image, or behind the camera, is projected all the same",
     "visual-frames": "cameras and sonars are on the visual frame of their link (before July 2014)",
-    "y0": "the camera parameter y0 counts from the bottom edge, but is published as it is",
+    "y0": "camera parameters x0, y0 count from the left and bottom edge, published as they are",
 }
 """Name -> what the original does. In alphabetical order."""
 

@@ -7,7 +7,7 @@ Quaternions are wxyz.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -159,12 +159,22 @@ class Pose:
         return placed(points, self.rotation, self.position)
 
 
+def image_centre(width: int, height: int) -> tuple[float, float]:
+    """The middle of an image in image coordinates (see `Intrinsics`) [px]."""
+    return (width - 1) / 2.0, (height - 1) / 2.0
+
+
+def is_in_image(u: float, v: float, width: int, height: int) -> bool:
+    """Whether a point lies on a pixel of an image, its edge included (see `Intrinsics`)."""
+    return -0.5 <= u <= width - 0.5 and -0.5 <= v <= height - 0.5
+
+
 @dataclass(frozen=True, kw_only=True)
 class Intrinsics:
     r"""A pinhole camera with OpenGL axes: x right, y up, looking along -z.
 
-    Image coordinates (u, v) are in pixels from the top left *corner* of the image: u to the
-    right, v down; the centre of the first pixel is (0.5, 0.5).
+    Image coordinates (u, v) are in pixels from the *centre of the first pixel*, top left, as in
+    ROS and OpenCV: u to the right, v down. The centre of a pixel is at its column and row.
 
     .. math:: u = c_x + (f_x X + k Y) / (-Z), \qquad v = c_y - f_y Y / (-Z)
 
@@ -180,9 +190,9 @@ class Intrinsics:
     fy: float
     """Focal length along v [px]."""
     cx: float
-    """Principal point from the left edge [px]."""
+    """Principal point from the centre of the first column [px]."""
     cy: float
-    """Principal point from the top edge [px]."""
+    """Principal point from the centre of the first row [px]."""
     skew: float = 0.0
     """Skew k [px]."""
     near: float = 0.18
@@ -196,15 +206,35 @@ class Intrinsics:
     ) -> Intrinsics:
         """Square pixels and a centred axis from a vertical field of view [rad]."""
         focal = height / (2.0 * math.tan(fovy / 2.0))
+        cx, cy = image_centre(width, height)
         return Intrinsics(
             width=width,
             height=height,
             fx=focal,
             fy=focal,
-            cx=width / 2.0,
-            cy=height / 2.0,
+            cx=cx,
+            cy=cy,
             near=near,
             far=far,
+        )
+
+    def resized(self, width: int, height: int) -> Intrinsics:
+        """The same pinhole on an image of another size: as high a field of view, wider or narrower.
+
+        What is in the centre of the image stays there.
+        """
+        factor = height / self.height
+        cx, cy = image_centre(width, height)
+        old_cx, old_cy = image_centre(self.width, self.height)
+        return replace(
+            self,
+            width=width,
+            height=height,
+            fx=self.fx * factor,
+            fy=self.fy * factor,
+            cx=cx + (self.cx - old_cx) * factor,
+            cy=cy + (self.cy - old_cy) * factor,
+            skew=self.skew * factor,
         )
 
     def project(self, points: Array, *, behind: bool = False) -> Array:
@@ -223,8 +253,8 @@ class Intrinsics:
 
     def rays(self) -> Array:
         """Direction of the ray of each pixel centre, camera frame, with -z = 1, (h, w, 3)."""
-        u = np.arange(self.width) + 0.5
-        v = np.arange(self.height) + 0.5
+        u = np.arange(self.width, dtype=np.float64)
+        v = np.arange(self.height, dtype=np.float64)
         y = (self.cy - v) / self.fy
         x = (u[None, :] - self.cx - self.skew * y[:, None]) / self.fx
         return np.stack([x, np.broadcast_to(y[:, None], x.shape), np.full(x.shape, -1.0)], axis=2)

@@ -31,7 +31,7 @@ class Texture:
         self, homography: np.ndarray | None = None, *, width: int = 320, height: int = 240
     ) -> np.ndarray:
         """The image after the plane was moved by ``homography``, (h, w) float32."""
-        u, v = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
+        u, v = np.meshgrid(np.arange(width), np.arange(height))
         points = np.stack([u.ravel(), v.ravel()], axis=1)
         if homography is not None:
             points = warp(np.linalg.inv(homography), points)

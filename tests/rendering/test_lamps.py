@@ -34,7 +34,7 @@ def rendered(renderer: Renderer, *lamps: Lamp, **how: object) -> np.ndarray:
 def at(image: np.ndarray, x: float, y: float) -> float:
     """The image's value at a point of the floor [m]."""
     u, v = CAMERA.project(EYE.inverse().transform(np.array([[x, y, 0.0]])))[0]
-    return float(image[int(v), int(u)])
+    return float(image[round(v), round(u)])
 
 
 @pytest.fixture

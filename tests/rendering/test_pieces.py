@@ -74,7 +74,7 @@ def test_the_density_is_the_largest_stretch_of_the_texture() -> None:
 
 def footprint(normal: Array, point: Array) -> float:
     """The longest way on a plane that a pixel covers, over the whole image [m], by rays."""
-    u, v = np.meshgrid(np.linspace(0.0, 64.0, 65), np.linspace(0.0, 48.0, 49))
+    u, v = np.meshgrid(np.linspace(-0.5, 63.5, 65), np.linspace(-0.5, 47.5, 49))
     rays = np.stack([(u - CAMERA.cx) / CAMERA.fx, (CAMERA.cy - v) / CAMERA.fy, -np.ones_like(u)], 2)
     hits = rays * ((normal @ point) / (rays @ normal))[..., None]
     across = np.linalg.norm(np.diff(hits, axis=1), axis=2).max()

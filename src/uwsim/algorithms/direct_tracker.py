@@ -8,7 +8,7 @@ from ..geometry import Array
 from ..linear import product
 from .esm.alignment import Method, align, zncc
 from .esm.homography import between, unimodular, warp
-from .esm.pyramid import Grey, pyramid
+from .esm.pyramid import Grey, level_from_image, pyramid
 from .esm.template import Template, take_template
 from .tracker import Estimate, Tracker
 
@@ -34,7 +34,7 @@ class DirectTracker(Tracker):
         """Take a template, or return why the patch cannot be tracked."""
         templates: list[Template] = []
         for level, smaller in enumerate(pyramid(image, levels)):
-            template = take_template(smaller, quad / 2.0**level)
+            template = take_template(smaller, warp(level_from_image(level), quad))
             if template is None:
                 break
             templates.append(template)
@@ -51,8 +51,7 @@ class DirectTracker(Tracker):
         images = pyramid(image, len(self._templates))
         homography, iterations = self.homography, 0
         for level in range(min(len(images), len(self._templates)) - 1, -1, -1):
-            shrink = np.diag([0.5**level, 0.5**level, 1.0])
-            grow = np.diag([2.0**level, 2.0**level, 1.0])
+            shrink, grow = level_from_image(level), level_from_image(-level)
             guess = product(product(shrink, homography), grow)
             result = align(images[level], self._templates[level], guess, self._method)
             homography = product(product(grow, result.homography), shrink)

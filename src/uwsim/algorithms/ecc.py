@@ -72,11 +72,9 @@ class EccTracker(Tracker):
         smooth = cv2.GaussianBlur(image, self._smoothing, 0.0)
         self._patch = smooth[template.top :, template.left :][:height, :width].copy()
         self._everywhere = np.ones(image.shape, np.uint8)
-        # OpenCV counts from the centre of the first pixel; its patch begins at the box's corner.
         self._image_from_patch = np.array(
-            [[1.0, 0.0, template.left + 0.5], [0.0, 1.0, template.top + 0.5], [0.0, 0.0, 1.0]]
+            [[1.0, 0.0, template.left], [0.0, 1.0, template.top], [0.0, 0.0, 1.0]]
         )
-        self._centres_from_corners = np.array([[1.0, 0.0, -0.5], [0.0, 1.0, -0.5], [0.0, 0.0, 1.0]])
         self._template, self._quad, self._centre = template, quad, crossing(quad)
         self._homography = np.eye(3)
         self._criteria = (
@@ -94,9 +92,7 @@ class EccTracker(Tracker):
         """Find the patch in the next image."""
         import cv2
 
-        guess = product(
-            product(self._centres_from_corners, self._homography), self._image_from_patch
-        )
+        guess = product(self._homography, self._image_from_patch)
         found = True
         try:
             _, warped = cv2.findTransformECC(
@@ -111,10 +107,7 @@ class EccTracker(Tracker):
         except cv2.error:
             found = False
         else:
-            matrix = product(
-                product(inverse(self._centres_from_corners), warped.astype(np.float64)),
-                inverse(self._image_from_patch),
-            )
+            matrix = product(warped.astype(np.float64), inverse(self._image_from_patch))
             found = bool(np.all(np.isfinite(matrix)) and determinant(matrix) > 1e-9)
             if found:
                 self._homography = unimodular(matrix)

@@ -120,7 +120,7 @@ class OrbTracker(Tracker):
         bytes_image = np.clip(np.rint(image), 0, 255).astype(np.uint8)
         keypoints, descriptors = self._orb.detectAndCompute(bytes_image, mask)
         points = np.array([keypoint.pt for keypoint in keypoints]).reshape(-1, 2)
-        return points + 0.5, descriptors
+        return points, descriptors
 
     def _match(self, image: Grey) -> Array | None:
         import cv2

@@ -5,17 +5,17 @@ from __future__ import annotations
 import abc
 from dataclasses import dataclass
 
-from ..geometry import Array
+from ..geometry import Array, is_in_image
 from .esm.homography import is_convex
 from .esm.pyramid import Grey
 
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """A tracker's estimate of the patch in an image."""
+    """A tracker's estimate of the patch in an image, in pixels from the centre of the first."""
 
     corners: Array
-    """The corners in the order they were handed in, (4, 2) [px] from the top left corner."""
+    """The corners in the order they were handed in, (4, 2) [px]."""
     centroid: Array
     """Where the diagonals of the corners cross: the image of the patch's centre, (2,) [px]."""
     zncc: float
@@ -61,7 +61,7 @@ class LossTest:
         if not estimate.found:
             return None
         u, v = estimate.centroid
-        if not (0.0 <= u <= width and 0.0 <= v <= height):
+        if not is_in_image(u, v, width, height):
             return f"the quad's centre ({u:.1f}, {v:.1f}) is outside the {width}x{height} image"
         return _not_convex(estimate.corners)
 
@@ -70,7 +70,7 @@ def quad_error(quad: Array, width: int, height: int) -> str | None:
     """What makes a quad (4, 2) [px] impossible to follow in an image; None when nothing does."""
     names = ("NW", "NE", "SE", "SW")
     for name, (u, v) in zip(names, quad, strict=True):
-        if not (0.0 <= u <= width and 0.0 <= v <= height):
+        if not is_in_image(u, v, width, height):
             return f"corner {name} ({u:.1f}, {v:.1f}) is outside the {width}x{height} image"
     return _not_convex(quad)
 

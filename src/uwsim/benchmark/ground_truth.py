@@ -13,7 +13,8 @@ r"""Ground truth: what an estimate is compared with, evaluated in the live scene
       <from>localizedWorld</from> <to>girona500</to>
     </groundTruth>
 
-Image coordinates are in pixels from the top left corner of the image, v down.
+Image coordinates are in pixels from the centre of the first pixel, top left, v down, as in ROS and
+OpenCV (`uwsim.geometry.Intrinsics`); constants are compared as they are.
 """
 
 from __future__ import annotations

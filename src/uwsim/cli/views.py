@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ..errors import BadSetting, did_you_mean
 
 if TYPE_CHECKING:
-    from ..geometry import Array, Intrinsics
+    from ..geometry import Array
     from ..rendering.renderer import RenderedImage
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
@@ -120,7 +120,7 @@ class Wanted:
     def _seen(self, simulation: Simulation, name: str) -> RenderedView:
         camera = simulation.world.camera(name)
         if self.size is not None:
-            camera.resize(resized(camera.intrinsics, self.size))
+            camera.resize(camera.intrinsics.resized(*self.size))
         return RenderedView(
             f"camera {name!r}",
             camera.capture(),
@@ -128,22 +128,6 @@ class Wanted:
                 camera.world_from_camera, camera.intrinsics
             ),
         )
-
-
-def resized(lens: Intrinsics, size: tuple[int, int]) -> Intrinsics:
-    """The same pinhole on an image of another size: as high a field of view, wider or narrower."""
-    width, height = size
-    factor = height / lens.height
-    return replace(
-        lens,
-        width=width,
-        height=height,
-        fx=lens.fx * factor,
-        fy=lens.fy * factor,
-        cx=0.5 * width + (lens.cx - 0.5 * lens.width) * factor,
-        cy=lens.cy * factor,
-        skew=lens.skew * factor,
-    )
 
 
 def _named(view: str) -> Named:

@@ -13,7 +13,7 @@ import moderngl
 import numpy as np
 
 from ..devices.lamp import MAX_LAMPS
-from ..geometry import Array, Intrinsics, Pose
+from ..geometry import Array, Intrinsics, Pose, image_centre
 from ..linear import product
 from .instance import INSTANCE, Instances, Slots, in_view
 from .lamp import Lamp
@@ -133,10 +133,8 @@ class Lamps:
 
 def _map_camera(lamp: Lamp) -> Intrinsics:
     focal = TILE / 2.0 / (MARGIN * math.tan(lamp.half_angle))
-    half = TILE / 2.0
-    return Intrinsics(
-        width=TILE, height=TILE, fx=focal, fy=focal, cx=half, cy=half, near=NEAR, far=FAR
-    )
+    cx, cy = image_centre(TILE, TILE)
+    return Intrinsics(width=TILE, height=TILE, fx=focal, fy=focal, cx=cx, cy=cy, near=NEAR, far=FAR)
 
 
 def _tile_from_clip(tile: int) -> Array:

@@ -10,16 +10,16 @@ from ..geometry import Array, Intrinsics
 def clip_from_camera(intrinsics: Intrinsics) -> Array:
     r"""Projection matrix (4, 4) whose *first* row of pixels is the top of the image.
 
-    With :math:`w_c = -Z`: :math:`x = 2u/w - 1`, :math:`y = 2v/h - 1` of
-    `Intrinsics.project`. Upside down for OpenGL, so that reading back needs no flip; the
-    winding of triangles turns round.
+    With :math:`w_c = -Z`: :math:`x = (2u + 1)/w - 1`, :math:`y = (2v + 1)/h - 1` of
+    `Intrinsics.project`, where the corner of the image is (-0.5, -0.5). Upside down for OpenGL,
+    so that reading back needs no flip; the winding of triangles turns round.
     """
     i = intrinsics
     span = i.far - i.near
     return np.array(
         [
-            [2.0 * i.fx / i.width, 2.0 * i.skew / i.width, 1.0 - 2.0 * i.cx / i.width, 0.0],
-            [0.0, -2.0 * i.fy / i.height, 1.0 - 2.0 * i.cy / i.height, 0.0],
+            [2.0 * i.fx / i.width, 2.0 * i.skew / i.width, 1.0 - (2.0 * i.cx + 1.0) / i.width, 0.0],
+            [0.0, -2.0 * i.fy / i.height, 1.0 - (2.0 * i.cy + 1.0) / i.height, 0.0],
             [0.0, 0.0, -(i.far + i.near) / span, -2.0 * i.far * i.near / span],
             [0.0, 0.0, -1.0, 0.0],
         ]

@@ -10,22 +10,24 @@ from ..world import Rays
 
 
 def camera_info(
-    lens: Intrinsics, *, time: float, frame_id: str, cy: float, baseline: float = 0.0
+    lens: Intrinsics,
+    *,
+    time: float,
+    frame_id: str,
+    principal_point: tuple[float, float] | None = None,
+    baseline: float = 0.0,
 ) -> CameraInfo:
     """Build the CameraInfo of a pinhole, stamped ``time`` [s]: no distortion.
-
-    As in ROS and OpenCV the principal point counts from the *centre* of the first pixel, half a
-    pixel less than from the corner of the image.
 
     Args:
         lens: the pinhole.
         time: of the message [s].
         frame_id: of the message.
-        cy: the principal point from the top edge, as it is to be published [px].
+        principal_point: published instead of that of the pinhole [px].
         baseline: distance to the first camera of a stereo pair: Tx = -fx * baseline [m].
     """
     fx, fy, skew = lens.fx, lens.fy, -lens.skew  # ROS: y points down
-    cx, cy = lens.cx - 0.5, cy - 0.5
+    cx, cy = principal_point or (lens.cx, lens.cy)
     return CameraInfo(
         header=header(time, frame_id),
         height=lens.height,

@@ -36,9 +36,11 @@ class CameraParametersSpec:
     fy: float = element(above=0, maximum=MAX_DISTANCE)
     """Focal length along the rows [px]."""
     x0: float
-    """Principal point from the left edge [px]."""
+    """Principal point from the centre of the first column [px], as in ROS and OpenCV; the original
+    counts it from the left edge."""
     y0: float
-    """Principal point from the top edge [px]; the original counts it from the bottom."""
+    """Principal point from the centre of the first row [px], as in ROS and OpenCV; the original
+    counts it from the bottom edge."""
     f: float = element(above=0, maximum=MAX_DISTANCE)
     """Far plane [m]."""
     n: float = element(above=0, maximum=MAX_DISTANCE)
@@ -49,19 +51,30 @@ class CameraParametersSpec:
     def intrinsics(self, width: int, height: int, compatibility: frozenset[str]) -> Intrinsics:
         """The pinhole for an image of ``width`` by ``height`` pixels.
 
-        With the compatibility ``y0``, y0 counts from the bottom edge as in the original.
+        With the compatibility ``y0``, x0 and y0 count from the left and the bottom edge, as in the
+        original.
         """
+        from_edges = "y0" in compatibility
         return Intrinsics(
             width=width,
             height=height,
             fx=self.fx,
             fy=self.fy,
-            cx=self.x0,
-            cy=height - self.y0 if "y0" in compatibility else self.y0,
+            cx=self.x0 - 0.5 if from_edges else self.x0,
+            cy=height - self.y0 - 0.5 if from_edges else self.y0,
             skew=self.k,
             near=self.n,
             far=self.f,
         )
+
+
+def written_principal_point(
+    parameters: CameraParametersSpec | None, compatibility: frozenset[str]
+) -> tuple[float, float] | None:
+    """Return x0 and y0 with the compatibility ``y0``: CameraInfo has them as they are."""
+    if parameters is None or "y0" not in compatibility:
+        return None
+    return parameters.x0, parameters.y0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,7 +116,7 @@ class VirtualCameraSpec(SensorSpec):
     """Noise of each channel of each pixel, standard deviation [1: full scale]."""
 
     def intrinsics(self, compatibility: frozenset[str] = frozenset()) -> Intrinsics:
-        """Its pinhole; with the compatibility ``y0`` the parameter y0 counts from the bottom."""
+        """Its pinhole; the compatibility ``y0`` is that of `CameraParametersSpec.intrinsics`."""
         if self.parameters is not None:
             return self.parameters.intrinsics(self.resw, self.resh, compatibility)
         return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
@@ -132,9 +145,7 @@ class VirtualCamera:
         self._mount, self._world, self._random = mount, world, random
         self._baseline = spec.baseline
         self._intrinsics = spec.intrinsics(world.compatibility)
-        self._published_cy = self._intrinsics.cy
-        if "y0" in world.compatibility and spec.parameters is not None:
-            self._published_cy = spec.parameters.y0
+        self._principal_point = written_principal_point(spec.parameters, world.compatibility)
         self.name = spec.name
         """Its name in the scene."""
         self.frame_id = spec.frame_id
@@ -189,6 +200,6 @@ class VirtualCamera:
             self._intrinsics,
             time=time,
             frame_id=self.frame_id,
-            cy=self._published_cy,
+            principal_point=self._principal_point,
             baseline=self._baseline,
         )

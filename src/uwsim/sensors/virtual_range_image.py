@@ -22,7 +22,7 @@ from ..schema import MAX_DISTANCE, element
 from ..world import Body, SensorWorld
 from .pinhole import camera_info
 from .sensor import OPTICAL_AXES, Carrier, LookAt, SensorSpec
-from .virtual_camera import CameraParametersSpec
+from .virtual_camera import CameraParametersSpec, written_principal_point
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +57,7 @@ class VirtualRangeImageSpec(SensorSpec):
     """Noise of each pixel's depth, standard deviation [m]."""
 
     def intrinsics(self, compatibility: frozenset[str] = frozenset()) -> Intrinsics:
-        """Its pinhole; with the compatibility ``y0`` the parameter y0 counts from the bottom."""
+        """Its pinhole; the compatibility ``y0`` is that of `CameraParametersSpec.intrinsics`."""
         if self.parameters is not None:
             return self.parameters.intrinsics(self.resw, self.resh, compatibility)
         return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
@@ -86,11 +86,9 @@ class VirtualRangeImage:
         self, spec: VirtualRangeImageSpec, mount: Body, world: SensorWorld, stream: str
     ) -> None:
         self._std, self._mount, self._world, self._stream = spec.std, mount, world, stream
-        self.intrinsics = lens = spec.intrinsics(world.compatibility)
+        self.intrinsics = spec.intrinsics(world.compatibility)
         """Its pinhole."""
-        self._published_cy = lens.cy
-        if "y0" in world.compatibility and spec.parameters is not None:
-            self._published_cy = spec.parameters.y0
+        self._principal_point = written_principal_point(spec.parameters, world.compatibility)
         self.name = spec.name
         """Its name in the scene."""
         self.frame_id = spec.frame_id
@@ -122,5 +120,8 @@ class VirtualRangeImage:
     def info(self, time: float) -> CameraInfo:
         """Build its CameraInfo, stamped ``time`` [s]: no distortion."""
         return camera_info(
-            self.intrinsics, time=time, frame_id=self.frame_id, cy=self._published_cy
+            self.intrinsics,
+            time=time,
+            frame_id=self.frame_id,
+            principal_point=self._principal_point,
         )

@@ -186,7 +186,7 @@ def test_a_blank_image_leaves_the_guess_alone() -> None:
 
 
 def test_stripes_leave_the_guess_alone_rather_than_slide_along() -> None:
-    u = np.broadcast_to(np.arange(320) + 0.5, (240, 320))
+    u = np.broadcast_to(np.arange(320.0), (240, 320))
     stripes = (128 + 40 * np.sin(u / 5)).astype(np.float32)
     template = take_template(stripes, QUAD)
     result = align(stripes, template, between(QUAD, QUAD + np.array([1.0, 0.0])), Method())

@@ -3,7 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uwsim.algorithms.esm.pyramid import grey, halved, pyramid
+from uwsim.algorithms.esm.homography import warp
+from uwsim.algorithms.esm.pyramid import grey, halved, level_from_image, pyramid
 
 
 def test_grey_is_luma() -> None:
@@ -17,11 +18,12 @@ def test_grey_of_a_grey_image_is_itself() -> None:
     assert (grey(mono) == mono).all()
 
 
-def test_a_ramp_is_the_same_ramp_in_coordinates_from_the_corner() -> None:
-    u, v = np.meshgrid(np.arange(40) + 0.5, np.arange(30) + 0.5)
+def test_a_ramp_is_the_same_ramp_where_a_level_lies_in_its_image() -> None:
+    u, v = np.meshgrid(np.arange(40), np.arange(30))
     half = halved((3.0 * u - 2.0 * v).astype(np.float32))
-    u, v = np.meshgrid(np.arange(20) + 0.5, np.arange(15) + 0.5)
-    expected = 3.0 * (2.0 * u) - 2.0 * (2.0 * v)
+    u, v = np.meshgrid(np.arange(20), np.arange(15))
+    points = warp(level_from_image(-1), np.stack([u.ravel(), v.ravel()], axis=1))
+    expected = (points @ [3.0, -2.0]).reshape(15, 20)
     assert half[1:-1, 1:-1] == pytest.approx(expected[1:-1, 1:-1], abs=1e-4)
 
 

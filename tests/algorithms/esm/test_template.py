@@ -11,15 +11,15 @@ IMAGE = Texture().image()
 
 def turned(angle: float) -> np.ndarray:
     c, s = np.cos(angle), np.sin(angle)
-    return rectangle(0, 0, 93, 28) @ np.array([[c, s], [-s, c]]) + [160.0, 120.0]
+    return rectangle(0, 0, 93, 28) @ np.array([[c, s], [-s, c]]) + [159.5, 119.5]
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 4, 1.2, np.pi / 2])
 def test_the_runs_hold_the_pixels_whose_centres_are_inside(angle: float) -> None:
     top, runs = runs_inside(turned(angle), 320, 240)
-    v, u = np.mgrid[0:240, 0:320] + 0.5
+    v, u = np.mgrid[0:240, 0:320].astype(float)
     c, s = np.cos(angle), np.sin(angle)
-    along, across = (u - 160) * c + (v - 120) * s, -(u - 160) * s + (v - 120) * c
+    along, across = (u - 159.5) * c + (v - 119.5) * s, -(u - 159.5) * s + (v - 119.5) * c
     inside = (np.abs(along) <= 46.5 + 1e-9) & (np.abs(across) <= 14 + 1e-9)
     mask = np.zeros((240, 320), bool)
     for row, (first, last) in enumerate(runs):
@@ -40,20 +40,24 @@ def test_values_have_zero_mean_and_unit_variance_inside(angle: float) -> None:
 
 
 def test_slopes_are_those_of_the_image_in_normalised_coordinates() -> None:
-    v, u = np.mgrid[0:240, 0:320] + 0.5
-    template = take_template((3.0 * u - 2.0 * v).astype(np.float32), rectangle(160, 120, 80, 40))
+    v, u = np.mgrid[0:240, 0:320].astype(float)
+    template = take_template(
+        (3.0 * u - 2.0 * v).astype(np.float32), rectangle(159.5, 119.5, 80, 40)
+    )
     assert template is not None
     assert template.slope_u * template.contrast == pytest.approx(3.0 * 40, rel=1e-4)
     assert template.slope_v * template.contrast == pytest.approx(-2.0 * 20, rel=1e-4)
 
 
 def test_the_rim_of_the_image_is_left_out() -> None:
-    template = take_template(IMAGE, rectangle(160, 120, 320, 240))
+    template = take_template(IMAGE, rectangle(159.5, 119.5, 320, 240))
     assert template is not None
     assert (template.left, template.top, template.n) == (1, 1, 318 * 238)
 
 
 def test_there_is_no_template_of_a_speck_or_of_nothing() -> None:
-    assert take_template(IMAGE, rectangle(160, 120, 6.5, 40)) is None
-    assert take_template(IMAGE, rectangle(160, 120, 40, 6.5)) is None
-    assert take_template(np.full((240, 320), 9, np.float32), rectangle(160, 120, 40, 40)) is None
+    assert take_template(IMAGE, rectangle(159.5, 119.5, 6.5, 40)) is None
+    assert take_template(IMAGE, rectangle(159.5, 119.5, 40, 6.5)) is None
+    assert (
+        take_template(np.full((240, 320), 9, np.float32), rectangle(159.5, 119.5, 40, 40)) is None
+    )

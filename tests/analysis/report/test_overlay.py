@@ -15,11 +15,11 @@ def box_of(drawn: np.ndarray, colour: tuple[int, int, int]) -> tuple[float, floa
     return columns.min(), rows.min(), columns.max() + 1, rows.max() + 1
 
 
-def test_a_quad_lies_on_its_corners_counted_from_the_images_corner() -> None:
+def test_a_quad_lies_on_its_corners_counted_from_the_first_pixels_centre() -> None:
     drawn = overlay(np.zeros((40, 60, 3), np.uint8), truth=QUAD, scale=4)
     assert drawn.shape == (160, 240, 3)
     middle = np.array(box_of(drawn, TRUTH)) / 4
-    assert middle == pytest.approx([9.25, 9.25, 30.75, 20.75], abs=0.3)
+    assert middle == pytest.approx([9.75, 9.75, 31.25, 21.25], abs=0.3)
 
 
 def test_truth_and_estimate_have_their_own_colours() -> None:

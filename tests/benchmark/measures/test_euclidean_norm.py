@@ -243,8 +243,8 @@ def test_at_the_start_the_truth_is_handed_to_the_algorithm() -> None:
     norm.start()
     f = 257.34083
     expected = [
-        160 - 0.2 * f, 120 - 0.1 * f, 160 + 0.2 * f, 120 - 0.1 * f,
-        160 + 0.2 * f, 120 + 0.1 * f, 160 - 0.2 * f, 120 + 0.1 * f,
+        159.5 - 0.2 * f, 119.5 - 0.1 * f, 159.5 + 0.2 * f, 119.5 - 0.1 * f,
+        159.5 + 0.2 * f, 119.5 + 0.1 * f, 159.5 - 0.2 * f, 119.5 + 0.1 * f,
     ]  # fmt: skip
     assert told[0].groundTruth.dtype == np.float32
     assert told[0].groundTruth == pytest.approx(expected, abs=1e-3)

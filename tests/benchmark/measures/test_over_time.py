@@ -39,7 +39,7 @@ class Scene:
     def truth(self, step: int) -> np.ndarray:
         """Where the body is seen (2,) [px]."""
         x = 0.1 * math.sin(2.0 * math.pi * step / (2 * SECOND))
-        return np.array([160.0 + 257.34083 * x, 120.0])
+        return np.array([159.5 + 257.34083 * x, 119.5])
 
     def level(self, say: Say, *, steps: int = 2 * SECOND, value: str = "mean") -> EuclideanNorm:
         """Measure a level in which an algorithm says what ``say`` gives for each step."""
@@ -47,7 +47,7 @@ class Scene:
         norm.start()
         publish = self.world.bus.publisher("estimate", Float32MultiArray)
         for step in range(1, steps + 1):
-            self.body.move((self.truth(step)[0] - 160.0) / 257.34083, 0.0, -1.0)
+            self.body.move((self.truth(step)[0] - 159.5) / 257.34083, 0.0, -1.0)
             if step % FRAME == 0:
                 self.camera.n_images += 1
             for estimate in say(step):
@@ -73,7 +73,7 @@ def frozen(step: int) -> list[np.ndarray]:
     return [Scene().truth(0)] if step % FRAME == 0 else []
 
 
-FROZEN = float(np.mean([abs(Scene().truth(s)[0] - 160.0) for s in range(FRAME, 1001, FRAME)]))
+FROZEN = float(np.mean([abs(Scene().truth(s)[0] - 159.5) for s in range(FRAME, 1001, FRAME)]))
 
 
 def test_a_tracker_that_answers_each_image_has_the_mean_of_its_errors() -> None:
@@ -97,7 +97,7 @@ def test_a_guess_at_every_step_is_no_better_than_one_at_every_image() -> None:
 
 def test_who_publishes_only_while_it_is_sure_is_held_to_it_meanwhile() -> None:
     def sure(step: int) -> list[np.ndarray]:
-        is_near = abs(Scene().truth(step)[0] - 160.0) < 5.0
+        is_near = abs(Scene().truth(step)[0] - 159.5) < 5.0
         return [Scene().truth(step)] if is_near and step % FRAME == 0 else []
 
     norm = Scene().level(sure)
@@ -168,10 +168,10 @@ def test_the_newest_good_one_of_a_step_counts() -> None:
 
 def test_statistics_are_over_the_images_and_components_too() -> None:
     def once(step: int) -> list[np.ndarray]:
-        return [np.array([160.0, 117.0])] if step == 5 else []
+        return [np.array([159.5, 116.5])] if step == 5 else []
 
     details = Scene().level(once, steps=400).details
-    errors = [Scene().truth(s) - [160.0, 117.0] for s in range(10, 401, 10)]
+    errors = [Scene().truth(s) - [159.5, 116.5] for s in range(10, 401, 10)]
     norms = [math.hypot(*error) for error in errors]
     assert details["mean"] == pytest.approx(np.mean(norms), rel=1e-5)
     assert details["rms"] == pytest.approx(math.sqrt(np.mean(np.square(norms))), rel=1e-5)
@@ -184,7 +184,7 @@ def test_statistics_are_over_the_images_and_components_too() -> None:
 @pytest.mark.parametrize(
     ("truth", "unseen"),
     [
-        (ConstantSpec(values=(160.0, 120.0)), None),
+        (ConstantSpec(values=(159.5, 119.5)), None),
         (RelativeLocationSpec(from_="box", to="box"), None),
         (CentroidFromCameraSpec(camera="cam", target="box"), None),
     ],

@@ -85,7 +85,7 @@ class Blob:
         orange = cv2.morphologyEx(orange, cv2.MORPH_CLOSE, np.ones((9, 9), np.uint8))
         outlines, _ = cv2.findContours(orange, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
         if outlines:
-            points = max(outlines, key=cv2.contourArea).reshape(-1, 2) + 0.5
+            points = max(outlines, key=cv2.contourArea).reshape(-1, 2)
             quad = rectangle(points.astype(np.float64))
             self.corners(floats(quad.reshape(-1)))
             self.centroid(floats(quad.mean(axis=0)))

@@ -23,7 +23,7 @@ TWIST = "<ROSTwistToPAT><topic>/twist</topic><vehicleName>girona500</vehicleName
 # (2.2, -0.1, 3.465), its right is y and its up is x; the origin of the box is at (2, 0.35, 4.735).
 RIGHT, UP, DEPTH = 0.45, -0.2, 1.27  # of the box's origin, from the camera [m]
 FOCAL = 120.0 / math.tan(math.radians(25.0))  # [px]
-CENTROID = (160.0 + FOCAL * RIGHT / DEPTH, 120.0 - FOCAL * UP / DEPTH)  # (u, v) [px]
+CENTROID = (159.5 + FOCAL * RIGHT / DEPTH, 119.5 - FOCAL * UP / DEPTH)  # (u, v) [px]
 OFF_CENTRE = FOCAL * math.hypot(RIGHT, UP) / DEPTH  # [px]
 
 

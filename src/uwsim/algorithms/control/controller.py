@@ -147,7 +147,7 @@ class ControllerNode:
         if self._info is None or self._is_over:
             return
         fx, cx, fy, cy = (float(self._info.k[i]) for i in (0, 2, 4, 5))
-        u, v = (float(x) - 0.5 for x in centroid.data[:2])  # K counts from the first pixel's centre
+        u, v = (float(x) for x in centroid.data[:2])
         distance = self._number("distance")
         right, up = (u - cx) * distance / fx, (cy - v) * distance / fy  # [m]
         dt = 0.0 if self._last is None else self._node.now - self._last

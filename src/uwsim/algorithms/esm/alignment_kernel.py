@@ -122,7 +122,7 @@ def fetch(image: Grey, homography: Array, runs: Runs, warped: Grey, valid: Grey)
             valid[row, column] = 0.0
             warped[row, column] = 0.0
             if w > 0.0:
-                px, py = x / w - 0.5, y / w - 0.5
+                px, py = x / w, y / w
                 if px >= 0.0 and py >= 0.0 and px < limit_x and py < limit_y:
                     i, j = int(px), int(py)
                     fx, fy = np.float32(px - i), np.float32(py - j)

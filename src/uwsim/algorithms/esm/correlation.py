@@ -44,6 +44,7 @@ def nearest_zncc(image: Grey, runs: Runs, values: Grey, homography: Array) -> fl
                 continue
             x = (homography[0, 0] * u + homography[0, 1] * v + homography[0, 2]) / w
             y = (homography[1, 0] * u + homography[1, 1] * v + homography[1, 2]) / w
+            x, y = x + 0.5, y + 0.5  # from the corner: its whole part is the nearest pixel's index
             if 0.0 <= x < image.shape[1] and 0.0 <= y < image.shape[0]:
                 i, t = float(image[int(y), int(x)]), float(values[row, column])
                 n += 1.0

@@ -2,7 +2,8 @@ r"""Homographies as elements of SL(3), the group of 3x3 matrices of determinant 
 
 A step of a tracker is a point :math:`x` of the tangent space sl(3); it is applied as
 :math:`H \leftarrow H \exp(\sum_i x_i A_i)` (Benhimane and Malis, IROS 2004).
-Points are image coordinates [px] from the top left corner, unless they are called normalised.
+Points are image coordinates [px] from the centre of the first pixel, unless they are called
+normalised.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Grey images and their pyramid, in float32 grey levels 0..255.
 
-Coordinates are from the top left corner, so a point (u, v) of one level is (u/2, v/2) of the next.
+Coordinates are from the centre of the first pixel. That of a level lies where four pixels of the
+level below meet, so a point (u, v) of one level is ((u - 0.5)/2, (v - 0.5)/2) of the next.
 """
 
 from __future__ import annotations
@@ -8,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from ...geometry import Array
 from ...jit import njit
 
 Grey = npt.NDArray[np.float32]
@@ -62,3 +64,10 @@ def pyramid(image: Grey, levels: int) -> list[Grey]:
     while len(images) < levels and min(images[-1].shape) >= 4:
         images.append(halved(images[-1]))
     return images
+
+
+def level_from_image(level: int) -> Array:
+    """Send points of the image to those of a level (3, 3); with ``-level`` the way back."""
+    scale = 0.5**level
+    shift = 0.5 * (scale - 1.0)
+    return np.array([[scale, 0.0, shift], [0.0, scale, shift], [0.0, 0.0, 1.0]])

@@ -51,18 +51,18 @@ def runs_inside(quad: Array, width: int, height: int) -> tuple[int, Runs]:
 
     Pixels on the rim of the image are left out: they have no central difference.
     """
-    top = max(int(np.ceil(quad[:, 1].min() - 0.5)), 1)
-    bottom = min(int(np.floor(quad[:, 1].max() - 0.5)), height - 2)
+    top = max(int(np.ceil(quad[:, 1].min())), 1)
+    bottom = min(int(np.floor(quad[:, 1].max())), height - 2)
     runs = np.zeros((max(bottom - top + 1, 0), 2), dtype=np.int64)
     for row in range(runs.shape[0]):
-        v = top + row + 0.5
+        v = top + row
         crossings = []
         for (u0, v0), (u1, v1) in zip(quad, np.roll(quad, -1, axis=0), strict=True):
             if min(v0, v1) <= v <= max(v0, v1) and v0 != v1:
                 crossings.append(u0 + (u1 - u0) * (v - v0) / (v1 - v0))
         if crossings:
-            first = max(int(np.ceil(min(crossings) - 0.5)), 1)
-            runs[row] = first, max(min(int(np.floor(max(crossings) - 0.5)), width - 2) + 1, first)
+            first = max(int(np.ceil(min(crossings))), 1)
+            runs[row] = first, max(min(int(np.floor(max(crossings))), width - 2) + 1, first)
     return top, runs
 
 
@@ -92,8 +92,8 @@ def take_template(image: Grey, quad: Array) -> Template | None:
         return None
     matrix = np.array(
         [
-            [width / 2.0, 0.0, left + width / 2.0],
-            [0.0, height / 2.0, top + height / 2.0],
+            [width / 2.0, 0.0, left + (width - 1) / 2.0],
+            [0.0, height / 2.0, top + (height - 1) / 2.0],
             [0.0, 0.0, 1.0],
         ]
     )

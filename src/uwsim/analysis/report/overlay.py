@@ -1,8 +1,8 @@
 """Overlay: truth and estimate drawn on a camera's image.
 
-Coordinates are those of `uwsim.geometry.Intrinsics`: pixels from the top left corner, the centre of
-the first pixel at (0.5, 0.5). Truth is green and solid, the estimate orange and dashed, so that
-they are told apart in print and by colour-blind readers; lines have a dark rim.
+Coordinates are those of `uwsim.geometry.Intrinsics`: pixels from the centre of the first one.
+Truth is green and solid, the estimate orange and dashed, so that they are told apart in print and
+by colour-blind readers; lines have a dark rim.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def _points(quad: Quad, scale: int) -> list[tuple[float, float]]:
     """Corners in pixels of the drawing, whose first pixel's centre PIL calls 0."""
     if len(quad) != 8:
         raise ValueError(f"a quadrangle has 8 numbers, not {len(quad)}")
-    flat = [value * scale - 0.5 for value in quad]
+    flat = [(value + 0.5) * scale - 0.5 for value in quad]
     return list(zip(flat[0::2], flat[1::2], strict=True))
 
 

@@ -13,6 +13,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...geometry import image_centre, is_in_image
 from ...schema import element
 from ...world import World
 from ..ground_truth import CentroidFromCamera
@@ -48,8 +49,9 @@ class ObjectCenteredOnCamSpec(MeasureSpec):
 class ObjectCenteredOnCam(Measure):
     r"""Distance :math:`\sqrt{d_x^2 + d_y^2}` of a body's projected origin from the image centre.
 
-    With the image coordinates u, v of the origin, :math:`d_x = w/2 - u` and, as the original counts
-    rows from the bottom, :math:`d_y = v - h/2`. One sample for each step at which the origin
+    With the image coordinates u, v of the origin and the centre of an image w wide and h high,
+    :math:`d_x = (w - 1)/2 - u` and, as the original counts rows from the bottom,
+    :math:`d_y = v - (h - 1)/2`. One sample for each step at which the origin
     projects into the image; no value when it does not at the last look. ``visible`` is the
     fraction of looks at which it did. Not modelled: something in between that hides it.
 
@@ -79,15 +81,13 @@ class ObjectCenteredOnCam(Measure):
 
     def update(self) -> None:
         """Take a sample, if the body is in the image."""
-        width, height = self._size
         pixel = self._seen.pixel()
         self._looks += 1
         u, v = (math.nan, math.nan) if pixel is None else pixel
-        self._is_visible = pixel is not None and (
-            self._unseen or (0.0 <= u <= width and 0.0 <= v <= height)
-        )
+        self._is_visible = pixel is not None and (self._unseen or is_in_image(u, v, *self._size))
         if self._is_visible:
-            off = (width / 2 - u, v - height / 2)
+            centre_u, centre_v = image_centre(*self._size)
+            off = (centre_u - u, v - centre_v)
             self._signal.add(math.hypot(*off), off)
 
     @property

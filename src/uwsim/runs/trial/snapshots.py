@@ -22,7 +22,7 @@ class Snapshot:
     pixels: npt.NDArray[np.uint8]
     """(h, w, 3)."""
     truth: tuple[float, ...] | None
-    """x, y of four corners [px from the top left corner]."""
+    """x, y of four corners [px]."""
     estimate: tuple[float, ...] | None
     """The same of the algorithm's last estimate; None if it has none."""
 

@@ -145,7 +145,7 @@ def fog_of_loss(contrast: float, noise: float, distance: float, threshold: float
 
 def quad_mask(corners: Array, shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
     """Pixels with centres inside a convex quadrangle (4, 2) [px], (h, w) bool."""
-    v, u = np.mgrid[0 : shape[0], 0 : shape[1]] + 0.5
+    v, u = np.mgrid[0 : shape[0], 0 : shape[1]]
     sides = [
         (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0])
         for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)
