@@ -17,6 +17,7 @@ COMPATIBILITY: dict[str, str] = {
     "collision": "only the first body of a contact and its velocity count, and one touched object",
     "current-force": "publishAsForce pushes with v^2 along each axis: the sign of v is lost",
     "current-target": "a benchmark's current moves its target alone, not all that floats",
+    "dvl-differences": "a DVL gives the mean velocity since its last sample, bottom or not",
     "fog-distance": "fog uses the clip-space z of the camera, not the distance along the ray",
     "gps-metres": "a GPS is silent under water and gives metres of L, also with a nedOrigin",
     "imu-orientation": "an imu measures the attitude alone: rates and accelerations are 0",

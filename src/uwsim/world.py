@@ -254,6 +254,10 @@ class Rays(Protocol):
     """Ray casting against the surfaces of a scene."""
 
     @property
+    def vehicles(self) -> Sequence[str]:
+        """Name of the vehicle that each surface belongs to, by its number; or empty."""
+
+    @property
     def materials(self) -> Sequence[Material]:
         """Acoustic material of each surface, by its number."""
 
@@ -292,6 +296,17 @@ class SensorWorld(World, Protocol):
     @property
     def density_levels(self) -> Sequence[tuple[float, float]]:
         """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
+
+    def water_velocity(
+        self, points: npt.NDArray[np.float64], time: float, vehicle: str
+    ) -> npt.NDArray[np.float64]:
+        """Return the velocity of the water at points of W, (n, 3) [m/s].
+
+        Args:
+            points: (n, 3) [m].
+            time: [s].
+            vehicle: name of the vehicle that asks: some currents are felt by one alone.
+        """
 
     @property
     def earth_origin(self) -> Geodetic | None:

@@ -11,6 +11,7 @@ from uwsim.geodesy import Geodetic
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rays import RayScene, Surface
 from uwsim.sensors.pinhole import cast_depth
+from uwsim.world import BodyMotion
 
 WORLD_FROM_NED = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 """W is east, north, up."""
@@ -21,6 +22,7 @@ class Materials(RayScene):
 
     def __init__(self, sets: list[np.ndarray], materials: list[Material] | None = None) -> None:
         super().__init__([[Surface(i, triangles) for i, triangles in enumerate(sets)]])
+        self.vehicles = tuple("" for _ in sets)
         self.materials = tuple(materials or [MATERIALS["sand"]] * len(sets))
 
 
@@ -39,6 +41,10 @@ class AcousticWorld:
         self.world_from_localized = Pose(np.zeros(3), WORLD_FROM_NED)
         self.density_levels: tuple[tuple[float, float], ...] = ((0.0, 1000.0),)
         self.earth_origin: Geodetic | None = None
+        self.current = np.zeros(3)
+
+    def water_velocity(self, points: np.ndarray, time: float, vehicle: str) -> np.ndarray:
+        return np.tile(self.current, (len(points), 1))
 
     def stream(self, name: str) -> np.random.Generator:
         return rng.stream(self.seed, name)
@@ -53,11 +59,25 @@ class FakeCarrier:
     name = "vehicle"
 
     def __init__(self, pose: Pose | None = None) -> None:
-        self.pose = pose or Pose.identity()
+        self.pose = self.world_from_base = pose or Pose.identity()
 
     def mount(self, spec: object, *, visual: bool = False) -> FakeBody:
         here = self.pose @ Pose.from_rpy(spec.position, spec.orientation)  # type: ignore[attr-defined]
         return FakeBody(tuple(here.position), rotation=here.rotation)  # type: ignore[arg-type]
+
+
+class MovingCarrier(FakeCarrier):
+    """A vehicle whose mounts move at these velocities of W, whatever their place."""
+
+    def __init__(self, pose: Pose, velocity: tuple[float, float, float]) -> None:
+        super().__init__(pose)
+        self.velocity = np.array(velocity)
+
+    def moving_mount(self, spec: object) -> FakeBody:
+        body = self.mount(spec)
+        moving = BodyMotion(self.velocity, np.zeros(3), np.zeros(3))
+        body.motion = lambda time: moving  # type: ignore[attr-defined]
+        return body
 
 
 def plate(half: float, height: float) -> np.ndarray:

@@ -19,12 +19,14 @@ own macro library.
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import get_args
 
 from ..devices.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..errors import BadSetting
+from ..geodesy import Geodetic
 from ..geometry import Pose
 from ..schema import REQUIRED, Original, element
 from ..topics import INTERFACES, InterfaceSpec
@@ -37,12 +39,17 @@ from .vehicle import VehicleSpec
 
 @dataclass(frozen=True, kw_only=True)
 class NedOriginSpec:
-    """A ``<nedOrigin>``: where on Earth the pose inputs of ``<fdm>`` count from."""
+    """A ``<nedOrigin>``: where on Earth the origin of W is, for ``<fdm>`` and GPS."""
 
     lat: float = element(default=0.0, original=Original(lenient=True, required=True))
     """Latitude [deg]."""
     lon: float = element(default=0.0, original=Original(lenient=True, required=True))
     """Longitude [deg]."""
+
+    @property
+    def place(self) -> Geodetic:
+        """The place on the ellipsoid."""
+        return Geodetic(latitude=math.radians(self.lat), longitude=math.radians(self.lon))
 
 
 @dataclass(frozen=True, kw_only=True)

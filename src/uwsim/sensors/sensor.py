@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
+from ..geometry import Pose
 from ..world import Body, MovingBody, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
@@ -76,6 +77,10 @@ class Carrier(Protocol):
     @property
     def name(self) -> str:
         """Its name in the scene."""
+
+    @property
+    def world_from_base(self) -> Pose:
+        """Where its base is now."""
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> Body:
         """Fix something to its link, or to the link's visual frame: a frame that moves with it.

@@ -36,6 +36,11 @@ class SceneRays:
             MATERIALS[names.get(number, "sand")] for number in numbers
         )
         """Of each surface, by its number."""
+        owners = {
+            p.id: scene.vehicles[p.vehicle].name for p in self._parts if p.vehicle is not None
+        }
+        self.vehicles: tuple[str, ...] = tuple(owners.get(number, "") for number in numbers)
+        """Name of the vehicle that each surface belongs to, by its number; or empty."""
 
     def cast(
         self,

@@ -9,7 +9,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ..currents import Place
 from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
 from ..errors import UnknownName
@@ -29,7 +28,6 @@ from .frames import object_frames, vehicle_frames
 from .markers import SERVICE, Markers
 from .trajectories import RATE, Trajectory
 from .vehicles import SceneVehicle
-from .water_motion import WaterMotion
 from .world import SceneWorld
 
 M = TypeVar("M")
@@ -55,17 +53,6 @@ class SceneStage(SceneWorld):
 
     def __init__(self, scene: SceneSpec, *, udp_address: str | None = None, **options: Any) -> None:
         super().__init__(scene, **options)
-        path = self.scene.path
-        place = Place(
-            stream=self.stream,
-            find=lambda name: self.find(name, named_by=path),
-            world_from_localized=self.scene.world_from_localized,
-            runs_code=self._runs_code,
-            surface_height=self.scene.ocean_state.ocean_surface_height,
-        )
-        self.water = WaterMotion(self.scene, place)
-        """How its water moves."""
-        self.files |= self.water.files
         self.network = Network(
             self.stream,
             surface=self.scene.ocean_state.ocean_surface_height,

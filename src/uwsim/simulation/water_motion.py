@@ -12,6 +12,7 @@ from ..geometry import Array, Pose
 from ..linear import product
 from ..scene.spec import SceneSpec
 from ..world import Flow
+from .bodies import find_file
 
 WaterRow = tuple[Array, Array, Array | None]
 """Velocity, acceleration and rotation of the water at some points."""
@@ -121,9 +122,42 @@ class WaterMotion:
         slopes: Array = (found[:3] - found[3:]) / (2.0 * NEARBY)  # (by j, n, i)
         return slopes.transpose(1, 2, 0)
 
+    def velocity(self, points: Array, time: float, vehicle: str) -> Array:
+        """Return the velocity at points of W (n, 3) [m] as a vehicle feels it, (n, 3) [m/s]."""
+        if self._is_still:
+            return np.zeros((len(points), 3))
+        localized = self._localized_from_world.transform(points)
+        velocity = self._flow.velocity(localized, time, (vehicle,) * len(points))
+        return product(velocity, self._localized_from_world.rotation)
+
     def carried(self, world_from_base: Pose, time: float, timestep: float, vehicle: str) -> Pose:
         """Return where a vehicle is after a step of drifting with the water: ``p += v dt``."""
         point = self._localized_from_world.transform(world_from_base.position[None])  # (1, 3) [m]
         velocity = self._flow.velocity(point, time, (vehicle,))[0]  # (3,) [m/s]
         moved = self._world_from_localized.transform(point + velocity * timestep)[0]
         return Pose(moved, world_from_base.rotation)
+
+
+def water_motion(
+    scene: SceneSpec,
+    stream: Callable[[str], np.random.Generator],
+    data_path: tuple[Path, ...],
+    *,
+    runs_code: bool,
+) -> WaterMotion:
+    """Return the flow of a scene.
+
+    Args:
+        scene: its spec.
+        stream: returns the random generator of a name.
+        data_path: folders in which files are looked for.
+        runs_code: let Python code that the scene names run.
+    """
+    place = Place(
+        stream=stream,
+        find=lambda name: find_file(name, scene.path, data_path),
+        world_from_localized=scene.world_from_localized,
+        runs_code=runs_code,
+        surface_height=scene.ocean_state.ocean_surface_height,
+    )
+    return WaterMotion(scene, place)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import cached_property
@@ -19,9 +18,7 @@ from ..geodesy import Geodetic
 from ..geometry import Intrinsics, Pose
 from ..physics.engine import Engine
 from ..rng import stream
-from ..scene.ocean_state import MILD
 from ..scene.reader import angle_warnings
-from ..scene.seawater import sea_water_density
 from ..scene.sim_params import Integrator
 from ..scene.spec import SceneSpec, with_integrator
 from ..scene.variation import varied
@@ -39,9 +36,8 @@ from .renderer_pool import RendererPool
 from .scene_rays import SceneRays
 from .scenery import Scenery
 from .vehicles import SceneVehicle, vehicles_of
-
-SEA = sea_water_density(MILD, 35.0)
-"""Density of water of which nothing is given [kg/m3]."""
+from .water_density import density_levels
+from .water_motion import water_motion
 
 
 class SceneWorld:
@@ -86,7 +82,6 @@ class SceneWorld:
         """Length of a step [s]."""
         self.compatibility = compatibility
         """The compatibility quirks that are on."""
-        self._runs_code = runs_code
         self.is_blind = is_blind
         """Whether images on topics are black."""
         self._bus = Bus()
@@ -114,6 +109,11 @@ class SceneWorld:
         )
         self.touch = Contacts(scene, self.robots, self.state, data_path, timestep)
         """Contacts between bodies."""
+        self.water = water_motion(scene, self.stream, data_path, runs_code=runs_code)
+        """How its water moves."""
+        self.density_levels = density_levels(scene.ocean_state, dynamics)
+        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
+        self.files |= self.water.files
         self._sensors = self._bound_sensors()
         self._cameras = {
             name: sensor
@@ -169,26 +169,17 @@ class SceneWorld:
         """Height of the water's surface in W [m]."""
         return self.scene.ocean_state.ocean_surface_height
 
-    @property
-    def density_levels(self) -> tuple[tuple[float, float], ...]:
-        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water.
-
-        Where neither the scene nor a set of hydrodynamics says: that of the sea at 15 degrees.
-        """
-        ocean = self.scene.ocean_state
-        if ocean.profile is not None:
-            return ocean.profile.levels
-        given = [ocean.water_density, *(each.density for each in self.dynamics.values())]
-        known = (density for density in given if density is not None)
-        return ((0.0, next(known, SEA)),)
+    def water_velocity(
+        self, points: npt.NDArray[np.float64], time: float, vehicle: str
+    ) -> npt.NDArray[np.float64]:
+        """Return the velocity of the water at points of W (n, 3) [m], at ``time`` [s]."""
+        return self.water.velocity(points, time, vehicle)
 
     @property
     def earth_origin(self) -> Geodetic | None:
         """Where on Earth the origin of W is: x east, y north; None if the scene does not say."""
         origin = self.scene.ned_origin
-        if origin is None:
-            return None
-        return Geodetic(latitude=math.radians(origin.lat), longitude=math.radians(origin.lon))
+        return None if origin is None else origin.place
 
     def body(self, name: str) -> SceneBody:
         """Find a vehicle, link or object by its route (see `name_bodies`)."""

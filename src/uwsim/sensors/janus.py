@@ -1,0 +1,57 @@
+r"""Four beams in Janus configuration, and velocities from what is measured along them.
+
+The beams lean from the z axis of the sensor by the angle :math:`\theta`, towards the azimuths 45,
+135, 225 and 315 degrees from x to y. A beam of the direction d measures :math:`b = d \cdot v`. Of
+three beams or four the velocity is the least-squares solution; with a deviation s along each of
+four beams those of x and y are :math:`s / (\sqrt 2 \sin\theta)` and that of z is
+:math:`s / (2 \cos\theta)`. What four beams say too much is the error velocity,
+:math:`(b_1 - b_2 + b_3 - b_4) / (2 \sqrt 2 \sin\theta)`, with the deviation of x and y.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array
+from ..linear import product, solve
+
+ENOUGH = 3
+"""Beams from which a velocity follows."""
+AZIMUTHS = np.array([45.0, 135.0, 225.0, 315.0])
+"""Of the beams, from x to y [deg]."""
+SIGNS = np.array([1.0, -1.0, 1.0, -1.0])
+"""Of the beams in the error velocity."""
+
+Flags = npt.NDArray[np.bool_]
+
+
+class Janus:
+    """The geometry of four beams that lean by an angle [rad]."""
+
+    def __init__(self, angle: float) -> None:
+        sine, cosine = math.sin(angle), math.cos(angle)
+        turns = [math.radians(azimuth) for azimuth in AZIMUTHS.tolist()]
+        self.directions = np.array(
+            [[sine * math.cos(turn), sine * math.sin(turn), cosine] for turn in turns]
+        )
+        """Of the beams in the sensor, (4, 3)."""
+        self.cosine = cosine
+        """Distance along the axis of a distance of 1 along a beam [1]."""
+        self._share = 1.0 / (2.0 * math.sqrt(2.0) * sine)
+
+    def velocity(self, along: Array, is_good: Flags) -> tuple[Array, float] | None:
+        """Return the velocity, (3,), and the error velocity [m/s]; None of too few beams.
+
+        Args:
+            along: velocities along the beams, (4,) [m/s].
+            is_good: which of them are known, (4,).
+        """
+        if is_good.sum() < ENOUGH:
+            return None
+        beams = self.directions[is_good]
+        found = solve(product(beams.T, beams), product(beams.T, along[is_good]))
+        error = self._share * float((SIGNS * along).sum()) if is_good.all() else math.nan
+        return found, error
