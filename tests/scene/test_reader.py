@@ -18,6 +18,7 @@ from lxml import etree
 from uwsim.currents import UwsimSinusoidSpec
 from uwsim.devices.custom_comms_device import CustomCommsDeviceSpec
 from uwsim.devices.echo import EchoSpec, SimulatedDevicesSpec
+from uwsim.devices.structured_light_projector import StructuredLightProjectorSpec
 from uwsim.errors import SceneError
 from uwsim.geometry import Pose
 from uwsim.runs.check import diagnostics_of
@@ -31,7 +32,6 @@ from uwsim.scene.writer import to_original, write_scene
 from uwsim.schema import Diagnostics, Field, fields_of
 from uwsim.sensors.multibeam_sensor import MultibeamSensorSpec
 from uwsim.sensors.profiling_sonar import ProfilingSonarSpec
-from uwsim.sensors.structured_light_projector import StructuredLightProjectorSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.topics import INTERFACES
 from uwsim.topics.comms_device_ros import CustomCommsDeviceROSSpec

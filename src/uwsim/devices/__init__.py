@@ -9,6 +9,7 @@ from .force_sensor import ForceSensorSpec
 from .lamp import LampSpec
 from .led_array import LedArraySpec
 from .object_picker import ObjectPickerSpec
+from .structured_light_projector import StructuredLightProjectorSpec
 from .sway import SwaySpec
 from .thruster_fault import ThrusterFaultSpec
 
@@ -20,6 +21,7 @@ DEVICES: dict[str, type] = {
     "LedArray": LedArraySpec,
     "echo": EchoSpec,
     "objectPicker": ObjectPickerSpec,
+    "structuredLightProjector": StructuredLightProjectorSpec,
     f"{{{NAMESPACE}}}lamp": LampSpec,
     f"{{{NAMESPACE}}}sway": SwaySpec,
     f"{{{NAMESPACE}}}fault": ThrusterFaultSpec,

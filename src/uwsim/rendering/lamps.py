@@ -108,27 +108,50 @@ class Lamps:
         self._buffer.bind_to_uniform_block(LAMPS.binding)
 
     def _draw(self, tile: int, lamp: Lamp, instances: Instances, casters: Sequence[int]) -> None:
-        context, view = self._context, _map_camera(lamp)
-        clip_from_lamp = clip_from_camera(view)
+        view = _map_camera(lamp)
         place = TILE * (tile % 2), TILE * (tile // 2), TILE, TILE
         self.n_drawn += 1
         self._framebuffer.viewport = place
         self._framebuffer.use()
         self._framebuffer.clear(depth=1.0, viewport=place)
-        context.enable_only(moderngl.DEPTH_TEST)
-        context.depth_func = "<="
-        context.polygon_offset = 1.5, 2.0
-        slots, planes = self._slots[tile], frustum(clip_from_lamp)
-        slots.fill(instances, product(clip_from_lamp, lamp.world_from_lamp.inverse().matrix))
-        for number in in_view(instances, casters, lamp.world_from_lamp, planes):
-            row, batch = instances.batch(number)
-            if batch.opacity < 1.0:  # glass casts no shadow
-                continue
-            # As in the renderer's images: upside down for OpenGL, so outside is clockwise.
-            context.front_face = "ccw" if instances.is_mirrored[row] else "cw"
-            slots.bind(row)
-            batch.draw(self._program)
-        context.polygon_offset = 0.0, 0.0
+        target = self._context, self._program, self._slots[tile]
+        draw_casters(*target, instances, casters, lamp.world_from_lamp, view)
+
+
+def draw_casters(
+    context: moderngl.Context,
+    program: moderngl.Program,
+    slots: Slots,
+    instances: Instances,
+    casters: Sequence[int],
+    world_from_lamp: Pose,
+    view: Intrinsics,
+) -> None:
+    """Draw the depth of what casts a shadow, as a lamp sees it, into the framebuffer in use.
+
+    Args:
+        context: Of the renderer.
+        program: That of shadows.
+        slots: Where the places of the instances go.
+        instances: All there are.
+        casters: Rows of possible casters.
+        world_from_lamp: Where the lamp is.
+        view: Its pinhole.
+    """
+    clip_from_lamp = clip_from_camera(view)
+    context.enable_only(moderngl.DEPTH_TEST)
+    context.depth_func = "<="
+    context.polygon_offset = 1.5, 2.0
+    slots.fill(instances, product(clip_from_lamp, world_from_lamp.inverse().matrix))
+    for number in in_view(instances, casters, world_from_lamp, frustum(clip_from_lamp)):
+        row, batch = instances.batch(number)
+        if batch.opacity < 1.0:  # glass casts no shadow
+            continue
+        # As in the renderer's images: upside down for OpenGL, so outside is clockwise.
+        context.front_face = "ccw" if instances.is_mirrored[row] else "cw"
+        slots.bind(row)
+        batch.draw(program)
+    context.polygon_offset = 0.0, 0.0
 
 
 def _map_camera(lamp: Lamp) -> Intrinsics:

@@ -24,6 +24,8 @@ from .lamp import Lamp
 from .lamps import LAMPS, Lamps
 from .program import build
 from .projection import clip_from_camera, frustum
+from .projector import Projector
+from .projector_light import PROJECTOR, ProjectorLight
 from .rendered_image import RenderedImage
 from .sun_shadow import MAX_CASTER_RADIUS, SunShadow, reached
 from .targets import STORES, TARGETS, Targets
@@ -31,7 +33,13 @@ from .water import Light, Water, sun_direction
 
 __all__ = ["RenderedImage", "Renderer"]
 
-SAMPLERS = {"base_map": 0, "shadow_map": 1, "lamp_maps": 2}
+SAMPLERS = {
+    "base_map": 0,
+    "shadow_map": 1,
+    "lamp_maps": 2,
+    "projector_map": 3,
+    "projector_pattern": 4,
+}
 """Texture unit of every sampler in the shaders."""
 
 Switches = tuple[tuple[str, int], ...]
@@ -60,6 +68,8 @@ class View:
     """Of the instances and their places."""
     lamps: tuple[Lamp, ...]
     """What shines besides the sun."""
+    projector: Projector | None
+    """What projects a pattern."""
 
 
 class Renderer:
@@ -85,6 +95,7 @@ class Renderer:
         self._slots = Slots(self._context)
         self._shadow = SunShadow(self._context)
         self._lamps: Lamps | None = None
+        self._projector: ProjectorLight | None = None
         self._last: View | None = None  # what was drawn last
         self._begun: View | None = None  # what is being drawn ahead of its time
 
@@ -124,6 +135,7 @@ class Renderer:
         hidden: frozenset[int] = frozenset(),
         colour: str = "uint8",
         lamps: Sequence[Lamp] = (),
+        projector: Projector | None = None,
     ) -> RenderedImage:
         """Draw one image.
 
@@ -136,6 +148,7 @@ class Renderer:
             hidden: Ids of instances that this camera does not see, nor their shadows.
             colour: ``uint8``, or ``linear16`` for noise to be added before the 8-bit store.
             lamps: What shines besides the sun, at most four.
+            projector: What projects a pattern.
         """
         wanted = frozenset(targets)
         if not wanted or not wanted <= set(TARGETS) or colour not in STORES:
@@ -152,13 +165,14 @@ class Renderer:
             store=colour,
             version=self._instances.version,
             lamps=tuple(lamps),
+            projector=projector,
         )
         with self._context:
             if view != self._begun:
                 self._begin(view, world_from_camera)
             image = self._target(view).image(intrinsics)
             self._begun = None
-            if view == self._last and not lamps:
+            if view == self._last and not lamps and projector is None:
                 # Requested twice in a row, it will be requested again: the rasteriser's threads
                 # draw the next one while this one is processed.
                 self._begin(view, world_from_camera)
@@ -184,6 +198,9 @@ class Renderer:
         if lamps and "colour" in view.wanted:
             switches += (("LAMPS", len(lamps)),)
             self._shine(lamps, rows, world_from_camera, hidden)
+        if view.projector is not None and "colour" in view.wanted:
+            switches += (("PROJECTOR", 1),)
+            self._project(view.projector, rows, world_from_camera, hidden)
         self._frame.fill(world_from_camera, view.intrinsics, clip, water, light, self._shadow)
         self._slots.fill(self._instances, world_from_camera.inverse().matrix)
         is_close = self._instances.needs_no_copies(seen, world_from_camera, view.intrinsics)
@@ -221,6 +238,23 @@ class Renderer:
         self._lamps.update(lamps, self._instances, seen, (self._instances.version, hidden))
         self._lamps.fill(lamps, world_from_camera)
         self._lamps.texture.use(SAMPLERS["lamp_maps"])
+
+    def _project(
+        self,
+        projector: Projector,
+        seen: Sequence[int],
+        world_from_camera: Pose,
+        hidden: frozenset[int],
+    ) -> None:
+        """Update the projector and its shadow map."""
+        if self._projector is None:
+            self._projector = ProjectorLight(self._context)
+        version = self._instances.version, hidden
+        self._projector.update(projector, self._instances, seen, version)
+        self._projector.fill(projector, world_from_camera)
+        self._projector.use(
+            shadow_map=SAMPLERS["projector_map"], pattern=SAMPLERS["projector_pattern"]
+        )
 
     def _draw_into(
         self, target: Targets, drawn: Sequence[tuple[int, bool, bool]], switches: Switches
@@ -308,7 +342,7 @@ class Renderer:
                 self._context,
                 effect,
                 defines=defines | dict(switches),
-                blocks=(FRAME, INSTANCE, LAMPS),
+                blocks=(FRAME, INSTANCE, LAMPS, PROJECTOR),
                 samplers=SAMPLERS,
             )
         return self._programs[key]

@@ -12,7 +12,6 @@ from .range_sensor import RangeSensorSpec
 from .scanning_sonar import ScanningSonarSpec
 from .sensor import SensorSpec
 from .side_scan_sonar import SideScanSonarSpec
-from .structured_light_projector import StructuredLightProjectorSpec
 from .virtual_camera import VirtualCameraSpec
 from .virtual_range_image import VirtualRangeImageSpec
 
@@ -24,7 +23,6 @@ SENSORS: dict[str, type[SensorSpec]] = {
     "multibeamSensor": MultibeamSensorSpec,
     "pressureSensor": PressureSensorSpec,
     "rangeSensor": RangeSensorSpec,
-    "structuredLightProjector": StructuredLightProjectorSpec,
     "virtualCamera": VirtualCameraSpec,
     "virtualRangeImage": VirtualRangeImageSpec,
     f"{{{NAMESPACE}}}imagingSonar": ImagingSonarSpec,

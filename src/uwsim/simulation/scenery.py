@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..devices.lamp import MAX_LAMPS, MountedLamp
+from ..devices.structured_light_projector import MountedProjector
 from ..errors import UwsimError
 from ..geometry import Array, Intrinsics, Pose
 from ..linear import product
@@ -18,6 +19,7 @@ from ..physics.engine import Engine
 from ..rendering.grey import grey_truncated
 from ..rendering.lamp import Lamp
 from ..rendering.noise import add_noise
+from ..rendering.projector import Projector
 from ..rendering.renderer import RenderedImage, Renderer
 from ..rendering.water import Light, Water
 from ..scene.spec import SceneSpec
@@ -68,12 +70,18 @@ class Scenery:
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
         self._mounted_lamps: tuple[MountedLamp, ...] = ()
         self._lamps: tuple[Lamp, ...] = ()
+        self._mounted_projector: tuple[MountedProjector, npt.NDArray[np.uint8]] | None = None
+        self._projector: Projector | None = None
 
     def set_lamps(self, lamps: Iterable[MountedLamp]) -> None:
         """Set the lamps of the scene; raises UwsimError if there are too many."""
         self._mounted_lamps = tuple(lamps)
         if (n_lamps := len(self._mounted_lamps)) > MAX_LAMPS:
             raise UwsimError(f"{n_lamps} lamps shine in the scene; at most {MAX_LAMPS} may.")
+
+    def set_projector(self, projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> None:
+        """Set the projector of the scene, and its pattern (h, w, 4)."""
+        self._mounted_projector = projector, pattern
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
         """The present pose of a part, with its scale, (4, 4) [m]."""
@@ -171,6 +179,8 @@ class Scenery:
             for part, handle in zip(self.parts, self._handles, strict=True):
                 renderer.place(handle, self.world_from_mesh(part))
             self._lamps = tuple(map(_shining, self._mounted_lamps))
+            if self._mounted_projector is not None:
+                self._projector = _projecting(*self._mounted_projector)
             self._drawn_version = self._state.poses.version
         return renderer.draw(
             world_from_camera,
@@ -181,6 +191,7 @@ class Scenery:
             colour=colour,
             hidden=self._hidden if hidden is None else hidden,
             lamps=self._lamps,
+            projector=self._projector,
         )
 
     @property
@@ -229,6 +240,16 @@ def _shining(lamp: MountedLamp) -> Lamp:
         colour=spec.color,
         intensity=spec.intensity,
         casts_shadow=spec.shadow,
+    )
+
+
+def _projecting(projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> Projector:
+    """The projector at its present pose."""
+    return Projector(
+        world_from_projector=projector.world_from_projector,
+        fovy=math.radians(projector.spec.fov),
+        pattern=pattern,
+        is_laser=projector.spec.laser,
     )
 
 

@@ -9,9 +9,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
+from ..assets.pattern import read_pattern
 from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
-from ..errors import UnknownName
+from ..devices.structured_light_projector import MountedProjector
+from ..errors import AssetNotFound, UnknownName
 from ..geodesy import Geodetic
 from ..geometry import Array
 from ..messages import SpawnMarker, String
@@ -77,6 +79,7 @@ class SceneStage(SceneWorld):
 
     def _bound_devices(self) -> Iterator[Device]:
         lamps: list[MountedLamp] = []
+        projectors: list[MountedProjector] = []
         for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
             for element, part in spec.all_parts():
                 if isinstance(part, DeviceSpec):
@@ -88,7 +91,22 @@ class SceneStage(SceneWorld):
                         self._sensors.setdefault((element, getattr(part, "name", "")), device)
                     if isinstance(device, MountedLamp) and not spec.vr:
                         lamps.append(device)
+                    if isinstance(device, MountedProjector) and not spec.vr:
+                        projectors.append(device)
         self.scenery.set_lamps(lamps)
+        for projector in projectors[-1:]:
+            self._set_projector(projector)
+
+    def _set_projector(self, projector: MountedProjector) -> None:
+        """Load its image; in a scene of the original one without its image shines nothing."""
+        try:
+            path = self.find(projector.spec.image_name, named_by=self.scene.path)
+        except AssetNotFound:
+            if not self.scene.is_original:
+                raise
+            return
+        self.files |= {path.name: path}
+        self.scenery.set_projector(projector, read_pattern(path))
 
     def _bound_device(self, spec: DeviceSpec, vehicle: SceneVehicle) -> Device | None:
         try:

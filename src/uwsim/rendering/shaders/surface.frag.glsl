@@ -1,5 +1,5 @@
 // Provides: colour, range and id of a surface seen through water, whichever are requested.
-// Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, lamplight.glsl, targets.glsl.
+// Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, lamplight.glsl, projection.glsl, targets.glsl.
 // The switch OPACITY is 1..254 of 255, or not there: opaque; the renderer blends.
 // lit -> attenuation -> fog, on stored values; noise and 8 bit come later (noise.py).
 #define VARYING in
@@ -20,6 +20,10 @@ uniform sampler2D base_map;
 #ifdef LAMPS
 #include "lamps.glsl"
 #include "lamplight.glsl"
+#endif
+#ifdef PROJECTOR
+#include "projector.glsl"
+#include "projection.glsl"
 #endif
 #endif
 
@@ -48,6 +52,9 @@ void main() {
     vec3 dry = sunlit(colour, facing, mirrored, lit);
 #ifdef LAMPS
     dry += lamplight(colour, v_normal * unit);
+#endif
+#ifdef PROJECTOR
+    dry = projected(dry, colour, v_normal * unit);
 #endif
 #ifdef AIR
     float deeper = max(v_terms.z, v_camera_depth);

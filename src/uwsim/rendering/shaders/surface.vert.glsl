@@ -1,5 +1,5 @@
 // Provides: the vertices of a model, in the camera frame and on the image.
-// Needs: frame.glsl, instance.glsl, varyings.glsl, lamps.glsl.
+// Needs: frame.glsl, instance.glsl, varyings.glsl, lamps.glsl, projector.glsl.
 // Whatever is linear in space is computed here and interpolated, exactly.
 #define VARYING out
 #include "frame.glsl"
@@ -7,6 +7,9 @@
 #include "varyings.glsl"
 #if defined(COLOUR) && defined(LAMPS)
 #include "lamps.glsl"
+#endif
+#if defined(COLOUR) && defined(PROJECTOR)
+#include "projector.glsl"
 #endif
 
 in vec3 vertex;
@@ -50,6 +53,12 @@ void main() {
         float lift = lamp_light[i].w * dot(towards, lamp_axis[i].xyz) * sign(dot(unit_normal, towards));
         v_lamp_uv[i] = lamp_from_camera[i] * vec4(v_position + unit_normal * lift, 1.0);
     }
+#endif
+#ifdef PROJECTOR
+    vec3 outwards = v_normal * inversesqrt(max(dot(v_normal, v_normal), 1e-12));
+    vec3 back = projector_place.xyz - v_position;
+    float raise = projector_axis.w * dot(back, projector_axis.xyz) * sign(dot(outwards, back));
+    v_projector_uv = projector_from_camera * vec4(v_position + outwards * raise, 1.0);
 #endif
 #endif
 }

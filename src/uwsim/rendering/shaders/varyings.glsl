@@ -1,5 +1,5 @@
 // Provides: the varyings of a surface; VARYING is `out` in the vertex shader, `in` in the fragment shader.
-// Needs: the switches COLOUR, TEXTURED, SHADOWS, AIR, and LAMPS, how many there are.
+// Needs: the switches COLOUR, TEXTURED, SHADOWS, AIR, PROJECTOR, and LAMPS, how many there are.
 // Flat members carry the frame's constants: on llvmpipe a uniform costs far more to read per pixel.
 VARYING vec3 v_position;  // camera frame [m]
 #ifdef COLOUR
@@ -21,5 +21,8 @@ VARYING vec3 v_shadow_uv;  // texture coordinates and depth in the shadow map, 0
 #endif
 #ifdef LAMPS
 VARYING vec4[LAMPS] v_lamp_uv;  // texture coordinates and depth in the lamps' maps, times w
+#endif
+#ifdef PROJECTOR
+VARYING vec4 v_projector_uv;  // texture coordinates and depth in the projector's map, times w
 #endif
 #endif

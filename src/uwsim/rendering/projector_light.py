@@ -1,0 +1,107 @@
+"""The uniform block of the projector, its pattern and its shadow map."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import moderngl
+import numpy as np
+
+from ..geometry import Pose
+from ..linear import product
+from .instance import INSTANCE, Instances, Slots
+from .lamps import draw_casters
+from .program import Block, build
+from .projection import clip_from_camera
+from .projector import Projector
+
+PROJECTOR = Block(
+    "Projector",
+    3,
+    {"projector_from_camera": "mat4", "projector_place": "vec4", "projector_axis": "vec4"},
+)
+
+TEXTURE_FROM_CLIP = np.array(
+    [[0.5, 0.0, 0.0, 0.5], [0.0, 0.5, 0.0, 0.5], [0.0, 0.0, 0.5, 0.5], [0.0, 0.0, 0.0, 1.0]]
+)
+"""Clip space to texture coordinates and depth."""
+
+
+class ProjectorLight:
+    """What the shaders need of a projector; made for the first one."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._values = np.zeros((), dtype=PROJECTOR.dtype)
+        self._buffer = context.buffer(reserve=PROJECTOR.dtype.itemsize, dynamic=True)
+        self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
+        self._slots = Slots(context)
+        self._pattern: object = None
+        self._drawn: object = None
+        self._textures: list[moderngl.Texture] = []
+        self._framebuffer: moderngl.Framebuffer | None = None
+
+    def update(
+        self,
+        projector: Projector,
+        instances: Instances,
+        casters: Sequence[int],
+        version: object,
+    ) -> None:
+        """Draw the shadow map, if it is out of date.
+
+        Args:
+            projector: What shines.
+            instances: All there are.
+            casters: Rows of possible casters; terrain, too.
+            version: Changes whenever a caster moved, came or went.
+        """
+        if self._pattern is not projector.pattern:
+            self._load(projector)
+        pose = projector.world_from_projector
+        key = version, projector.fovy, pose.position.tobytes(), pose.rotation.tobytes()
+        if key != self._drawn:
+            self._drawn = key
+            assert self._framebuffer is not None
+            self._framebuffer.use()
+            self._framebuffer.clear(depth=1.0)
+            place = self._context, self._program, self._slots
+            draw_casters(*place, instances, casters, pose, projector.pinhole)
+
+    def fill(self, projector: Projector, world_from_camera: Pose) -> None:
+        """Fill the uniform block and bind it."""
+        values, lens = self._values, projector.pinhole
+        projector_from_camera = projector.world_from_projector.inverse() @ world_from_camera
+        map_from_projector = product(TEXTURE_FROM_CLIP, clip_from_camera(lens))
+        values["projector_from_camera"] = product(
+            map_from_projector, projector_from_camera.matrix
+        ).T  # OpenGL counts columns first
+        camera_from_projector = projector_from_camera.inverse()
+        values["projector_place"] = *camera_from_projector.position, float(projector.is_laser)
+        values["projector_axis"] = (
+            *camera_from_projector.rotation[:, 2],
+            1.5 / min(lens.fx, lens.fy),
+        )
+        self._buffer.write(values.tobytes())
+        self._buffer.bind_to_uniform_block(PROJECTOR.binding)
+
+    def use(self, *, shadow_map: int, pattern: int) -> None:
+        """Bind the textures to their units."""
+        for texture, unit in zip(self._textures, (shadow_map, pattern), strict=True):
+            texture.use(unit)
+
+    def _load(self, projector: Projector) -> None:
+        """Make the textures of a pattern."""
+        for texture in self._textures:
+            texture.release()
+        lens, (rows, columns) = projector.pinhole, projector.pattern.shape[:2]
+        depth = self._context.depth_texture((lens.width, lens.height))
+        depth.compare_func = "<="
+        depth.filter = (moderngl.LINEAR, moderngl.LINEAR)
+        image = self._context.texture((columns, rows), 4, projector.pattern.tobytes(), alignment=1)
+        image.filter = (moderngl.LINEAR, moderngl.LINEAR)
+        for texture in (depth, image):
+            texture.repeat_x = texture.repeat_y = False
+        self._textures = [depth, image]
+        self._framebuffer = self._context.framebuffer(depth_attachment=depth)
+        self._pattern, self._drawn = projector.pattern, None
