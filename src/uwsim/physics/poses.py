@@ -122,7 +122,8 @@ class Poses:
         """Return ``world_from_object`` (before its offsets and its scale)."""
         if index in self.carried:
             vehicle, link, link_from_object = self.carried[index]
-            return self.link(vehicle, link) @ link_from_object
+            world_from_link = self.link(vehicle, link)
+            return world_from_link @ link_from_object
         if index in self._fixed:
             return self._put.get(index, self._fixed[index]).copy()
         return self._body(self._loose[index])
