@@ -31,6 +31,23 @@ from numba.core.serialize import dumps
 from .compiled_source import source_digest
 from .files import disk_cache
 
+
+def _load_arrays() -> None:
+    """Import numba's array functions without scipy.linalg, which they look for as they load.
+
+    It takes a tenth of a start; whoever compiles a matrix product makes numba import it then.
+    """
+    linear: Any = importlib.import_module("numba.np.linalg")  # numba has no types
+    look = linear.ensure_blas
+    linear.ensure_blas = lambda: None
+    try:
+        importlib.import_module("numba.np.arraymath")
+    finally:
+        linear.ensure_blas = look
+
+
+_load_arrays()
+
 P = ParamSpec("P")
 R = TypeVar("R")
 Elementwise = Callable[..., npt.NDArray[np.float64]]

@@ -17,7 +17,6 @@ from .mesh import Mesh, Model, Texture
 from .model_cache import made
 from .paint import painted
 from .primitives import primitive
-from .procedural.placeholder import labelled_box
 from .stand_ins import STAND_INS, StandIn
 
 __all__ = [
@@ -110,6 +109,8 @@ def _stem(name: str) -> str:
 
 def unknown_model(name: str) -> Model:
     """A labelled box of 0.3 m in place of a model that is not found."""
+    from .procedural.placeholder import labelled_box
+
     label = PurePosixPath(plain_name(name).replace("\\", "/")).stem[:16] or "?"
     return Model(
         name=plain_name(name),

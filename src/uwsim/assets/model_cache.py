@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import hashlib
 import io
-import os
 import platform
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 
@@ -35,7 +34,7 @@ class NotKept(Exception):
 @cache
 def made(name: str) -> Model:
     """The generated model of that name in `STAND_INS`, from the cache if possible."""
-    file = _folder() / _key() / (name.replace("/", "-") + ".npz")
+    file = disk_cache.folder("models") / _key() / (name.replace("/", "-") + ".npz")
     try:
         return _read(name, file)
     except NotKept:
@@ -57,12 +56,6 @@ def _make(name: str) -> Model:
     return Model(name=name, meshes=meshes, source=stand_in.source, sha256=digest.hexdigest())
 
 
-def _folder() -> Path:
-    """Where models are kept: the user's cache folder (XDG Base Directory Specification)."""
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    return Path(home) / "uwsim" / "models"
-
-
 @cache
 def _key() -> str:
     """Hash of everything that generated models depend on."""
@@ -70,7 +63,9 @@ def _key() -> str:
     package = Path(__file__).parent
     for source in sorted([*package.glob("*.py"), *package.glob("procedural/*.py")]):
         digest.update(source.read_bytes())
-    digest.update(f"{np.__version__} {cv2.__version__} {platform.machine()}".encode())
+    digest.update(
+        f"{np.__version__} {version('opencv-python-headless')} {platform.machine()}".encode()
+    )
     return digest.hexdigest()[:32]
 
 

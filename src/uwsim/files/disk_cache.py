@@ -19,6 +19,12 @@ DRAFT = ".part"
 """How the name of a file ends that is still being written, and begins with its process."""
 
 
+def folder(kind: str) -> Path:
+    """Where files of a kind are kept: in the user's cache (XDG Base Directory Specification)."""
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    return Path(home) / "uwsim" / kind
+
+
 def read(file: Path) -> bytes | None:
     """What is kept in a file; None where there is none, or none that is as it was written.
 

@@ -30,7 +30,7 @@ from ..assets.mesh import Model
 from ..errors import UwsimError
 from ..geometry import Array, Pose
 from ..linear import dot, length, placed, product
-from .convex_faces import convex_faces
+from .polygon_cache import cached_faces
 
 TRIMESHES = ("trimesh", "compound trimesh")
 """The collisionShapeTypes that are faces where nothing moves."""
@@ -189,7 +189,7 @@ def seen_from(up: Array, triangles: Array) -> Array:
 
 def _plates(triangles: Array, name: str) -> tuple[CollisionShape, ...]:
     """Slabs and prisms below the faces of triangles (n, 3, 3) [m]."""
-    faces = convex_faces(triangles)
+    faces = cached_faces(triangles)
     if len(faces) > MAX_PIECES:
         raise UwsimError(
             f"{name!r} as a fixed trimesh would be {len(faces)} plates; at most {MAX_PIECES}. "

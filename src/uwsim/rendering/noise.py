@@ -9,6 +9,7 @@ Not modelled: shot noise (all grey levels are equally noisy), fixed-pattern nois
 
 from __future__ import annotations
 
+from functools import cache
 from statistics import NormalDist
 
 import numpy as np
@@ -22,6 +23,7 @@ _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
 _MIX_2 = np.uint64(0x94D049BB133111EB)
 
 
+@cache
 def gaussian_quantiles() -> npt.NDArray[np.float32]:
     """65536 equally likely values of N(0, 1), ascending, scaled to a variance of exactly one."""
     normal = NormalDist()
@@ -29,9 +31,6 @@ def gaussian_quantiles() -> npt.NDArray[np.float32]:
     values = np.concatenate([-above[::-1], above])
     scaled: npt.NDArray[np.float32] = (values / values.std()).astype(np.float32)
     return scaled
-
-
-_QUANTILES = gaussian_quantiles()
 
 
 def frame_key(rng: np.random.Generator) -> int:
@@ -52,7 +51,9 @@ def add_noise(
     Returns:
         The image, (h, w, 3).
     """
-    return _store(colour16, np.float32(255.0 * std), np.uint64(frame_key(rng)), _QUANTILES)
+    return _store(
+        colour16, np.float32(255.0 * std), np.uint64(frame_key(rng)), gaussian_quantiles()
+    )
 
 
 @njit

@@ -6,7 +6,10 @@ much as dozens of images. A pool is shared by several simulations of one process
 
 from __future__ import annotations
 
-from ..rendering.renderer import Renderer
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..rendering.renderer import Renderer
 
 
 class RendererPool:
@@ -24,6 +27,8 @@ class RendererPool:
         Raises:
             NoGraphics: no OpenGL context could be made.
         """
+        from ..rendering.renderer import Renderer
+
         return self._idle.pop() if self._idle else Renderer()
 
     def release(self, renderer: Renderer) -> None:

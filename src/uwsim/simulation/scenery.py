@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -20,12 +21,15 @@ from ..rendering.grey import grey_truncated
 from ..rendering.lamp import Lamp
 from ..rendering.noise import add_noise
 from ..rendering.projector import Projector
-from ..rendering.renderer import RenderedImage, Renderer
+from ..rendering.rendered_image import RenderedImage
 from ..rendering.water import Light, Water
 from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from .parts import Part, parts_of
 from .renderer_pool import RendererPool
+
+if TYPE_CHECKING:
+    from ..rendering.renderer import Renderer
 
 ALL_TARGETS = frozenset({"colour", "range", "ids"})
 

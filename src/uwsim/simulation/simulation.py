@@ -22,7 +22,7 @@ from ..bus import Algorithm, Bus, Inbox
 from ..errors import BadSetting, UnknownName, UwsimError
 from ..geometry import Array, Pose
 from ..physics.motion import Motion
-from ..rendering.renderer import RenderedImage
+from ..rendering.rendered_image import RenderedImage
 from ..scene.spec import SceneSpec
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from .calls import Calls

@@ -1,0 +1,51 @@
+"""Disk cache of the convex polygons of meshes: finding those of the tank takes half a second.
+
+Polygons are found by the hash of the triangles and of what makes polygons of them: the sources
+and the versions of numpy and SciPy.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import platform
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+from .. import linear
+from ..files import disk_cache
+from ..geometry import Array
+from . import convex_faces
+
+
+def cached_faces(triangles: Array) -> list[Array]:
+    """`convex_faces.convex_faces` of the triangles (n, 3, 3) [m], from the cache if possible."""
+    digest = hashlib.sha256(_key() + np.ascontiguousarray(triangles).tobytes()).hexdigest()
+    file = disk_cache.folder("polygons") / f"{digest[:32]}.npz"
+    data = disk_cache.read(file)
+    if data is None:
+        polygons = convex_faces.convex_faces(triangles)
+        disk_cache.write(file, _packed(polygons))
+        return polygons
+    with np.load(io.BytesIO(data), allow_pickle=False) as kept:
+        return np.split(kept["corners"], kept["ends"])[:-1]
+
+
+def _packed(polygons: list[Array]) -> bytes:
+    packed = io.BytesIO()
+    corners = np.concatenate([*polygons, np.zeros((0, 3))])
+    np.savez(packed, corners=corners, ends=np.cumsum([len(each) for each in polygons], dtype=int))
+    return packed.getvalue()
+
+
+@cache
+def _key() -> bytes:
+    """Hash of everything that polygons depend on besides the triangles."""
+    digest = hashlib.sha256()
+    for module in (convex_faces, linear):
+        digest.update(Path(str(module.__file__)).read_bytes())
+    digest.update(f"{version('numpy')} {version('scipy')} {platform.machine()}".encode())
+    return digest.digest()
