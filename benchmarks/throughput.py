@@ -1,4 +1,4 @@
-"""What workers bring: 40 independent levels of `currents`, played by one worker and by two.
+"""What workers bring: 40 independent levels of `currents`, executed by one worker and by two.
 
 Each run is a fresh process started from the command line, start to report; caches are warm. One
 worker is measured twice: with its own thread alone for its images, as each of several workers
@@ -46,7 +46,7 @@ def write_benchmark(folder: Path, length: float) -> Path:
 
 
 def wall_s(benchmark: Path, out: str, workers: int, threads: str | None) -> float:
-    """Play it from the command line; returns the wall time [s]."""
+    """Run it from the command line; returns the wall time [s]."""
     before = os.environ.pop("LP_NUM_THREADS", None)
     if threads is not None:
         os.environ["LP_NUM_THREADS"] = threads

@@ -109,7 +109,7 @@ def pixel(eye: Pose, viewer: Intrinsics, point: Array) -> tuple[float, float]:
 
 
 def time_figures(folder: Path, *, quick: bool) -> None:
-    results = {name: play(name, folder, quick=quick) for name in ("p", "pi")}
+    results = {name: run_benchmark(name, folder, quick=quick) for name in ("p", "pi")}
     runs: dict[tuple[str, float], tuple[Loop, Track]] = {}
     for name, result in results.items():
         for level in LEVELS:
@@ -150,7 +150,7 @@ def time_figures(folder: Path, *, quick: bool) -> None:
     save_plot(drawn, folder / "figure-15-tracker.png")
 
 
-def play(controller: str, folder: Path, *, quick: bool) -> Result:
+def run_benchmark(controller: str, folder: Path, *, quick: bool) -> Result:
     """Run a benchmark as ``uwsim bench`` does."""
     benchmark, settings = BENCHMARK.removesuffix(".xml"), []
     if quick:

@@ -169,8 +169,8 @@ def visibility_figures(folder: Path, *, quick: bool) -> None:
 
 
 def benchmark_figures(folder: Path, *, quick: bool) -> None:
-    result = play("esm", folder / "visibility.result", quick=quick)
-    control = play("frozen", folder / "frozen.result", quick=quick)
+    result = run_benchmark("esm", folder / "visibility.result", quick=quick)
+    control = run_benchmark("frozen", folder / "frozen.result", quick=quick)
     wanted = [fog for fog in OVERLAY_FOGS if not quick or fog in QUICK_FOGS]
     images, captions = tracked(result, folder / "visibility.result", wanted)
     save_plot(image_grid(images, captions, columns=3), folder / "figure-04-tracking.png")
@@ -179,7 +179,7 @@ def benchmark_figures(folder: Path, *, quick: bool) -> None:
         save_plot(figure, folder / f"figure-{number:02}-{column}.png")
 
 
-def play(algorithm: str, out: Path, *, quick: bool) -> Result:
+def run_benchmark(algorithm: str, out: Path, *, quick: bool) -> Result:
     """Run a benchmark as ``uwsim bench`` does."""
     levels = [word for fog in QUICK_FOGS for word in ("--level", f"fog={fog}")] if quick else []
     command = ["bench", "visibility", "--algorithm", algorithm, "--seed", str(SEED), *levels]

@@ -267,6 +267,10 @@ def test_a_result_without_plugins_does_not_mention_them(folder: Path) -> None:
             "class B(MurkSpec):\n    name: ClassVar[str] = 'a b'\nUPDATERS = {'b': B}",
             "B has the name 'a b'",
         ),
+        (
+            PARTS.replace("    def values(", "    def faults(self): return ()\n\n    def values("),
+            "MurkSpec.faults is never called: it is errors now; rename it",
+        ),
         (PARTS + "\nALGORITHMS = {'esm': Idle}", "'esm' is a name of uwsim; call it otherwise"),
     ],
 )

@@ -261,7 +261,7 @@ def test_a_changed_scene_is_refused_and_the_right_one_may_be_called_otherwise(
     status, said = verify(capsys)
     assert status == 2
     assert len(said.splitlines()) == 1
-    assert said.startswith("uwsim: The scene is not the one that was played, tank.xml (sha256:")
+    assert said.startswith("uwsim: The scene is not the one that was run, tank.xml (sha256:")
     assert f"{scene} (sha256:" in said
     scene.rename(folder / "elsewhere.xml").write_text(scene_text)
     for path in [folder / "out" / "result.json", *(folder / "out" / "units").iterdir()]:

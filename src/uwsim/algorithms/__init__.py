@@ -54,7 +54,7 @@ def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS)
     except Exception as error:
         raise BadSetting(
             f"Algorithm {name!r}: the module {module_name!r} cannot be imported: "
-            f"{type(error).__name__}: {error}. (A file beside you is found with PYTHONPATH=.)"
+            f"{type(error).__name__}: {error}. (A file in this folder is found with PYTHONPATH=.)"
         ) from error
     found = getattr(module, class_name, None)
     if not isinstance(found, type):

@@ -25,10 +25,10 @@ def repeats_note(n_results: int, n_levels: int, repeats: int) -> str | None:
     needs = f"needs at least {sweep} repeats"
     if n_levels > 1:
         needs += f" for the sweep as a whole and {level} for single levels"
-    played = f"{repeats} repeat{'s' if repeats > 1 else ''} (--repeat)"
+    done = f"{repeats} repeat{'s' if repeats > 1 else ''} (--repeat)"
     enough = "enough for both" if n_levels > 1 else "enough"
     if repeats < sweep:
         enough = "too few"
     elif repeats < level:
         enough = "enough for the sweep alone"
-    return f"note: {what} {needs}; {played}: {enough}."
+    return f"note: {what} {needs}; {done}: {enough}."

@@ -39,6 +39,8 @@ class Tables:
 
 BASES = {"MEASURES": MeasureSpec, "TRIGGERS": TriggerSpec, "UPDATERS": SceneUpdaterSpec}
 DECLARED = (*BASES, "ALGORITHMS")
+RENAMED = {"faults": "errors", "reference": "parameter", "reference_unit": "parameter_unit"}
+"""Methods and properties of specs that had another name: old name -> new name."""
 
 
 def with_plugins(bundled: Tables, plugins: Sequence[Plugin]) -> Tables:
@@ -125,6 +127,9 @@ def _wrong_class(table: str, value: object, module: ModuleType) -> str | None:
     if not issubclass(value, base):
         near = "; give its spec" if hasattr(value, "update") or hasattr(value, "apply") else ""
         return f"{name} is no {base.__name__}{near}"
+    for old, new in RENAMED.items():
+        if callable(given := getattr(value, old, None)) or isinstance(given, property):
+            return f"{name}.{old} is never called: it is {new} now; rename it"
     if missing := sorted(getattr(value, "__abstractmethods__", ())):
         return f"{name} lacks {', '.join(missing)}"
     if "__dataclass_params__" not in vars(value):

@@ -1,7 +1,7 @@
 """Warnings about benchmark files that are valid but probably wrong.
 
 Levels that never begin or measure nothing; times shorter than half a step of the simulation, which
-would be played as none or as another time; arm positions that the arm cannot take.
+would be read as none or as another time; arm positions that the arm cannot take.
 """
 
 from __future__ import annotations

@@ -82,7 +82,7 @@ class BenchOptions:
             "--repeat",
             metavar="K",
             min=1,
-            help="Play K times, with seeds SEED ... SEED+K-1; a comparison of two results needs "
+            help="Run K times, with seeds SEED ... SEED+K-1; a comparison of two results needs "
             "six at least.",
         ),
     ] = 1

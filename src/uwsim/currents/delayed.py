@@ -15,7 +15,7 @@ class LateCurrent(Current):
     """Zero before ``began + delay``; then the current at ``offset`` plus the time since began.
 
     The time since ``began`` is rounded to nanoseconds, so that a level gives the same numbers
-    whether it is played alone or late in a sweep.
+    whether it is run alone or late in a sweep.
     """
 
     def __init__(self, current: Flow, *, began: float, delay: float, offset: float = 0.0) -> None:

@@ -1,7 +1,7 @@
 """The result of a search for the breaking point, and its file ``envelope.json``.
 
 ``envelope.json`` is a pure function of inputs, seeds and versions: the same search gives the same
-bytes, however often it was interrupted, and whoever played the runs.
+bytes, however often it was interrupted, and with every executor.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Each is a trial of the independent mode (DESIGN 5): the algorithm settles at the updaters'
 initial values, then the level is ramped in. The images and the noise of a level depend on the
-seed and on the level's values, never on what was played before.
+seed and on the level's values, never on earlier runs.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Evaluations:
         self.main_run = main_run
         """Where they are kept."""
         self._at, self._over, self._criterion = at, over, criterion
-        self._units: dict[tuple[int, tuple[float, ...]], Trial] = {}
+        self._trials: dict[tuple[int, tuple[float, ...]], Trial] = {}
         self._taken: set[int] = set()  # indices of trial files
         self.made: dict[tuple[int, float], Evaluation] = {}
         """Every run that was asked for."""
@@ -69,7 +69,7 @@ class Evaluations:
 
         Raises:
             ResultError: what is stored belongs to another run.
-            UwsimError: a run could not be played.
+            UwsimError: a run could not be executed.
         """
         queue = _JobQueue(self, strategy, on_run)
         executor.execute(queue)
@@ -97,14 +97,14 @@ class Evaluations:
             tuple((name, value if name == self._over else v) for name, v in self._at.values)
         )
         key = (seed, tuple(v for _, v in level.values))
-        if key not in self._units:
+        if key not in self._trials:
             index = next(i for i in itertools.count(seed * STRIDE) if i not in self._taken)
             self._add(Trial(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
-        return self._units[key]
+        return self._trials[key]
 
     def _add(self, trial: Trial) -> None:
         self._taken.add(trial.index)
-        self._units[trial.seed, tuple(v for _, v in trial.levels[0].values)] = trial
+        self._trials[trial.seed, tuple(v for _, v in trial.levels[0].values)] = trial
 
     def _remember(self, index: int, head: Record | None) -> None:
         """Register a stored run by its seed and its level."""

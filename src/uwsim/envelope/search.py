@@ -13,10 +13,10 @@ a quarter to three quarters of the range. Then the interval holds the true point
 promised, for curves from sharp to as wide as a quarter of the range, also when one run in twenty
 goes wrong at any level: ``docs/statistics.md`` has the table.
 
-*Ends are looked at when they matter*: a seed that has never broken is played at the far end, one
+*Ends are looked at when they matter*: a seed that has never broken is run at the far end, one
 that has never held at the near one. What lies beyond an end counts as there.
 
-*Monotony* cannot be seen in bisections: they never go back. So the first seed also plays a grid
+*Monotony* cannot be seen in bisections: they never go back. So the first seed also runs a grid
 over the range. Where it holds behind a level that broke it, all seeds are asked at both; if most
 of them agree the criterion is not monotone, and the first breaking point is searched.
 """

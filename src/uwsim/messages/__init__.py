@@ -2,7 +2,7 @@
 
 Messages are the ROS 2 (Jazzy) dataclasses that rosbags ships, with ROS's defaults, so that
 ``Twist()`` is one that is all zero (`types`); their text is ROS's own. Services and the types of
-the UWSim packages are in this room, beside the ``.srv`` text they are checked against by a test.
+the UWSim packages are in this package; a test compares them with the ``.srv`` text.
 Headers are ROS 2's; the ROS 1 adapter adds ``seq``.
 """
 

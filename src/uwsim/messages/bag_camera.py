@@ -1,7 +1,7 @@
 """The images and camera info of one camera in a ROS 1 or ROS 2 bag.
 
 Read from ``.bag`` files, rosbag2 folders, and single ``.mcap`` and ``.db3`` files, by rosbags. The
-bag is read as it is played: what stands in memory is one image.
+bag is read while it is replayed: one image at a time is in memory.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 r"""UWSim's own physics: objects that fall, roll and are pushed, without hydrodynamics.
 
-A scene with ``<enablePhysics> 1`` and no vehicle with ``u:dynamics`` is played by it, as the
-original's engine played it: gravity is that of ``<gravity>`` and 1 m/s² down where it is all zero,
+A scene with ``<enablePhysics> 1`` and no vehicle with ``u:dynamics`` is simulated by it, as by the
+original's engine: gravity is that of ``<gravity>`` and 1 m/s² down where it is all zero,
 objects do not float, and nothing slows them but their damping d, which before every step
 multiplies the velocity of the centre of mass, and that of turning (Bullet, `applyDamping`), by
 

@@ -3,7 +3,7 @@
 numpy, OpenCV, OpenBLAS and numba hold several codes for one function, or compile it, and take what
 suits the processor, or what environment variables say. What makes numbers here gives the same bytes
 with any of them (``tests/test_same_bytes.py``); an algorithm or a measure of one's own may not. So
-a result says what was chosen, and whoever finds other bytes is told if something else was here.
+a result says what was chosen, and a comparison that finds other bytes reports a difference here.
 """
 
 from __future__ import annotations

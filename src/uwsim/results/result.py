@@ -1,7 +1,7 @@
 """Result: the rows of a run with its inputs, columns and constants.
 
 A result is a pure function of inputs, seed and versions: the same run gives the same bytes. What is
-not (wall time, host, date) stands in ``provenance.json`` beside it. `result_file` reads and writes
+not (wall time, host, date) is in ``provenance.json``. `result_file` reads and writes
 it.
 """
 

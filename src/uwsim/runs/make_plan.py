@@ -196,9 +196,9 @@ def scene_of(
         raise BadSetting(
             f"{benchmark}: the benchmark does not name its scene (u:scene); give it with --scene."
         )
-    beside = data_path if benchmark is None else (benchmark.parent, *data_path)
+    folders = data_path if benchmark is None else (benchmark.parent, *data_path)
     try:
-        return read_scene(scene_file(named, beside, named_by=None if scene else benchmark))
+        return read_scene(scene_file(named, folders, named_by=None if scene else benchmark))
     except AssetNotFound:
         if benchmark is None:
             return None  # it may be next to the benchmark, which was not found

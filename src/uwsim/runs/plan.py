@@ -1,6 +1,6 @@
 """The plan of a run, divided into trials.
 
-A trial is a sequence that must be played in one go: one seed's whole sweep when the benchmark is
+A trial is a sequence that must be run in one go: one seed's whole sweep when the benchmark is
 sequential, one seed's one level when it is independent (DESIGN 5).
 """
 

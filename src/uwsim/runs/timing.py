@@ -38,11 +38,11 @@ class Timing:
     wall: float
     """How long [s]."""
     workers: str
-    """Who played, as it was said."""
+    """The executor, as the command names it."""
     command: Sequence[str]
     """What was typed behind ``uwsim``."""
     runs: Sequence[Run]
-    """What was played, an algorithm each."""
+    """What was run, one for each algorithm."""
 
     def provenance(self, run: Run) -> dict[str, object]:
         """Return machine, date and timing; none of it enters a score."""

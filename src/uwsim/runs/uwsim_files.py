@@ -11,10 +11,10 @@ that is missing is ``nan`` and no row is dropped; the compatibility ``rows`` has
 a row with a measure in error is left out, and a function that fails leaves its field out. In error
 are only a `euclideanNorm` without an estimate and a `pathFollowing` without a path; what else has
 measured nothing has the value that it starts with. The original sums the errors of a row, and a
-path that is not there counts -1: with one missing estimate beside it the row stays, and -1 and 0
+path that is not there counts -1: with one other estimate missing the row stays, and -1 and 0
 stand for the two.
 
-A measure with ``<log>`` has a file of its own, beside our CSV of the same samples. Its first column
+A measure with ``<log>`` has a file of its own, and our CSV of the same samples. Its first column
 has the outermost updater's name and holds, in the original too, the running time; the details of
 the measure follow, and one blank line at the end. Levels are not told apart.
 

@@ -1,7 +1,7 @@
 """Calls into an algorithm, counted in memory shared with the parent process.
 
 A process that dies takes with it what it knew. Its employer still sees the counter: an odd number
-says that the algorithm had been called and had not come back. Played again with that call cut out,
+says that the algorithm had been called and had not come back. Run again with that call cut out,
 everything before it is the same, and the algorithm is not called any more.
 """
 

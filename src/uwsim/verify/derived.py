@@ -1,6 +1,6 @@
 """Redundant values of a row: its total from the values, and a value from its detail.
 
-Both can be worked out without playing anything, so whoever changes one has to change the other.
+Both can be computed without running anything, so whoever changes one has to change the other.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Differe
 
     Args:
         result: as it was read.
-        benchmark: what was played.
+        benchmark: what was run.
     """
     columns = [column.name for column in result.columns]
     chosen = {spec.name: f"{spec.name}.{spec.value}" for spec in benchmark.measures}

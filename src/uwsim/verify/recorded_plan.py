@@ -43,7 +43,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
     """Rebuild the plan of a result.
 
     Raises:
-        ResultError: the result does not say, or a file is not the one that was played.
+        ResultError: the result does not say, or a file is not the one that was run.
         AssetNotFound: a file is nowhere.
     """
     run = result.run
@@ -139,7 +139,7 @@ def find_input(
         others.append(f"{file} ({_shortened(found)})")
     if others:
         raise ResultError(
-            f"The {kind} is not the one that was played, {name} ({_shortened(wanted)}): "
+            f"The {kind} is not the one that was run, {name} ({_shortened(wanted)}): "
             f"{', '.join(others)}. Give the right one with --{kind}."
         )
     searched = folders_searched(named_by=directory.absolute(), data_path=overrides.data_path)

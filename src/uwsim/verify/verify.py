@@ -225,19 +225,19 @@ def _check_result(found: Verification, result: Result, made: Result) -> None:
 
 def _check_trial(found: Verification, directory: Path, again: Run, trial: Trial) -> None:
     """Compare a replayed trial with the stored one, level by level."""
-    stored, played = (
+    stored, replayed = (
         journal.read_any(journal.path_of(folder, trial.index))[1]
         for folder in (directory, again.out)
     )
     name = f"trial {trial.index} (seed {trial.seed})"
     before = len(found.differences)
     for n, level in enumerate(trial.levels):
-        rows = [each.rows[n] if n < len(each.rows) else {} for each in (stored, played)]
+        rows = [each.rows[n] if n < len(each.rows) else {} for each in (stored, replayed)]
         for message in differences.of_row(*rows):
             found.add(f"{name}, level {level}", message)
-    for message in differences.of_end(stored.end or {}, played.end or {}):
+    for message in differences.of_end(stored.end or {}, replayed.end or {}):
         found.add(name, message)
-    motion = differences.of_checkpoints(stored, played, again.plan.timestep)
+    motion = differences.of_checkpoints(stored, replayed, again.plan.timestep)
     if len(found.differences) > before or motion.message is not None:
         found.is_replayed = False
     if not motion.is_known:

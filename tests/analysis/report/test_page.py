@@ -81,7 +81,7 @@ def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
     result = visibility()
     text = page_of(result, tmp_path).text
     for said in (
-        "visibility played by esm",
+        "visibility run with esm",
         "27 levels, fog density 0 to 1.3 m⁻¹",
         "24 of 27",
         WHY,
@@ -253,7 +253,7 @@ def test_letters_of_no_font_are_drawn_without_a_warning(tmp_path: Path) -> None:
 
 def test_a_result_with_no_rows_has_a_report(tmp_path: Path) -> None:
     empty = replace(visibility(), rows=(), missing=())
-    assert "No level was played" in page_of(empty, tmp_path).text
+    assert "No level was run" in page_of(empty, tmp_path).text
 
 
 def test_without_measures_there_is_still_a_report(tmp_path: Path) -> None:

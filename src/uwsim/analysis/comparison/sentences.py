@@ -87,7 +87,7 @@ def _sweep(comparison: Comparison, versus: Versus) -> str:
             f"One repeat (seed {overall.seeds[0]}): nothing follows for other seeds. In this one, "
             f"{found}, on average {where}: below it at {overall.n_second_smaller} of these levels "
             f"and above it at {overall.n_first_smaller}. The levels of one repeat share its noise "
-            "and its history and are no repeats. Play each with --repeat "
+            "and its history and are no repeats. Run each with --repeat "
             f"{comparison.fewest_for_sweep} or more for the sweep as a whole, "
             f"{comparison.fewest} or more for single levels."
         )

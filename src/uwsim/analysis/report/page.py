@@ -4,7 +4,7 @@ Drawn from the result directory alone (``result.json``, logs, images, ``provenan
 old run can be drawn again. The file holds its images and its style in itself, loads nothing, runs
 no script (a content security policy forbids both), and every name that came from a file is text.
 
-A directory ``control`` inside it, the same benchmark played by `frozen`, gives every plot its
+A directory ``control`` inside it, the same benchmark run with `frozen`, gives every plot its
 dashed line.
 """
 
@@ -173,8 +173,8 @@ def _lead(result: Result) -> str:
 
 def _cards(result: Result, found: Sequence[Ending]) -> list[Card]:
     n_ok = sum(ending.n for ending in found if ending.status == "ok")
-    played = f"{n_ok} of {len(result.rows)}"
-    cards = [Card(label="rows that ended ok", value=played, note="a row: one level of one repeat")]
+    share = f"{n_ok} of {len(result.rows)}"
+    cards = [Card(label="rows that ended ok", value=share, note="a row: one level of one repeat")]
     for ending in found:
         if ending.status != "ok" and ending.n:
             note = ending.reasons[0][1] if ending.reasons else "no reason was given"

@@ -1,6 +1,6 @@
 r"""Signal: the statistics of a quantity that is sampled many times in a level.
 
-A measure of a signal has beside it, over the samples of the level,
+In addition to its value a measure of a signal has, over the samples of the level,
 
 .. math::
     \text{mean} = \frac1n \sum x_k \quad

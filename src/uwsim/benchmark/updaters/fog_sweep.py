@@ -19,7 +19,7 @@ the values of the sweep are:
     1924), :math:`V = \sqrt{\ln 50}/f = 1.98\,L` [m].
 
 Lengths shrink as the water grows murky, so a sweep in metres may run downward, with a negative
-step. Its last value is played if it is a whole number of steps away; nothing is left to rounding.
+step. Its last value is a level if it is a whole number of steps away; nothing is left to rounding.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The queue of trials, and the protocol of the executors that run them.
 
 An executor takes trials from the queue and tells it what became of them. The queue knows how often
-a trial has lost its worker, and whose trials are not worth playing any more; an executor knows
+a trial has lost its worker, and whose trials are not worth running any more; an executor knows
 processors.
 """
 
@@ -47,9 +47,9 @@ class Job:
     def __str__(self) -> str:
         levels = self.trial.levels
         which = ", ".join(f"{name}={value:g}" for name, value in levels[0].values)
-        played = which if len(levels) == 1 else f"{len(levels)} levels"
+        levels_text = which if len(levels) == 1 else f"{len(levels)} levels"
         name = self.run.plan.algorithm_name
-        return f"trial {self.trial.index} ({name}, seed {self.trial.seed}, {played})"
+        return f"trial {self.trial.index} ({name}, seed {self.trial.seed}, {levels_text})"
 
 
 class Executor(Protocol):

@@ -2,9 +2,9 @@
 
 They are started with ``spawn`` and write rows where the result is; what they say through their pipe
 is only how far they are. A worker that dies takes nothing with it but the level it was in: a fresh
-one plays its trial again, and has to reproduce the rows that are on disk. No process sees two
+one runs its trial again, and has to reproduce the rows that are on disk. No process sees two
 algorithms. A call into an algorithm that kills its process twice, or does not come back, is left
-out when its trial is played again, and its row says so.
+out when its trial is run again, and its row says so.
 """
 
 from __future__ import annotations

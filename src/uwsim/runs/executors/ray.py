@@ -1,8 +1,8 @@
 """An executor on a Ray cluster: the one that ``RAY_ADDRESS`` names, else one made here for the run.
 
 No file system is shared. Rows and images come back level by level and are kept here, as though
-they had been played here; a worker whose machine has other files, versions or another renderer
-says so before it plays. What is played required already: uwsim, and a user's own files under
+they had been run here; a worker whose machine has other files, versions or another renderer
+says so before it begins. What is run must be installed there: uwsim, and a user's own files under
 the same paths (``ray job submit --working-dir`` brings them).
 """
 

@@ -71,18 +71,18 @@ def run_trial(
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    for n, played in enumerate(execute(plan, trial, pool=pool, calls=calls)):
-        if isinstance(played, TrialEnd):
-            yield TrialEnded(record=_end(played))
+    for n, outcome in enumerate(execute(plan, trial, pool=pool, calls=calls)):
+        if isinstance(outcome, TrialEnd):
+            yield TrialEnded(record=_end(outcome))
         else:
             row = trial.index * len(trial.levels) + n
-            files = file_names(snapshot.camera for snapshot in played.snapshots)
+            files = file_names(snapshot.camera for snapshot in outcome.snapshots)
             images = {camera: f"{IMAGES}/{row:05d}-{file}.png" for camera, file in files.items()}
             yield LevelEnded(
-                record=_record(played, images),
+                record=_record(outcome, images),
                 images=tuple(
                     (images[snapshot.camera], _png(snapshot.pixels))
-                    for snapshot in played.snapshots
+                    for snapshot in outcome.snapshots
                 ),
             )
 
@@ -138,18 +138,18 @@ def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
     return bytes(png.tobytes())
 
 
-def _record(played: LevelRow, images: dict[str, str]) -> journal.Record:
+def _record(row: LevelRow, images: dict[str, str]) -> journal.Record:
     return {
-        "values": [value for _, value in played.values],
-        "measures": played.measures,
-        "details": played.details,
-        "total": played.total,
-        "status": played.status,
-        "missing": played.missing,
-        "ended_at": played.ended_at,
-        "duration": played.duration,
-        "logs": played.logs,
-        "log_headers": played.log_headers,
+        "values": [value for _, value in row.values],
+        "measures": row.measures,
+        "details": row.details,
+        "total": row.total,
+        "status": row.status,
+        "missing": row.missing,
+        "ended_at": row.ended_at,
+        "duration": row.duration,
+        "logs": row.logs,
+        "log_headers": row.log_headers,
         "pictures": [
             {
                 "camera": snapshot.camera,
@@ -157,17 +157,17 @@ def _record(played: LevelRow, images: dict[str, str]) -> journal.Record:
                 "truth": snapshot.truth,
                 "estimate": snapshot.estimate,
             }
-            for snapshot in played.snapshots
+            for snapshot in row.snapshots
         ],
-        "fingerprint": played.fingerprint,
+        "fingerprint": row.fingerprint,
     }
 
 
-def _end(played: TrialEnd) -> journal.Record:
+def _end(end: TrialEnd) -> journal.Record:
     return {
-        "facts": {name: list(fact) for name, fact in played.facts.items()},
-        "parameters": played.parameters,
-        "streams": [list(stream) for stream in played.streams],
-        "notes": list(played.notes),
-        "trace": played.checkpoints.plain(),
+        "facts": {name: list(fact) for name, fact in end.facts.items()},
+        "parameters": end.parameters,
+        "streams": [list(stream) for stream in end.streams],
+        "notes": list(end.notes),
+        "trace": end.checkpoints.plain(),
     }

@@ -1,8 +1,8 @@
 """Executing one trial: an algorithm, a seed, and one level after the other.
 
-*Sequential*: algorithm and scene live on from level to level. *Independent*: a level stands alone
-and begins with a prelude at the updaters' initial values: the algorithm starts, is told where its
-target is and runs 1 s; then the level's values are ramped in over 1 s; only then is measured.
+*Sequential*: algorithm and scene live on from level to level. *Independent*: a level is run alone
+and begins with a prelude at the updaters' initial values: the algorithm starts, gets the place of
+its target and runs 1 s; then the level's values are ramped in over 1 s; only then is measured.
 """
 
 from __future__ import annotations
@@ -79,9 +79,9 @@ def execute(
     try:
         with (
             attribute_errors_to(plan.plugins, is_running=True),
-            closing(_Execution(plan, trial, simulation, calls or Calls())) as playing,
+            closing(_Execution(plan, trial, simulation, calls or Calls())) as execution,
         ):
-            yield from playing.rows()
+            yield from execution.rows()
     finally:
         simulation.close()
 
