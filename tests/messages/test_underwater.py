@@ -9,16 +9,16 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from uwsim import messages
 from uwsim.message_fields import unfit
-from uwsim.messages import DVL, Pressure
+from uwsim.messages import DVL, LedLight, Pressure
 
 TEXTS = Path(messages.__file__).parent / "msg"
 STORE = get_typestore(Stores.ROS2_JAZZY)
-for kind in (DVL, Pressure):
+for kind in (DVL, LedLight, Pressure):
     text = (TEXTS / f"{kind.__name__}.msg").read_text()
     STORE.register(get_types_from_msg(text, kind.__msgtype__))
 
 
-@pytest.mark.parametrize("kind", [DVL, Pressure])
+@pytest.mark.parametrize("kind", [DVL, LedLight, Pressure])
 def test_fields_are_those_of_the_definition(kind: type) -> None:
     name = f"underwater_sensor_msgs/msg/{kind.__name__}"
     assert kind.__msgtype__ == name  # type: ignore[attr-defined]

@@ -74,3 +74,8 @@ class MountedLamp(Device):
     def world_from_lamp(self) -> Pose:
         """The present pose of the lamp; it shines along -z."""
         return self._mount.world_from_body
+
+    @property
+    def is_on(self) -> bool:
+        """Whether it shines now."""
+        return True

@@ -12,17 +12,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
+import numpy as np
+
+from ..geometry import Pose
+from ..messages import LedLight
 from ..schema import REQUIRED, element
+from ..world import Body, Stage
+from .device import Device, DeviceSpec, DeviceVehicle
+from .lamp import LampSpec
+
+INTENSITY = 0.83
+"""What a lamp gives to a white surface facing it at 1 m, as in the original [1: full scale]."""
+COLOURS = {"red": (1.0, 0.0, 0.0), "green": (0.0, 1.0, 0.0)}
+"""Of the lamps, in their order; the first is at +y."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class LedArraySpec:
-    """A ``<LedArray>``: two signal lamps; topics ``<name>/red`` and ``<name>/green``."""
+class LedArraySpec(DeviceSpec):
+    """A ``<LedArray>``: two signal lamps; topics ``<name>/red`` and ``<name>/green``.
+
+    A lamp shines in all directions for the time that an ``underwater_sensor_msgs/LedLight`` says.
+    """
 
     STANDS_ONCE: ClassVar[bool] = True
+    is_left_out: ClassVar[bool] = True
 
     name: str
     """Its name, which begins its topics."""
@@ -38,3 +55,68 @@ class LedArraySpec:
     """Radius of each lamp [m]."""
     space: float = 0.2
     """Distance between the lamps, along y [m]."""
+
+    @property
+    def places(self) -> dict[str, tuple[float, float, float]]:
+        """Where each lamp is in the link's frame, by its colour [m]."""
+        link_from_array = Pose.from_rpy(self.position, self.orientation)
+        half = 0.5 * self.space
+        ends = np.array([[0.0, half, 0.0], [0.0, -half, 0.0]])
+        red, green = link_from_array.transform(ends).tolist()
+        return {"red": tuple(red), "green": tuple(green)}
+
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> LedArray:
+        """Mount the lamps on their link; raises UnknownName if the vehicle has no such link."""
+        leds = []
+        for colour, place in self.places.items():
+            mount = vehicle.mount(replace(self, position=place))
+            spec = LampSpec(
+                name=f"{self.name}/{colour}",
+                relative_to=self.relative_to,
+                fov=360.0,
+                softness=0.0,
+                intensity=INTENSITY,
+                color=COLOURS[colour],
+                shadow=False,
+            )
+            led = Led(spec, mount, lambda: stage.time)
+            stage.bus.subscribe(spec.name, LedLight, led.command)
+            leds.append(led)
+        return LedArray(tuple(leds))
+
+
+class Led:
+    """One signal lamp."""
+
+    STATE = ("_until",)
+    """Names of the attributes that change as time goes by."""
+
+    def __init__(self, spec: LampSpec, mount: Body, clock: Callable[[], float]) -> None:
+        self.spec = spec
+        """How it shines."""
+        self._mount, self._clock = mount, clock
+        self._until = 0.0  # it shines before this time [s]
+
+    @property
+    def world_from_lamp(self) -> Pose:
+        """The present pose of the lamp."""
+        return self._mount.world_from_body
+
+    @property
+    def is_on(self) -> bool:
+        """Whether it shines now."""
+        return self._clock() < self._until
+
+    def command(self, message: LedLight) -> None:
+        """Shine from now on for a time, whatever was said before."""
+        self._until = self._clock() + message.duration.sec + 1e-9 * message.duration.nanosec
+
+
+class LedArray(Device):
+    """A red and a green lamp."""
+
+    STATE = ("leds",)
+
+    def __init__(self, leds: tuple[Led, ...]) -> None:
+        self.leds = leds
+        """The lamps."""

@@ -64,7 +64,7 @@ from .types import (
     Wrench,
     WrenchStamped,
 )
-from .underwater import DVL, Pressure
+from .underwater import DVL, LedLight, Pressure
 
 __all__ = [
     "DVL",
@@ -85,6 +85,7 @@ __all__ = [
     "Imu",
     "JointState",
     "LaserScan",
+    "LedLight",
     "Marker",
     "MeshFile",
     "MultiArrayDimension",

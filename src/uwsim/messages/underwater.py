@@ -1,4 +1,4 @@
-"""Pressure and DVL of underwater_sensor_msgs, the messages of UWSim, with ROS's defaults.
+"""Pressure, DVL and LedLight of underwater_sensor_msgs, the messages of UWSim, with ROS's defaults.
 
 Names and order are those of its ``.msg`` files, which are next to this one; a test compares them.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from .types import Header
+from .types import Duration, Header
 
 
 @dataclass
@@ -18,6 +18,14 @@ class Pressure:
     header: Header = field(default_factory=Header)
     pressure: float = 0.0
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/msg/Pressure"
+
+
+@dataclass
+class LedLight:
+    """How long a signal lamp is to shine from now on."""
+
+    duration: Duration = field(default_factory=Duration)
+    __msgtype__: ClassVar[str] = "underwater_sensor_msgs/msg/LedLight"
 
 
 @dataclass

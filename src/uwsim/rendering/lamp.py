@@ -45,7 +45,8 @@ class Lamp:
     world_from_lamp: Pose
     """Where it is; the axes of a camera."""
     half_angle: float
-    """Between the axis and the edge of the cone, above 0, at most 80 degrees [rad]."""
+    """Between the axis and the edge of the cone, above 0, at most 80 degrees; pi: it shines in
+    all directions, and nothing casts a shadow [rad]."""
     softness: float = 0.2
     """Share of the half angle over which the light fades towards the edge, 0..1."""
     colour: Colour = (1.0, 1.0, 1.0)
@@ -56,7 +57,8 @@ class Lamp:
     """Whether bodies in its light cast a shadow."""
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.half_angle <= MAX_HALF_ANGLE:
+        is_cone = 0.0 < self.half_angle <= MAX_HALF_ANGLE
+        if not (is_cone or (self.half_angle == math.pi and not self.casts_shadow)):
             raise ValueError(f"the half angle {self.half_angle} is not in (0, 80 degrees]")
         if not (0.0 <= self.softness <= 1.0 and self.intensity >= 0.0):
             raise ValueError(f"softness {self.softness} or intensity {self.intensity} is no such")

@@ -16,7 +16,7 @@ from ..devices.lamp import MAX_LAMPS
 from ..geometry import Array, Intrinsics, Pose, image_centre
 from ..linear import product
 from .instance import INSTANCE, Instances, Slots, in_view
-from .lamp import Lamp
+from .lamp import MAX_HALF_ANGLE, Lamp
 from .program import Block, build
 from .projection import clip_from_camera, frustum
 
@@ -155,7 +155,8 @@ def draw_casters(
 
 
 def _map_camera(lamp: Lamp) -> Intrinsics:
-    focal = TILE / 2.0 / (MARGIN * math.tan(lamp.half_angle))
+    angle = min(lamp.half_angle, MAX_HALF_ANGLE)
+    focal = TILE / 2.0 / (MARGIN * math.tan(angle))
     cx, cy = image_centre(TILE, TILE)
     return Intrinsics(width=TILE, height=TILE, fx=focal, fy=focal, cx=cx, cy=cy, near=NEAR, far=FAR)
 

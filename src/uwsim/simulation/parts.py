@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ..assets import load_model, painted, primitive, unknown_model
 from ..assets.mesh import Model
 from ..assets.weathering import weathered
+from ..devices.led_array import COLOURS, LedArraySpec
 from ..errors import AssetNotFound
 from ..geometry import Pose
 from ..linear import product
@@ -78,6 +79,11 @@ def parts_of(
                 number += 1
                 model = load(device.mesh.path, None)
                 parts.append(_device_part(number, index, vehicle, device, model))
+        for array in vehicle.parts_of(LedArraySpec):
+            if robot.link(array.relative_to) is not None:
+                leds = _led_parts(number + 1, index, vehicle, array)
+                number += len(leds)
+                parts += leds
     for index, thing in enumerate(scene.objects):
         number += 1
         parts.append(
@@ -95,6 +101,27 @@ def parts_of(
             )
         )
     return parts
+
+
+def _led_parts(number: int, index: int, vehicle: VehicleSpec, array: LedArraySpec) -> list[Part]:
+    """The balls of an array of signal lamps, numbered from ``number``."""
+    balls = []
+    for i, (colour, place) in enumerate(array.places.items()):
+        frame_from_mesh = np.eye(4)
+        frame_from_mesh[:3, 3] = place
+        balls.append(
+            Part(
+                id=number + i,
+                name=f"{vehicle.name}/{array.name}/{colour}",
+                model=primitive("sphere", (array.radio,), COLOURS[colour]),
+                vehicle=index,
+                link=array.relative_to,
+                object=None,
+                frame_from_mesh=frame_from_mesh,
+                is_hidden=bool(vehicle.vr),
+            )
+        )
+    return balls
 
 
 def _device_part(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..devices.lamp import MAX_LAMPS, MountedLamp
+from ..devices.led_array import Led
 from ..devices.structured_light_projector import MountedProjector
 from ..errors import UwsimError
 from ..geometry import Array, Intrinsics, Pose
@@ -72,15 +73,19 @@ class Scenery:
         self.light = Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene))
         """The sun as it shines now; scene updaters change its rate."""
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
-        self._mounted_lamps: tuple[MountedLamp, ...] = ()
-        self._lamps: tuple[Lamp, ...] = ()
+        self._mounted_lamps: tuple[MountedLamp | Led, ...] = ()
         self._mounted_projector: tuple[MountedProjector, npt.NDArray[np.uint8]] | None = None
         self._projector: Projector | None = None
 
-    def set_lamps(self, lamps: Iterable[MountedLamp]) -> None:
-        """Set the lamps of the scene; raises UwsimError if there are too many."""
-        self._mounted_lamps = tuple(lamps)
-        if (n_lamps := len(self._mounted_lamps)) > MAX_LAMPS:
+    def set_lamps(self, lamps: Sequence[MountedLamp], leds: Sequence[Led] = ()) -> None:
+        """Set the lamps of the scene, and its signal lamps.
+
+        Raises:
+            UwsimError: there are too many lamps; of signal lamps those shine for which there is
+                room.
+        """
+        self._mounted_lamps = (*lamps, *leds)
+        if (n_lamps := len(lamps)) > MAX_LAMPS:
             raise UwsimError(f"{n_lamps} lamps shine in the scene; at most {MAX_LAMPS} may.")
 
     def set_projector(self, projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> None:
@@ -182,10 +187,10 @@ class Scenery:
         if self._drawn_version != self._state.poses.version:
             for part, handle in zip(self.parts, self._handles, strict=True):
                 renderer.place(handle, self.world_from_mesh(part))
-            self._lamps = tuple(map(_shining, self._mounted_lamps))
             if self._mounted_projector is not None:
                 self._projector = _projecting(*self._mounted_projector)
             self._drawn_version = self._state.poses.version
+        shining = [lamp for lamp in self._mounted_lamps if lamp.is_on]
         return renderer.draw(
             world_from_camera,
             intrinsics,
@@ -194,7 +199,7 @@ class Scenery:
             targets=targets,
             colour=colour,
             hidden=self._hidden if hidden is None else hidden,
-            lamps=self._lamps,
+            lamps=tuple(map(_shining, shining[:MAX_LAMPS])),
             projector=self._projector,
         )
 
@@ -234,7 +239,7 @@ class Scenery:
         self._own_pool.close()
 
 
-def _shining(lamp: MountedLamp) -> Lamp:
+def _shining(lamp: MountedLamp | Led) -> Lamp:
     """The lamp at its present pose."""
     spec = lamp.spec
     return Lamp(

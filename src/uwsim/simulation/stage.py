@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 from ..assets.pattern import read_pattern
 from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
+from ..devices.led_array import Led, LedArray
 from ..devices.structured_light_projector import MountedProjector
 from ..errors import AssetNotFound, UnknownName
 from ..geodesy import Geodetic
@@ -79,6 +80,7 @@ class SceneStage(SceneWorld):
 
     def _bound_devices(self) -> Iterator[Device]:
         lamps: list[MountedLamp] = []
+        leds: list[Led] = []
         projectors: list[MountedProjector] = []
         for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
             for element, part in spec.all_parts():
@@ -91,9 +93,11 @@ class SceneStage(SceneWorld):
                         self._sensors.setdefault((element, getattr(part, "name", "")), device)
                     if isinstance(device, MountedLamp) and not spec.vr:
                         lamps.append(device)
+                    if isinstance(device, LedArray) and not spec.vr:
+                        leds.extend(device.leds)
                     if isinstance(device, MountedProjector) and not spec.vr:
                         projectors.append(device)
-        self.scenery.set_lamps(lamps)
+        self.scenery.set_lamps(lamps, leds)
         for projector in projectors[-1:]:
             self._set_projector(projector)
 

@@ -13,7 +13,9 @@ vec3 lamplight(vec3 colour, vec3 unit_normal) {
         float within = clamp((cosine - lamp_place[i].w) * lamp_axis[i].w, 0.0, 1.0);
         if (facing > 0.0 && within > 0.0) {
             float cone = within * within * (3.0 - 2.0 * within);
-            float share = textureLod(lamp_maps, v_lamp_uv[i].xyz / v_lamp_uv[i].w, 0.0);
+            float share = 1.0;  // of a lamp that shines in all directions
+            if (lamp_place[i].w > -1.0)
+                share = textureLod(lamp_maps, v_lamp_uv[i].xyz / v_lamp_uv[i].w, 0.0);
             vec3 transmission = exp(v_attenuation * -distance);
             sum += lamp_light[i].rgb * transmission * (facing * cone * share / (distance * distance));
         }
