@@ -1,4 +1,8 @@
-"""Sensors, one file each."""
+"""Sensors, one file each: the spec of the element, and the sensor that is sampled.
+
+`SENSORS` lists them. The interface that publishes a sensor on a topic is in `uwsim.topics`;
+docs/adding-a-sensor.md shows how to add one.
+"""
 
 from ..schema import NAMESPACE
 from .dvl_sensor import DvlSensorSpec

@@ -1,4 +1,8 @@
-"""The step: commands, forces, physics, clock, sensors, messages, callbacks."""
+"""The simulation of a scene: clock, commands, forces, sensors, messages, callbacks.
+
+`simulation` has the step; `world` what measures and sensors see of the scene, `stage` also what
+scene updaters set; `scenery` renders; `node` is an algorithm that runs in this process.
+"""
 
 from __future__ import annotations
 
