@@ -17,8 +17,8 @@ import typer
 from .. import __version__
 from .completion import words_typed
 from .exit_status import INTERRUPTED, exit_status, one_line
+from .help_texts import HELP_NAMES, TaughtCommand
 from .option_groups import with_flat_options
-from .taught import HELP_NAMES, TaughtCommand
 
 
 @dataclass(frozen=True, kw_only=True)

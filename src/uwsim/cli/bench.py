@@ -24,6 +24,7 @@ from ..terminal import warn
 from .completion import algorithm_names
 from .console import standard_output
 from .exit_status import running
+from .help_texts import INPUT, OUTPUT, RUN, in_group
 from .options import (
     CodeOptions,
     ModeOption,
@@ -33,7 +34,6 @@ from .options import (
     request_of,
 )
 from .progress import progress
-from .taught import INPUT, OUTPUT, RUN, in_group
 
 if TYPE_CHECKING:
     from ..results.result import Result

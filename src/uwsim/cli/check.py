@@ -17,8 +17,8 @@ from ..runs.tables import read_plugins
 from ..terminal import printable
 from .completion import checked_names, scene_names
 from .exit_status import WRONG_INPUT
+from .help_texts import INPUT, in_group
 from .options import DataPathOption, JsonOption, PluginOption
-from .taught import INPUT, in_group
 
 
 def check(

@@ -12,8 +12,8 @@ import typer
 
 from ..terminal import printable
 from .console import standard_output
+from .help_texts import COMPARED, OUTPUT, in_group
 from .options import JsonOption
-from .taught import COMPARED, OUTPUT, in_group
 
 Results = Annotated[
     list[Path],

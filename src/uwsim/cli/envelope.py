@@ -21,6 +21,7 @@ from ..runs.timing import Stopwatch
 from ..terminal import printable, warn
 from .completion import algorithm_names
 from .exit_status import running
+from .help_texts import INPUT, OUTPUT, RUN, SEARCH, in_group
 from .options import (
     CodeOptions,
     SettingOptions,
@@ -29,7 +30,6 @@ from .options import (
     request_of,
 )
 from .progress import progress
-from .taught import INPUT, OUTPUT, RUN, SEARCH, in_group
 
 if TYPE_CHECKING:
     from ..envelope import Envelope

@@ -11,7 +11,7 @@ import typer
 from ..runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
 from ..runs.plan_request import PlanRequest
 from .completion import benchmark_names, one_of, scene_names
-from .taught import FILES, INPUT, OUTPUT, RUN, in_group
+from .help_texts import FILES, INPUT, OUTPUT, RUN, in_group
 
 if TYPE_CHECKING:
     from ..runs.executors.executor import Executor

@@ -6,8 +6,8 @@ from typing import Annotated
 
 from ..terminal import warn
 from .console import Console
+from .help_texts import OUTPUT, in_group
 from .options import ResultArgument
-from .taught import OUTPUT, in_group
 
 Pdf = Annotated[bool, in_group(OUTPUT, "--pdf", help="Draw every plot as PDF, too, for a paper.")]
 

@@ -20,10 +20,10 @@ from ..runs.stand_ins import warn_of_stand_ins
 from ..terminal import print_warnings, warn
 from .completion import algorithm_names, one_of
 from .exit_status import running
+from .help_texts import INPUT, OUTPUT, RUN, in_group
 from .options import DataPathOption, JsonOption, NoCodeOption, SceneArgument, SettingOptions
 from .progress import progress
 from .render import scene_of
-from .taught import INPUT, OUTPUT, RUN, in_group
 from .topic_table import print_json, print_topics
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from ..runs.foreign_code import announce_code
 from ..terminal import printable
 from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named_input, plan_of
 from .exit_status import RUN_FAILED, running
+from .help_texts import FILES, RUN, in_group
 from .options import CodeOptions, ResultArgument, WorkerOptions
 from .progress import progress
-from .taught import FILES, RUN, in_group
 
 if TYPE_CHECKING:
     from ..results.result import Result
