@@ -33,7 +33,7 @@ GROUND = {
     "terminal",
 }
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
-PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"}
+PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets", "xacro"}
 ENGINES = PARTS | {"physics", "rendering"}
 TASKS = PARTS | {"simulation", "algorithms", "statistics", "benchmark", "results"}
 
@@ -50,8 +50,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "sensors": BASE | {"sensors", "devices"},
     "devices": BASE | {"sensors", "devices"},
     "topics": BASE | {"sensors", "devices", "topics"},
-    "scene": BASE | {"currents", "sensors", "devices", "topics", "scene"},
+    "scene": BASE | {"currents", "sensors", "devices", "topics", "scene", "xacro"},
     "assets": BASE | {"assets"},
+    "xacro": GROUND | {"assets", "xacro"},
     "physics": PARTS | {"physics"},
     "rendering": PARTS | {"rendering"},
     "simulation": ENGINES | {"simulation"},

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Protocol
 
 from ..errors import AssetError, Diagnostic, SceneError
-from ..schema import Diagnostics, Document, check_head, parse, read
+from ..schema import Diagnostics, Document, check_head, read
+from ..xacro import parse_expanded
 from .angle_checks import check_angles, remember_twins
 from .checks import check_names
 from .comms_checks import comms_devices
@@ -55,7 +56,7 @@ def read_scene(path: Path | str) -> SceneSpec:
     """
     path = Path(path)
     diagnostics = Diagnostics(path)
-    scene = read_document(parse(path, error=SceneError), diagnostics)
+    scene = read_document(parse_expanded(path, error=SceneError), diagnostics)
     diagnostics.check(SceneError)
     assert scene is not None
     return scene
@@ -101,7 +102,7 @@ def check_scene(
     """
     diagnostics = Diagnostics(path, strict=strict)
     try:
-        document = parse(path, error=SceneError)
+        document = parse_expanded(path, error=SceneError)
     except SceneError as error:
         return list(error.diagnostics)
     scene = read_document(document, diagnostics)
@@ -130,7 +131,7 @@ def angle_warnings(scene: SceneSpec) -> list[Diagnostic]:
     if scene.path:
         with suppress(SceneError):
             lines = Diagnostics(scene.path)
-            written = read_document(parse(Path(scene.path), error=SceneError), lines)
+            written = read_document(parse_expanded(Path(scene.path), error=SceneError), lines)
             remember_twins(scene, written, lines, diagnostics)
     check_angles(scene, diagnostics)
     return diagnostics.all()

@@ -18,7 +18,8 @@ from pathlib import Path
 from lxml import etree
 
 from ..errors import SceneError
-from ..schema import Diagnostics, parse
+from ..schema import Diagnostics
+from ..xacro import parse_expanded
 from .urdf import (
     JointSpec,
     LinkSpec,
@@ -48,7 +49,7 @@ def read_urdf(path: Path | str) -> RobotSpec:
 
 def read_robot(path: Path, diagnostics: Diagnostics) -> RobotSpec | None:
     """Read a robot file into ``diagnostics``; None when there is no tree to build."""
-    root = parse(path, error=SceneError).root
+    root = parse_expanded(path, error=SceneError).root
     if root.tag != "robot":
         diagnostics.error(root, f"the root element is <{str(root.tag)[:60]}>; expected <robot>")
         return None

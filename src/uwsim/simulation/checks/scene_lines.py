@@ -11,7 +11,8 @@ from lxml import etree
 from ...errors import Diagnostic, FileError
 from ...scene.legacy import upgrade
 from ...scene.spec import SceneSpec
-from ...schema import NAMESPACE, Diagnostics, parse
+from ...schema import NAMESPACE, Diagnostics
+from ...xacro import parse_expanded
 
 
 class SceneLines:
@@ -50,7 +51,7 @@ class SceneLines:
         """
         if self._root is None and self._path:
             with suppress(FileError):
-                document = parse(Path(self._path))
+                document = parse_expanded(Path(self._path))
                 upgrade(document.root, Diagnostics(document.path))
                 self._root = document.root
         if self._root is None:

@@ -1,0 +1,277 @@
+"""The expander: walks a document and replaces every element of xacro by what it stands for.
+
+An element from an included file gets the line of the include, or of the call of its macro, so that
+errors of the expanded document are at lines of the file that the user wrote.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import cast
+
+from lxml import etree
+
+from ..errors import FileError, did_you_mean
+from ..schema import MAX_NODES, Diagnostics
+from .expression import ExpressionError, written
+from .macro import Macro, parameters_of
+from .scope import Scope, literal_of
+
+XACRO = frozenset(
+    f"http://{host}"
+    for host in ("www.ros.org/wiki/xacro", "ros.org/wiki/xacro", "wiki.ros.org/xacro")
+) | {"http://www.ros.org/xacro"}
+"""Namespaces of xacro that files use."""
+XINCLUDE = frozenset({"http://www.w3.org/2001/XInclude", "http://www.w3.org/2003/XInclude"})
+MAX_DEPTH = 60
+"""Deepest nesting of calls and includes."""
+MAX_FILES = 100
+"""Most files that are included."""
+Include = Callable[[str, Path], tuple[Path, etree._Element] | None]
+"""Name and naming file -> the included file and its root; None if it is nowhere."""
+
+
+def namespace_of(node: etree._Element) -> str:
+    """Return the namespace of an element."""
+    return etree.QName(node).namespace or ""
+
+
+def needed(node: etree._Element, attribute: str) -> str:
+    """Return an attribute; raises ExpressionError if it is not there."""
+    text = node.get(attribute)
+    if text is None:
+        name = etree.QName(node).localname
+        raise ExpressionError(f"<{node.prefix}:{name}> lacks its attribute {attribute}")
+    return str(text)
+
+
+class Expander:
+    """Expands one document.
+
+    Args:
+        path: its file.
+        include: finds and reads the files that it includes.
+    """
+
+    def __init__(self, path: Path, include: Include) -> None:
+        self._include = include
+        self._path = path
+        self._diagnostics: dict[str, Diagnostics] = {}
+        self._macros: dict[str, Macro] = {}
+        self._arguments: dict[str, str] = {}
+        self._n_nodes = self._n_files = 0
+        self._depth = 0
+        self._file = path
+        self._line: int | None = None
+        """Line that stands for what is expanded; None: it is of the user's own file."""
+
+    def expand(self, root: etree._Element) -> None:
+        """Expand the document in place."""
+        scope = Scope(None, self._substituted)
+        self._attributes(root, root, scope)
+        self._text(root, root, scope)
+        root[:] = self._expanded(list(root), scope)
+
+    def check(self, error: type[FileError]) -> None:
+        """Raise ``error`` with the errors of all files, if there are any."""
+        found = [each for file in self._diagnostics.values() for each in file.all()]
+        if found:
+            raise error(found)
+
+    def error(self, node: etree._Element, message: str) -> None:
+        """Add an error at an element of the file that is being expanded."""
+        name = str(self._file)
+        self._diagnostics.setdefault(name, Diagnostics(name)).error(node, message)
+
+    def _expanded(self, nodes: Sequence[etree._Element], scope: Scope) -> Iterator[etree._Element]:
+        """Give what the nodes stand for."""
+        for node in nodes:
+            if self._n_nodes > MAX_NODES:
+                return
+            self._n_nodes += 1 + len(node.attrib)
+            if self._n_nodes > MAX_NODES:
+                self.error(node, f"expands to more than {MAX_NODES} elements and attributes")
+                return
+            try:
+                if isinstance(node.tag, str):
+                    yield from self._one(node, scope)
+                else:
+                    yield self._comment(node, scope)
+            except ExpressionError as error:
+                self.error(node, str(error))
+
+    def _one(self, node: etree._Element, scope: Scope) -> Iterator[etree._Element]:
+        namespace, name = namespace_of(node), etree.QName(node).localname
+        if namespace in XINCLUDE:
+            yield from self._included(node, "href", scope)
+        elif namespace not in XACRO:
+            yield self._plain(node, scope)
+        elif name in ("if", "unless"):
+            if self._is_true(node, scope) is (name == "if"):
+                yield from self._expanded(list(node), scope)
+        elif name == "property":
+            self._property(node, scope)
+        elif name == "arg":
+            default = node.get("default")
+            if default is not None:
+                self._arguments.setdefault(needed(node, "name"), written(scope.text(default)))
+        elif name == "macro":
+            self._define(node)
+        elif name == "include":
+            yield from self._included(node, "filename", scope)
+        elif name == "insert_block":
+            yield from self._block(node, scope)
+        elif name in ("element", "attribute"):
+            raise ExpressionError(f"<xacro:{name}> is not supported")
+        else:
+            called = written(scope.text(needed(node, "macro"))) if name == "call" else name
+            yield from self._called(node, called, scope)
+
+    def _plain(self, node: etree._Element, scope: Scope) -> etree._Element:
+        made = etree.Element(node.tag, nsmap=cast(dict[str, str], node.nsmap))
+        made.sourceline = self._line_of(node)  # type: ignore[assignment]
+        made.tail = node.tail
+        self._attributes(node, made, scope)
+        made.text = node.text
+        self._text(node, made, scope)
+        made.extend(self._expanded(list(node), scope))
+        return made
+
+    def _comment(self, node: etree._Element, scope: Scope) -> etree._Element:
+        """Return a comment, an instruction or an entity with the text behind it."""
+        made = copy.deepcopy(node)
+        if node.tail is not None:
+            made.tail = written(scope.text(node.tail))
+        return made
+
+    def _line_of(self, node: etree._Element) -> int:
+        """Line of the user's file that stands for an element."""
+        return self._line or int(str(node.sourceline))
+
+    def _attributes(self, node: etree._Element, made: etree._Element, scope: Scope) -> None:
+        for key, text in node.attrib.items():
+            try:
+                made.set(key, written(scope.text(str(text))))
+            except (ExpressionError, ValueError) as error:
+                self.error(node, f"{etree.QName(key).localname}={str(text)[:60]!r}: {error}")
+
+    def _text(self, node: etree._Element, made: etree._Element, scope: Scope) -> None:
+        if made.text and "$" in made.text:
+            try:
+                made.text = written(scope.text(made.text))
+            except (ExpressionError, ValueError) as error:
+                self.error(node, f"{made.text.strip()[:60]!r}: {error}")
+                made.text = ""
+
+    def _is_true(self, node: etree._Element, scope: Scope) -> bool:
+        text = needed(node, "value")
+        value = literal_of(scope.text(text))
+        if isinstance(value, str):
+            raise ExpressionError(f"value={text[:60]!r} is neither true nor false")
+        return bool(value)
+
+    def _property(self, node: etree._Element, scope: Scope) -> None:
+        name = needed(node, "name")
+        where = {"parent": scope.around, "global": scope.outermost}.get(
+            node.get("scope", ""), scope
+        )
+        if (default := node.get("default")) is not None:
+            if not scope.has(name):
+                where.set_text(name, default)
+        elif (text := node.get("value")) is None:
+            where.blocks[name] = list(self._expanded(list(node), scope))
+        elif where is scope.outermost and where is scope:
+            where.set_text(name, text)
+        else:
+            where.set_value(name, literal_of(scope.text(text)))
+
+    def _define(self, node: etree._Element) -> None:
+        name = needed(node, "name").removeprefix("xacro:")
+        parameters = parameters_of(node.get("params", ""))
+        self._macros[name] = Macro(name, parameters, node, str(self._file))
+
+    def _called(self, node: etree._Element, name: str, scope: Scope) -> Iterator[etree._Element]:
+        macro = self._macros.get(name)
+        if macro is None:
+            near = did_you_mean(name, self._macros)
+            raise ExpressionError(f"no macro is called {name[:60]!r}.{near}")
+        inner = self._filled(node, macro, scope)
+        line = self._line or (None if macro.file == str(self._path) else self._line_of(node))
+        with self._nested(Path(macro.file), line):
+            made = list(self._expanded(list(macro.body), inner))
+        yield from made
+
+    def _filled(self, node: etree._Element, macro: Macro, scope: Scope) -> Scope:
+        """Return the scope of a call: each parameter with its value."""
+        given = {str(key): str(text) for key, text in node.attrib.items()}
+        if etree.QName(node).localname == "call":
+            given.pop("macro", None)
+        return macro.bind(given, list(self._expanded(list(node), scope)), scope)
+
+    def _block(self, node: etree._Element, scope: Scope) -> Iterator[etree._Element]:
+        name = written(scope.text(needed(node, "name")))
+        block = scope.block(name)
+        if block is None:
+            raise ExpressionError(f"no block is called {name[:60]!r}")
+        for each in block:
+            self._n_nodes += 1 + sum(1 for _ in each.iter())
+            if self._n_nodes <= MAX_NODES:
+                yield copy.deepcopy(each)
+
+    def _included(
+        self, node: etree._Element, attribute: str, scope: Scope
+    ) -> Iterator[etree._Element]:
+        name = written(scope.text(needed(node, attribute)))
+        self._n_files += 1
+        if self._n_files > MAX_FILES:
+            raise ExpressionError(f"includes more than {MAX_FILES} files")
+        found = self._include(name, self._file)
+        if found is None:
+            if str(node.get("optional", "false")).lower() in ("1", "true"):
+                return
+            raise ExpressionError(f"the file {name[:200]!r} is nowhere")
+        path, root = found
+        with self._nested(path, self._line_of(node)):
+            is_whole = etree.QName(root).localname in ("UWSimScene", "robot", "fragment")
+            made = list(self._expanded(list(root) if is_whole else [root], scope))
+        yield from made
+
+    @contextmanager
+    def _nested(self, file: Path, line: int | None) -> Iterator[None]:
+        """Expand what stands in a file, one level deeper; raises ExpressionError."""
+        before = self._file, self._line
+        if self._depth >= MAX_DEPTH:
+            raise ExpressionError(f"calls and includes are nested deeper than {MAX_DEPTH} levels")
+        self._depth += 1
+        self._file, self._line = file, line
+        try:
+            yield
+        finally:
+            self._depth -= 1
+            self._file, self._line = before
+
+    def _substituted(self, text: str) -> str:
+        """Return what ``$(...)`` stands for."""
+        words = text.split()
+        match words:
+            case ["arg", name]:
+                if name not in self._arguments:
+                    near = did_you_mean(name, self._arguments)
+                    raise ExpressionError(
+                        f"$(arg {name[:60]}): has no <xacro:arg> with a default.{near}"
+                    )
+                return self._arguments[name]
+            case ["find", package]:
+                return f"package://{package}"
+            case ["dirname"]:
+                return str(self._file.parent)
+            case ["env" | "optenv" | "anon" | "eval" | "cwd", *_]:
+                raise ExpressionError(
+                    f"$({words[0]} ...) is not supported: a scene is its files alone"
+                )
+        raise ExpressionError(
+            f"$({text[:60]}) is not known; there are $(arg NAME), $(find PACKAGE)"
+        )

@@ -1,0 +1,251 @@
+"""Xacro and includes are expanded as a scene or robot is read, without running any code."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from uwsim.errors import SceneError
+from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.urdf_reader import read_urdf
+from uwsim.xacro import parse_expanded
+from uwsim.xacro.expression import ExpressionError, evaluate
+
+NAMESPACES = 'xmlns:xacro="http://ros.org/wiki/xacro" xmlns:xi="http://www.w3.org/2001/XInclude"'
+
+
+def expanded(folder: Path, body: str) -> etree._Element:
+    path = folder / "a.xml"
+    path.write_text(f"<a {NAMESPACES}>{body}</a>")
+    return parse_expanded(path, error=SceneError).root
+
+
+def plain(folder: Path, body: str) -> str:
+    found = expanded(folder, body)
+    return "".join(shown(child) for child in found)
+
+
+def shown(node: etree._Element) -> str:
+    """An element as text, without the blanks and namespace declarations of the file."""
+    attributes = "".join(f' {key}="{value}"' for key, value in node.attrib.items())
+    if not isinstance(node.tag, str):
+        return node.tail or ""
+    content = (node.text or "").strip() + "".join(map(shown, node))
+    return f"<{node.tag}{attributes}>{content}</{node.tag}>"
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ('<xacro:property name="x" value="2"/><b>${x + 1}</b>', "<b>3</b>"),
+        ('<xacro:property name="x" value="2"/><b v="${x/4} m"/>', '<b v="0.5 m"></b>'),
+        ('<b>${y}</b><xacro:property name="y" value="1"/>', None),
+        (
+            '<xacro:property name="x" value="${y*2}"/><xacro:property name="y" value="3"/>'
+            "<b>${x}</b>",
+            "<b>6</b>",
+        ),
+        ("<b>$${x} $5</b>", "<b>${x} $5</b>"),
+        ("<b>${-pi/2}</b>", "<b>-1.5707963267948966</b>"),
+        ('<b>${1 if 2 > 1 and not False else 0}${"a" + "b"}</b>', "<b>1ab</b>"),
+        (
+            '<xacro:if value="${1 == 1.0}"><b/></xacro:if><xacro:if value="0"><c/></xacro:if>',
+            "<b></b>",
+        ),
+        ("<b><!-- ${no} -->${1 + 1}<!-- more --></b>", "<b>2</b>"),
+        ('<xacro:unless value="false"><b/></xacro:unless>', "<b></b>"),
+        ('<xacro:arg name="n" default="7"/><b>$(arg n)</b>', "<b>7</b>"),
+        (
+            '<xacro:macro name="m" params="p q:=4 r:=${q2}"><b>${p} ${q} ${r}</b></xacro:macro>'
+            '<xacro:property name="q2" value="9"/><xacro:m p="1"/><xacro:m q="2" p="${3}" r="5"/>',
+            "<b>1 4 9</b><b>3 2 5</b>",
+        ),
+        (
+            '<xacro:macro name="m" params="*one **many"><b><xacro:insert_block name="many"/>'
+            '<xacro:insert_block name="one"/></b></xacro:macro>'
+            "<xacro:m><c>1</c><d><e/><f/></d></xacro:m>",
+            "<b><e></e><f></f><c>1</c></b>",
+        ),
+        (
+            '<xacro:property name="p"><c/></xacro:property><b><xacro:insert_block name="p"/></b>',
+            "<b><c></c></b>",
+        ),
+        (
+            '<xacro:macro name="m" params="x:=^|1"><b>${x}</b></xacro:macro><xacro:m/>'
+            '<xacro:property name="x" value="2"/><xacro:m/><xacro:call macro="m" x="3"/>',
+            "<b>1</b><b>2</b><b>3</b>",
+        ),
+        (
+            '<xacro:macro name="count" params="n"><b>${n}</b>'
+            '<xacro:if value="${n > 1}"><xacro:count n="${n - 1}"/></xacro:if></xacro:macro>'
+            '<xacro:count n="3"/>',
+            "<b>3</b><b>2</b><b>1</b>",
+        ),
+    ],
+)
+def test_what_it_expands_to(tmp_path: Path, body: str, expected: str | None) -> None:
+    if expected is None:
+        with pytest.raises(SceneError, match="no property is called 'y'"):
+            plain(tmp_path, body)
+    else:
+        assert plain(tmp_path, body) == expected
+
+
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [
+        ("<xacro:mm/>", "no macro is called 'mm'"),
+        (
+            '<xacro:macro name="m" params="p"><b/></xacro:macro><xacro:m/>',
+            "lacks its parameter 'p'",
+        ),
+        ('<xacro:macro name="m"><b/></xacro:macro><xacro:m q="1"/>', "has no parameter 'q'"),
+        ('<xacro:macro name="m" params="*b"><b/></xacro:macro><xacro:m/>', "lacks its block 'b'"),
+        ('<xacro:macro name="m" params="1p"><b/></xacro:macro>', "is no parameter"),
+        ('<xacro:if value="maybe"/>', "neither true nor false"),
+        ('<xacro:property name="x" value="${x}"/><b>${x}</b>', "defined by itself"),
+        ("<b>$(env HOME)</b>", "not supported"),
+        ("<b>$(arg n)</b>", "has no <xacro:arg>"),
+        ('<xacro:include filename="nowhere.xacro"/>', "is nowhere"),
+        ('<xacro:include filename="/etc/passwd"/>', "outside the folders"),
+        ('<xacro:include filename="../../../../../../etc/passwd"/>', ""),
+        ('<xacro:include filename="a.xml"/>', "nested deeper than 60 levels"),
+        ('<xacro:macro name="m"><xacro:m/><xacro:m/></xacro:macro><xacro:m/>', "60 levels"),
+        (
+            '<xacro:macro name="m" params="n"><b/><xacro:if value="${n}"><xacro:m n="${n-1}"/>'
+            '<xacro:m n="${n-1}"/></xacro:if></xacro:macro><xacro:m n="40"/>',
+            "more than 50000 elements",
+        ),
+        (
+            "".join(
+                f'<xacro:property name="x{i}" value="${{x{i - 1}}}${{x{i - 1}}}"/>'
+                for i in range(1, 40)
+            )
+            + '<xacro:property name="x0" value="ab"/><b>${x39}</b>',
+            "longer than 4096 characters",
+        ),
+    ],
+)
+def test_what_is_wrong_is_an_error_with_its_line(tmp_path: Path, body: str, message: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        expanded(tmp_path, f"\n{body}")
+    assert message in str(caught.value)
+    assert caught.value.diagnostics[0].line == 2
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "__import__('os').system('touch /tmp/x')",
+        "open('/etc/passwd').read()",
+        "().__class__.__bases__[0].__subclasses__()",
+        "[x for x in (1, 2)]",
+        "(lambda: 1)()",
+        "'a' * 10**9",
+        "math.__loader__",
+        "f'{1}'",
+        "str.format('{0.__class__}', 1)",
+        "(" * 500 + "1" + ")" * 500,
+        "1/0",
+        "min(1, key=1)",
+        "1 in 2",
+    ],
+)
+def test_an_expression_runs_no_code(code: str) -> None:
+    with pytest.raises(ExpressionError):
+        evaluate(code, lambda name: 1)
+
+
+def test_powers_and_large_numbers_end(tmp_path: Path) -> None:
+    assert evaluate("2**10", lambda name: 0) == 1024
+    assert evaluate("2**0.5", lambda name: 0) == pytest.approx(1.4142135623730951)
+    with pytest.raises(ExpressionError):
+        evaluate("9**9**9**9", lambda name: 0)
+    assert evaluate("9**9**2", lambda name: 0) == pytest.approx(9.0**81)
+
+
+VEHICLE = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="rov">
+  <xacro:property name="width" value="0.5"/>
+  <xacro:macro name="thruster" params="side y">
+    <link name="${side}"/>
+    <joint name="to_${side}" type="fixed"> <parent link="base"/> <child link="${side}"/>
+      <origin xyz="0 ${y * width} 0"/> </joint>
+  </xacro:macro>
+  <link name="base"/>
+  <xacro:thruster side="left" y="1"/>
+  <xacro:thruster side="right" y="-1"/>
+</robot>
+"""
+LIBRARY = """<library xmlns:xacro="http://ros.org/wiki/xacro">
+  <fragment/>
+  <xacro:macro name="buoy" params="name x *orientation">
+    <object> <name>${name}</name> <file>objects/box.obj</file>
+      <position> <x>${x}</x> <y>0</y> <z>0</z> </position>
+      <xacro:insert_block name="orientation"/>
+    </object>
+  </xacro:macro>
+</library>
+"""
+ODOMETRY = (
+    "<rosInterfaces> <PATToROSOdom> <topic>/{0}</topic> <vehicleName>rov</vehicleName>"
+    " </PATToROSOdom> </rosInterfaces>"
+)
+SCENE = f"""<UWSimScene xmlns:xacro="http://ros.org/wiki/xacro"
+            xmlns:xi="http://www.w3.org/2001/XInclude">
+  <xacro:include filename="library.xacro"/>
+  <xi:include href="vehicle.xml"/>
+  <xacro:buoy name="first" x="${{2*3}}">
+    <orientation> <r>0</r> <p>0</p> <y>${{pi/4}}</y> </orientation>
+  </xacro:buoy>
+  {ODOMETRY.format("one")}
+  <xi:include href="topics.xml"/>
+</UWSimScene>
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "rov.urdf.xacro").write_text(VEHICLE)
+    (tmp_path / "library.xacro").write_text(
+        LIBRARY.replace("library", "fragment").replace("  <fragment/>\n", "")
+    )
+    (tmp_path / "scene.xml").write_text(SCENE)
+    (tmp_path / "topics.xml").write_text(f"<UWSimScene>{ODOMETRY.format('two')}</UWSimScene>")
+    (tmp_path / "vehicle.xml").write_text(
+        "<vehicle> <name>rov</name> <file>rov.urdf.xacro</file> </vehicle>"
+    )
+    return tmp_path
+
+
+def test_a_robot_in_xacro_is_read(folder: Path) -> None:
+    robot = read_urdf(folder / "rov.urdf.xacro")
+    assert [link.name for link in robot.links] == ["base", "left", "right"]
+
+
+def test_a_scene_includes_a_vehicle_a_library_and_another_scene(folder: Path) -> None:
+    scene = read_scene(folder / "scene.xml")
+    assert [vehicle.name for vehicle in scene.vehicles] == ["rov"]
+    (buoy,) = scene.objects
+    assert (buoy.name, buoy.position[0]) == ("first", 6.0)
+    assert buoy.orientation[2] == pytest.approx(0.785398)
+    assert [each.topic for each in scene.ros_interfaces] == ["/one", "/two"]  # type: ignore[attr-defined]
+
+
+def test_errors_are_at_lines_of_the_file_that_was_written(folder: Path) -> None:
+    path = folder / "scene.xml"
+    path.write_text(SCENE.replace("<r>0</r>", "<r>x</r>").replace('x="${2*3}"', 'x="far"'))
+    found = [(each.line, each.message) for each in check_scene(path) if each.severity == "error"]
+    assert [line for line, _ in found] == [5, 6]
+    (folder / "library.xacro").write_text(LIBRARY.replace("${x}", "${far}"))
+    path.write_text(SCENE)
+    with pytest.raises(SceneError) as caught:
+        read_scene(path)
+    assert str(caught.value).startswith(f"{folder / 'library.xacro'}:5: ")
+
+
+def test_files_without_xacro_are_left_as_they_are(tmp_path: Path) -> None:
+    path = tmp_path / "a.xml"
+    path.write_text("<a><b>${x}</b></a>")
+    assert parse_expanded(path).root[0].text == "${x}"
