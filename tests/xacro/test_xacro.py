@@ -107,7 +107,7 @@ def test_what_it_expands_to(tmp_path: Path, body: str, expected: str | None) -> 
         ('<xacro:if value="maybe"/>', "neither true nor false"),
         ('<xacro:property name="x" value="${x}"/><b>${x}</b>', "defined by itself"),
         ("<b>$(env HOME)</b>", "not supported"),
-        ("<b>$(arg n)</b>", "has no <xacro:arg>"),
+        ("<b>$(arg n)</b>", "no such <xacro:arg>"),
         ('<xacro:include filename="nowhere.xacro"/>', "is nowhere"),
         ('<xacro:include filename="/etc/passwd"/>', "outside the folders"),
         ('<xacro:include filename="../../../../../../etc/passwd"/>', ""),

@@ -19,6 +19,7 @@ from ..schema import MAX_NODES, Diagnostics
 from .expression import ExpressionError, written
 from .macro import Macro, parameters_of
 from .scope import Scope, literal_of
+from .substitution import substituted
 
 XACRO = frozenset(
     f"http://{host}"
@@ -254,24 +255,4 @@ class Expander:
             self._file, self._line = before
 
     def _substituted(self, text: str) -> str:
-        """Return what ``$(...)`` stands for."""
-        words = text.split()
-        match words:
-            case ["arg", name]:
-                if name not in self._arguments:
-                    near = did_you_mean(name, self._arguments)
-                    raise ExpressionError(
-                        f"$(arg {name[:60]}): has no <xacro:arg> with a default.{near}"
-                    )
-                return self._arguments[name]
-            case ["find", package]:
-                return f"package://{package}"
-            case ["dirname"]:
-                return str(self._file.parent)
-            case ["env" | "optenv" | "anon" | "eval" | "cwd", *_]:
-                raise ExpressionError(
-                    f"$({words[0]} ...) is not supported: a scene is its files alone"
-                )
-        raise ExpressionError(
-            f"$({text[:60]}) is not known; there are $(arg NAME), $(find PACKAGE)"
-        )
+        return substituted(text, self._arguments, self._file)
