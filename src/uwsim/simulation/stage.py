@@ -162,10 +162,6 @@ class SceneStage(SceneWorld):
         """Find a file named in the file ``named_by``; AssetNotFound lists the folders searched."""
         return find_file(name, named_by, self._data_path)
 
-    def is_touchable(self, name: str) -> bool:
-        """Whether there is a vehicle or object of that name, with a shape that others touch."""
-        return self.touch.is_possible(name)
-
     @property
     def fog_colour(self) -> tuple[float, float, float]:
         """Colour of the fog [0..1]."""

@@ -120,6 +120,8 @@ class SceneWorld:
             for (_, name), sensor in self._sensors.items()
             if isinstance(sensor, VirtualCamera)
         }
+        self.cameras = tuple(self._cameras)
+        """Names of the virtual cameras, in the file's order."""
 
     def _bound_sensors(self) -> dict[tuple[str, str], Sensor]:
         """Sensors by element and name; where two share both, the first has it."""
@@ -213,11 +215,6 @@ class SceneWorld:
         return known[name]
 
     @property
-    def cameras(self) -> tuple[str, ...]:
-        """Names of the virtual cameras, in the file's order."""
-        return tuple(self._cameras)
-
-    @property
     def vehicles(self) -> tuple[str, ...]:
         """Names of the vehicles, in the file's order."""
         return tuple(vehicle.name for vehicle in self.scene.vehicles)
@@ -227,6 +224,10 @@ class SceneWorld:
         if name not in self.vehicles:
             raise UnknownName("vehicle", name, self.vehicles)
         return self._vehicles[self.vehicles.index(name)]
+
+    def is_touchable(self, name: str) -> bool:
+        """Whether there is a vehicle or object of that name, with a shape that others touch."""
+        return self.touch.is_possible(name)
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of that name."""
