@@ -212,6 +212,9 @@ class Stage(World, Protocol):
     def rays(self) -> Rays:
         """The surfaces of the scene where they are now."""
 
+    def dig(self, point: npt.NDArray[np.float64]) -> int:
+        """Take sand around a point in W (3,) [m]; returns how many columns of it lost some."""
+
     def catchable(self, surface: int) -> int | None:
         """Return the number of the object with a surface; None where nothing may pick it up."""
 

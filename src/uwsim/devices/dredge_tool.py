@@ -12,13 +12,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..schema import REQUIRED, element
+from ..world import Body, Stage
+from .device import Device, DeviceSpec, DeviceVehicle
+
+RATE = 60.0
+"""How often a tool takes sand, as often as the original draws an image [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class DredgeToolSpec:
+class DredgeToolSpec(DeviceSpec):
     """A ``<DredgeTool>``; it rides on the link's visual frame."""
+
+    is_left_out: ClassVar[bool] = True
 
     name: str
     """Its name."""
@@ -28,3 +36,33 @@ class DredgeToolSpec:
     """Read and not used, as in the original [m]."""
     offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
     """Read and not used, as in the original [rad]."""
+
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> DredgeTool:
+        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        tool = DredgeTool(stage, vehicle.mount(_Place(relative_to=self.target), visual=True))
+        stage.every(RATE, tool.dig)
+        return tool
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Place:
+    """The origin of a link's visual frame."""
+
+    relative_to: str
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+class DredgeTool(Device):
+    """A tool that takes sand where it is."""
+
+    STATE = ("n_taken",)
+
+    def __init__(self, stage: Stage, mount: Body) -> None:
+        self._stage, self._mount = stage, mount
+        self.n_taken = 0
+        """How many columns of sand lost some, added up."""
+
+    def dig(self) -> None:
+        """Take 0.01 m of each column of sand whose top is within 0.1 m."""
+        self.n_taken += self._stage.dig(self._mount.world_from_body.position)

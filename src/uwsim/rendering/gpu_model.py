@@ -107,6 +107,16 @@ class GpuModels:
             self._models[id(model)] = known  # holds the model, so that its id stays its own
         return known[1]
 
+    def discard(self, model: Model) -> None:
+        """Free the buffers of a model that is in no scene any more."""
+        _, batches = self._models.pop(id(model), (model, ()))
+        arrays = {id(each): each for batch in batches for each in batch.arrays.values()}
+        buffers = {id(each): each for batch in batches for each in (batch.vertices, batch.indices)}
+        for array in arrays.values():
+            array.release()
+        for buffer in buffers.values():
+            buffer.release()
+
     def _batches(self, meshes: list[Mesh]) -> list[Batch]:
         """Merge meshes of one texture, and cut what is large."""
         vertices = np.empty(sum(len(mesh.vertices) for mesh in meshes), dtype=VERTEX)

@@ -120,6 +120,11 @@ class Renderer:
         """Take an instance out of the scene."""
         self._instances.remove(handle)
 
+    def discard(self, model: Model) -> None:
+        """Free the memory of a model, all of whose instances were removed."""
+        with self._context:
+            self._models.discard(model)
+
     def clear(self) -> None:
         """Remove every instance; uploaded models stay on the GPU for later use."""
         self._instances.clear()

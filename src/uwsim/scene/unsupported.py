@@ -90,8 +90,6 @@ def not_simulated(root: etree._Element, diagnostics: Diagnostics) -> None:
             kind = "limits of objects"
         if kind is not None and OFF.get(str(node.tag)) != (node.text or "").strip():
             lines.setdefault(kind, []).append(_line(node))
-        if node.tag == "object" and node.get("buried", "0").strip() not in ("0", "0.0"):
-            lines.setdefault("buried objects", []).append(_line(node))
     for kind, where in sorted(lines.items(), key=lambda entry: entry[1][0]):
         shown = sorted(set(where))
         listed = ", ".join(map(str, shown[:8])) + (", ..." if len(shown) > 8 else "")

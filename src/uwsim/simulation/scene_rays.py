@@ -14,6 +14,7 @@ from ..physics.engine import Engine
 from ..rays import Hits, RayScene, Surface
 from ..scene.spec import SceneSpec
 from .parts import Part
+from .sand import Heap
 
 
 class SceneRays:
@@ -25,15 +26,23 @@ class SceneRays:
         scene: spec of the scene.
         parts: its models.
         state: where everything is.
+        heaps: the sand over buried objects.
     """
 
-    def __init__(self, scene: SceneSpec, parts: Sequence[Part], state: Engine) -> None:
-        self._state = state
+    def __init__(
+        self,
+        scene: SceneSpec,
+        parts: Sequence[Part],
+        state: Engine,
+        heaps: Sequence[Heap] = (),
+    ) -> None:
+        self._state, self._heaps = state, tuple(heaps)
+        self._cast_heaps: dict[int, tuple[int, RayScene]] = {}
         self._parts = tuple(part for part in parts if not part.is_hidden)
         names = {part.id: _material(scene, part) for part in self._parts}
         numbers = range(max(names, default=0) + 1)
         self.materials: tuple[Material, ...] = tuple(
-            MATERIALS[names.get(number, "sand")] for number in numbers
+            MATERIALS[names.get(number, "sand")] for number in (*numbers, *heaps)
         )
         """Of each surface, by its number."""
         owners = {
@@ -52,7 +61,24 @@ class SceneRays:
         """Cast rays from the origin of a sensor; see `RayScene.cast`."""
         for body, frame in enumerate(self._frames):
             self._scene.place(body + 1, frame())
-        return self._scene.cast(world_from_sensor, directions, reach, begins)
+        hits = self._scene.cast(world_from_sensor, directions, reach, begins)
+        for number, heap in enumerate(self._heaps):
+            on_sand = self._sand(number, heap).cast(world_from_sensor, directions, reach, begins)
+            nearer = on_sand.distance < hits.distance
+            hits.distance[nearer] = on_sand.distance[nearer]
+            hits.normal[nearer] = on_sand.normal[nearer]
+            hits.surface[nearer] = on_sand.surface[nearer]
+        return hits
+
+    def _sand(self, number: int, heap: Heap) -> RayScene:
+        """The triangles of a heap as it is now."""
+        if (known := self._cast_heaps.get(number)) is None or known[0] != heap.version:
+            mesh = heap.mesh()
+            triangles = mesh.vertices.astype(np.float64)[mesh.triangles]
+            surface = len(self.materials) - len(self._heaps) + number
+            known = heap.version, RayScene([[Surface(surface, triangles)]])
+            self._cast_heaps[number] = known
+        return known[1]
 
     @cached_property
     def _frames(self) -> tuple[Callable[[], Array], ...]:

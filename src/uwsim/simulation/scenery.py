@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from ..assets.mesh import Model
 from ..devices.lamp import MAX_LAMPS, MountedLamp
 from ..devices.led_array import Led
 from ..devices.structured_light_projector import MountedProjector
@@ -28,6 +29,7 @@ from ..scene.spec import SceneSpec
 from ..scene.urdf import RobotSpec
 from .parts import Part, parts_of
 from .renderer_pool import RendererPool
+from .sand import heaps_of
 
 if TYPE_CHECKING:
     from ..rendering.renderer import Renderer
@@ -47,7 +49,7 @@ class Scenery:
         pool: lends the renderer; without one the scenery has a renderer of its own.
     """
 
-    STATE = ("water", "light")
+    STATE = ("water", "light", "heaps")
     """Attributes of its state, for snapshots."""
 
     def __init__(
@@ -76,6 +78,11 @@ class Scenery:
         self._mounted_lamps: tuple[MountedLamp | Led, ...] = ()
         self._mounted_projector: tuple[MountedProjector, npt.NDArray[np.uint8]] | None = None
         self._projector: Projector | None = None
+        self.heaps = heaps_of(
+            scene, [(p.object, self.corners(p)) for p in self.parts if p.object is not None]
+        )
+        """The sand over buried objects."""
+        self._drawn_heaps: dict[int, tuple[int, int, Model]] = {}  # version, handle, model
 
     def set_lamps(self, lamps: Sequence[MountedLamp], leds: Sequence[Led] = ()) -> None:
         """Set the lamps of the scene, and its signal lamps.
@@ -190,6 +197,7 @@ class Scenery:
             if self._mounted_projector is not None:
                 self._projector = _projecting(*self._mounted_projector)
             self._drawn_version = self._state.poses.version
+        self._draw_heaps(renderer)
         shining = [lamp for lamp in self._mounted_lamps if lamp.is_on]
         return renderer.draw(
             world_from_camera,
@@ -203,6 +211,23 @@ class Scenery:
             projector=self._projector,
         )
 
+    def _draw_heaps(self, renderer: Renderer) -> None:
+        """Give the renderer the heaps of sand that have changed."""
+        for number, heap in enumerate(self.heaps):
+            drawn = self._drawn_heaps.get(number)
+            if drawn is not None and drawn[0] == heap.version:
+                continue
+            if drawn is not None:
+                renderer.remove(drawn[1])
+                renderer.discard(drawn[2])
+            model = heap.model()
+            handle = renderer.add(model, self.number_of_heap(number))
+            self._drawn_heaps[number] = heap.version, handle, model
+
+    def number_of_heap(self, number: int) -> int:
+        """The number in segmentation images of a heap of sand."""
+        return max((part.id for part in self.parts), default=0) + 1 + number
+
     @property
     def renderer_name(self) -> str:
         """Name of the renderer; makes the graphics context if there is none yet."""
@@ -211,7 +236,9 @@ class Scenery:
     @property
     def part_names(self) -> dict[int, str]:
         """Number in segmentation images -> ``vehicle/link`` or object."""
-        return {part.id: part.name for part in self.parts}
+        names = {part.id: part.name for part in self.parts}
+        heaps = enumerate(self.heaps)
+        return names | {self.number_of_heap(i): f"sand/{heap.name}" for i, heap in heaps}
 
     @property
     def made_hashes(self) -> dict[str, str]:
@@ -235,6 +262,7 @@ class Scenery:
             self._pool.release(self._renderer)
             self._renderer = None
             self._handles = []
+            self._drawn_heaps = {}
             self._drawn_version = -1
         self._own_pool.close()
 

@@ -141,6 +141,10 @@ class SceneStage(SceneWorld):
         """Where on Earth the origin of W is."""
         return self.earth_origin or Geodetic(latitude=0.0, longitude=0.0)
 
+    def dig(self, point: Array) -> int:
+        """Take sand around a point in W (3,) [m]; returns how many columns of it lost some."""
+        return sum(heap.dig(point) for heap in self.scenery.heaps)
+
     def catchable(self, surface: int) -> int | None:
         """Return the number of the object with a surface; None where nothing may pick it up."""
         objects = {part.id: part.object for part in self.scenery.parts}

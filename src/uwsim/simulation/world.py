@@ -102,7 +102,7 @@ class SceneWorld:
             pool=pool,
         )
         """The visual side of the scene."""
-        self.rays = SceneRays(scene, self.scenery.parts, self.state)
+        self.rays = SceneRays(scene, self.scenery.parts, self.state, self.scenery.heaps)
         """Ray casting against the scene."""
         self._bodies = name_bodies(
             scene, self.robots, self.state, self.scenery.parts, compatibility

@@ -1,0 +1,103 @@
+"""Sand buries objects; a dredge tool uncovers them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.simulation.small_robots import scene_of, shape, write_robot
+from uwsim.devices.dredge_tool import DredgeToolSpec
+from uwsim.geometry import Pose
+from uwsim.scene.object import ObjectSpec
+from uwsim.scene.spec import SceneSpec
+from uwsim.scene.vehicle import VehicleSpec
+from uwsim.sensors.virtual_camera import VirtualCameraSpec
+from uwsim.simulation import Simulation
+from uwsim.simulation.sand import Heap
+
+EYE = VirtualCameraSpec(name="eye", relative_to="base_link", position=(0.0, 0.0, 2.0))
+TOOL = DredgeToolSpec(name="dredge", target="base_link")
+DOWN = np.array([[0.0, 0.0, -1.0]])
+
+
+def heap() -> Heap:
+    """A box of 0.2 m by 0.4 m, 0.2 m high, half buried."""
+    return Heap("box", np.array([0.0, 0.0, 1.0]), np.array([0.2, 0.4, 1.2]), 0.5)
+
+
+def test_a_heap_is_level_over_its_object_and_falls_as_a_parabola_beside_it() -> None:
+    sand = heap()
+    assert sand.height(0.1, 0.2) == sand.height(0.19, 0.39) == pytest.approx(1.1)
+    for away in (0.1, 0.2, 0.29):  # the skirt is 0.3 m long
+        wanted = 1.0 + 0.1 * (1.0 - (away / 0.3) ** 2)
+        assert sand.height(-away, 0.2) == pytest.approx(wanted, abs=1e-6)
+        assert sand.height(0.1, 0.4 + away) == pytest.approx(wanted, abs=1e-6)
+    assert sand.height(-0.31, 0.2) == pytest.approx(1.0)
+
+
+def test_digging_takes_a_centimetre_of_each_column_within_a_decimetre() -> None:
+    """On a level top a disc of 0.1 m in columns of 1 cm: about 314."""
+    sand = heap()
+    n = sand.dig(np.array([0.1, 0.2, 1.1]))
+    assert n == pytest.approx(314, abs=8)
+    assert sand.height(0.1, 0.2) == sand.height(0.15, 0.25) == pytest.approx(1.09)
+    assert sand.height(0.1, 0.35) == pytest.approx(1.1)
+    assert sand.dig(np.array([0.1, 0.2, 1.3])) == 0
+    assert sand.version == 1
+
+
+def test_no_sand_is_taken_below_the_bottom() -> None:
+    sand = heap()
+    for _ in range(20):
+        sand.dig(np.array([0.1, 0.2, 1.03]))
+    assert sand.height(0.1, 0.2) == pytest.approx(1.0)
+    assert sand.dig(np.array([0.1, 0.2, 1.0])) < 314
+
+
+def scene(folder: Path, buried: float) -> SceneSpec:
+    """A vehicle 1 m above a buried box, with a camera 2 m above it that looks down."""
+    robot = write_robot(folder, f'<link name="base_link">{shape(size=(0.01, 0.01, 0.01))}</link>')
+    vehicle = VehicleSpec(name="rov", file=str(robot), position=(0.5, 0.0, 1.0), parts=(EYE, TOOL))
+    box = ObjectSpec(name="box", file="objects/blackbox_uib_trimesh.osg", buried=buried)
+    return scene_of(vehicle, objects=(box,))
+
+
+def below(simulation: Simulation) -> float:
+    """Distance from 1 m above the box down to what is there."""
+    at = Pose(np.array([0.0, 0.0, 1.0]), np.eye(3))
+    return float(simulation.world.rays.cast(at, DOWN, 10.0).distance[0])
+
+
+def test_a_tool_uncovers_an_object_for_rays_and_cameras(tmp_path: Path) -> None:
+    with Simulation(scene(tmp_path, 1.0)) as buried, Simulation(scene(tmp_path, 0.0)) as bare:
+        buried.advance(0.02)
+        top = 1.0 - below(bare)
+        assert below(buried) == pytest.approx(1.0 - top, abs=1e-6)  # sand up to its top
+        before = buried.image("eye")
+        place = Pose(np.array([0.0, 0.0, top]), np.eye(3))
+        buried.world.vehicle("rov").place(place)
+        buried.advance(0.1)
+        assert buried.world.scenery.heaps[0].height(0.0, 0.0) < top - 0.02
+        tool = next(d for d in buried.world.devices if hasattr(d, "n_taken"))
+        assert tool.n_taken > 1000
+        after = buried.image("eye")
+        assert before.ids is not None
+        assert after.ids is not None
+        box, sand = 2, 3
+        assert buried.world.scenery.part_names[sand] == "sand/box"
+        assert (before.ids == sand).any()
+        assert (after.ids == box).sum() > (before.ids == box).sum() + 20
+
+
+def test_sand_is_saved(tmp_path: Path) -> None:
+    spec = scene(tmp_path, 0.8)
+    spec = replace(spec, vehicles=(replace(spec.vehicles[0], position=(0.0, 0.0, 0.05)),))
+    with Simulation(spec, is_blind=True) as first, Simulation(spec, is_blind=True) as second:
+        first.advance(0.1)
+        second.restore(first.save())
+        one, other = (s.world.scenery.heaps[0].height(0.0, 0.0) for s in (first, second))
+        assert one == other
+        assert below(first) == below(second)
