@@ -43,7 +43,7 @@ def rendered(renderer: Renderer, one: Projector | None, water: Water = DRY) -> n
 def at(image: np.ndarray, x: float, y: float) -> list[float]:
     """The image's value at a point of the floor [m]."""
     u, v = CAMERA.project(EYE.inverse().transform(np.array([[x, y, 0.0]])))[0]
-    colour: list[float] = image[int(v), int(u)].tolist()
+    colour: list[float] = image[round(v), round(u)].tolist()
     return colour
 
 
@@ -99,3 +99,14 @@ def test_without_a_projector_an_image_is_as_before(floor: Renderer) -> None:
     before = rendered(floor, None)
     rendered(floor, projector())
     assert np.array_equal(rendered(floor, None), before)
+
+
+@pytest.mark.parametrize("sides", [(120, 160), (333, 77)])
+def test_the_axis_of_a_projector_goes_through_the_middle_of_its_pattern(
+    sides: tuple[int, int],
+) -> None:
+    pattern = np.zeros((*sides, 4), np.uint8)
+    lens = Projector(
+        world_from_projector=Pose.identity(), fovy=0.9, pattern=pattern, is_laser=True
+    ).pinhole
+    assert lens.pixel(0.0, 0.0, -3.0) == ((lens.width - 1) / 2, (lens.height - 1) / 2)

@@ -18,12 +18,13 @@ the width of a beam that spreads, speckle, scattering of the beam in the water.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Intrinsics, Pose
+from ..geometry import Intrinsics, Pose, image_centre
 
 LONGEST_SIDE = 1024
 """Of a projector's shadow map [texels]."""
@@ -50,14 +51,15 @@ class Projector:
         rows, columns = self.pattern.shape[:2]
         scale = LONGEST_SIDE / max(rows, columns)
         width, height = max(1, round(scale * columns)), max(1, round(scale * rows))
-        half = np.tan(self.fovy / 2.0)
+        half = math.tan(self.fovy / 2.0)
+        cx, cy = image_centre(width, height)
         return Intrinsics(
             width=width,
             height=height,
             fx=width / 2.0 / (half * columns / rows),
             fy=height / 2.0 / half,
-            cx=width / 2.0,
-            cy=height / 2.0,
+            cx=cx,
+            cy=cy,
             near=NEAR,
             far=FAR,
         )
