@@ -9,9 +9,10 @@ from __future__ import annotations
 import copy
 import dataclasses
 import functools
+import operator
 import re
 import sys
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -42,6 +43,8 @@ def unfit(message: object, of: str = "") -> str | None:
     Lists and tuples given for arrays become arrays. ``of`` is the path to a message in
     another, with a dot behind it.
     """
+    if _is_plainly_fit(message):
+        return None
     for name, kind, inner in _definition(cast(Hashable, message.__class__)):
         value = getattr(message, name)
         wrong: str | None = None
@@ -71,6 +74,18 @@ def unfit(message: object, of: str = "") -> str | None:
         if wrong is not None:
             return wrong
     return None
+
+
+def _is_plainly_fit(message: object) -> bool:
+    """Whether each field has exactly its type, in one look; False for arrays, lists and doubts."""
+    plain = _plain(cast(Hashable, message.__class__))
+    if plain is None:
+        return False
+    values, types = plain
+    try:
+        return tuple(map(type, values(message))) == types
+    except AttributeError:
+        return False
 
 
 def freeze(message: M) -> M:
@@ -134,10 +149,41 @@ def _with_arrays(cls: Hashable) -> tuple[str, ...]:
     found = []
     for field in dataclasses.fields(cls):
         inner = _class_in(cls, str(field.type)) if kinds.get(field.name) == "message" else None
+        is_constant = str(field.type).startswith("ClassVar")
         is_plain = kinds.get(field.name) in _FITTING
-        if not is_plain and (inner is None or _with_arrays(cast(Hashable, inner))):
+        if (
+            not is_plain
+            and not is_constant
+            and (inner is None or _with_arrays(cast(Hashable, inner)))
+        ):
             found.append(field.name)
     return tuple(found)
+
+
+@functools.cache
+def _plain(cls: Hashable) -> tuple[Callable[[object], tuple[object, ...]], tuple[type, ...]] | None:
+    """What reads all values of a message of numbers, texts and such messages, and their types."""
+    paths = _paths(cls)
+    if paths is None or len(paths) < 2:
+        return None
+    return operator.attrgetter(*(path for path, _ in paths)), tuple(kind for _, kind in paths)
+
+
+def _paths(cls: Hashable) -> list[tuple[str, type]] | None:
+    """Each field, and those of messages in it by their paths, with its type; None with an array."""
+    assert isinstance(cls, type)
+    found: list[tuple[str, type]] = []
+    for name, kind, _ in _definition(cls):
+        if kind in _FITTING:
+            found.append((name, _FITTING[kind][0]))
+            continue
+        declared = next(field.type for field in dataclasses.fields(cls) if field.name == name)
+        part = _class_in(cls, str(declared)) if kind == "message" else None
+        inner = None if part is None else _paths(cast(Hashable, part))
+        if part is None or inner is None:
+            return None
+        found += [(name, part), *((f"{name}.{path}", kind) for path, kind in inner)]
+    return found
 
 
 @functools.cache

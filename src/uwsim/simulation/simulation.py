@@ -281,8 +281,10 @@ class Simulation:
             state.fall()
             return
         first, half = self.step, 0.5 * self.timestep  # forces act in the middle of a step
-        times = [(first + k) * self.timestep - half for k in range(n)]
-        motion = water.during(state.submerged_positions, times, self._wet_names)
+        motion = None
+        if not water.is_still:
+            times = [(first + k) * self.timestep - half for k in range(n)]
+            motion = water.during(state.submerged_positions, times, self._wet_names)
         before = state.n_steps
         try:
             state.step(n, motion)
