@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from uwsim.devices import DEVICES
 from uwsim.devices.device import DeviceSpec
-from uwsim.devices.thruster_fault import ThrusterFault, ThrusterFaultSpec
+from uwsim.devices.fault import FaultSpec, ThrusterFault
+from uwsim.devices.fault_times import FaultTimes
 from uwsim.geometry import Pose
 from uwsim.scene.mounts import MountFrames
 from uwsim.scene.unsupported import limit_of
@@ -58,9 +60,8 @@ def test_of_two_losses_of_one_thruster_the_greater_counts() -> None:
 
 def test_a_fault_begins_and_ends_in_time() -> None:
     losses: list[float] = []
-    fault = ThrusterFault(
-        ThrusterFaultSpec(thruster="t", loss=0.5, start=1.0, end=2.0), losses.append
-    )
+    spec = FaultSpec(thruster="t", loss=0.5, start=1.0, end=2.0)
+    fault = ThrusterFault(spec, losses.append, FaultTimes(spec, np.random.default_rng(0)))
     for time in (0.998, 1.0, 1.998, 2.0):
         fault.step(time)
     assert losses == [0.0, 0.5, 0.5, 0.0]

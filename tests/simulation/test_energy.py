@@ -11,7 +11,7 @@ import pytest
 
 from tests.simulation.girona500 import make, run
 from uwsim.benchmark.measures import Energy, EnergySpec
-from uwsim.devices.thruster_fault import ThrusterFaultSpec
+from uwsim.devices.fault import FaultSpec
 from uwsim.errors import UnknownName
 from uwsim.messages import Float64MultiArray, JointState, MultiArrayLayout, header
 from uwsim.physics.actuation.power import power_table
@@ -140,8 +140,8 @@ def test_a_dead_thruster_draws_nothing_and_half_a_thruster_a_third(
     vehicle: VehicleHydrodynamics,
 ) -> None:
     def broken(spec: VehicleSpec) -> VehicleSpec:
-        dead = ThrusterFaultSpec(thruster="surge_port")
-        half = ThrusterFaultSpec(thruster="surge_starboard", loss=0.5)
+        dead = FaultSpec(thruster="surge_port")
+        half = FaultSpec(thruster="surge_starboard", loss=0.5)
         return replace(spec, parts=(dead, half))
 
     simulation = make(INTERFACES, change=broken)

@@ -12,7 +12,7 @@ import pytest
 from tests.simulation.girona500 import SCENE, TWIST, make
 from uwsim.bus import Node
 from uwsim.currents import ConstantSpec, Place, UwsimSinusoidSpec
-from uwsim.devices.thruster_fault import ThrusterFaultSpec
+from uwsim.devices.fault import FaultSpec
 from uwsim.errors import RunFailed
 from uwsim.messages import Odometry, Twist, TwistStamped, Vector3, header
 from uwsim.physics.step_kernel import rotation_of
@@ -23,7 +23,7 @@ from uwsim.topics.pat_to_ros_odom import PATToROSOdomSpec
 SECONDS = 0.5
 ODOMETRY = PATToROSOdomSpec(topic="/odometry", vehicle_name="girona500", rate=30)
 SWELL = UwsimSinusoidSpec(speed=0.2, speed_variation=0.1, speed_period=0.4, random=0.1)
-FAULT = ThrusterFaultSpec(thruster="sway", loss=0.7, start=0.1003, end=0.3)
+FAULT = FaultSpec(thruster="sway", loss=0.7, start=0.1003, end=0.3)
 
 
 class Pilot:

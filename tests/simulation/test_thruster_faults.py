@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import command, heading_deg, make, position, run
-from uwsim.devices.thruster_fault import ThrusterFaultSpec
+from uwsim.devices.fault import FaultSpec
 from uwsim.errors import SceneError
 from uwsim.simulation import Simulation
 
 
-def faulty(*faults: ThrusterFaultSpec) -> Simulation:
+def faulty(*faults: FaultSpec) -> Simulation:
     return make(change=lambda vehicle: replace(vehicle, parts=faults))
 
 
 def test_a_dead_thruster_turns_the_vehicle_until_it_works_again() -> None:
-    simulation = faulty(ThrusterFaultSpec(thruster="surge_port", start=4.0, end=8.0))
+    simulation = faulty(FaultSpec(thruster="surge_port", start=4.0, end=8.0))
     command(simulation, 0.4, 0.0)
     run(simulation, 4.0)
     assert heading_deg(simulation) == pytest.approx(90.0, abs=0.2)
@@ -27,7 +27,7 @@ def test_a_dead_thruster_turns_the_vehicle_until_it_works_again() -> None:
 
 
 def test_a_thruster_without_strength_left_moves_nothing() -> None:
-    simulation = faulty(ThrusterFaultSpec(thruster="sway"))
+    simulation = faulty(FaultSpec(thruster="sway"))
     command(simulation, 0.0, 0.3)
     run(simulation, 5.0)
     assert position(simulation)[0] == pytest.approx(3.0, abs=0.02)
@@ -36,10 +36,7 @@ def test_a_thruster_without_strength_left_moves_nothing() -> None:
 def test_a_loss_of_thrust_costs_speed_as_the_square_root() -> None:
     speeds = []
     for loss in (0.0, 0.75):
-        faults = [
-            ThrusterFaultSpec(thruster=name, loss=loss)
-            for name in ("surge_port", "surge_starboard")
-        ]
+        faults = [FaultSpec(thruster=name, loss=loss) for name in ("surge_port", "surge_starboard")]
         simulation = faulty(*faults)
         command(simulation, 5.0, 0.0)  # full ahead
         run(simulation, 8.0)
@@ -55,9 +52,7 @@ def test_a_loss_of_thrust_costs_speed_as_the_square_root() -> None:
 
 
 def test_of_two_faults_the_greater_loss_counts() -> None:
-    simulation = faulty(
-        ThrusterFaultSpec(thruster="sway", loss=1.0), ThrusterFaultSpec(thruster="sway", loss=0.1)
-    )
+    simulation = faulty(FaultSpec(thruster="sway", loss=1.0), FaultSpec(thruster="sway", loss=0.1))
     command(simulation, 0.0, 0.3)
     run(simulation, 3.0)
     assert position(simulation)[0] == pytest.approx(3.0, abs=0.02)
@@ -65,4 +60,4 @@ def test_of_two_faults_the_greater_loss_counts() -> None:
 
 def test_a_fault_of_an_unknown_thruster_lists_the_known_ones() -> None:
     with pytest.raises(SceneError, match="surge_port"):
-        faulty(ThrusterFaultSpec(thruster="surge"))
+        faulty(FaultSpec(thruster="surge"))

@@ -5,13 +5,13 @@ from .acoustic_comms_device import AcousticCommsDeviceSpec
 from .custom_comms_device import CustomCommsDeviceSpec
 from .dredge_tool import DredgeToolSpec
 from .echo import EchoSpec
+from .fault import FaultSpec
 from .force_sensor import ForceSensorSpec
 from .lamp import LampSpec
 from .led_array import LedArraySpec
 from .object_picker import ObjectPickerSpec
 from .structured_light_projector import StructuredLightProjectorSpec
 from .sway import SwaySpec
-from .thruster_fault import ThrusterFaultSpec
 
 DEVICES: dict[str, type] = {
     "AcousticCommsDevice": AcousticCommsDeviceSpec,
@@ -24,7 +24,7 @@ DEVICES: dict[str, type] = {
     "structuredLightProjector": StructuredLightProjectorSpec,
     f"{{{NAMESPACE}}}lamp": LampSpec,
     f"{{{NAMESPACE}}}sway": SwaySpec,
-    f"{{{NAMESPACE}}}fault": ThrusterFaultSpec,
+    f"{{{NAMESPACE}}}fault": FaultSpec,
 }
 """Element of a vehicle -> spec; ours last. One without ``bind`` is read and not simulated."""
 

@@ -93,6 +93,12 @@ class VehicleSpec:
         for box in self.parts_of(SimulatedDevicesSpec):
             yield from (("echo", part) for part in box.echo)
 
+    @property
+    def sensor_names(self) -> tuple[str, ...]:
+        """Names of its sensors, and of devices that measure."""
+        names = (getattr(part, "name", None) for _, part in self.all_parts())
+        return tuple(name for name in names if name is not None)
+
     def parts_of(self, kind: type[T]) -> tuple[T, ...]:
         """Its sensors or devices of one kind."""
         return tuple(part for part in self.parts if isinstance(part, kind))

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Literal
 
 from ..currents import Place, PythonFunctionSpec
-from ..devices.thruster_fault import ThrusterFaultSpec
+from ..devices.fault import FaultSpec
 from ..errors import Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import MIN_MASS
 from ..physics.hydrodynamics.spec import VehicleHydrodynamics
@@ -208,8 +208,12 @@ class Search:
             )
 
     def _follow_thrusters(self, index: int, vehicle: VehicleSpec) -> None:
-        for number, fault in enumerate(vehicle.parts_of(ThrusterFaultSpec)):
+        for number, fault in enumerate(vehicle.parts_of(FaultSpec)):
             place = ("vehicle", index, f"{U}fault", number)
+            for error in fault.errors(vehicle.sensor_names):
+                self._say(error, *place)
+            if fault.thruster is None:
+                continue
             if vehicle.dynamics is None:
                 self._say(
                     f"the vehicle {vehicle.name!r} has no <u:dynamics>: no thruster of it can fail",
@@ -219,12 +223,6 @@ class Search:
                 names = [thruster.name for thruster in self.dynamics[index].thrusters]
                 if fault.thruster not in names:
                     self._say(str(UnknownName("thruster", fault.thruster, names)), *place)
-            if fault.end is not None and fault.end <= fault.start:
-                self._say(
-                    f"<u:fault> ends at {fault.end:g} s and begins at {fault.start:g} s; "
-                    "expected an end after its start",
-                    *place,
-                )
 
     def _no_autopilot(
         self, interface: AutopilotTopicSpec, vehicles: Mapping[str, VehicleSpec]

@@ -27,6 +27,7 @@ from ..topics.interface import Binds, Interface
 from ..world import Flow
 from .bodies import find_file
 from .datagrams import Datagrams
+from .faulty_topic import FaultyTopic, faults_of
 from .frames import object_frames, vehicle_frames
 from .markers import SERVICE, Markers
 from .trajectories import RATE, Trajectory
@@ -50,7 +51,7 @@ class SceneStage(SceneWorld):
     STATE = (
         *("_bus", "state", "scenery", "touch", "_timers", "_pending"),
         *("_vehicles", "_sensors", "devices", "interfaces", "network"),
-        *("markers", "trajectories"),
+        *("markers", "trajectories", "_faulty_topics"),
     )
     """Attributes of its state, for snapshots."""
 
@@ -68,6 +69,7 @@ class SceneStage(SceneWorld):
         self._datagrams = Datagrams(udp_address)
         self._timers: list[SampleTimer] = []
         self._commands: list[tuple[Callable[[Any], None], Any]] = []
+        self._faulty_topics: list[FaultyTopic] = []
         self.devices = tuple(self._bound_devices())
         """What acts in the step, in the file's order."""
         self.markers = Markers(lambda: self.time)
@@ -119,6 +121,15 @@ class SceneStage(SceneWorld):
             if spec.is_left_out:
                 return None
             raise
+
+    def sensor_publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
+        """Return what publishes the messages of a sensor on a topic, with the sensor's faults."""
+        publish: Callable[[Any], None] = self.bus.publisher(topic, type_)
+        faults = faults_of(self.scene, sensor, topic, type_, self.stream)
+        if not faults:
+            return publish
+        self._faulty_topics.append(FaultyTopic(faults, publish, lambda: self.time))
+        return self._faulty_topics[-1].publish
 
     def _bound_interfaces(self) -> Iterator[Interface]:
         for spec in self.scene.ros_interfaces:

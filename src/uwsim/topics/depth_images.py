@@ -66,10 +66,11 @@ class RangeImageSensorToROSImageSpec(InterfaceSpec):
 class DepthImagePublisher(Interface):
     """Publishes the depth of a camera; without a reader nothing is measured."""
 
-    def __init__(self, camera: DepthCamera, image_topic: str, info_topic: str, world: TopicWorld):
+    def __init__(self, name: str, image_topic: str, info_topic: str, world: TopicWorld) -> None:
+        camera = _find(world, name)
         self._camera, self._world = camera, world
         self._image_topic, self._info_topic = image_topic, info_topic
-        self._publish_image = world.bus.publisher(image_topic, Image)
+        self._publish_image = world.sensor_publisher(name, image_topic, Image)
         self._publish_info = world.bus.publisher(info_topic, CameraInfo)
 
     def publish(self) -> None:
@@ -113,7 +114,7 @@ class PointCloudPublisher(Interface):
     def __init__(self, camera: DepthCamera, frame_id: str, topic: str, world: TopicWorld) -> None:
         self._camera, self._frame_id = camera, frame_id
         self._topic, self._world = topic, world
-        self._publish = world.bus.publisher(topic, PointCloud2)
+        self._publish = world.sensor_publisher(frame_id, topic, PointCloud2)
 
     def publish(self) -> None:
         """Take the sample that is due and publish it."""
@@ -138,7 +139,7 @@ def publish_depth(
     Raises:
         UnknownName: there is no such camera.
     """
-    publisher = DepthImagePublisher(_find(world, camera), *topics, world)
+    publisher = DepthImagePublisher(camera, *topics, world)
     world.every(rate, publisher.publish)
     return publisher
 

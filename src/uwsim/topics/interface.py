@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, TypeVar, runtime_checkable
+from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
 from ..schema import element
 from ..sensors.sensor import Sensor
@@ -31,6 +31,9 @@ class TopicWorld(World, Protocol):
 
     def sensor(self, name: str, elements: tuple[str, ...]) -> Sensor:
         """Find a sensor or device of one of these elements that publishes; UnknownName if none."""
+
+    def sensor_publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
+        """Return what publishes the messages of a sensor on a topic, with the sensor's faults."""
 
     def is_touchable(self, name: str) -> bool:
         """Whether there is a vehicle or object of that name, with a shape that others touch."""

@@ -44,7 +44,7 @@ class SensorTopicSpec(InterfaceSpec):
     def bind(self, world: TopicWorld) -> Interface:
         """Publish the sensor from now on; raises UnknownName if it is not there."""
         sensor = world.sensor(self.name, self.sources)
-        publish: Callable[[object], None] = world.bus.publisher(self.topic, self.carries()["topic"])
+        publish = world.sensor_publisher(self.name, self.topic, self.carries()["topic"])
         publisher = SensorPublisher(sensor, publish, lambda: world.time)
         world.every(self.rate, publisher.publish)
         return publisher

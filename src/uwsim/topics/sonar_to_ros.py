@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Protocol, cast
 
@@ -48,10 +48,8 @@ class SonarPublisher(Interface):
 
     def __init__(self, spec: SonarToROSSpec, sonar: Sonar, world: TopicWorld) -> None:
         self._sonar, self._world, self._image_topic = sonar, world, spec.image_topic
-        self._publish: Callable[[object], None] = world.bus.publisher(
-            spec.topic, ProjectedSonarImage
-        )
-        self._publish_image = world.bus.publisher(spec.image_topic, Image)
+        self._publish = world.sensor_publisher(spec.name, spec.topic, ProjectedSonarImage)
+        self._publish_image = world.sensor_publisher(spec.name, spec.image_topic, Image)
 
     def publish(self) -> None:
         """Ping now, whether or not somebody listens: speckle, scan and waterfall go on."""

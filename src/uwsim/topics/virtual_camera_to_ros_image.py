@@ -71,7 +71,7 @@ class ImagePublisher(Interface):
         shape = (camera.intrinsics.height, camera.intrinsics.width)
         black = np.zeros(shape if camera.is_grey else (*shape, 3), dtype=np.uint8)
         self._blank = black if world.is_blind else None
-        self._publish_image = world.bus.publisher(spec.image_topic, Image)
+        self._publish_image = world.sensor_publisher(spec.camera_name, spec.image_topic, Image)
         self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
         self._digest = hashlib.sha256()
         self.timer = SampleTimer(0, float(spec.rate), world.timestep, self.publish)

@@ -1,0 +1,160 @@
+"""Faults of a sensor on its way to a topic: the same for every sensor and message."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..devices.fault import FaultSpec
+from ..devices.fault_times import EARLY, FaultTimes
+from ..errors import UnknownName
+from ..messages import time_from_seconds
+from ..scene.spec import SceneSpec
+
+Publish = Callable[[Any], None]
+NOT_MEASURED = ("header", "status", "covariance")
+"""Fields with these words are spared where a fault names none."""
+
+
+class SensorFault:
+    """One fault of a sensor, on one topic.
+
+    Args:
+        spec: the fault.
+        type_: of the messages.
+        random: for its times: the same on each topic of the sensor.
+        noise: for the outliers.
+    """
+
+    STATE: ClassVar[tuple[str, ...]] = ("times", "_noise", "_last", "_waiting")
+    """Attributes of its state, for snapshots."""
+
+    def __init__(
+        self, spec: FaultSpec, type_: type, random: np.random.Generator, noise: np.random.Generator
+    ) -> None:
+        self._spec, self._noise = spec, noise
+        self.times = FaultTimes(spec, random)
+        """When it is present."""
+        self._last: Any = None
+        self._waiting: deque[tuple[float, Any]] = deque()
+        self._fields = tuple(_fields(type_(), spec.field)) if _changes(spec) else ()
+
+    def passed(self, message: Any, time: float) -> list[Any]:
+        """Return the messages that come in the place of one at ``time`` [s]."""
+        acts, kind = self.times.acts(time), self._spec.kind
+        if kind == "latency":
+            return self._delayed(message, time, acts)
+        if not acts:
+            self._last = message if kind == "freeze" else None
+            return [message]
+        if kind == "dropout":
+            return []
+        if kind == "freeze":
+            self._last = self._last or message
+            return [_stamped(self._last, time)]
+        return [self._changed(message)]
+
+    def _delayed(self, message: Any, time: float, acts: bool) -> list[Any]:
+        """What has waited long enough; when the fault is over all that is left comes at once."""
+        self._waiting.append((time + self._spec.delay if acts else time, message))
+        ready = []
+        while self._waiting and (not acts or self._waiting[0][0] <= time + EARLY):
+            ready.append(self._waiting.popleft()[1])
+        return ready
+
+    def _changed(self, message: Any) -> Any:
+        """The message with a bias or outliers."""
+        changed = copy.deepcopy(message)
+        for path in self._fields:
+            owner = changed
+            *parents, name = path.split(".")
+            for parent in parents:
+                owner = getattr(owner, parent)
+            value = getattr(owner, name)
+            error: Any = self._spec.size
+            if self._spec.kind == "outliers":
+                error = error * self._noise.standard_normal(np.shape(value) or None)
+            if isinstance(value, np.ndarray):
+                setattr(owner, name, (value + error).astype(value.dtype))
+            else:
+                setattr(owner, name, float(value + error))
+        return changed
+
+
+class FaultyTopic:
+    """A topic of a sensor with faults: messages pass one after the other."""
+
+    STATE: ClassVar[tuple[str, ...]] = ("_faults",)
+    """Attributes of its state, for snapshots."""
+
+    def __init__(
+        self, faults: Sequence[SensorFault], publish: Publish, clock: Callable[[], float]
+    ) -> None:
+        self._faults, self._publish, self._clock = list(faults), publish, clock
+
+    def publish(self, message: object) -> None:
+        """Publish what becomes of a message."""
+        time, messages = self._clock(), [message]
+        for fault in self._faults:
+            messages = [each for one in messages for each in fault.passed(one, time)]
+        for each in messages:
+            self._publish(each)
+
+
+def faults_of(
+    scene: SceneSpec,
+    sensor: str,
+    topic: str,
+    type_: type,
+    stream: Callable[[str], np.random.Generator],
+) -> list[SensorFault]:
+    """Return the faults of a sensor's messages of a type on a topic."""
+    found = []
+    for vehicle in scene.vehicles:
+        for number, spec in enumerate(vehicle.parts_of(FaultSpec)):
+            if spec.sensor == sensor:
+                own = f"{vehicle.name}/{sensor}/fault{number}"
+                found.append(SensorFault(spec, type_, stream(own), stream(f"{own}/{topic}")))
+    return found
+
+
+def _changes(spec: FaultSpec) -> bool:
+    return spec.kind in ("bias", "outliers")
+
+
+def _stamped(message: Any, time: float) -> Any:
+    """The message with another time stamp."""
+    if not hasattr(message, "header"):
+        return message
+    again = copy.copy(message)
+    again.header = dataclasses.replace(message.header, stamp=time_from_seconds(time))
+    return again
+
+
+def _fields(message: Any, wanted: str | None) -> Iterator[str]:
+    """The paths of the numbers of a message that a fault changes; raises UnknownName."""
+    known = list(_numbers(message))
+    if wanted is None:
+        yield from (path for path in known if not any(word in path for word in NOT_MEASURED))
+    elif wanted in known:
+        yield wanted
+    else:
+        raise UnknownName("field of numbers", wanted, known)
+
+
+def _numbers(message: Any, before: str = "") -> Iterator[str]:
+    """The paths of floating-point numbers and arrays of them."""
+    for field in dataclasses.fields(message):
+        value = getattr(message, field.name)
+        path = f"{before}{field.name}"
+        if dataclasses.is_dataclass(value):
+            yield from _numbers(value, f"{path}.")
+        elif isinstance(value, float) or (
+            isinstance(value, np.ndarray) and value.dtype.kind == "f"
+        ):
+            yield path
