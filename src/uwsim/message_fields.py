@@ -149,13 +149,8 @@ def _with_arrays(cls: Hashable) -> tuple[str, ...]:
     found = []
     for field in dataclasses.fields(cls):
         inner = _class_in(cls, str(field.type)) if kinds.get(field.name) == "message" else None
-        is_constant = str(field.type).startswith("ClassVar")
-        is_plain = kinds.get(field.name) in _FITTING
-        if (
-            not is_plain
-            and not is_constant
-            and (inner is None or _with_arrays(cast(Hashable, inner)))
-        ):
+        is_plain = kinds.get(field.name) in _FITTING or str(field.type).startswith("ClassVar")
+        if not is_plain and (inner is None or _with_arrays(cast(Hashable, inner))):
             found.append(field.name)
     return tuple(found)
 

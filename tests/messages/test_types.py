@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
-from uwsim import messages
+from uwsim import message_fields, messages
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage
 from uwsim.message_fields import unfit
@@ -82,3 +82,37 @@ def test_the_class_of_another_package_is_named_by_its_package() -> None:
     said = r"carries std_msgs/msg/Bool, the class of uwsim\.messages\.types, not that of rosbags"
     with pytest.raises(BadMessage, match=said):
         publish(typing.cast("messages.Bool", foreign(data=True)))
+
+
+@pytest.mark.parametrize(
+    ("value", "error"),
+    [
+        ("fast", "twist.angular.y is 'fast', expected a number"),
+        (None, "twist.angular.y is None, expected a number"),
+        (1, None),
+        (np.float32(1.0), None),
+        (True, None),
+    ],
+)
+def test_a_number_in_a_message_in_a_message_is_checked(value: object, error: str | None) -> None:
+    message = types.TwistStamped()
+    message.twist.angular.y = typing.cast("float", value)
+    assert unfit(message) == error
+
+
+def test_a_message_of_another_type_in_a_message_is_named() -> None:
+    message = types.TwistStamped()
+    message.twist.angular = typing.cast("types.Vector3", types.Quaternion())
+    assert str(unfit(message)).startswith("twist.angular is Quaternion(")
+
+
+def test_a_message_of_rosbags_own_class_fits() -> None:
+    message = types.TwistStamped()
+    own = STORE.types["geometry_msgs/msg/Vector3"](x=1.0, y=0.0, z=0.0)
+    message.twist.linear = typing.cast("types.Vector3", own)
+    assert unfit(message) is None
+
+
+@pytest.mark.parametrize("kind", [types.TwistStamped, types.PoseStamped, types.Bool])
+def test_a_message_without_arrays_has_nothing_to_freeze(kind: type) -> None:
+    assert message_fields._with_arrays(kind) == ()
