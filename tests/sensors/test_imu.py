@@ -130,6 +130,17 @@ def test_a_sensor_more_changes_no_numbers_and_no_motion() -> None:
     assert found[0] == found[1] == found[2]
 
 
+def test_to_measure_leaves_the_velocities_of_contacts_as_they_are() -> None:
+    simulation = simulation_with(OFF_AXIS, rate=1)
+    command(simulation, 0.5, -0.3)
+    run(simulation, 0.1)
+    data = simulation.world.state._data
+    before = data.cvel.copy(), data.subtree_com.copy()
+    simulation.world.sensor("imu", ("imu",)).sample(simulation.time)
+    assert np.array_equal(data.cvel, before[0])
+    assert np.array_equal(data.subtree_com, before[1])
+
+
 def test_a_saved_simulation_goes_on_with_the_same_measurements() -> None:
     spec = replace(OFF_AXIS, std=0.01, gyro=DriftSpec(noise_density=1e-3, bias_instability=1e-3))
     simulation = simulation_with(spec)

@@ -48,7 +48,6 @@ class Engine:
         "_uwsim_physics",
         "_n_steps",
         "poses",
-        "link_motion",
         "grips",
         "_contacts",
     )

@@ -19,34 +19,39 @@ from .poses import Poses
 class LinkMotion:
     """The motion of points on links.
 
+    It works in memory of its own: the engine's has the velocities of contacts, from the beginning
+    of the last step, which stay as they are.
+
     Args:
         model: of the scene.
         data: its state.
         poses: where everything is.
     """
 
-    STATE = ("_version",)
-    """Attributes of its state, for snapshots: the Jacobians' parts are in the engine's data."""
-
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, poses: Poses) -> None:
         self._model, self._data, self._poses = model, data, poses
         self._jacobians = np.zeros((4, 3, model.nv))  # of place and turn, and their rates
-        self._version = -1
+        self._own: mujoco.MjData | None = None
 
     def of(self, index: int, link: str, point: Array) -> BodyMotion:
         """Return the motion of a point of W, (3,) [m], on the link of a vehicle."""
-        self._refresh()
-        model, data, body = self._model, self._data, self._poses.link_body(index, link)
+        model, own, body = self._model, self._moved(), self._poses.link_body(index, link)
         place, turn, place_rate, turn_rate = self._jacobians
-        mujoco.mj_jac(model, data, place, turn, point, body)
-        mujoco.mj_jacDot(model, data, place_rate, turn_rate, point, body)
-        acceleration = product(place, data.qacc) + product(place_rate, data.qvel)
-        return BodyMotion(product(place, data.qvel), product(turn, data.qvel), acceleration)
+        mujoco.mj_jac(model, own, place, turn, point, body)
+        mujoco.mj_jacDot(model, own, place_rate, turn_rate, point, body)
+        speeds = self._data.qvel
+        acceleration = product(place, self._data.qacc) + product(place_rate, speeds)
+        return BodyMotion(product(place, speeds), product(turn, speeds), acceleration)
 
-    def _refresh(self) -> None:
-        """Work out what Jacobians are made of, if something was moved."""
-        if self._version != self._poses.version:
-            self._poses.refresh()
-            mujoco.mj_comPos(self._model, self._data)
-            mujoco.mj_comVel(self._model, self._data)
-            self._version = self._poses.version
+    def _moved(self) -> mujoco.MjData:
+        """Places and velocities of all links as they are now."""
+        data, own = self._data, self._own
+        if own is None:
+            own = self._own = mujoco.MjData(self._model)
+        elif np.array_equal(own.qpos, data.qpos) and np.array_equal(own.qvel, data.qvel):
+            return own
+        own.qpos[:], own.qvel[:] = data.qpos, data.qvel
+        mujoco.mj_kinematics(self._model, own)
+        mujoco.mj_comPos(self._model, own)
+        mujoco.mj_comVel(self._model, own)
+        return own
