@@ -142,15 +142,13 @@ class Simulation:
             or (self._drifting and not world.water.is_still)
         ):
             return 1
-        due = min(
-            delivery,
-            world.next_tick,
-            min((each.timer.due for each in self.images.values()), default=math.inf),
-            min((node.next_tick for node in self._nodes), default=math.inf),
-        )
+        dues = [delivery, world.next_tick]
+        dues += [each.timer.due for each in self.images.values()]
+        dues += [node.next_tick for node in self._nodes]
         began = self.time - self.timestep
-        rests = min((device.rests_until(began) for device in world.devices), default=math.inf)
-        n = min(wanted, MAX_RUN, due - now + 1, (rests - began) // self.timestep - 1)
+        rests = [math.inf, *(device.rests_until(began) for device in world.devices)]
+        free = (min(rests) - began) // self.timestep - 1
+        n = min(wanted, MAX_RUN, min(dues) - now + 1, free)
         return max(1, int(n))
 
     def watch(self, look: Callable[[], None]) -> None:

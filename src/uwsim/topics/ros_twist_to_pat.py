@@ -59,11 +59,10 @@ class TwistCommand(Interface):
         numbers = [float(x) for x in (v.x, v.y, v.z, w.x, w.y, w.z)]
         if not all(map(math.isfinite, numbers)):
             return
-        numbers = [min(max(x, -MAX_COMMAND), MAX_COMMAND) for x in numbers]
         if (autopilot := self._vehicle.autopilot) is not None:
             autopilot.command(numbers[:3], numbers[3:])
             return
-        step = np.array(numbers) * time  # (6,) [m, rad]
+        step = np.clip(numbers, -MAX_COMMAND, MAX_COMMAND) * time  # (6,) [m, rad]
         before_from_after = Pose(step[:3], rotation_from_xyz(*step[3:].tolist()))
         self._vehicle.place(self._vehicle.world_from_base @ before_from_after)
 

@@ -133,6 +133,9 @@ class Autopilot:
         self._thrusters["control"] = seat.controls
         self._state = np.zeros(1, AUTOPILOT_STATE)
         self._state["heading"] = np.eye(3)
+        self._mode: Array = self._state["mode"]
+        self._wanted: Array = self._state["wanted"][0]
+        self._integral: Array = self._state["integral"]
         self._commands = np.zeros(len(vehicle.thrusters))
 
     @property
@@ -154,9 +157,7 @@ class Autopilot:
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Take a twist [m/s, rad/s] in the base frame; it is held until the next."""
         self._change_to(VELOCITY, takes_over=True)
-        self._state["wanted"] = [
-            min(max(x, -MAX_COMMAND), MAX_COMMAND) for x in (*linear, *angular)
-        ]
+        self._wanted[:] = [min(max(x, -MAX_COMMAND), MAX_COMMAND) for x in (*linear, *angular)]
 
     def go_to(self, world_from_base: Pose) -> None:
         """Go to a place and its heading, and stay there; roll and pitch are not followed."""
@@ -179,11 +180,11 @@ class Autopilot:
         self._commands[:] = commands
 
     def _change_to(self, mode: int, *, takes_over: bool) -> None:
-        if self._state["mode"][0] != mode:
-            self._state["mode"] = mode
+        if self._mode[0] != mode:
+            self._mode[0] = mode
             if takes_over:
                 self._state["takes_over"] = True
-            self._state["integral"] = 0.0
+            self._integral[:] = 0.0
 
 
 def _autopilot_record(
