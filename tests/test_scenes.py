@@ -6,12 +6,13 @@ import os
 from pathlib import Path
 
 import pytest
-from tests.whole_scene import SceneRun, run_scene
 
+from tests.whole_scene import SceneRun, run_scene
 from uwsim.assets.bundled import bundled
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 SCENES = bundled("scenes")
+PAGE = Path(__file__).parent.parent / "docs" / "scenes.md"
 QUICK = ("remus-scene", "shapes-scene", "two-vehicles-scene")
 
 
@@ -19,6 +20,13 @@ def assert_sound(done: SceneRun) -> None:
     assert done.faults == []
     assert done.not_simulated == []
     assert done.n_messages
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_page_of_scenes_shows_each(name: str) -> None:
+    assert f"`{name}`" in PAGE.read_text() or f"## {name}" in PAGE.read_text()
+    assert f"images/scenes/{name}.jpg" in PAGE.read_text()
+    assert (PAGE.parent / "images" / "scenes" / f"{name}.jpg").is_file()
 
 
 @pytest.mark.parametrize("name", QUICK)

@@ -44,12 +44,6 @@ def test_every_page_is_reached_from_the_first(site: Path) -> None:
 
 
 @pytest.mark.slow
-def test_every_bundled_scene_has_its_image(site: Path) -> None:
-    scenes = {path.stem for path in (ROOT / "src/uwsim/data/scenes").glob("*.xml")}
-    assert {path.stem for path in (site / "scenes").glob("*.png")} == scenes
-
-
-@pytest.mark.slow
 def test_the_reference_says_what_docstrings_say(site: Path) -> None:
     text = html.parse(site / "reference" / "uwsim.statistics.html").getroot().text_content()
     assert "Return the mean" in text or "A mean and where it lies" in text

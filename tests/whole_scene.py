@@ -149,9 +149,8 @@ def message_faults(message: Any, now: float) -> Iterator[str]:
     elif kind == "Range":
         if not message.min_range <= message.range <= message.max_range:
             yield f"range {message.range}"
-    elif kind == "JointState":
-        if not len(message.name) == len(message.position):
-            yield "numbers of joints and positions differ"
+    elif kind == "JointState" and len(message.name) != len(message.position):
+        yield "numbers of joints and positions differ"
     if kind not in ("Image", "PointCloud2"):
         yield from number_faults(message, kind)
 
@@ -162,7 +161,10 @@ def image_faults(message: Any) -> Iterator[str]:
     if n_bytes is None:
         yield f"encoding {message.encoding}"
         return
-    if message.step != n_bytes * message.width or len(message.data) != message.step * message.height:
+    if (
+        message.step != n_bytes * message.width
+        or len(message.data) != message.step * message.height
+    ):
         yield "number of bytes"
         return
     data = np.asarray(message.data)
@@ -204,6 +206,11 @@ def number_faults(value: Any, name: str) -> Iterator[str]:
     elif isinstance(value, list | tuple):
         for item in value:
             yield from number_faults(item, name)
-    elif isinstance(value, float | np.ndarray) and np.asarray(value).dtype.kind == "f":
-        if not np.isfinite(value).all():
-            yield f"{name} is not finite"
+    elif isinstance(value, float | np.ndarray) and not finite(value):
+        yield f"{name} is not finite"
+
+
+def finite(value: Any) -> bool:
+    """Whether no number of it is infinite or NaN; integers never are."""
+    array = np.asarray(value)
+    return array.dtype.kind != "f" or bool(np.isfinite(array).all())

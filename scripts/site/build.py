@@ -34,7 +34,6 @@ def main() -> None:
     """Build the site."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path, help="folder of the site; it is made anew")
-    parser.add_argument("--no-images", action="store_true", help="draw no scenes")
     arguments = parser.parse_args()
     work = arguments.out.resolve().with_suffix(".work")
     shutil.rmtree(work, ignore_errors=True)
@@ -43,7 +42,6 @@ def main() -> None:
     for name in ("style.css", "iframe-worker.js", "iframe-worker.LICENSE"):
         shutil.copy(HERE / name, pages)
     nav = copy_pages(pages)
-    nav.append(("Scenes", scene_pages(pages, draw=not arguments.no_images)))
     nav.append(("Notebooks", notebook_pages(pages)))
     nav.append(("Python reference", reference_pages(pages)))
     configure(work, nav)
@@ -96,28 +94,6 @@ def rewritten(text: str, folder: Path, outside: dict[Path, str]) -> str:
         return f"{label}({name}{anchor or ''})"
 
     return LINK.sub(replace, text)
-
-
-def scene_pages(pages: Path, *, draw: bool) -> list[str]:
-    """Write the page of the bundled scenes, with an image of each; return its name."""
-    lines = ["# Bundled scenes", "", "Each as `uwsim render SCENE` draws it.", ""]
-    (pages / "scenes").mkdir()
-    for path in sorted((PACKAGE / "data" / "scenes").glob("*.xml")):
-        lines += [f"## {path.stem}", "", first_comment(path), ""]
-        if draw:
-            image = f"scenes/{path.stem}.png"
-            command = ["-m", "uwsim", "render", path.stem, "--view", "orbit", "--size", "960x600"]
-            run(sys.executable, *command, "-o", str(pages / image))
-            lines += [f"![{path.stem}]({image})", ""]
-        lines += ["```console", f"$ uwsim info {path.stem}", "```", ""]
-    (pages / "scenes.md").write_text("\n".join(lines))
-    return ["scenes.md"]
-
-
-def first_comment(path: Path) -> str:
-    """Return the first comment of an XML file, which says what it is."""
-    found = re.search(r"<!--(.*?)-->", path.read_text(), re.DOTALL)
-    return " ".join(found.group(1).split()) if found else ""
 
 
 def notebook_pages(pages: Path) -> list[str]:

@@ -1,4 +1,4 @@
-"""Plain solids of known size (``objects/box`` ...), each on the origin of its own, and a flat floor."""
+"""Plain solids of known size about the origin (``objects/box`` ...), and a flat floor."""
 
 from __future__ import annotations
 
@@ -49,7 +49,12 @@ def wide_ring() -> tuple[Mesh, ...]:
 def floor() -> tuple[Mesh, ...]:
     """A level floor of concrete tiles through the origin, 30 x 30 m."""
     n = 2.0 * REACH / TILE
-    corners = [(-REACH, -REACH, 0.0), (REACH, -REACH, 0.0), (REACH, REACH, 0.0), (-REACH, REACH, 0.0)]
+    corners = [
+        (-REACH, -REACH, 0.0),
+        (REACH, -REACH, 0.0),
+        (REACH, REACH, 0.0),
+        (-REACH, REACH, 0.0),
+    ]
     shape = quad(*corners, uv=(0.0, 0.0, n, n), cuts=(10, 10))
     return (mesh(shape, texture=concrete("floor/tiles", (0.60, 0.62, 0.60), joints=3)),)
 

@@ -1,0 +1,37 @@
+"""Draw the images of docs/scenes.md again: each bundled scene, or those named, from its <camera>.
+
+python examples/scene_images.py docs/images/scenes [SCENE ...]
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from PIL import Image
+
+from uwsim.assets.bundled import bundled
+from uwsim.cli import main as uwsim
+
+SIZE, FINER = (800, 450), 2  # of the images [px], supersampling factor
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Draw the images of the bundled scenes.")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("scene", nargs="*", default=list(bundled("scenes")))
+    asked = parser.parse_args()
+    asked.folder.mkdir(parents=True, exist_ok=True)
+    size = f"{FINER * SIZE[0]}x{FINER * SIZE[1]}"
+    for name in asked.scene:
+        with TemporaryDirectory() as scratch:
+            drawn = Path(scratch) / "scene.png"
+            if uwsim(["render", name, "--view", "viewer", "--size", size, "-o", str(drawn)]) != 0:
+                raise SystemExit(f"{name} was not drawn")
+            image = Image.open(drawn).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
+        image.save(asked.folder / f"{name}.jpg", quality=88, optimize=True)
+
+
+if __name__ == "__main__":
+    main()
