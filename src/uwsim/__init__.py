@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from .results.result import Result
     from .simulation import Simulation
 
-__version__ = "0.1.0"
+__version__ = "0.2.0.dev0"
 
 __all__ = [
     "Algorithm",
