@@ -39,9 +39,6 @@ TYPES = {
 }
 """Element -> the message types that it may publish."""
 
-NEAR_SURFACE_ONLY = "GPSSensorToROS"
-"""Publishes nothing under water."""
-
 LIMITS = {
     "position": 1e4,
     "translation": 1e4,
@@ -123,7 +120,7 @@ def rate_faults(
     """Topics on which more or fewer messages came than all publishers send; on /tf too few."""
     expected: dict[str, int] = {}
     for each in declared:
-        if each["rate_hz"] and each["interface"] != NEAR_SURFACE_ONLY:
+        if each["rate_hz"]:
             number = math.floor(duration * each["rate_hz"] + 1e-9) + 1
             expected[each["topic"]] = expected.get(each["topic"], 0) + number
     return [
@@ -151,7 +148,8 @@ def message_faults(message: Any, now: float) -> Iterator[str]:
             yield f"range {message.range}"
     elif kind == "JointState" and len(message.name) != len(message.position):
         yield "numbers of joints and positions differ"
-    if kind not in ("Image", "PointCloud2"):
+    has_fix = kind != "NavSatFix" or message.status.status >= 0
+    if kind not in ("Image", "PointCloud2") and has_fix:
         yield from number_faults(message, kind)
 
 
