@@ -71,7 +71,7 @@ def test_every_message_type_that_is_public_has_defaults() -> None:
     known = {
         *CLASSES,
         *(messages.PingInfo, messages.SonarImageData, messages.ProjectedSonarImage),
-        *(messages.DVL, messages.Pressure),
+        *(messages.DVL, messages.LedLight, messages.Pressure),
     }
     assert {kind for kind in public if "/msg/" in getattr(kind, "__msgtype__", "")} == known
 
