@@ -149,8 +149,19 @@ def message_faults(message: Any, now: float) -> Iterator[str]:
     elif kind == "JointState" and len(message.name) != len(message.position):
         yield "numbers of joints and positions differ"
     has_fix = kind != "NavSatFix" or message.status.status >= 0
-    if kind not in ("Image", "PointCloud2") and has_fix:
+    if kind == "DVL":
+        yield from dvl_faults(message)
+    elif kind not in ("Image", "PointCloud2") and has_fix:
         yield from number_faults(message, kind)
+
+
+def dvl_faults(message: Any) -> Iterator[str]:
+    """Velocities that are not finite while their status says that they are known."""
+    for group in ("bi", "bs", "be", "wi", "ws", "we"):
+        for name, value in vars(message).items():
+            is_known = getattr(message, f"{group}_status") == "A"
+            if is_known and name.startswith(f"{group}_") and isinstance(value, float):
+                yield from number_faults(value, name)
 
 
 def image_faults(message: Any) -> Iterator[str]:
