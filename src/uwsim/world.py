@@ -73,13 +73,19 @@ class BodyMotion:
 
 
 class MovingBody(Body, Protocol):
-    """A body whose motion can be read."""
+    """A frame on a link; the motion of the link and the contacts on it can be read."""
 
     def motion(self, time: float) -> BodyMotion:
         """Return how it moves at ``time`` [s].
 
         Of a simulated vehicle that is the engine's; of another one it is the mean between this
         call and the one before, and 0 at the first.
+        """
+
+    def contact_wrench(self) -> npt.NDArray[np.float64]:
+        """Return force and torque about its origin of the contacts on its link, (6,) [N, N m].
+
+        In its axes, in the last step; 0 where the scene has no physics.
         """
 
 

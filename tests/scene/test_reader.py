@@ -533,14 +533,16 @@ def test_what_is_not_simulated_yet_is_one_line_a_kind(tmp_path: Path) -> None:
     file = written(
         "<UWSimScene>\n"
         + VEHICLE.format(
-            "\n<imu><name>a</name><relativeTo>part0</relativeTo></imu>"
-            "\n<imu><name>b</name><relativeTo>part0</relativeTo></imu>"
+            "\n<virtualCamera><name>a</name><relativeTo>part0</relativeTo>"
+            "<showpath>1</showpath></virtualCamera>"
+            "\n<virtualCamera><name>b</name><relativeTo>part0</relativeTo>"
+            "<showpath>1</showpath></virtualCamera>"
         )
         + "</UWSimScene>",
         tmp_path,
     )
     assert [str(diagnostic) for diagnostic in check_scene(file)] == [
-        f"{file}:3: warning: read, not simulated yet: imu (lines 3, 4)"
+        f"{file}:3: warning: read, not simulated yet: showpath (lines 3, 4)"
     ]
 
 

@@ -156,7 +156,7 @@ def test_a_saved_simulation_goes_on_with_the_same_measurements() -> None:
 
 def test_the_motion_of_a_vehicle_that_is_placed_is_the_difference_of_its_poses() -> None:
     pose = [Pose.identity()]
-    body = PlacedBody("vehicle/link", lambda: pose[0])
+    body = PlacedBody("vehicle/link", lambda: pose[0], lambda point: np.zeros(6))
     assert np.all(body.motion(0.0).velocity == 0.0)
     pose[0] = Pose(np.array([0.1, 0.0, 0.0]), rotation_from_rpy(0.0, 0.0, 0.02))
     first = body.motion(0.1)

@@ -1,4 +1,4 @@
-"""The wrench of contacts on a link.
+r"""The wrench of contacts on a link.
 
 .. code-block:: xml
 
@@ -7,18 +7,32 @@
       <offsetp> <x>-0.2</x> <y>0.75</y> <z>0</z> </offsetp>
       <offsetr> <x>-1.57</x> <y>0</y> <z>3.14</z> </offsetr>
     </ForceSensor>
+
+It measures what other bodies do to the link where they touch it: a box of mass m and volume V that
+rests on it weighs :math:`(m - \rho V) g`. The link's own weight, the water and its joints are not
+measured. Without physics nothing is touched, and all is 0.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
+from ..messages import Vector3, Wrench, WrenchStamped, header
 from ..schema import REQUIRED, element
+from ..world import MovingBody, Stage
+from .device import Device, DeviceSpec, DeviceVehicle
 
 
 @dataclass(frozen=True, kw_only=True)
-class ForceSensorSpec:
-    """A ``<ForceSensor>``; it rides on the link's visual frame."""
+class ForceSensorSpec(DeviceSpec):
+    """A ``<ForceSensor>``; it rides on the link's visual frame.
+
+    Force [N] and torque about the sensor [N m] of the contacts on the link in the last step, in
+    the sensor's axes.
+    """
+
+    message_type: ClassVar[type] = WrenchStamped
 
     name: str
     """Its name."""
@@ -28,3 +42,35 @@ class ForceSensorSpec:
     """Of the sensor on the link [m]."""
     offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
     """Of the sensor on the link, about x, y, z: Rz Ry Rx [rad]."""
+
+    @property
+    def relative_to(self) -> str:
+        """The link."""
+        return self.target
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """In the link's visual frame [m]."""
+        return self.offsetp
+
+    @property
+    def orientation(self) -> tuple[float, float, float]:
+        """Fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+        return self.offsetr
+
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> ForceSensor:
+        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        return ForceSensor(self.name, vehicle.moving_mount(self, visual=True))
+
+
+class ForceSensor(Device):
+    """Force and torque of the contacts on a link."""
+
+    def __init__(self, name: str, mount: MovingBody) -> None:
+        self._name, self._mount = name, mount
+
+    def sample(self, time: float) -> WrenchStamped:
+        """Measure now, at ``time`` [s]."""
+        x, y, z, roll, pitch, yaw = self._mount.contact_wrench().tolist()
+        wrench = Wrench(force=Vector3(x=x, y=y, z=z), torque=Vector3(x=roll, y=pitch, z=yaw))
+        return WrenchStamped(header=header(time, self._name), wrench=wrench)

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array
-from ..linear import dot
+from ..linear import dot, turned_back
 from ..scene.spec import SceneSpec
 from ..world import Contact
 
@@ -55,6 +55,27 @@ class EngineContacts:
         if not self.hold:
             return []
         return contacts_of(self._model, self._data, self._owners == owner, self._names)
+
+    def wrench(self, body: int, point: Array) -> Array:
+        """Force and torque of the contacts on a body, by its number, in W, (6,) [N, N m].
+
+        Args:
+            body: the engine's number.
+            point: about which the torque is, in W, (3,) [m].
+        """
+        total = np.zeros(6)
+        if not self.hold or self._data.ncon == 0:
+            return total
+        found, own = self._data.contact, np.zeros(6)
+        is_own = self._model.geom_bodyid[found.geom] == body  # (n, 2)
+        for i in np.flatnonzero(is_own[:, 0] != is_own[:, 1]).tolist():
+            mujoco.mj_contactForce(self._model, self._data, i, own)
+            axes = found.frame[i].reshape(3, 3)  # rows, in W
+            sign = 1.0 if is_own[i, 1] else -1.0  # the force of the first on the second
+            force = sign * turned_back(axes, own[:3])
+            total[:3] += force
+            total[3:] += sign * turned_back(axes, own[3:]) + np.cross(found.pos[i] - point, force)
+        return total
 
 
 def owner_of(name: str) -> str:

@@ -181,6 +181,10 @@ class Engine:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""
         return self._contacts.of(kind, index)
 
+    def contact_wrench(self, index: int, link: str, point: Array) -> Array:
+        """Force and torque about a point of the contacts on a link, in W, (6,) [N, N m]."""
+        return self._contacts.wrench(self.poses.link_body(index, link), point)
+
     def vehicle_velocity(self, index: int) -> Array:
         """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
         first = self._free_dofs[index]

@@ -89,8 +89,12 @@ class Carrier(Protocol):
             UnknownName: the vehicle has no such link.
         """
 
-    def moving_mount(self, spec: Mounted) -> MovingBody:
-        """Fix something to its link whose motion is read; UnknownName if there is no such link."""
+    def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MovingBody:
+        """Fix something to its link, or to the link's visual frame, whose motion is read.
+
+        Raises:
+            UnknownName: the vehicle has no such link.
+        """
 
 
 @runtime_checkable

@@ -9,17 +9,40 @@ from typing import ClassVar
 import numpy as np
 
 from ..geometry import Array, Pose, quaternion_from_rotation
-from ..linear import length, product
+from ..linear import length, product, turned_back
 from ..world import BodyMotion
 from .bodies import SceneBody
 
 
-class EngineBody(SceneBody):
+class LinkBody(SceneBody):
+    """A frame on a link.
+
+    Args:
+        name: of the link.
+        pose: where the frame is.
+        wrench: force and torque of the contacts on the link about a point of W, in W.
+    """
+
+    def __init__(
+        self, name: str, pose: Callable[[], Pose], wrench: Callable[[Array], Array]
+    ) -> None:
+        super().__init__(name, pose, None)
+        self._wrench = wrench
+
+    def contact_wrench(self) -> Array:
+        """Return that of the contacts on the link, about its origin, in its axes, (6,)."""
+        here = self.world_from_body
+        wrench = self._wrench(here.position).reshape(2, 3)
+        return np.concatenate([turned_back(here.rotation, each) for each in wrench])
+
+
+class EngineBody(LinkBody):
     """A frame on a link of a simulated vehicle (`uwsim.world.MovingBody`).
 
     Args:
         name: of the link.
         pose: where the frame is.
+        wrench: of the contacts on the link.
         motion: how a point of W moves with the link.
     """
 
@@ -27,9 +50,13 @@ class EngineBody(SceneBody):
     """Attributes of its state, for snapshots."""
 
     def __init__(
-        self, name: str, pose: Callable[[], Pose], motion: Callable[[Array], BodyMotion]
+        self,
+        name: str,
+        pose: Callable[[], Pose],
+        wrench: Callable[[Array], Array],
+        motion: Callable[[Array], BodyMotion],
     ) -> None:
-        super().__init__(name, pose, None)
+        super().__init__(name, pose, wrench)
         self._motion = motion
 
     def motion(self, time: float) -> BodyMotion:
@@ -37,14 +64,16 @@ class EngineBody(SceneBody):
         return self._motion(self.world_from_body.position)
 
 
-class PlacedBody(SceneBody):
+class PlacedBody(LinkBody):
     """A frame on a link of a vehicle that is put from place to place (`uwsim.world.MovingBody`)."""
 
     STATE: ClassVar[tuple[str, ...]] = ("_time", "_place", "_rotation", "_moved", "_twist")
     """Attributes of its state, for snapshots."""
 
-    def __init__(self, name: str, pose: Callable[[], Pose]) -> None:
-        super().__init__(name, pose, None)
+    def __init__(
+        self, name: str, pose: Callable[[], Pose], wrench: Callable[[Array], Array]
+    ) -> None:
+        super().__init__(name, pose, wrench)
         self._time: float | None = None
         self._place, self._rotation = np.zeros(3), np.eye(3)
         self._moved: Array | None = None  # the velocity before the present one

@@ -140,13 +140,14 @@ class SceneVehicle:
         """Fix something to its link; raises UnknownName if there is no such link."""
         return SceneBody(f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual), None)
 
-    def moving_mount(self, spec: Mounted) -> EngineBody | PlacedBody:
+    def moving_mount(self, spec: Mounted, *, visual: bool = False) -> EngineBody | PlacedBody:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
-        name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, False)
-        if not self._state.is_simulated(self.index):
-            return PlacedBody(name, pose)
-        motion = partial(self._state.link_motion.of, self.index, spec.relative_to)
-        return EngineBody(name, pose, motion)
+        link, state = (self.index, spec.relative_to), self._state
+        name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual)
+        wrench = partial(state.contact_wrench, *link)
+        if not state.is_simulated(self.index):
+            return PlacedBody(name, pose, wrench)
+        return EngineBody(name, pose, wrench, partial(state.link_motion.of, *link))
 
     def _pose_of(self, spec: Mounted, visual: bool) -> Callable[[], Pose]:
         """Return what says where something on a link is."""

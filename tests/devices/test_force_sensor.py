@@ -1,0 +1,111 @@
+"""A force sensor measures the contacts on its link, in its own frame, in every kind of physics."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.simulation.small_robots import scene_of, shape, write_robot
+from uwsim.devices.force_sensor import ForceSensorSpec
+from uwsim.geometry import rotation_from_rpy
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
+from uwsim.scene.sim_params import SimParamsSpec
+from uwsim.scene.spec import SceneSpec
+from uwsim.scene.vehicle import VehicleSpec
+from uwsim.simulation import Simulation
+from uwsim.topics.sensor_topic import ForceSensorROSSpec
+
+TOPIC = ForceSensorROSSpec(name="force", topic="/force", rate=50)
+
+
+def sensor(
+    offsetp: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    offsetr: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    target: str = "base_link",
+) -> ForceSensorSpec:
+    return ForceSensorSpec(name="force", target=target, offsetp=offsetp, offsetr=offsetr)
+
+
+def box(z: float, physics: PhysicsSpec) -> ObjectSpec:
+    """A box of 0.1 m, its middle at x = 0.02 m."""
+    return ObjectSpec(
+        name="box", file="objects/box.obj", scale_factor=(0.1, 0.1, 0.1), position=(0.02, 0.0, z),
+        physics=physics,
+    )  # fmt: skip
+
+
+def in_water(mass: float) -> SceneSpec:
+    """A simulated vehicle with a box of 1 l above it."""
+    rov = VehicleSpec(
+        name="rov", file="bluerov2_heavy.urdf", dynamics="bluerov2_heavy",
+        position=(0.0, 0.0, -5.0), parts=(sensor(),),
+    )  # fmt: skip
+    load = replace(box(-4.82, PhysicsSpec(mass=mass, volume=0.001)), position=(0.0, 0.0, -4.82))
+    return scene_of(rov, objects=(load,), ros_interfaces=(TOPIC,))
+
+
+def on_a_placed_vehicle(folder: Path, part: ForceSensorSpec, z: float = 0.15) -> SceneSpec:
+    """UWSim's physics, 1 m/s2: a vehicle of 0.2 m that floats in the air, a box of 2 kg on it."""
+    inside = f'{shape()}{shape("collision")}<inertial><mass value="1"/></inertial>'
+    robot = write_robot(folder, f'<link name="base_link">{inside}</link>')
+    vehicle = VehicleSpec(name="rov", file=str(robot), parts=(part,))
+    return scene_of(
+        vehicle,
+        objects=(box(z, PhysicsSpec(mass=2.0)),),
+        ros_interfaces=(TOPIC,),
+        sim_params=SimParamsSpec(enable_physics=True),
+    )
+
+
+def measured(scene: SceneSpec, seconds: float) -> np.ndarray:
+    """Force and torque at the end, (6,)."""
+    with Simulation(scene, is_blind=True) as simulation:
+        simulation.latest("/force")
+        simulation.advance(seconds)
+        message = simulation.latest("/force")
+        assert message.header.frame_id == "force"
+        force, torque = message.wrench.force, message.wrench.torque
+        return np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
+
+
+def test_a_box_that_rests_on_a_simulated_vehicle_weighs_what_it_weighs_in_water() -> None:
+    wrench = measured(in_water(2.0), 2.5)
+    assert wrench[2] == pytest.approx(-9.81 * (2.0 - 0.001 * 1000.0), rel=0.02)
+    assert wrench[[0, 1, 3, 4, 5]] == pytest.approx(np.zeros(5), abs=0.01)
+
+
+def test_without_a_contact_all_is_zero(tmp_path: Path) -> None:
+    assert not measured(in_water(0.9), 0.1).any()  # it rises
+    apart = on_a_placed_vehicle(tmp_path, sensor(), z=2.0)
+    assert not measured(apart, 0.1).any()
+
+
+def test_without_physics_all_is_zero(tmp_path: Path) -> None:
+    scene = on_a_placed_vehicle(tmp_path, sensor(), z=0.12)
+    assert not measured(replace(scene, sim_params=SimParamsSpec()), 0.1).any()
+
+
+def test_on_a_placed_vehicle_it_measures_the_weight_and_where_it_lies(tmp_path: Path) -> None:
+    wrench = measured(on_a_placed_vehicle(tmp_path, sensor()), 2.0)
+    assert wrench[:3] == pytest.approx([0.0, 0.0, -2.0], abs=0.02)
+    assert wrench[3:] == pytest.approx([0.0, 0.02 * 2.0, 0.0], abs=2e-3)
+
+
+def test_its_place_moves_the_torque_and_its_axes_turn_both(tmp_path: Path) -> None:
+    place, rpy = (0.3, -0.2, 0.1), (0.4, -0.7, 1.1)
+    centred = measured(on_a_placed_vehicle(tmp_path, sensor()), 1.0)
+    moved = measured(on_a_placed_vehicle(tmp_path, sensor(place, rpy)), 1.0)
+    back = rotation_from_rpy(*rpy).T
+    force, torque = centred[:3], centred[3:]
+    assert moved[:3] == pytest.approx(back @ force)
+    assert moved[3:] == pytest.approx(back @ (torque - np.cross(place, force)))
+
+
+def test_two_runs_are_the_same_to_the_last_bit() -> None:
+    scene = in_water(2.0)
+    first, second = measured(scene, 0.5), measured(scene, 0.5)
+    assert first.any()
+    assert first.tobytes() == second.tobytes()
