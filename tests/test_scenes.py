@@ -31,6 +31,7 @@ def test_the_page_of_scenes_shows_each(name: str) -> None:
     assert (PAGE.parent / "images" / "scenes" / f"{name}.jpg").is_file()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK)
 def test_each_topic_of_a_bundled_scene_at_once(name: str) -> None:
     assert_sound(run_scene(SCENES[name], 0.2))

@@ -13,6 +13,7 @@ from uwsim.analysis.repeats_note import repeats_note
 from uwsim.cli import main
 
 
+@pytest.mark.slow
 def test_bench_says_at_the_start_how_many_repeats_a_comparison_needs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -52,6 +52,7 @@ def test_an_algorithm_given_twice_is_refused(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_when_every_row_broke_all_is_written_and_the_run_has_failed(
     benchmark: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -129,6 +129,7 @@ def stored(folder: Path, name: str = "b.envelope") -> dict[str, Any]:
     return document
 
 
+@pytest.mark.slow
 def test_a_breaking_point_is_one_number_with_its_bound_and_its_runs_are_used_again(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -36,6 +36,7 @@ def test_a_scene_is_reported_before_anything_is_written_for_it(
         assert part in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in bundled("scenes") if name != "cirs"])
 def test_every_bundled_scene_can_be_shown_and_json_says_the_same(
     name: str, capsys: pytest.CaptureFixture[str]

@@ -47,6 +47,7 @@ def test_a_bundled_robot_replaces_a_lost_file_of_its_name_and_that_is_reported(
     assert "is nowhere; the bundled g500ARM5.urdf is used" in err
 
 
+@pytest.mark.slow
 def test_bench_says_once_that_a_bundled_robot_stands_for_a_lost_one(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

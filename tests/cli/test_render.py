@@ -124,6 +124,7 @@ ALONE = [path for path in SCENES if path.read_text().count("<vehicle>") == 1]
 """Scenes with one vehicle: two of them may be too far apart to be seen in one view."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", ALONE, ids=lambda path: f"{path.parents[1].name}-{path.stem}")
 @pytest.mark.parametrize("view", ["orbit", "top"])
 def test_every_bundled_and_original_scene_shows_all_of_its_vehicle(

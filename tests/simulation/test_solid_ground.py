@@ -117,6 +117,7 @@ DESERT = ObjectSpec(
     ],
     ids=["a sheet", "sand with boulders", "a labelled box"],
 )  # fmt: skip
+@pytest.mark.slow
 def test_every_bundled_sea_floor_stops_a_vehicle(scenery: ObjectSpec) -> None:
     simulation = make(objects=(scenery,))
     deep = dive(simulation, 12.0)
@@ -145,6 +146,7 @@ def test_a_sheet_that_is_wound_the_wrong_way_round_stops_where_it_is_seen(
     assert deep == pytest.approx(on_a_slab, abs=0.02)
 
 
+@pytest.mark.slow
 def test_a_mesh_of_many_triangles_is_simplified_so_that_it_can_be_touched(tmp_path: Path) -> None:
     n = 120  # 28 800 triangles
     x, y = np.meshgrid(np.linspace(-9.0, 9.0, n + 1), np.linspace(-9.0, 9.0, n + 1))

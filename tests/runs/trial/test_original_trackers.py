@@ -38,6 +38,7 @@ def lost(result: Result) -> set[float | None]:
     return {level for level, status in ended if status != "ok"}
 
 
+@pytest.mark.slow
 def test_a_tracker_goes_on_after_the_vehicle_was_put_back(tmp_path: Path) -> None:
     result = tracked(tmp_path, "esm", "sequential", currents=(0.1, 0.15), seconds=4.0)
     assert result.values("status") == ("ok", "ok")
@@ -59,6 +60,7 @@ def test_a_sweep_of_currents_loses_no_level_that_is_not_lost_alone(
     assert len(lost(alone)) < 5
 
 
+@pytest.mark.slow
 def test_a_tracker_gets_the_constant_corners_of_a_file(tmp_path: Path) -> None:
     out = tmp_path / "out"
     words = ["--scene", "visibility-scene", "--algorithm", "esm", "--out", str(out)]
@@ -71,6 +73,7 @@ def test_a_tracker_gets_the_constant_corners_of_a_file(tmp_path: Path) -> None:
     assert result.numbers("corners") == pytest.approx([0.0, 0.0], abs=1.0)
 
 
+@pytest.mark.slow
 def test_corners_of_the_command_line_come_before_those_of_the_file(tmp_path: Path) -> None:
     out, corners = tmp_path / "out", "210 140 300 140 300 176 210 176"
     words = ["--scene", "visibility-scene", "--algorithm", "frozen", "--out", str(out)]
