@@ -60,7 +60,7 @@ def test_fins_and_the_drag_law_of_each_link_are_listed(capsys: pytest.CaptureFix
     assert "quadratic drag by each component's own speed: " in said(capsys, "currents-scene")
 
 
-def test_topics_have_type_direction_and_rate_and_those_that_do_nothing_say_so(
+def test_topics_have_type_direction_and_rate_and_all_are_simulated(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = bundled("scenes")["currents-scene"].read_text()
@@ -70,8 +70,8 @@ def test_topics_have_type_direction_and_rate_and_those_that_do_nothing_say_so(
     file = tmp_path / "a.xml"
     file.write_text(text.replace("</rosInterfaces>", f"{extra}</rosInterfaces>"))
     topics = {t["interface"]: t for t in json.loads(said(capsys, str(file), "--json"))["topics"]}
-    assert topics["DVLSensorToROS"]["limit"] == "read, not simulated yet"
-    assert topics["VirtualCameraToROSImage"]["limit"] == ""
+    assert {topic["limit"] for topic in topics.values()} == {""}
+    assert topics["DVLSensorToROS"]["rate_hz"] == 10
     assert topics["VirtualCameraToROSImage"]["rate_hz"] == 10
     assert topics["ROSTwistToPAT"]["direction"] == "listens"
     assert topics["ROSTwistToPAT"]["rate_hz"] is None
