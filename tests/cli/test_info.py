@@ -9,6 +9,7 @@ import pytest
 
 from uwsim.assets.bundled import bundled
 from uwsim.cli import main
+from uwsim.scene.unsupported import UNSUPPORTED
 
 
 def said(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -60,9 +61,10 @@ def test_fins_and_the_drag_law_of_each_link_are_listed(capsys: pytest.CaptureFix
     assert "quadratic drag by each component's own speed: " in said(capsys, "currents-scene")
 
 
-def test_topics_have_type_direction_and_rate_and_all_are_simulated(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_topics_have_type_direction_and_rate_and_those_that_do_nothing_say_so(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setitem(UNSUPPORTED, ("rosInterfaces", "DVLSensorToROS"), "DVLSensorToROS")
     text = bundled("scenes")["currents-scene"].read_text()
     dvl = "<name>dvl</name> <relativeTo>base_link</relativeTo>"
     text = text.replace("<virtualCamera>", f"<dvlSensor>{dvl}</dvlSensor><virtualCamera>", 1)
@@ -70,12 +72,16 @@ def test_topics_have_type_direction_and_rate_and_all_are_simulated(
     file = tmp_path / "a.xml"
     file.write_text(text.replace("</rosInterfaces>", f"{extra}</rosInterfaces>"))
     topics = {t["interface"]: t for t in json.loads(said(capsys, str(file), "--json"))["topics"]}
-    assert {topic["limit"] for topic in topics.values()} == {""}
-    assert topics["DVLSensorToROS"]["rate_hz"] == 10
+    assert topics["DVLSensorToROS"]["limit"] == "read, not simulated yet"
+    assert topics["VirtualCameraToROSImage"]["limit"] == ""
     assert topics["VirtualCameraToROSImage"]["rate_hz"] == 10
     assert topics["ROSTwistToPAT"]["direction"] == "listens"
     assert topics["ROSTwistToPAT"]["rate_hz"] is None
-    assert "/dvl" in said(capsys, str(file))
+    (line,) = [each for each in said(capsys, str(file)).splitlines() if "/dvl" in each]
+    assert "read, not simulated yet" in line
+    monkeypatch.undo()
+    topics = json.loads(said(capsys, str(file), "--json"))["topics"]
+    assert {topic["limit"] for topic in topics} == {""}
 
 
 def test_a_setting_is_applied_before_it_is_shown(capsys: pytest.CaptureFixture[str]) -> None:

@@ -18,7 +18,7 @@ from uwsim.cli.list import KINDS, limit_in
 from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.runs.tables import bundled_tables
-from uwsim.scene.unsupported import not_simulated
+from uwsim.scene.unsupported import UNSUPPORTED, not_simulated
 from uwsim.scene.urdf_reader import read_urdf
 from uwsim.schema import Diagnostics
 from uwsim.simulation.bodies import find_file
@@ -51,11 +51,19 @@ def test_a_misspelt_kind_is_reported_with_the_right_one(capsys: pytest.CaptureFi
     assert "Did you mean 'sensors'?" in capsys.readouterr().err
 
 
+@pytest.fixture
+def dvl_read_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make the DVL an element that is read and not simulated."""
+    for place in (("vehicle", "dvlSensor"), ("rosInterfaces", "DVLSensorToROS")):
+        monkeypatch.setitem(UNSUPPORTED, place, place[1])
+
+
+@pytest.mark.usefixtures("dvl_read_only")
 def test_what_is_read_and_not_simulated_is_marked(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list", "sensors"]) == 0
     lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
     assert "[read, not simulated yet]" in lines["dvlSensor"]
-    assert "[" not in lines["virtualCamera"]
+    assert "[" not in lines["virtualCamera"] + lines["imu"]
     assert main(["list", "interfaces"]) == 0
     lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
     assert "[read, not simulated yet]" in lines["DVLSensorToROS"]
@@ -74,14 +82,24 @@ def test_the_marks_are_those_that_check_gives_a_file(kind: str) -> None:
         assert bool(diagnostics.all()) == bool(limit_in(kind, name)), name
 
 
+def test_every_sensor_device_and_interface_is_simulated(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["list", "--json"]) == 0
+    listed = json.loads(capsys.readouterr().out)
+    for kind in ("sensors", "devices", "interfaces"):
+        assert [each["name"] for each in listed[kind] if each["limit"]] == []
+
+
+@pytest.mark.usefixtures("dvl_read_only")
 def test_json_lists_the_same_for_programs(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list", "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
     assert list(said) == list(KINDS)
     assert [each["name"] for each in said["algorithms"]] == sorted(ALGORITHMS)
     limits = {each["name"]: each["limit"] for each in said["sensors"]}
-    assert limits["virtualCamera"] == ""
-    assert limits["imu"] == "read, not simulated yet"
+    assert limits["virtualCamera"] == limits["imu"] == ""
+    assert limits["dvlSensor"] == "read, not simulated yet"
 
 
 def test_a_sentence_is_the_first_line_without_marks_of_code() -> None:
