@@ -49,7 +49,7 @@ def test_every_simulated_publisher_has_its_message_and_its_own_paragraph() -> No
 
 
 def test_the_camera_of_the_page_is_one_that_a_scene_can_have(tmp_path: Path) -> None:
-    camera, topic = re.findall(r"^```xml\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+    camera, topic, *_ = re.findall(r"^```xml\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.format(5 * "<joint>0</joint>", camera, topic))
     assert [

@@ -81,7 +81,7 @@ class ImuToROSImuSpec(SensorTopicSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class PressureSensorToROSSpec(SensorTopicSpec):
-    """Publishes a pressure sensor."""
+    """Publishes a pressure sensor as underwater_sensor_msgs/Pressure."""
 
     sources: ClassVar[tuple[str, ...]] = ("pressureSensor",)
 
@@ -95,7 +95,7 @@ class GPSSensorToROSSpec(SensorTopicSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class DVLSensorToROSSpec(SensorTopicSpec):
-    """Publishes a DVL."""
+    """Publishes a DVL as underwater_sensor_msgs/DVL."""
 
     sources: ClassVar[tuple[str, ...]] = ("dvlSensor",)
 
