@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from uwsim.cli import main
 from uwsim.cli.run import duration_of
 from uwsim.errors import BadSetting
 
+PAGE = (Path(__file__).parents[2] / "docs" / "running-a-scene.md").read_text()
 SCENE = """<UWSimScene>
   <vehicle>
     <name>rov</name> <file>bluerov2_heavy.urdf</file>
@@ -71,6 +73,15 @@ def test_hz_reports_how_often_messages_came(scene: Path, capsys: pytest.CaptureF
     assert (found["/odom"]["n_messages"], found["/odom"]["rate"]) == (11, pytest.approx(20))
     assert (found["/tf"]["n_messages"], found["/tf"]["rate"]) == (6, pytest.approx(10))
     assert found["/twist"]["is_published"] is False
+
+
+@pytest.mark.slow
+def test_the_rates_on_the_page_are_those_of_its_command(capsys: pytest.CaptureFixture) -> None:
+    shown = re.findall(r"^```console\n\$ uwsim (.*?--hz)\n(.*?)^```", PAGE, re.M | re.S)
+    ((command, output),) = shown
+    assert main(command.split()) == 0
+    printed = {line.rstrip() for line in capsys.readouterr().out.splitlines()}
+    assert {line for line in output.splitlines() if line != "..."} - printed == set()
 
 
 def test_without_hz_topics_are_listed(scene: Path, capsys: pytest.CaptureFixture) -> None:
