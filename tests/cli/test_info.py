@@ -80,8 +80,9 @@ def test_topics_have_type_direction_and_rate_and_those_that_do_nothing_say_so(
     (line,) = [each for each in said(capsys, str(file)).splitlines() if "/dvl" in each]
     assert "read, not simulated yet" in line
     monkeypatch.undo()
-    topics = json.loads(said(capsys, str(file), "--json"))["topics"]
-    assert {topic["limit"] for topic in topics} == {""}
+    topics = {t["interface"]: t for t in json.loads(said(capsys, str(file), "--json"))["topics"]}
+    assert {topic["limit"] for topic in topics.values()} == {""}
+    assert topics["DVLSensorToROS"]["rate_hz"] == 10
 
 
 def test_a_setting_is_applied_before_it_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
