@@ -11,7 +11,7 @@ from uwsim import messages
 from uwsim.devices import DEVICES
 from uwsim.reference.sensor_tables import filled
 from uwsim.runs.check import diagnostics_of
-from uwsim.scene.unsupported import limit_of
+from uwsim.scene.unsupported import UNSUPPORTED, limit_of
 from uwsim.schema.names import local
 from uwsim.sensors import SENSORS
 from uwsim.topics import INTERFACES
@@ -27,6 +27,13 @@ SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
 
 def test_the_tables_are_what_the_code_says() -> None:
     assert filled(PAGE) == PAGE, "run scripts/docs"
+
+
+def test_a_table_without_rows_is_a_word(monkeypatch: pytest.MonkeyPatch) -> None:
+    empty = "<!-- table: sensors-read-only -->\n<!-- end of table -->"
+    assert filled(empty) == empty.replace("\n", "\nNone.\n")
+    monkeypatch.setitem(UNSUPPORTED, ("vehicle", "dvlSensor"), "dvlSensor")
+    assert "| [`<dvlSensor>`]" in filled(empty)
 
 
 @pytest.mark.parametrize("name", [*SENSORS, *DEVICES])
