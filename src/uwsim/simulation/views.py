@@ -171,11 +171,15 @@ def _share_seen(simulation: Simulation, focus: Focus, world_from_camera: Pose) -
 
 
 def _framing(focus: Focus, axes: Array, lens: Intrinsics) -> Pose:
-    """A view with these axes in W, so far off that all corners are in the image."""
+    """The nearest view with these axes in W that has all corners in the image."""
     beside = product(focus.corners - focus.middle, axes)  # (n, 3): right, up, towards the eye [m]
     halves = np.array([lens.width / lens.fx, lens.height / lens.fy]) * 0.5 * FILLED  # (2,) [1]
-    distance = float((np.abs(beside[:, :2]) / halves + beside[:, 2:]).max())
-    return Pose(focus.middle + axes[:, 2] * max(distance, 0.5), axes)
+    across, depth = beside[:, :2] / halves, beside[:, 2:]
+    # the eye's distance from the two planes through the corners, right and left, above and below
+    upper, lower = (across + depth).max(axis=0), (depth - across).max(axis=0)  # (2,) [m]
+    distance = float((0.5 * (upper + lower)).max())
+    eye = np.array([*(0.5 * (upper - lower) * halves), max(distance, 0.5)])
+    return Pose(focus.middle + product(axes, eye), axes)
 
 
 def _axes(ahead: Array, bearing: float, elevation: float) -> Array:
