@@ -1,6 +1,6 @@
 """Running single levels with single seeds, each once: stored runs are reused.
 
-Each is a trial of the independent mode (DESIGN 5): the algorithm settles at the updaters'
+Each is a trial of the independent mode: the algorithm settles at the updaters'
 initial values, then the level is ramped in. The images and the noise of a level depend on the
 seed and on the level's values, never on earlier runs.
 """

@@ -1,7 +1,7 @@
 """The plan of a run, divided into trials.
 
 A trial is a sequence that must be run in one go: one seed's whole sweep when the benchmark is
-sequential, one seed's one level when it is independent (DESIGN 5).
+sequential, one seed's one level when it is independent.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ class SensorSpec:
     name: str
     """Its name, by which interfaces and benchmarks find it."""
     relative_to: str
-    """The link it rides on; its place counts from the link's kinematic frame."""
+    """The link it is mounted on; its pose is given in the kinematic frame of that link."""
 
 
 class Mounted(Protocol):

@@ -26,7 +26,7 @@ WEAR = 0.55
 """How far scuffs, dirt and rubbed paint show, 0..1.
 
 Contrast is tuned with these four: BAND and INK set that of the large marks, WEAR that of the small
-ones. DESIGN 6a asks for a deviation of 25 to 35 grey levels of the top face at fog 0.
+ones. The top face has a standard deviation of 25 to 35 grey levels at fog 0.
 """
 
 

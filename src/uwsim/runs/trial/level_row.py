@@ -24,7 +24,7 @@ class LevelRow:
     total: float | None
     """The score."""
     status: str
-    """``ok``, or the first of DESIGN 5 that applies."""
+    """``ok``, or the first status of docs/levels.md that applies."""
     missing: dict[str, str]
     """Column -> why it is null."""
     ended_at: float

@@ -72,7 +72,7 @@ class StatusMonitor:
     def status(
         self, measures: Sequence[TriggeredMeasure], *, overran: float | None, ended: str | None
     ) -> tuple[str, str | None]:
-        """Status of a row and, unless it is ``ok``, why: the first that applies (DESIGN 5).
+        """Status of a row and, unless it is ``ok``, why: the first that applies.
 
         An algorithm that declared itself lost or failed owes no more estimates.
 
