@@ -21,7 +21,7 @@ from collections.abc import Iterable
 
 
 def ambient_noise(frequency: float, *, shipping: float, wind_speed: float) -> float:
-    """Return the spectral level of the noise [dB re 1 uPa^2/Hz].
+    """Return the spectral level of the noise, in dB re 1 uPa^2/Hz.
 
     Args:
         frequency: [Hz].

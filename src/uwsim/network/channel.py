@@ -62,14 +62,14 @@ class WaterChannel:
     bandwidth: float = 4096.0
     """In which receivers hear noise [Hz]."""
     noise_level: float = 0.0
-    """Of the noise in 1 Hz besides that of the sea [dB re 1 uPa^2/Hz]."""
+    """Of the noise in 1 Hz besides that of the sea, in dB re 1 uPa^2/Hz."""
     sea: Sea | None = None
     """What makes the noise of the sea; None: it makes none."""
     absorption: AbsorptionModel = "francoisGarrison"
     """Whose formula."""
 
     def noise_at(self, frequency: float) -> float:
-        """Return the level of all noise in 1 Hz at a ``frequency`` [Hz] [dB re 1 uPa^2/Hz]."""
+        """Return the level of all noise in 1 Hz at a ``frequency`` [Hz], in dB re 1 uPa^2/Hz."""
         if self.sea is None:
             return self.noise_level
         sea = ambient_noise(frequency, shipping=self.sea.shipping, wind_speed=self.sea.wind_speed)

@@ -33,7 +33,7 @@ class LinkBudget:
     bandwidth: float
     """In which the receiver hears noise [Hz]."""
     noise_level: float
-    """Of the noise in 1 Hz [dB re 1 uPa^2/Hz]."""
+    """Of the noise in 1 Hz, in dB re 1 uPa^2/Hz."""
     spreading: float = 2.0
     """1 cylindrical to 2 spherical [1]."""
     constant_loss: float = 0.0
