@@ -1,0 +1,1 @@
+"""The page in which a run is seen: its data, replays, live views and films."""
