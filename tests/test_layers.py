@@ -65,8 +65,11 @@ MAY_IMPORT: dict[str, set[str]] = {
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
+    "viewer": TASKS | ENGINES | {"runs", "verify", "viewer"},
     "__main__": {"cli", "interrupts"},
-    "cli": TASKS | ENGINES | {"runs", "analysis", "envelope", "verify", "recording", "cli"},
+    "cli": (
+        TASKS | ENGINES | {"runs", "analysis", "envelope", "verify", "recording", "viewer", "cli"}
+    ),
     "reference": PARTS | {"algorithms", "benchmark", "runs", "cli", "reference"},
 }
 MAY_IMPORT["api"] = MAY_IMPORT["cli"]
