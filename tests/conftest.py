@@ -1,11 +1,19 @@
-"""What every test gets: a home of its own, so that no test reads or writes the developer's."""
+"""What every test gets: a home of its own, and children that hear Ctrl-C."""
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _hear_ctrl_c() -> None:
+    """Tests that press Ctrl-C do so to children that hear it, also when pytest was told not to."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session", autouse=True)

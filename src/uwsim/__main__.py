@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import atexit
 import sys
 
-from .interrupts import end_at_once
+from .interrupts import end_at_once, ignore_from_now_on
 
 
 def run() -> int:
     """Run ``uwsim`` as a process of its own; returns its exit status."""
     end_at_once()
+    atexit.register(ignore_from_now_on)  # the first registered is the last called
     from .cli import main
     from .cli.app import say
 

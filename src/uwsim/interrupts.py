@@ -33,6 +33,15 @@ def raise_from_now_on() -> None:
             signal.signal(number, signal.default_int_handler)
 
 
+def ignore_from_now_on() -> None:
+    """From now on Ctrl-C does nothing: the work is done and the exit status is known.
+
+    For the last milliseconds of a process: Python gives SIGINT its default action back before it
+    leaves, and would die of the signal where everything was written and 0 is the answer.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
 def are_interrupts_unblocked() -> bool:
     """Whether Ctrl-C reaches this process, so that a KeyboardInterrupt may be the user's."""
     return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())

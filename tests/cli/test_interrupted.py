@@ -61,6 +61,23 @@ def test_ctrl_c_while_libraries_are_loaded_ends_a_command_with_one_line(tmp_path
     assert (process.returncode, said) == (130, "uwsim: interrupted.\n")
 
 
+def test_ctrl_c_while_the_interpreter_leaves_keeps_the_exit_status() -> None:
+    late = """
+import os, signal, sys
+from uwsim import __main__, cli
+class Late:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGINT)
+late = Late()  # goes when modules are torn down, after Python has let go of all signals
+sys.argv = ["uwsim", "list", "benchmarks"]
+sys.exit(__main__.run())
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", late], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert (ended.returncode, ended.stderr) == (0, "")
+
+
 def test_who_ignores_ctrl_c_goes_on_ignoring_it() -> None:
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
