@@ -31,6 +31,7 @@ GROUND = {
     "interrupts",
     "files",
     "terminal",
+    "tracks",
 }
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
 PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets", "xacro"}

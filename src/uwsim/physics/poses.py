@@ -132,6 +132,15 @@ class Poses:
         """Set the pose of an object that is no body of the engine."""
         self._put[index] = world_from_object
 
+    def loose_body(self, index: int) -> int | None:
+        """Return the engine's number of an object; None where it is no body of the engine."""
+        return self._loose.get(index)
+
+    def rows(self, bodies: npt.NDArray[np.intp]) -> Array:
+        """Return position in W [m] and quaternion (wxyz) of bodies of the engine, (n, 7)."""
+        self.refresh()
+        return np.concatenate([self._data.xpos[bodies], self._data.xquat[bodies]], axis=1)
+
     def is_fixed(self, index: int) -> bool:
         """Whether an object stays where it is for good."""
         return index in self._fixed and index not in self._movable

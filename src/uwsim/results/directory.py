@@ -23,7 +23,7 @@ OURS = re.compile(
     r"""(?x) ((?!units/|plots/|pictures/)[^/]+/)? (control/)? (
         result\.json | result\.dat | summary\.csv | provenance\.json | report\.html
       | measure-[^/]+\.csv | benchmark-[^/]+\.data
-      | units/\d+\.(jsonl|part)
+      | units/\d+\.(jsonl|motion|part)
       | plots/[^/]+\.(png|pdf)
       | pictures/\d+-[^/]+\.png(\.part)?
     )"""

@@ -20,6 +20,8 @@ from .provenance import codes_of, load_provenance
 from .stored_shapes import END, HEAD, ROW
 
 FOLDER = "units"
+TRACK = ".motion"
+"""Suffix of the motion track of a trial, beside its journal."""
 KINDS = {"unit": HEAD, "row": ROW, "end": END}
 """Key of a line -> shape of its value."""
 MAX_LINE_LENGTH = 200
@@ -46,6 +48,11 @@ NOTHING = Stored((), None)
 def path_of(directory: Path, index: int) -> Path:
     """Return where the trial number ``index`` is kept."""
     return directory / FOLDER / f"{index:05d}.jsonl"
+
+
+def track_path(directory: Path, index: int) -> Path:
+    """Return where the motion track of the trial number ``index`` is kept."""
+    return path_of(directory, index).with_suffix(TRACK)
 
 
 def read(directory: Path, index: int, head: Record) -> Stored:

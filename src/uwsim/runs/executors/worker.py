@@ -18,6 +18,7 @@ import numpy.typing as npt
 from ...errors import RunFailed
 from ...files.file_names import file_names
 from ...results import journal
+from ...results.atomic_file import atomic_write
 from ...simulation import Calls, RendererPool
 from ..input_watch import Watch
 from ..plan import Plan, Trial
@@ -44,6 +45,8 @@ class TrialEnded:
 
     record: journal.Record
     """The record of its end."""
+    motion: bytes = b""
+    """The file of its motion track."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +76,7 @@ def run_trial(
     """
     for n, outcome in enumerate(execute(plan, trial, pool=pool, calls=calls)):
         if isinstance(outcome, TrialEnd):
-            yield TrialEnded(record=_end(outcome))
+            yield TrialEnded(record=_end(outcome), motion=outcome.motion)
         else:
             row = trial.index * len(trial.levels) + n
             files = file_names(snapshot.camera for snapshot in outcome.snapshots)
@@ -98,12 +101,15 @@ class JournalWriter:
     def __init__(self, run: Run, trial: Trial) -> None:
         self._out = run.out
         self._watch = Watch(run.files)
+        self._track = journal.track_path(run.out, trial.index)
         self._file = journal.Journal(run.out, trial.index, run.head(trial))
 
     def keep(self, event: Event) -> bool:
         """Write it; returns whether it is a level that was not on disk before."""
         self._watch.check()
         if isinstance(event, TrialEnded):
+            with atomic_write(self._track) as draft:
+                draft.write_bytes(event.motion)
             self._file.finish(event.record)
             return False
         for name, png in event.images:

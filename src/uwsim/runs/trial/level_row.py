@@ -55,6 +55,8 @@ class TrialEnd:
     """What the reader of the result should know, besides the values."""
     checkpoints: Checkpoints
     """Fingerprints on the way."""
+    motion: bytes
+    """The motion track (`uwsim.tracks`)."""
 
 
 @dataclass(frozen=True)

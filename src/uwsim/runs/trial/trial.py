@@ -40,6 +40,7 @@ from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
+from .motion_recorder import MotionRecorder
 from .snapshots import capture
 from .status import StatusMonitor, legible
 from .triggered_measure import TriggeredMeasure, finite
@@ -107,6 +108,7 @@ class _Execution:
         benchmark = benchmark_of_seed(plan.benchmark, trial.seed)
         self._updater = benchmark.scene_updater
         self._fingerprinter = Fingerprinter(simulation)
+        self._motion = MotionRecorder(simulation)
         self._updaters = bind_updaters(self._updater, simulation.world)
         simulation.bus.withdraw(SPAWN_MARKER)  # not offered in a benchmark, as in the original
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
@@ -135,6 +137,7 @@ class _Execution:
         """Run the levels."""
         plan, simulation = self._plan, self._simulation
         simulation.start()
+        self._motion.start()
         facts: dict[str, Fact] = {}
         target_motion: TargetMotion | None = None
         floor: Floor | None = None
@@ -156,6 +159,7 @@ class _Execution:
             if floor is not None:
                 floor.begin()
             row = self._run_level(level)
+            self._motion.end_level(row)
             if floor is not None:
                 floor.end()
             yield row
@@ -168,6 +172,7 @@ class _Execution:
             streams=() if plan.is_blind else self._streams(),
             notes=tuple(self._notes),
             checkpoints=self._fingerprinter.checkpoints(),
+            motion=self._motion.track(),
         )
 
     def _parameters_said(self) -> dict[str, float | int | str]:

@@ -1,0 +1,79 @@
+"""The bodies of a scene that may move against each other, and their poses as rows of numbers.
+
+Links that fixed joints hold together are one body, called after the link nearest to the root.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..geometry import Array, quaternion_from_rotation
+from ..scene.urdf import RobotSpec
+from .parts import Part
+from .world import SceneWorld
+
+
+class TrackedBodies:
+    """What a motion track follows.
+
+    Args:
+        world: whose bodies they are.
+    """
+
+    def __init__(self, world: SceneWorld) -> None:
+        self._poses = world.state.poses
+        self._leaders = {i: leaders(robot) for i, robot in world.robots.items()}
+        links = [
+            (i, link)
+            for i, leader_of in self._leaders.items()
+            for link in dict.fromkeys(leader_of.values())
+        ]
+        movable = [i for i in range(len(world.scene.objects)) if not self._poses.is_fixed(i)]
+        self._loose = [i for i in movable if self._poses.loose_body(i) is not None]
+        self._placed = [i for i in movable if i not in self._loose]
+        self._numbers = np.array(
+            [self._poses.link_body(*link) for link in links]
+            + [self._poses.loose_body(i) for i in self._loose],
+            dtype=np.intp,
+        )
+        objects = [*self._loose, *self._placed]
+        self._row_of = {link: row for row, link in enumerate(links)}
+        self._row_of_object = {i: len(links) + k for k, i in enumerate(objects)}
+        self.names = (
+            *(f"{world.scene.vehicles[i].name}/{link}" for i, link in links),
+            *(world.scene.objects[i].name for i in objects),
+        )
+        """Name of each: ``vehicle/link``, or an object's."""
+
+    def body_of(self, part: Part) -> int | None:
+        """Return the number of the body that a part of the scene moves with; None: it stays."""
+        if part.vehicle is not None:
+            return self._row_of[part.vehicle, self._leaders[part.vehicle][part.link]]
+        assert part.object is not None
+        return self._row_of_object.get(part.object)
+
+    def rows(self) -> Array:
+        """Return position in W [m] and quaternion (wxyz) of each, (n, 7)."""
+        rows = self._poses.rows(self._numbers)
+        if not self._placed and not self._poses.carried:
+            return rows
+        rows = np.concatenate([rows, np.zeros((len(self._placed), 7))])
+        for i in [*self._placed, *self._poses.carried]:
+            pose = self._poses.object(i)
+            rows[self._row_of_object[i], :3] = pose.position
+            rows[self._row_of_object[i], 3:] = quaternion_from_rotation(pose.rotation)
+        return rows
+
+
+def leaders(robot: RobotSpec) -> dict[str, str]:
+    """Return for each link the one nearest to the root that no moving joint lies between."""
+    found = {robot.root: robot.root}
+    waiting = list(robot.joints)
+    while waiting:
+        known = [joint for joint in waiting if joint.parent in found]
+        if not known:
+            break
+        for joint in known:
+            found[joint.child] = joint.child if joint.moves else found[joint.parent]
+        waiting = [joint for joint in waiting if joint not in known]
+    return found | {link.name: link.name for link in robot.links if link.name not in found}
