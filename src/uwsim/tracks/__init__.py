@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from .motion_track import (
     RATE,
-    Channel,
     MotionTrack,
+    Signal,
     TrackLevel,
     load_track,
     read_track,
@@ -17,8 +17,8 @@ from .motion_track import (
 
 __all__ = [
     "RATE",
-    "Channel",
     "MotionTrack",
+    "Signal",
     "TrackLevel",
     "load_track",
     "read_track",

@@ -2,18 +2,21 @@
 
 .. code-block:: text
 
-    {"format":"uwsim-motion","version":1,"rate":30.0,"frames":3540,"bodies":["girona500/base", ...],
-     "channels":[{"name":"fog","unit":"1/m","resolution":0.0001}, ...],"levels":[...]}
-    <newline, then the numbers, as of `packing`>
+    {"uwsim_motion":1,"rate":30.0,"n":3540,"start":0.0,"bodies":["girona500/base_link", ...],
+     "length":0.0001,"quaternion":0.0001,"signals":[{"name":"fog","unit":"1/m","step":0.0001}, ...],
+     "levels":[{"values":{"fog":0.5},"began":4.0,"duration":8.0,"status":"ok"}, ...]}
+    <line feed, then the numbers, as of `packing`; all of it gzipped without time or name>
 
-Frame k is of time k/rate since the simulation began. A row holds seven numbers of every body, its
-position in W [m] and its quaternion (wxyz), and then one of every channel; each is stored as a
-whole number of its resolution.
+Row k is of the time start + k/rate since the simulation began. It holds seven numbers of every
+body, its position in W [m] and its quaternion (wxyz), and then one of every signal; each is stored
+as a whole number of its step. Equal tracks give equal bytes.
 """
 
 from __future__ import annotations
 
+import gzip
 import json
+import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -23,17 +26,19 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ResultError
-from .packing import Table, packed, unpacked
+from .packing import Table, shuffled, unshuffled
 
 Array = npt.NDArray[np.float64]
 
-FORMAT, VERSION = "uwsim-motion", 1
+FORMAT, VERSION = "uwsim_motion", 1
 RATE = 30.0
 """Frames in a second of simulation time [Hz]."""
 LENGTH = 1e-4
 """Resolution of positions [m]."""
 TURN = 1e-4
 """Resolution of the numbers of a quaternion [1]."""
+MAX_BYTES = 2**30
+"""Of a track that is read, unpacked."""
 NUMBERS = 7
 """Of a body."""
 LIMIT = 2**31 - 1
@@ -42,14 +47,14 @@ NOTHING = -(2**31)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Channel:
+class Signal:
     """A number, other than a pose, that may change."""
 
     name: str
     """As ``fog``, or ``current.x``."""
     unit: str = "1"
     """Its unit."""
-    resolution: float = 1e-4
+    step: float = 1e-4
     """What is stored is a whole multiple of this."""
 
 
@@ -75,10 +80,10 @@ class MotionTrack:
     """Names: ``vehicle/link``, or an object's."""
     poses: Array
     """Position in W [m] and unit quaternion wxyz of each, (frames, bodies, 7)."""
-    channels: tuple[Channel, ...] = ()
+    signals: tuple[Signal, ...] = ()
     """What else is stored."""
     values: Array
-    """Of each channel, (frames, channels); NaN: nothing."""
+    """Of each signal, (frames, signals); NaN: nothing."""
     levels: tuple[TrackLevel, ...] = ()
     """In order."""
     rate: float = RATE
@@ -94,9 +99,9 @@ class MotionTrack:
         """Time of the last frame [s]."""
         return max(0, self.n_frames - 1) / self.rate
 
-    def channel(self, name: str) -> Array | None:
-        """Return the values of a channel, (frames,); None if there is none of that name."""
-        names = [channel.name for channel in self.channels]
+    def signal(self, name: str) -> Array | None:
+        """Return the values of a signal, (frames,); None if there is none of that name."""
+        names = [signal.name for signal in self.signals]
         return self.values[:, names.index(name)] if name in names else None
 
     def level_at(self, time: float) -> int | None:
@@ -105,23 +110,23 @@ class MotionTrack:
         return begun[-1] if begun else None
 
 
-def quantised(values: Array, resolutions: Array) -> Table:
-    """Return values (..., m) as whole multiples of resolutions (m,)."""
-    whole = np.rint(np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0) / resolutions)
+def quantised(values: Array, steps: Array) -> Table:
+    """Return values (..., m) as whole multiples of steps (m,)."""
+    whole = np.rint(np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0) / steps)
     table = np.clip(whole, -LIMIT, LIMIT).astype(np.int32)
     table[~np.isfinite(values)] = NOTHING
     return table
 
 
-def resolutions_of(n_bodies: int, channels: Sequence[Channel]) -> Array:
-    """Return the resolution of each number of a row, (7 bodies + channels,)."""
+def steps_of(n_bodies: int, signals: Sequence[Signal]) -> Array:
+    """Return the resolution of each number of a row, (7 bodies + signals,)."""
     pose = [LENGTH] * 3 + [TURN] * 4
-    return np.array([*pose * n_bodies, *(channel.resolution for channel in channels)])
+    return np.array([*pose * n_bodies, *(signal.step for signal in signals)])
 
 
 def track_bytes(
     bodies: Sequence[str],
-    channels: Sequence[Channel],
+    signals: Sequence[Signal],
     table: Table,
     levels: Sequence[TrackLevel],
     rate: float = RATE,
@@ -130,31 +135,33 @@ def track_bytes(
 
     Args:
         bodies: their names.
-        channels: what else is in a row.
-        table: quantised rows, (frames, 7 bodies + channels).
+        signals: what else is in a row.
+        table: quantised rows, (frames, 7 bodies + signals).
         levels: in order.
         rate: frames a second [Hz].
     """
     head = {
-        "format": FORMAT,
-        "version": VERSION,
+        FORMAT: VERSION,
         "rate": rate,
-        "frames": len(table),
+        "n": len(table),
+        "start": 0.0,
         "bodies": list(bodies),
-        "channels": [asdict(channel) for channel in channels],
+        "length": LENGTH,
+        "quaternion": TURN,
+        "signals": [asdict(signal) for signal in signals],
         "levels": [{**asdict(level), "values": dict(level.values)} for level in levels],
     }
     text = json.dumps(head, allow_nan=False, ensure_ascii=True, separators=(",", ":"))
-    return text.encode() + b"\n" + packed(table)
+    return gzip.compress(text.encode() + b"\n" + shuffled(table), compresslevel=9, mtime=0)
 
 
 def read_track(data: bytes) -> MotionTrack:
     """Read the bytes of a track; raises ResultError where they are none."""
-    line, _, rest = data.partition(b"\n")
     try:
+        line, _, rest = _opened(data).partition(b"\n")
         head = json.loads(line)
-        if (head["format"], head["version"]) != (FORMAT, VERSION):
-            raise ValueError(f"found format {head['format']!r}, version {head['version']!r}")
+        if head[FORMAT] != VERSION:
+            raise ValueError(f"found version {head[FORMAT]!r}")
         return _track(head, rest)
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise ResultError(f"is no motion track of version {VERSION}: {error}") from None
@@ -170,19 +177,32 @@ def load_track(path: Path) -> MotionTrack:
         raise ResultError(f"{path}: {error}.") from None
 
 
+def _opened(data: bytes) -> bytes:
+    """Unpack gzip, up to `MAX_BYTES`."""
+    stream = zlib.decompressobj(wbits=31)
+    try:
+        raw = stream.decompress(data, MAX_BYTES)
+    except zlib.error as error:
+        raise ValueError(f"cannot be unpacked: {error}") from None
+    if not stream.eof:
+        raise ValueError("it is cut off" if len(raw) < MAX_BYTES else "it is too long")
+    return raw
+
+
 def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
     bodies = tuple(map(str, head["bodies"]))
-    channels = tuple(Channel(**each) for each in head["channels"])
-    resolutions, n = resolutions_of(len(bodies), channels), int(head["frames"])
-    table = unpacked(rest, n, len(resolutions))
-    rows = table * resolutions
+    signals = tuple(Signal(**each) for each in head["signals"])
+    pose = [float(head["length"])] * 3 + [float(head["quaternion"])] * 4
+    steps, n = np.array([*pose * len(bodies), *(signal.step for signal in signals)]), int(head["n"])
+    table = unshuffled(rest, n, len(steps))
+    rows = table * steps
     rows[table == NOTHING] = np.nan
     poses = rows[:, : NUMBERS * len(bodies)].reshape(n, len(bodies), NUMBERS)
     poses[..., 3:] /= np.maximum(np.linalg.norm(poses[..., 3:], axis=-1, keepdims=True), TURN)
     return MotionTrack(
         bodies=bodies,
         poses=poses,
-        channels=channels,
+        signals=signals,
         values=rows[:, NUMBERS * len(bodies) :],
         levels=tuple(TrackLevel(**each) for each in head["levels"]),
         rate=float(head["rate"]),

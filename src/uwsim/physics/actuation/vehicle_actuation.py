@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import mujoco
+import numpy as np
 
 from ...geometry import Array, Pose
 from ...scene.spec import SceneSpec
@@ -97,6 +98,15 @@ class VehicleActuation:
         """Let its fins turn to these angles, (n,) [rad]."""
         for fin, angle in zip(self._fins, angles.tolist(), strict=True):
             self._water.turn_fin(self._data, fin, angle)
+
+    def commands(self) -> Array:
+        """Return the commands to its thrusters as shares of the largest, (n,) [-1..1]."""
+        model = self._water.model
+        actuators = [self._water.thrusters[number] for number in self._thrusters]
+        largest = np.abs(model.actuator_ctrlrange[actuators]).max(axis=1, initial=0.0)
+        given = self._data.ctrl[model.actuator_ctrladr[actuators]]
+        shares: Array = given / np.where(largest > 0.0, largest, 1.0)
+        return shares
 
     def set_loss(self, thruster: int, loss: float) -> None:
         """Set the share of its thrust that a thruster loses: 0 healthy, 1 dead."""

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 import numpy as np
 
+from ...benchmark.ground_truth import CornersFromCameraSpec
+from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, MeasureSpec
+from ...devices.lamp import MountedLamp
 from ...geometry import Array
 from ...simulation import Simulation
 from ...simulation.tracked_bodies import TrackedBodies
-from ...tracks import RATE, Channel, TrackLevel, track_bytes
-from ...tracks.motion_track import quantised, resolutions_of
+from ...tracks import RATE, Signal, TrackLevel, track_bytes
+from ...tracks.motion_track import quantised, steps_of
+from ...tracks.packing import Table
 from .level_row import LevelRow
+from .triggered_measure import TriggeredMeasure
 
-CHANNELS = (
-    Channel(name="fog", unit="1/m"),
-    Channel(name="light", unit="1"),
-    Channel(name="current.x", unit="m/s", resolution=1e-3),
-    Channel(name="current.y", unit="m/s", resolution=1e-3),
-    Channel(name="current.z", unit="m/s", resolution=1e-3),
-)
-"""The water and the sun, and the current in W at the first vehicle."""
+CORNERS = 8
+"""Numbers of a quadrangle in an image."""
+PIXEL = 0.5
+"""Resolution of what is seen in images [px]."""
 
 
 class MotionRecorder:
@@ -26,13 +29,18 @@ class MotionRecorder:
 
     Args:
         simulation: the one; its first frame is taken by `start`.
+        measures: those of the benchmark; quadrangles that they compare in images are kept.
     """
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: Simulation, measures: Sequence[MeasureSpec]) -> None:
         self._simulation, self._world = simulation, simulation.world
         self._bodies = TrackedBodies(simulation.world)
-        self._resolutions = resolutions_of(len(self._bodies.names), CHANNELS)
-        self._rows: list[Array] = []  # quantised
+        self._seen = _compared(measures)
+        self._compared: dict[str, EuclideanNorm] = {}  # camera -> the measure of this level
+        self._lamps = [one for one in self._world.devices if isinstance(one, MountedLamp)]
+        self._signals = (*self._scene_signals(), *_corner_signals(self._seen))
+        self._steps = steps_of(len(self._bodies.names), self._signals)
+        self._rows: list[Table] = []  # quantised
         self._before: Array | None = None  # quaternions of the last frame
         self._levels: list[TrackLevel] = []
         self._due = 0
@@ -42,25 +50,33 @@ class MotionRecorder:
         """Take the first frame, at step 0."""
         self._look()
 
+    def begin_level(self, measures: Iterable[TriggeredMeasure]) -> None:
+        """A level is measured from now on."""
+        by_name = {gated.spec.name: gated.measure for gated in measures}
+        for camera, name in self._seen.items():
+            measure = by_name[name]
+            if isinstance(measure, EuclideanNorm):
+                self._compared[camera] = measure
+
     def end_level(self, row: LevelRow) -> None:
         """Note a level that has just been measured."""
-        duration = row.duration
+        self._compared = {}
         level = TrackLevel(
             values=dict(row.values),
-            began=round(row.ended_at - duration, 9),
-            duration=round(duration, 9),
+            began=round(row.ended_at - row.duration, 9),
+            duration=round(row.duration, 9),
             status=row.status,
         )
         self._levels.append(level)
 
     def track(self) -> bytes:
         """Return the file of the track up to now."""
-        table = np.array(self._rows, dtype=np.int32).reshape(-1, len(self._resolutions))
-        return track_bytes(self._bodies.names, CHANNELS, table, self._levels)
+        table = np.array(self._rows, dtype=np.int32).reshape(-1, len(self._steps))
+        return track_bytes(self._bodies.names, self._signals, table, self._levels)
 
     def _look(self) -> None:
         while self._simulation.step >= self._due:
-            self._rows.append(quantised(self._row(), self._resolutions))
+            self._rows.append(quantised(self._row(), self._steps))
             self._due = round(len(self._rows) / (RATE * self._simulation.timestep))
 
     def _row(self) -> Array:
@@ -68,14 +84,63 @@ class MotionRecorder:
         if self._before is not None:  # of the two quaternions of a rotation the nearer one
             rows[(rows[:, 3:] * self._before).sum(axis=1) < 0.0, 3:] *= -1.0
         self._before = rows[:, 3:].copy()
-        scenery = self._world.scenery
-        return np.array([*rows.reshape(-1), scenery.water.fog, scenery.light.rate, *self._current()])
+        scenery, state = self._world.scenery, self._world.state
+        signals = [scenery.water.fog, scenery.light.rate]
+        for index, vehicle in enumerate(self._world.vehicles):
+            signals += self._water_at(state.poses.vehicle(index).position, vehicle).tolist()
+            if index in state.actuation:
+                signals += state.actuation[index].commands().tolist()
+        signals += [float(lamp.is_on) for lamp in self._lamps]
+        for camera in self._seen:
+            signals += self._corners(self._compared.get(camera))
+        return np.array([*rows.reshape(-1), *signals])
 
-    def _current(self) -> Array:
-        """Velocity of the water at the first vehicle, (3,) [m/s]."""
-        vehicles = self._world.vehicles
-        if self._world.water.is_still or not vehicles:
+    def _water_at(self, place: Array, vehicle: str) -> Array:
+        """Velocity of the water at a vehicle in W, (3,) [m/s]."""
+        if self._world.water.is_still:
             return np.zeros(3)
-        here = self._world.state.poses.vehicle(0).position
-        velocity: Array = self._world.water_velocity(here[None], self._world.time, vehicles[0])[0]
+        velocity: Array = self._world.water_velocity(place[None], self._world.time, vehicle)[0]
         return velocity
+
+    def _scene_signals(self) -> Iterable[Signal]:
+        yield Signal(name="fog", unit="1/m")
+        yield Signal(name="light_rate")
+        for index, vehicle in enumerate(self._world.vehicles):
+            for axis in "xyz":
+                yield Signal(name=f"water/{vehicle}/{axis}", unit="m/s", step=1e-3)
+            if index in self._world.state.actuation:
+                for thruster in self._world.state.actuation[index].thrusters:
+                    yield Signal(name=f"thrust/{vehicle}/{thruster}", step=0.01)
+        for lamp in self._lamps:
+            yield Signal(name=f"lamp/{lamp.spec.name}", step=1.0)
+
+    @staticmethod
+    def _corners(measure: EuclideanNorm | None) -> list[float]:
+        """True and estimated corners in an image, (16,) [px]; NaN: none."""
+        found: list[float] = []
+        for quad in (None, None) if measure is None else (measure.ground_truth, measure.estimate):
+            is_whole = quad is not None and quad.shape == (CORNERS,)
+            found += quad.tolist() if quad is not None and is_whole else [np.nan] * CORNERS
+        return found
+
+
+def _compared(measures: Sequence[MeasureSpec]) -> dict[str, str]:
+    """Return camera -> name of the first measure that compares quadrangles in its images."""
+    found: dict[str, str] = {}
+    for spec in measures:
+        if isinstance(spec, EuclideanNormSpec) and isinstance(
+            spec.ground_truth, CornersFromCameraSpec
+        ):
+            found.setdefault(spec.ground_truth.camera, spec.name)
+    return found
+
+
+def _corner_signals(cameras: Iterable[str]) -> list[Signal]:
+    """The corners, in the order of `MotionRecorder._corners`."""
+    return [
+        Signal(name=f"{kind}/{camera}/{corner}/{axis}", unit="px", step=PIXEL)
+        for camera in cameras
+        for kind in ("truth", "estimate")
+        for corner in range(CORNERS // 2)
+        for axis in "uv"
+    ]

@@ -108,7 +108,7 @@ class _Execution:
         benchmark = benchmark_of_seed(plan.benchmark, trial.seed)
         self._updater = benchmark.scene_updater
         self._fingerprinter = Fingerprinter(simulation)
-        self._motion = MotionRecorder(simulation)
+        self._motion = MotionRecorder(simulation, benchmark.measures)
         self._updaters = bind_updaters(self._updater, simulation.world)
         simulation.bus.withdraw(SPAWN_MARKER)  # not offered in a benchmark, as in the original
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
@@ -292,6 +292,7 @@ class _Execution:
         began = simulation.step
         monitor.begin_level()
         measures = self._bind_measures()
+        self._motion.begin_level(measures)
         length = interval(self._updater)
         n_steps = round((MAX_TASK_DURATION if length is None else length) / plan.timestep)
         stopped, ended = False, None

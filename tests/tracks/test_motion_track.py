@@ -1,0 +1,96 @@
+"""Motion tracks: what is written is read back, equal tracks are equal bytes, damage is named."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.short_benchmark import run, write_benchmark
+from uwsim.errors import ResultError
+from uwsim.results.journal import track_path
+from uwsim.tracks import Signal, TrackLevel, load_track, read_track, track_bytes
+from uwsim.tracks.motion_track import quantised, steps_of
+from uwsim.tracks.packing import shuffled, unshuffled
+
+LEVELS = (TrackLevel(values={"fog": 0.5}, began=1.0, duration=2.0, status="ok"),)
+SIGNALS = (Signal(name="fog", unit="1/m"),)
+
+
+@pytest.mark.parametrize("shape", [(0, 3), (1, 2), (2, 2), (3, 1), (100, 5)])
+def test_packing_loses_nothing(shape: tuple[int, int]) -> None:
+    random = np.random.default_rng(0)
+    table = random.integers(-(2**31), 2**31, shape, dtype=np.int64).astype(np.int32)
+    assert (unshuffled(shuffled(table), *shape) == table).all()
+
+
+def written(n: int = 900) -> tuple[bytes, np.ndarray]:
+    time = np.arange(n) / 30.0
+    rows = np.zeros((n, 8))
+    rows[:, 0], rows[:, 1] = np.sin(time), -0.3 * time
+    rows[:, 3], rows[:, 6] = np.cos(0.1 * time), np.sin(0.1 * time)
+    rows[:, 7] = 0.5
+    rows[n // 2, 7] = np.nan
+    table = quantised(rows, steps_of(1, SIGNALS))
+    return track_bytes(["rov/base"], SIGNALS, table, LEVELS), rows
+
+
+def test_a_track_is_read_back_to_its_resolution_and_a_missing_value_stays_missing() -> None:
+    data, rows = written()
+    track = read_track(data)
+    assert track.bodies == ("rov/base",)
+    assert track.levels == LEVELS
+    assert track.duration == pytest.approx(899 / 30.0)
+    np.testing.assert_allclose(track.poses[:, 0], rows[:, :7], atol=1e-4)
+    fog = track.signal("fog")
+    assert fog is not None
+    assert np.isnan(fog[450])
+    np.testing.assert_allclose(np.delete(fog, 450), 0.5)
+    assert track.level_at(0.5) is None
+    assert track.level_at(1.5) == 0
+
+
+def test_a_body_takes_little_room_and_equal_tracks_are_equal_bytes() -> None:
+    data, _ = written(1800)
+    assert len(data) < 9_000  # a minute
+    assert data == written(1800)[0]
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda data: data[:-20],
+        lambda data: b"",
+        lambda data: b"not a track",
+        lambda data: data[:40] + b"x" + data[41:],
+    ],
+)
+def test_a_damaged_track_is_an_error_that_says_so(damage: object, tmp_path: Path) -> None:
+    path = tmp_path / "00000.motion"
+    path.write_bytes(damage(written()[0]))  # type: ignore[operator]
+    with pytest.raises(ResultError, match=r"00000\.motion: is no motion track of version 1: "):
+        load_track(path)
+    with pytest.raises(ResultError, match="cannot be read"):
+        load_track(tmp_path / "none.motion")
+
+
+def test_a_bench_keeps_the_motion_of_each_trial_with_its_fog_and_its_quadrangles(
+    tmp_path: Path,
+) -> None:
+    result = run(write_benchmark(tmp_path, "0.2"), tmp_path / "out")
+    track = load_track(track_path(tmp_path / "out", 0))
+    assert [level.values for level in track.levels] == [{"fog": 0.0}, {"fog": 0.4}, {"fog": 0.8}]
+    assert [level.status for level in track.levels] == [row[-2] for row in result.rows]
+    fog = track.signal("fog")
+    assert fog is not None
+    for level in track.levels:
+        assert level.duration == pytest.approx(0.2)
+        k = round((level.began + 0.1) * track.rate)
+        assert fog[k] == pytest.approx(level.values["fog"])
+        assert np.isfinite(track.signal("truth/bowtech1/0/u")[k])  # type: ignore[index]
+    assert np.isnan(track.signal("truth/bowtech1/0/u")[0])  # type: ignore[index]
+    assert "girona500/base_link" in track.bodies
+    run(write_benchmark(tmp_path, "0.2"), tmp_path / "again")
+    assert (
+        track_path(tmp_path / "again", 0).read_bytes()
+        == track_path(tmp_path / "out", 0).read_bytes()
+    )
