@@ -46,7 +46,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "world": BASE,
     "vehicle": BASE,
     "statistics": GROUND | {"statistics"},
-    "recording": BASE | {"recording"},
+    "middleware": BASE | {"middleware"},
+    "recording": BASE | {"middleware", "recording"},
     "currents": BASE | {"currents"},
     "sensors": BASE | {"sensors", "devices"},
     "devices": BASE | {"sensors", "devices"},
@@ -69,7 +70,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "viewer": TASKS | ENGINES | {"runs", "verify", "viewer"},
     "__main__": {"cli", "interrupts"},
     "cli": (
-        TASKS | ENGINES | {"runs", "analysis", "envelope", "verify", "recording", "viewer", "cli"}
+        TASKS
+        | ENGINES
+        | {"runs", "analysis", "envelope", "verify", "middleware", "recording", "viewer", "cli"}
     ),
     "reference": PARTS | {"algorithms", "benchmark", "runs", "cli", "reference"},
 }

@@ -124,12 +124,27 @@ class Inbox(Generic[M]):
 class _Topic:
     type: type | None = None
     readers: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
+    owners: list[object] = dataclasses.field(default_factory=list)
+    """Who reads, of each reader; None for anyone."""
     checks: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
-    has_writers: bool = False
+    writers: list[object] = dataclasses.field(default_factory=list)
+    """Who publishes, each once; None for anyone."""
     kept: deque[Any] | None = None
     """The newest message, kept from the first request on."""
     unread: Any = None
     """The newest message that was published while the topic had no subscriber."""
+
+
+@dataclasses.dataclass(frozen=True)
+class TopicEnds:
+    """What a topic carries, and who is at its ends."""
+
+    type: type
+    """Class of its messages."""
+    is_published: bool
+    """Whether anyone publishes on it."""
+    is_read: bool
+    """Whether anyone subscribes to it."""
 
 
 class Bus:
@@ -151,8 +166,11 @@ class Bus:
         self._posted = 0
         self._withheld: set[str] = set()
         self._observers: list[Callable[[str, type], None]] = []
+        self._elsewhere: list[tuple[Callable[[str], bool], Callable[[str, Any], object]]] = []
         self.step = 0
         """The current step; set by the owner of the clock."""
+        self.revision = 0
+        """Grows when a topic, a publisher, a subscriber or a service comes or goes."""
 
     def subscribe(
         self,
@@ -161,6 +179,7 @@ class Bus:
         callback: Callable[[M], None],
         *,
         check: Callable[[M], None] | None = None,
+        owner: object = None,
     ) -> Callable[[], None]:
         """Call ``callback`` with every message on ``topic``; returns the way to stop it.
 
@@ -168,16 +187,20 @@ class Bus:
         the reader could do nothing with it.
 
         ``object`` as the type stands for any: such a reader hears whatever the topic carries, and
-        leaves it to others to say what that is.
+        leaves it to others to say what that is. ``owner`` is who reads, for `ends`.
         """
         entry = self._typed(topic, type)
         entry.readers.append(callback)
+        entry.owners.append(owner)
+        self.revision += 1
         if check is not None:
             entry.checks.append(check)
 
         def stop() -> None:
             if callback in entry.readers:
+                del entry.owners[entry.readers.index(callback)]
                 entry.readers.remove(callback)
+                self.revision += 1
                 if check is not None:
                     entry.checks.remove(check)
 
@@ -211,19 +234,38 @@ class Bus:
             if entry.kept is None:
                 entry.kept = deque(maxlen=1)
                 entry.readers.append(entry.kept.append)
+                entry.owners.append(None)
             for message in entry.kept:
                 inbox.receive(message, self.step)
         stop = self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
         inbox.stop_with(stop)
         return inbox
 
-    def publisher(self, topic: str, type: type[M], *, delay_steps: int = 0) -> Callable[[M], None]:
-        """Return ``publish(message)`` for ``topic``, delayed by ``delay_steps``."""
+    def ends(self, topic: str, *, besides: object = None) -> TopicEnds | None:
+        """Who is at the ends of a topic, one owner left out; None before it has a type."""
+        entry = self._topics.get(_without_slash(topic))
+        if entry is None or entry.type is None:
+            return None
+        return TopicEnds(
+            entry.type,
+            is_published=any(each is None or each is not besides for each in entry.writers),
+            is_read=any(each is None or each is not besides for each in entry.owners),
+        )
+
+    def publisher(
+        self, topic: str, type: type[M], *, delay_steps: int = 0, owner: object = None
+    ) -> Callable[[M], None]:
+        """Return ``publish(message)`` for ``topic``, delayed by ``delay_steps``.
+
+        ``owner`` is who publishes, for `ends`.
+        """
         if type is object:
             raise BadSetting(f"Topic {topic!r} is published without a message type.")
         name = _without_slash(topic)
         entry = self._typed(topic, type)
-        entry.has_writers = True
+        if not any(each is owner for each in entry.writers):
+            entry.writers.append(owner)
+            self.revision += 1
 
         def publish(message: M) -> None:
             if not _is_exactly(message, type):
@@ -279,7 +321,7 @@ class Bus:
 
     def without_publisher(self, topic: str) -> str | None:
         """Report that a topic has no publisher, with the nearest that has; None if it has one."""
-        published = [name for name, entry in self._topics.items() if entry.has_writers]
+        published = [name for name, entry in self._topics.items() if entry.writers]
         if _without_slash(topic) in published:
             return None
         near = did_you_mean(topic, published)
@@ -292,6 +334,7 @@ class Bus:
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service whose request class is ``type``; a later offer takes its place."""
         self._services[_without_slash(name)] = (type, handler)
+        self.revision += 1
 
     def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
         """Offer a service together with others: a call reaches all, the newest answers.
@@ -313,10 +356,38 @@ class Bus:
     def withdraw(self, name: str) -> None:
         """Stop offering a service, if it is offered."""
         self._services.pop(_without_slash(name), None)
+        self.revision += 1
+
+    def serve_elsewhere(
+        self, offers: Callable[[str], bool], call: Callable[[str, Any], object]
+    ) -> Callable[[], None]:
+        """Have services that are not offered here looked for outside the process.
+
+        Args:
+            offers: whether a service of that name, without a leading slash, is offered there.
+            call: calls it with a request, and returns its response.
+
+        Returns:
+            The way to stop it.
+        """
+        entry = (offers, call)
+        self._elsewhere.append(entry)
+
+        def stop() -> None:
+            if entry in self._elsewhere:
+                self._elsewhere.remove(entry)
+
+        return stop
+
+    def request_type(self, name: str) -> type | None:
+        """The class of a service's requests; None if it is not offered in the process."""
+        found = self._services.get(_without_slash(name))
+        return found[0] if found else None
 
     def serves(self, name: str) -> bool:
-        """Whether the service is offered."""
-        return _without_slash(name) in self._services
+        """Whether the service is offered, here or outside the process."""
+        key = _without_slash(name)
+        return key in self._services or any(offers(key) for offers, _ in self._elsewhere)
 
     def call(self, name: str, request: object) -> object:
         """Call a service now.
@@ -326,7 +397,7 @@ class Bus:
             BadMessage: the request is of another type, or its fields are.
         """
         if _without_slash(name) not in self._services:
-            raise UnknownName("service", name, self._services)
+            return self._call_elsewhere(name, request)
         type, handler = self._services[_without_slash(name)]
         if not _is_exactly(request, type):
             raise BadMessage(
@@ -335,6 +406,12 @@ class Bus:
         if wrong := unfit(request):
             raise BadMessage(f"Service {name!r} takes {_type_name(type)}: {wrong}.")
         return handler(freeze(request))
+
+    def _call_elsewhere(self, name: str, request: object) -> object:
+        for offers, call in self._elsewhere:
+            if offers(_without_slash(name)):
+                return call(_without_slash(name), request)
+        raise UnknownName("service", name, self._services)
 
     def deliver(self) -> None:
         """Deliver every message that is due at the current step, in the order of publishing."""

@@ -76,3 +76,6 @@ class SpawnMarkerResponse:
 EMPTY = Service("std_srvs/srv/Empty", Empty, EmptyResponse)
 GT_PUBLISH = Service("underwater_sensor_msgs/srv/GTpublish", GTpublish, GTpublishResponse)
 SPAWN_MARKER = Service("underwater_sensor_msgs/srv/SpawnMarker", SpawnMarker, SpawnMarkerResponse)
+
+SERVICES: dict[str, Service] = {each.name: each for each in (EMPTY, GT_PUBLISH, SPAWN_MARKER)}
+"""Service types by their names in ROS 2; ``srv/`` has the text of each."""

@@ -1,0 +1,236 @@
+"""What all transports share: a bus on one side, threads of a transport on the other.
+
+The contract. A transport derives from `Bridge` and gives it three methods, which are called in
+the thread of the simulation:
+
+- ``on_topics(topics)``: topics, their types or who is at their ends have changed, on the bus. It
+  tells the outside what is published here (`TopicEnds.is_published`: advertise it) and what is
+  read here (`TopicEnds.is_read`: subscribe to it). Publishers that come late come this way.
+- ``on_services(services)``: services offered on the bus have changed.
+- ``send(topic, message)``: a message of a topic that somebody outside reads. It must not wait:
+  put it into a `LatestQueue` and encode it in a thread of the transport. Messages are frozen.
+
+Any thread of the transport may call:
+
+- ``want(topic)`` and ``unwant(topic)``: a subscriber outside came or left. The bridge subscribes on
+  the bus while there is at least one, so that cameras render only for those who look.
+- ``put(topic, message)``: a message from outside, stamps already in simulation time (`inward`);
+  it is given away. It waits in a bounded queue (latest wins) for the next step boundary.
+- ``request(name, request)``: call a service of the bus; returns a Future with the response, which
+  comes at the next step boundary.
+
+`step` is the boundary: call it at the end of each step (`Simulation.watch(bridge.step)`), and
+before the first. There it follows the bus, answers requests in their order, publishes what came
+from outside, by topic in the order of names and within a topic in the order of arrival, and has it
+delivered. A message that came from outside is not sent back out by the same bridge; other bridges
+send it. What arrives when depends on the wall clock: a run with a bridge is not repeatable. For a
+repeatable one, an algorithm outside is attached in lock-step instead.
+
+Topics and services have no leading slash on the bus; transports add it where it is customary.
+Topics that are withheld from algorithms under test are not shown to the outside.
+"""
+
+from __future__ import annotations
+
+import threading
+from abc import ABC, abstractmethod
+from collections import Counter
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+
+from ..bus import Bus, TopicEnds
+from ..errors import BadMessage, UwsimError
+from ..message_fields import size_of
+from ..messages.services import Service
+from .log import Log
+from .queues import LatestQueue
+from .types import service_of, wire_type
+
+MAX_REQUESTS = 1000
+"""Calls of services that may wait for the end of a step."""
+CLOSED = "The simulation has ended."
+
+
+class Bridge(ABC):
+    """Connects a bus to a transport; the module says who calls what, and in which thread.
+
+    Args:
+        bus: of the simulation.
+        clock: returns the simulation time [s].
+        log: where events are reported.
+    """
+
+    def __init__(self, bus: Bus, clock: Callable[[], float], log: Log) -> None:
+        self.bus, self.clock, self.log = bus, clock, log
+        self._lock = threading.Lock()
+        self._has_news = False
+        self._wants: list[tuple[str, int]] = []
+        self._incoming: dict[str, LatestQueue[object]] = {}
+        self._requests: list[tuple[str, object, Future[object]]] = []
+        self._n_wanted: Counter[str] = Counter()
+        self._stops: dict[str, Callable[[], None]] = {}
+        self._publishers: dict[str, Callable[[object], None]] = {}
+        self._own: set[int] = set()
+        self._revision = -1
+        self._topics: dict[str, TopicEnds] = {}
+        self._services: dict[str, Service] = {}
+        self._is_closed = False
+
+    @abstractmethod
+    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+        """Advertise and subscribe outside according to who is on the bus."""
+
+    @abstractmethod
+    def on_services(self, services: Mapping[str, Service]) -> None:
+        """Offer these services outside."""
+
+    @abstractmethod
+    def send(self, topic: str, message: object) -> None:
+        """Hand a message to those outside who read its topic, without waiting."""
+
+    def want(self, topic: str) -> None:
+        """One more outside reads ``topic``. Any thread."""
+        self._add_want(topic, 1)
+
+    def unwant(self, topic: str) -> None:
+        """One fewer outside reads ``topic``. Any thread."""
+        self._add_want(topic, -1)
+
+    def _add_want(self, topic: str, n: int) -> None:
+        with self._lock:
+            self._wants.append((topic.lstrip("/"), n))
+            self._has_news = True
+
+    def put(self, topic: str, message: object) -> None:
+        """Take in a message from outside, for the next step boundary. Any thread."""
+        name = topic.lstrip("/")
+        size = size_of(message)
+        with self._lock:
+            if self._is_closed:
+                return
+            queue = self._incoming.setdefault(name, LatestQueue())
+            self._has_news = True
+        if queue.put(message, size):
+            self.log.say(
+                f"/{name}: messages come faster than the simulation takes them; the oldest are "
+                "dropped",
+                kind=f"flood {name}",
+            )
+
+    def request(self, name: str, request: object) -> Future[object]:
+        """Call a service of the bus; the response comes at a step boundary. Any thread.
+
+        The future's exception is an UwsimError.
+        """
+        future: Future[object] = Future()
+        with self._lock:
+            if self._is_closed:
+                future.set_exception(UwsimError(CLOSED))
+            elif len(self._requests) >= MAX_REQUESTS:
+                future.set_exception(UwsimError(f"More than {MAX_REQUESTS} calls are waiting."))
+            else:
+                self._requests.append((name.lstrip("/"), request, future))
+                self._has_news = True
+        return future
+
+    def step(self) -> None:
+        """Exchange what has come, at a step boundary. In the thread of the simulation only."""
+        if self.bus.revision != self._revision:
+            self._follow()
+        if self._has_news:
+            self._exchange()
+        self.tick()
+
+    def tick(self) -> None:  # noqa: B027 - a transport that publishes no clock has nothing to do
+        """Do what a transport does at each step boundary, as publishing the clock."""
+
+    def close(self) -> None:
+        """Leave the bus; calls that wait fail. Transports close their sockets, then call this."""
+        with self._lock:
+            self._is_closed = True
+            requests, self._requests = self._requests, []
+            self._incoming.clear()
+        for _, _, future in requests:
+            future.set_exception(UwsimError(CLOSED))
+        for stop in self._stops.values():
+            stop()
+        self._stops.clear()
+
+    def _follow(self) -> None:
+        """Tell the transport what has changed on the bus."""
+        self._revision = self.bus.revision
+        topics: dict[str, TopicEnds] = {}
+        for name in self.bus.topics:
+            ends = self.bus.ends(name, besides=self)
+            if ends is None or self.bus.is_withheld(name):
+                continue
+            if wire_type(ends.type) is None:
+                self.log.say(f"/{name} is not shown: {ends.type.__name__} has no definition")
+                continue
+            topics[name] = ends
+        if topics != self._topics:
+            self._topics = topics
+            self.on_topics(topics)
+        services: dict[str, Service] = {}
+        for name in self.bus.services:
+            request_type = self.bus.request_type(name)
+            service = service_of(request_type) if request_type is not None else None
+            if service is not None:
+                services[name] = service
+        if services != self._services:
+            self._services = services
+            self.on_services(services)
+
+    def _exchange(self) -> None:
+        with self._lock:
+            self._has_news = False
+            wants, self._wants = self._wants, []
+            requests, self._requests = self._requests, []
+            incoming, self._incoming = self._incoming, {}
+        for topic, n in wants:
+            self._n_wanted[topic] += n
+            self._follow_demand(topic)
+        for name, request, future in requests:
+            self._answer(name, request, future)
+        for topic in sorted(incoming):
+            for message in incoming[topic].take():
+                self._publish(topic, message)
+        self.bus.deliver()
+        self._own.clear()
+
+    def _follow_demand(self, topic: str) -> None:
+        """Subscribe on the bus while somebody outside reads a topic."""
+        is_wanted = self._n_wanted[topic] > 0
+        if is_wanted and topic not in self._stops:
+            if self.bus.is_withheld(topic):
+                self.log.say(f"/{topic} is for observers of the run; it is not sent")
+                return
+            self._stops[topic] = self.bus.subscribe(
+                topic, object, lambda message: self._pass(topic, message), owner=self
+            )
+        elif not is_wanted and topic in self._stops:
+            self._stops.pop(topic)()
+
+    def _pass(self, topic: str, message: object) -> None:
+        if id(message) not in self._own:
+            self.send(topic, message)
+
+    def _answer(self, name: str, request: object, future: Future[object]) -> None:
+        if not future.set_running_or_notify_cancel():
+            return
+        try:
+            future.set_result(self.bus.call(name, request))
+        except UwsimError as error:
+            future.set_exception(error)
+
+    def _publish(self, topic: str, message: object) -> None:
+        """Put a message from outside on the bus; one that does not fit is reported."""
+        try:
+            if self.bus.is_withheld(topic):
+                raise BadMessage(f"Topic {topic!r} is not for the outside.")
+            if topic not in self._publishers:
+                self._publishers[topic] = self.bus.publisher(topic, type(message), owner=self)
+            self._own.add(id(message))
+            self._publishers[topic](message)
+        except UwsimError as error:
+            self.log.say(f"/{topic}: a message was refused: {error}", kind=f"refused {topic}")

@@ -1,0 +1,77 @@
+"""A bounded queue between threads: the newest items stay, the oldest are dropped."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import Generic, TypeVar
+
+T = TypeVar("T")
+MAX_ITEMS = 1000
+MAX_BYTES = 64 * 2**20
+
+
+class LatestQueue(Generic[T]):
+    """Keeps at most ``max_items`` of ``max_bytes`` together, and at least the newest.
+
+    `put` never waits, so that a slow reader holds nobody up.
+    """
+
+    def __init__(self, max_items: int = MAX_ITEMS, max_bytes: int = MAX_BYTES) -> None:
+        self._max_items, self._max_bytes = max_items, max_bytes
+        self._items: deque[tuple[T, int]] = deque()
+        self._n_bytes = 0
+        self._is_closed = False
+        self._changed = threading.Condition()
+        self.n_dropped = 0
+        """Items dropped so far."""
+
+    def put(self, item: T, size: int = 0) -> int:
+        """Put an item of ``size`` bytes in; returns how many were dropped for it."""
+        with self._changed:
+            if self._is_closed:
+                return 0
+            self._items.append((item, size))
+            self._n_bytes += size
+            before = self.n_dropped
+            while len(self._items) > self._max_items or (
+                self._n_bytes > self._max_bytes and len(self._items) > 1
+            ):
+                self._n_bytes -= self._items.popleft()[1]
+                self.n_dropped += 1
+            self._changed.notify()
+            return self.n_dropped - before
+
+    def get(self, timeout: float | None = None) -> T | None:
+        """Take the oldest item out; waits for one. None when closed, or after ``timeout`` [s]."""
+        with self._changed:
+            self._changed.wait_for(lambda: bool(self._items) or self._is_closed, timeout)
+            if not self._items:
+                return None
+            item, size = self._items.popleft()
+            self._n_bytes -= size
+            return item
+
+    def take(self) -> list[T]:
+        """Take all items out, oldest first."""
+        with self._changed:
+            items = [item for item, _ in self._items]
+            self._items.clear()
+            self._n_bytes = 0
+            return items
+
+    def close(self) -> None:
+        """Take nothing more in; whoever waits is released."""
+        with self._changed:
+            self._is_closed = True
+            self._items.clear()
+            self._n_bytes = 0
+            self._changed.notify_all()
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether it is closed."""
+        return self._is_closed
+
+    def __len__(self) -> int:
+        return len(self._items)

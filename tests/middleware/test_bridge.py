@@ -1,0 +1,215 @@
+"""What transports share: demand, the way in, the way out, services, bounds."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+
+from uwsim.bus import Bus, TopicEnds
+from uwsim.errors import UnknownName, UwsimError
+from uwsim.messages import EmptyResponse, Float64, String, Twist
+from uwsim.messages.services import EMPTY, Empty, Service
+from uwsim.middleware.bridge import Bridge
+from uwsim.middleware.log import MAX_OF_A_KIND, Log
+from uwsim.middleware.queues import LatestQueue
+
+
+class Seen(Bridge):
+    """A transport that keeps what it is given."""
+
+    def __init__(self, bus: Bus) -> None:
+        self.printed: list[str] = []
+        super().__init__(bus, lambda: bus.step * 0.002, Log("test", self.printed.append))
+        self.topics: dict[str, TopicEnds] = {}
+        self.services: dict[str, Service] = {}
+        self.sent: list[tuple[str, object]] = []
+
+    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+        self.topics = dict(topics)
+
+    def on_services(self, services: Mapping[str, Service]) -> None:
+        self.services = dict(services)
+
+    def send(self, topic: str, message: object) -> None:
+        self.sent.append((topic, message))
+
+
+@pytest.fixture
+def bus() -> Bus:
+    return Bus()
+
+
+@pytest.fixture
+def bridge(bus: Bus) -> Seen:
+    return Seen(bus)
+
+
+def test_topics_are_followed_as_they_come(bus: Bus, bridge: Seen) -> None:
+    bus.subscribe("cmd", Twist, print)
+    bridge.step()
+    assert bridge.topics == {"cmd": TopicEnds(Twist, is_published=False, is_read=True)}
+    bus.publisher("depth", Float64)
+    bus.publisher("cmd", Twist)
+    bridge.step()
+    assert bridge.topics["depth"] == TopicEnds(Float64, is_published=True, is_read=False)
+    assert bridge.topics["cmd"].is_published
+
+
+def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: Seen) -> None:
+    publish = bus.publisher("depth", Float64)
+    publish(Float64(data=1.0))
+    bridge.step()
+    bridge.want("/depth")
+    assert not bus.has_readers("depth")
+    bridge.step()
+    assert bus.has_readers("depth")
+    publish(Float64(data=2.0))
+    bus.deliver()
+    bridge.want("depth")
+    bridge.unwant("depth")
+    bridge.step()
+    publish(Float64(data=3.0))
+    bus.deliver()
+    bridge.unwant("depth")
+    bridge.step()
+    assert not bus.has_readers("depth")
+    assert bridge.sent == [("depth", Float64(data=2.0)), ("depth", Float64(data=3.0))]
+
+
+def test_its_own_ends_are_not_the_buses(bus: Bus, bridge: Seen) -> None:
+    bus.subscribe("cmd", Twist, print)
+    bridge.put("cmd", Twist())
+    bridge.want("cmd")
+    bridge.step()
+    bridge.step()
+    assert bridge.topics == {"cmd": TopicEnds(Twist, is_published=False, is_read=True)}
+
+
+def test_messages_come_in_at_the_step_by_topic_and_in_their_order(bus: Bus, bridge: Seen) -> None:
+    found: list[object] = []
+    for topic in ("b", "a"):
+        bus.subscribe(topic, Float64, lambda message, topic=topic: found.append((topic, message)))
+    for i in range(2):
+        bridge.put("/b", Float64(data=float(i)))
+        bridge.put("/a", Float64(data=float(i)))
+    assert found == []
+    bridge.step()
+    assert [(topic, message.data) for topic, message in found] == [  # type: ignore[attr-defined]
+        *(("a", 0.0), ("a", 1.0)),
+        *(("b", 0.0), ("b", 1.0)),
+    ]
+
+
+def test_a_message_from_outside_is_sent_to_other_bridges_only(bus: Bus, bridge: Seen) -> None:
+    other = Seen(bus)
+    for each in (bridge, other):
+        each.want("cmd")
+        each.step()
+    bridge.put("cmd", Twist())
+    bridge.step()
+    assert bridge.sent == []
+    assert other.sent == [("cmd", Twist())]
+
+
+def test_a_message_of_the_wrong_type_is_reported(bus: Bus, bridge: Seen) -> None:
+    bus.subscribe("cmd", Twist, print)
+    bridge.put("cmd", Float64())
+    bridge.step()
+    assert "'cmd' carries geometry_msgs/msg/Twist, not std_msgs/msg/Float64" in bridge.printed[0]
+
+
+def test_a_flood_drops_the_oldest_and_is_reported_few_times(bus: Bus, bridge: Seen) -> None:
+    found: list[float] = []
+    bus.subscribe("cmd", Float64, lambda message: found.append(message.data))
+    for i in range(100_000):
+        bridge.put("cmd", Float64(data=float(i)))
+    bridge.step()
+    assert found == [float(i) for i in range(99_000, 100_000)]
+    assert len(bridge.printed) == MAX_OF_A_KIND + 1
+    assert "dropped" in bridge.printed[0]
+    assert "not shown" in bridge.printed[-1]
+
+
+def test_a_service_is_answered_at_the_step(bus: Bus, bridge: Seen) -> None:
+    calls: list[object] = []
+
+    def answer(request: Empty) -> EmptyResponse:
+        calls.append(threading.get_ident())
+        return EmptyResponse()
+
+    bus.serve("dynamics/reset", Empty, answer)
+    bridge.step()
+    assert bridge.services == {"dynamics/reset": EMPTY}
+    future = bridge.request("/dynamics/reset", Empty())
+    assert not future.done()
+    bridge.step()
+    assert future.result(timeout=60) == EmptyResponse()
+    assert calls == [threading.get_ident()]
+
+
+def test_a_service_that_is_not_there_is_an_error_of_the_caller(bridge: Seen) -> None:
+    future = bridge.request("reset", Empty())
+    bridge.step()
+    assert isinstance(future.exception(timeout=60), UnknownName)
+
+
+def test_calls_fail_when_the_simulation_ends(bridge: Seen) -> None:
+    waiting = bridge.request("reset", Empty())
+    bridge.close()
+    for future in (waiting, bridge.request("reset", Empty())):
+        assert isinstance(future.exception(timeout=60), UwsimError)
+
+
+def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: Seen) -> None:
+    publish = bus.publisher("truth", String)
+    bus.withhold("truth")
+    bridge.want("truth")
+    bridge.step()
+    publish(String(data="secret"))
+    bus.deliver()
+    assert bridge.topics == {}
+    assert bridge.sent == []
+
+
+def test_a_service_elsewhere_is_called_when_it_is_not_here(bus: Bus) -> None:
+    stop = bus.serve_elsewhere(lambda name: name == "vision/init", lambda name, request: name)
+    assert bus.serves("/vision/init")
+    assert bus.call("/vision/init", Empty()) == "vision/init"
+    stop()
+    assert not bus.serves("/vision/init")
+    with pytest.raises(UnknownName):
+        bus.call("vision/init", Empty())
+
+
+def test_a_queue_keeps_the_newest_within_its_bytes() -> None:
+    queue: LatestQueue[str] = LatestQueue(max_items=10, max_bytes=100)
+    assert queue.put("a", 60) == 0
+    assert queue.put("b", 60) == 1
+    assert queue.put("c", 1000) == 1
+    assert (queue.take(), queue.n_dropped) == (["c"], 2)
+
+
+def test_a_queue_that_is_closed_releases_who_waits() -> None:
+    queue: LatestQueue[int] = LatestQueue()
+    found: list[int | None] = []
+    waiting = threading.Thread(target=lambda: found.append(queue.get()))
+    waiting.start()
+    queue.close()
+    waiting.join(timeout=60)
+    assert found == [None]
+    assert queue.put(1) == 0
+
+
+def test_images_are_bounded_by_their_bytes(bus: Bus, bridge: Seen) -> None:
+    from uwsim.messages import Image
+
+    found: list[object] = []
+    bus.subscribe("image", Image, found.append)
+    pixels = np.zeros(2**20, np.uint8)
+    for _ in range(200):
+        bridge.put("image", Image(data=pixels))
+    bridge.step()
+    assert 50 <= len(found) <= 64
