@@ -4,6 +4,8 @@ Python answers Ctrl-C by raising KeyboardInterrupt wherever it happens to be, an
 are loaded that is inside them: some turn it into another error, some print it and go on. So a
 command begins with `end_at_once`, and says `raise_from_now_on` before it writes its first file.
 From then on the system's SIGTERM, and the SIGHUP of a terminal that is closed, are as Ctrl-C.
+An interrupt that a library has turned into another error, as compiled code does that returns a
+named tuple, is raised again by `raise_if_interrupted`, before a row is kept that it has spoiled.
 """
 
 from __future__ import annotations
@@ -12,10 +14,12 @@ import os
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
+from threading import Event
 from types import FrameType
 
 STATUS = 130
 """Exit status of what was interrupted: that of shells."""
+_arrived = Event()
 
 
 def end_at_once() -> None:
@@ -26,11 +30,19 @@ def end_at_once() -> None:
 
 def raise_from_now_on() -> None:
     """From now on the signals that ended the process at once raise KeyboardInterrupt."""
+    _arrived.clear()
     if signal.getsignal(signal.SIGINT) is _end:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.signal(signal.SIGINT, _raise)
     for number in (signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) is signal.SIG_DFL:
-            signal.signal(number, signal.default_int_handler)
+            signal.signal(number, _raise)
+
+
+def raise_if_interrupted() -> None:
+    """Raise KeyboardInterrupt if one was raised in this process and something has caught it."""
+    if _arrived.is_set():
+        _arrived.clear()
+        raise KeyboardInterrupt
 
 
 def ignore_from_now_on() -> None:
@@ -63,6 +75,11 @@ def ignoring_interrupts() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _raise(number: int, frame: FrameType | None) -> None:
+    _arrived.set()
+    raise KeyboardInterrupt
 
 
 def _end(number: int, frame: FrameType | None) -> None:

@@ -6,13 +6,23 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
+from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from tests.short_benchmark import write_benchmark
+from tests.short_benchmark import run, write_benchmark
 from uwsim import interrupts
+from uwsim.runs.executors import executor
+
+
+@pytest.fixture(autouse=True)
+def _no_interrupt_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(interrupts, "_arrived", threading.Event())
 
 
 def pressed(arguments: list[str], when: float) -> tuple[int, str]:
@@ -100,6 +110,26 @@ def test_from_a_point_on_ctrl_c_is_an_error_that_can_be_handled() -> None:
             os.kill(os.getpid(), signal.SIGINT)
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def test_a_run_whose_algorithm_swallows_the_interrupt_ends_and_keeps_no_spoiled_row(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def run_trial(*arguments: Any) -> Iterator[Any]:
+        with suppress(BaseException):  # compiled code that returns a named tuple does this
+            os.kill(os.getpid(), signal.SIGTERM)
+        yield from original(*arguments)
+
+    original = executor.run_trial
+    before = signal.getsignal(signal.SIGTERM)
+    monkeypatch.setattr(executor, "run_trial", run_trial)
+    try:
+        interrupts.raise_from_now_on()
+        with pytest.raises(KeyboardInterrupt):
+            run(write_benchmark(tmp_path, "0.2"), tmp_path / "out")
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert [path.read_text().count("\n") for path in (tmp_path / "out/units").iterdir()] == [1]
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])

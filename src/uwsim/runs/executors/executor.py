@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Protocol
 
 from ...errors import RUN_ERRORS, RunFailed, UwsimError
-from ...interrupts import is_of_user
+from ...interrupts import is_of_user, raise_if_interrupted
 from ...results.journal import path_of
 from ...results.result import Result
 from ...simulation import Calls, Cut, RendererPool
@@ -178,6 +178,7 @@ class SerialExecutor:
                     for _ in run_and_record(job, pool, Calls()):
                         queue.level(job)
                 except Exception as error:
+                    raise_if_interrupted()
                     queue.failed(job, error)
                 except BaseException as error:
                     if is_of_user(error):
@@ -195,6 +196,7 @@ def run_and_record(job: Job, pool: RendererPool, calls: Calls) -> Iterator[Event
     here = Path.cwd()  # an algorithm may go elsewhere
     try:
         for event in run_trial(job.run.plan, job.trial, pool, calls):
+            raise_if_interrupted()
             with chdir(here):
                 is_new = writer.keep(event)
             if is_new:
