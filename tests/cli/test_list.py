@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.algorithms import ALGORITHMS
 from uwsim.assets.bundled import bundled
@@ -19,7 +20,6 @@ from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.runs.tables import bundled_tables
 from uwsim.scene.unsupported import UNSUPPORTED, not_simulated
-from uwsim.scene.urdf_reader import read_urdf
 from uwsim.schema import Diagnostics
 from uwsim.simulation.bodies import find_file
 

@@ -16,7 +16,7 @@ from uwsim.runs.check import diagnostics_of
 from uwsim.scene.mounts import MountFrames, in_words
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.scene.settings import apply_setting
-from uwsim.scene.urdf import JointSpec, LinkSpec, RobotSpec, VisualSpec
+from uwsim.scene.urdf.robot import JointSpec, LinkSpec, RobotSpec, VisualSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.range_sensor import RangeSensorSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec

@@ -14,6 +14,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
+from uwsim.scene.urdf.robot.kinematics import link_poses
+from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.currents import UwsimSinusoidSpec
 from uwsim.devices.custom_comms_device import CustomCommsDeviceSpec
@@ -23,11 +25,9 @@ from uwsim.errors import SceneError
 from uwsim.geometry import Pose
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene import SceneSpec, read_scene
-from uwsim.scene.kinematics import link_poses
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import check_scene
 from uwsim.scene.sim_params import ShowTrajectorySpec
-from uwsim.scene.urdf_reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
 from uwsim.schema import Diagnostics, Field, fields_of
 from uwsim.sensors.multibeam_sensor import MultibeamSensorSpec

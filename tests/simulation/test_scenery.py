@@ -12,7 +12,7 @@ from tests.simulation.small_robots import begin, joint, scene_of, shape, write_r
 from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import RenderedImage
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
-from uwsim.scene.urdf import VisualSpec
+from uwsim.scene.urdf.robot import VisualSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.simulation import Simulation

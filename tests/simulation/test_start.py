@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from uwsim.scene.urdf.robot.kinematics import link_poses
 
 from uwsim.messages import JointState
-from uwsim.scene.kinematics import link_poses
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation

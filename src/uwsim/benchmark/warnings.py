@@ -12,7 +12,7 @@ from pathlib import Path
 from lxml import etree
 
 from ..errors import Diagnostic
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.robot import RobotSpec
 from ..schema import Diagnostics, parse
 from .measures import EuclideanNormSpec, MeasureSpec
 from .spec import BenchmarkSpec, FunctionSpec

@@ -20,7 +20,7 @@ from ..physics.hydrodynamics import FinSpec, VehicleHydrodynamics
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec
 from ..scene.unsupported import READ_ONLY, limit_of
-from ..scene.urdf import JointSpec
+from ..scene.urdf.robot import JointSpec
 from ..scene.variation import draw
 from ..scene.vehicle import VehicleSpec
 from ..schema.names import local

@@ -18,8 +18,8 @@ import numpy as np
 
 from ..geometry import Array, Pose
 from ..linear import dot, product
-from ..scene.kinematics import link_poses
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.kinematics import link_poses
+from ..scene.urdf.robot import RobotSpec
 from ..world import GRAVITY
 from .hydrodynamics.spec import VehicleHydrodynamics
 

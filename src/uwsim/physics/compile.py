@@ -20,7 +20,7 @@ from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..linear import product
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
-from ..scene.urdf import JointSpec, LinkSpec, MimicSpec, RobotSpec
+from ..scene.urdf.robot import JointSpec, LinkSpec, MimicSpec, RobotSpec
 from ..world import GRAVITY
 from .engine_warnings import hush
 from .free_objects import loose_hydrodynamics, loose_link

@@ -13,9 +13,9 @@ import numpy.typing as npt
 from ..errors import UwsimError
 from ..geometry import Array, Pose, quaternion_from_rotation
 from ..linear import turned_back
-from ..scene.kinematics import joint_positions
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.kinematics import joint_positions
+from ..scene.urdf.robot import RobotSpec
 from ..world import Contact
 from .actuation.vehicle_actuation import actuation_of
 from .compile import compile_scene, vehicle_joint

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..geometry import Array
 from ..scene.object import PhysicsSpec
-from ..scene.urdf import LinkSpec
+from ..scene.urdf.robot import LinkSpec
 from .hydrodynamics import BodyHydrodynamics
 from .shapes import CollisionShape, bounds
 

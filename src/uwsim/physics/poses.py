@@ -12,7 +12,7 @@ from ..devices.object_picker import ObjectPickerSpec
 from ..geometry import Array, Pose, quaternion_from_rotation
 from ..linear import points_of, product, turned
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.robot import RobotSpec
 from .compile import object_body, vehicle_body
 from .scaled import stretched_axes
 

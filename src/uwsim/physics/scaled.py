@@ -16,8 +16,8 @@ import numpy as np
 
 from ..geometry import Array, Pose, Triple, rotation_from_rpy
 from ..linear import length, product, turned, turned_back
-from ..scene.kinematics import joint_positions, link_poses
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.kinematics import joint_positions, link_poses
+from ..scene.urdf.robot import RobotSpec
 from .compile import vehicle_body
 
 

@@ -21,7 +21,7 @@ from .angle_checks import MORE_THAN_A_TURN
 from .comms_checks import check_comms
 from .object import ObjectSpec
 from .spec import SceneSpec
-from .urdf import RobotSpec
+from .urdf.robot import RobotSpec
 from .vehicle import VehicleSpec
 
 SOLVERS = ("dantzig", "solveprojectedgauss", "sequentialimpulse")

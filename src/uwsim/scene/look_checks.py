@@ -12,7 +12,7 @@ from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from .mounts import MountFrames, in_words
 from .spec import SceneSpec
-from .urdf import RobotSpec
+from .urdf.robot import RobotSpec
 from .vehicle import VehicleSpec
 
 STEEP = 0.5

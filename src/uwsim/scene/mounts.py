@@ -17,8 +17,8 @@ from ..linear import dot, length, product, turned, turned_back
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import LookAt, Mounted
 from ..sensors.sonar.spec import SonarSpec
-from .kinematics import link_poses
-from .urdf import RobotSpec
+from .urdf.kinematics import link_poses
+from .urdf.robot import RobotSpec
 from .vehicle import VehicleSpec
 
 ALONG_X = (RangeSensorSpec, ObjectPickerSpec, SonarSpec)

@@ -19,8 +19,8 @@ from .look_checks import check_looks
 from .size_checks import check_sizes
 from .spec import SceneSpec
 from .unsupported import not_simulated
-from .urdf import RobotSpec
-from .urdf_reader import read_robot, read_urdf
+from .urdf.reader import read_robot, read_urdf
+from .urdf.robot import RobotSpec
 from .variation import check_variations
 
 ROOT = "UWSimScene"

@@ -16,8 +16,8 @@ from ..geometry import Pose
 from ..linear import placed, product
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec
-from ..scene.urdf_reader import read_urdf
+from ..scene.urdf.reader import read_urdf
+from ..scene.urdf.robot import RobotSpec
 from ..world import Box
 from .parts import Part
 

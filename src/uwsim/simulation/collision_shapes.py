@@ -24,10 +24,10 @@ from ..linear import placed, product, turned
 from ..physics.compile import object_body, vehicle_body
 from ..physics.ground import triangles_of
 from ..physics.shapes import TRIMESHES, CollisionShape, convex_shapes, seen_from, shapes_of
-from ..scene.kinematics import link_poses
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec, VisualSpec
+from ..scene.urdf.kinematics import link_poses
+from ..scene.urdf.robot import RobotSpec, VisualSpec
 from ..scene.vehicle import VehicleSpec
 from .parts import object_models, visual_model
 

@@ -17,7 +17,7 @@ from ..geometry import Pose
 from ..physics.engine import Engine
 from ..physics.kinematic_contacts import KinematicContacts
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.robot import RobotSpec
 from ..world import Contact
 from .bodies import touchable, untouchable
 from .collision_shapes import collision_shapes

@@ -20,7 +20,7 @@ from ..physics.vehicle_file import VehicleError, read_vehicle_into
 from ..physics.vehicle_sets import find_vehicle
 from ..rng import stream
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..schema import NAMESPACE, Diagnostics
 from ..sensors.virtual_camera import VirtualCameraSpec

@@ -20,11 +20,11 @@ from ..geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_
 from ..linear import length, product
 from ..physics.compile import object_body
 from ..physics.ground import Ground, triangles_of
-from ..scene.kinematics import link_poses
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.on_floor import OnFloorSpec
 from ..scene.spec import SceneSpec, stands_on_floor
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.kinematics import link_poses
+from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from .checks.scene_lines import SceneLines
 from .collision_shapes import collision_shapes, standing_faces

@@ -8,7 +8,7 @@ from functools import partial
 from ..geometry import Pose
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..sensors.sensor import MountedSensor
 from ..topics.frames import Frame

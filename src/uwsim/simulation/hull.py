@@ -11,9 +11,9 @@ import numpy as np
 from ..geometry import Array
 from ..linear import length
 from ..physics.ground import triangles_of
-from ..scene.kinematics import link_poses
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.kinematics import link_poses
+from ..scene.urdf.robot import RobotSpec
 from .collision_shapes import collision_shapes
 
 

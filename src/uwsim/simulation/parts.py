@@ -20,7 +20,7 @@ from ..linear import product
 from ..scene.comms_checks import CommsDeviceSpec, comms_devices
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec, VisualSpec
+from ..scene.urdf.robot import RobotSpec, VisualSpec
 from ..scene.vehicle import VehicleSpec
 
 THINNEST = 1e-4

@@ -26,7 +26,7 @@ from ..rendering.projector import Projector
 from ..rendering.rendered_image import RenderedImage
 from ..rendering.water import Light, Water
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.robot import RobotSpec
 from .parts import Part, parts_of
 from .renderer_pool import RendererPool
 from .sand import heaps_of

@@ -12,7 +12,7 @@ from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
 from ..scene.mounts import MountFrames, link_from_frame
 from ..scene.spec import SceneSpec
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.robot import RobotSpec
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
 from .bodies import SceneBody

@@ -17,7 +17,7 @@ from uwsim.errors import Diagnostic
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.plausibility import PLAUSIBILITY_WARNINGS, VehicleWarning
 from uwsim.scene.reader import read_scene
-from uwsim.scene.urdf import LinkSpec, RobotSpec
+from uwsim.scene.urdf.robot import LinkSpec, RobotSpec
 from uwsim.simulation import Simulation
 from uwsim.simulation.checks.plausibility import warnings_of
 from uwsim.simulation.checks.vehicle_plausibility import size_said

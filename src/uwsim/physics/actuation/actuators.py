@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array
-from ...scene.urdf import RobotSpec
+from ...scene.urdf.robot import RobotSpec
 from ..compile import vehicle_joint, vehicle_thruster
 from ..hydrodynamics import VehicleHydrodynamics
 from ..hydrodynamics.columns import WATER_COLUMNS

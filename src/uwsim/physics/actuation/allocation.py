@@ -24,8 +24,8 @@ import numpy as np
 
 from ...geometry import Array
 from ...linear import dot, length, product, pseudo_inverse, turned
-from ...scene.kinematics import link_poses
-from ...scene.urdf import RobotSpec
+from ...scene.urdf.kinematics import link_poses
+from ...scene.urdf.robot import RobotSpec
 from ..hydrodynamics.spec import ThrusterSpec
 
 AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array
-from ...scene.urdf import JointSpec, RobotSpec
+from ...scene.urdf.robot import JointSpec, RobotSpec
 from ..compile import servo_gains, vehicle_joint
 from .records import CRANKED, GEARED, JOINT, JOINT_STATE, OWN
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...geometry import Array, Pose
 from ...scene.spec import SceneSpec
-from ...scene.urdf import RobotSpec
+from ...scene.urdf.robot import RobotSpec
 from ...scene.vehicle import VehicleSpec
 from ..balance import balance_of
 from ..compile import vehicle_fin, vehicle_joint, vehicle_thruster

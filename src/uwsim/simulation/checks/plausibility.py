@@ -16,7 +16,7 @@ from ...physics.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.plausibility import VehicleWarning, unless_meant
 from ...scene.reader import angle_warnings
 from ...scene.spec import SceneSpec
-from ...scene.urdf import RobotSpec
+from ...scene.urdf.robot import RobotSpec
 from ..bodies import read_robots
 from ..dynamics import read_dynamics
 from ..hull import hull_of

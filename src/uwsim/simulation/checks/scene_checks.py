@@ -8,8 +8,8 @@ from pathlib import Path
 
 from ...errors import Diagnostic, SceneError, UwsimError
 from ...scene.spec import SceneSpec
-from ...scene.urdf import RobotSpec
-from ...scene.urdf_reader import read_urdf
+from ...scene.urdf.reader import read_urdf
+from ...scene.urdf.robot import RobotSpec
 from ..bodies import find_robot
 from ..collision_shapes import collision_shapes, simulated_solids
 from ..dynamics import Search

@@ -15,7 +15,7 @@ import numpy as np
 from ...geometry import Array
 from ...physics.ground import Ground
 from ...scene.spec import SceneSpec
-from ...scene.urdf import RobotSpec
+from ...scene.urdf.robot import RobotSpec
 from ..floor import Floor
 
 SUNK = 0.1

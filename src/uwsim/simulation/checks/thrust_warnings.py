@@ -22,7 +22,7 @@ from ...physics.actuation.allocation import (
 from ...physics.balance import Balance, balance_of
 from ...physics.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.spec import SceneSpec
-from ...scene.urdf import RobotSpec
+from ...scene.urdf.robot import RobotSpec
 
 WANTED = (SURGE, SWAY, HEAVE, YAW)
 """What an autopilot holds a place with."""

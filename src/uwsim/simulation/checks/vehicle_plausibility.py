@@ -17,10 +17,10 @@ from ...physics.actuation.allocation import curve, thrusters_on_base
 from ...physics.balance import Balance, balance_of
 from ...physics.compile import MIN_INERTIA
 from ...physics.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
-from ...scene.kinematics import link_poses
 from ...scene.plausibility import VehicleWarning
 from ...scene.spec import SceneSpec
-from ...scene.urdf import LinkSpec, RobotSpec
+from ...scene.urdf.kinematics import link_poses
+from ...scene.urdf.robot import LinkSpec, RobotSpec
 from ...world import TIMESTEP
 from ..hull import Hull
 

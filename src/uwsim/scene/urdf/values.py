@@ -6,12 +6,10 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from ..geometry import ZERO, Triple
-from ..schema import MAX_DISTANCE, Diagnostics, number
-from .angle_checks import degrees_for_radians
-from .urdf import (
-    Colour,
-)
+from ...geometry import ZERO, Triple
+from ...schema import MAX_DISTANCE, Diagnostics, number
+from ..angle_checks import degrees_for_radians
+from .robot import Colour
 
 
 def origin_of(node: etree._Element, diagnostics: Diagnostics) -> tuple[Triple, Triple]:

@@ -17,17 +17,13 @@ from pathlib import Path
 
 from lxml import etree
 
-from ..errors import SceneError
-from ..schema import Diagnostics
-from ..xacro import parse_expanded
-from .urdf import (
-    JointSpec,
-    LinkSpec,
-    RobotSpec,
-)
-from .urdf_joints import check_mimics, read_joint, with_leader
-from .urdf_links import read_link, read_materials
-from .urdf_values import name_of
+from ...errors import SceneError
+from ...schema import Diagnostics
+from ...xacro import parse_expanded
+from .joints import check_mimics, read_joint, with_leader
+from .links import read_link, read_materials
+from .robot import JointSpec, LinkSpec, RobotSpec
+from .values import name_of
 
 MAX_CHAIN = 256
 """Most joints between the root and a link."""

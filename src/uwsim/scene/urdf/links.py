@@ -6,15 +6,10 @@ from typing import cast
 
 from lxml import etree
 
-from ..geometry import ZERO
-from ..schema import Diagnostics
-from .urdf import (
-    Colour,
-    LinkSpec,
-    ShapeKind,
-    VisualSpec,
-)
-from .urdf_values import colour_of, elements_of, name_of, number_of, origin_of, size_of, triple_of
+from ...geometry import ZERO
+from ...schema import Diagnostics
+from .robot import Colour, LinkSpec, ShapeKind, VisualSpec
+from .values import colour_of, elements_of, name_of, number_of, origin_of, size_of, triple_of
 
 
 def read_link(

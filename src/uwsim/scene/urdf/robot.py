@@ -19,7 +19,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from ..geometry import ZERO, Triple
+from ...geometry import ZERO, Triple
 
 Colour = tuple[float, float, float, float]
 

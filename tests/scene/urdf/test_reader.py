@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from uwsim.scene.urdf.robot.kinematics import joint_positions, link_poses
+from uwsim.scene.urdf.robot.reader import read_robot, read_urdf
 
 from uwsim.errors import SceneError
-from uwsim.scene.kinematics import joint_positions, link_poses
-from uwsim.scene.urdf import RobotSpec
-from uwsim.scene.urdf_reader import read_robot, read_urdf
+from uwsim.scene.urdf.robot import RobotSpec
 from uwsim.schema import Diagnostics
 
 G500 = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "scenes" / "g500ARM5.urdf"

@@ -7,15 +7,10 @@ import math
 
 from lxml import etree
 
-from ..schema import Diagnostics
-from .angle_checks import MORE_THAN_A_TURN
-from .urdf import (
-    JointKind,
-    JointSpec,
-    LinkSpec,
-    MimicSpec,
-)
-from .urdf_values import name_of, number_of, origin_of, triple_of
+from ...schema import Diagnostics
+from ..angle_checks import MORE_THAN_A_TURN
+from .robot import JointKind, JointSpec, LinkSpec, MimicSpec
+from .values import name_of, number_of, origin_of, triple_of
 
 MOVABLE = ("revolute", "continuous", "prismatic")
 STIFF = ("floating", "planar")

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..geometry import Pose, rotation_about
-from ..linear import length
-from .urdf import JointSpec, RobotSpec
+from ...geometry import Pose, rotation_about
+from ...linear import length
+from .robot import JointSpec, RobotSpec
 
 
 def joint_positions(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str, float]:

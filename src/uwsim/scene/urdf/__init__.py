@@ -1,0 +1,1 @@
+"""Robot descriptions (URDF): what a file says, its reader, forward kinematics."""
