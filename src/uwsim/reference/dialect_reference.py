@@ -68,7 +68,7 @@ def page() -> str:
 
 def _plausibility_warnings() -> str:
     """The plausibility warnings of `uwsim check`."""
-    from ..scene.plausibility import PLAUSIBILITY_WARNINGS
+    from ..scene.checks.plausibility import PLAUSIBILITY_WARNINGS
 
     lines = [
         "## Plausibility warnings", "",

@@ -8,8 +8,8 @@ from ..acoustics import MaterialName
 from ..geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
 from ..linear import product
 from ..schema import MAX_DISTANCE, REQUIRED, element
+from .checks.plausibility import ObjectWarning
 from .on_floor import OnFloorSpec
-from .plausibility import ObjectWarning
 
 TERRAIN = "terrain"
 """An object of this name is the ground: nothing picks it up, and without ``<physics>`` it is

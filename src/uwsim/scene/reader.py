@@ -11,12 +11,12 @@ from typing import Protocol
 from ..errors import AssetError, Diagnostic, SceneError
 from ..schema import Diagnostics, Document, check_head, read
 from ..xacro import parse_expanded
-from .angle_checks import check_angles, remember_twins
-from .checks import check_names
-from .comms_checks import comms_devices
+from .checks.angles import check_angles, remember_twins
+from .checks.comms import comms_devices
+from .checks.looks import check_looks
+from .checks.names import check_names
+from .checks.sizes import check_sizes
 from .legacy import upgrade
-from .look_checks import check_looks
-from .size_checks import check_sizes
 from .spec import SceneSpec
 from .unsupported import not_simulated
 from .urdf.reader import read_robot, read_urdf

@@ -26,8 +26,8 @@ from ..geometry import ONE, ZERO, Pose, Triple
 from ..schema import MAX_DISTANCE, element
 from ..schema.names import local
 from ..sensors import SENSORS
+from .checks.plausibility import VehicleWarning
 from .on_floor import OnFloorSpec
-from .plausibility import VehicleWarning
 
 T = TypeVar("T")
 

@@ -17,7 +17,7 @@ from ..devices.led_array import COLOURS, LedArraySpec
 from ..errors import AssetNotFound
 from ..geometry import Pose
 from ..linear import product
-from ..scene.comms_checks import CommsDeviceSpec, comms_devices
+from ..scene.checks.comms import CommsDeviceSpec, comms_devices
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec, VisualSpec

@@ -8,7 +8,7 @@ from lxml import etree
 
 from ...geometry import ZERO, Triple
 from ...schema import MAX_DISTANCE, Diagnostics, number
-from ..angle_checks import degrees_for_radians
+from ..checks.angles import degrees_for_radians
 from .robot import Colour
 
 

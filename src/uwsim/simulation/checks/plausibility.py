@@ -1,7 +1,7 @@
 """Likely mistakes of a scene, each with its line and how a file accepts it.
 
 `uwsim check` says it, and `uwsim bench` and `uwsim render` before anything moves. All are warnings:
-no run is refused for them. `uwsim.scene.plausibility` has their names.
+no run is refused for them. `uwsim.scene.checks.names.plausibility` has their names.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Literal
 
 from ...errors import Diagnostic, UwsimError
 from ...physics.hydrodynamics.spec import VehicleHydrodynamics
-from ...scene.plausibility import VehicleWarning, unless_meant
+from ...scene.checks.plausibility import VehicleWarning, unless_meant
 from ...scene.reader import angle_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec

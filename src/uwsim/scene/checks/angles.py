@@ -11,8 +11,8 @@ from collections.abc import Hashable, Iterator, Sequence
 
 from lxml import etree
 
-from ..schema import Diagnostics, fields_of
-from ..schema.names import local
+from ...schema import Diagnostics, fields_of
+from ...schema.names import local
 
 MORE_THAN_A_TURN = 6.3
 """Nobody writes a turn with more digits than are needed [rad]."""

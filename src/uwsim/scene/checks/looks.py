@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
-from ..devices.object_picker import ObjectPickerSpec
-from ..schema import Diagnostics, uses_extensions
-from ..sensors.sensor import Looking, Mounted
-from ..sensors.virtual_camera import VirtualCameraSpec
-from ..sensors.virtual_range_image import VirtualRangeImageSpec
-from .mounts import MountFrames, in_words
-from .spec import SceneSpec
-from .urdf.robot import RobotSpec
-from .vehicle import VehicleSpec
+from ...devices.object_picker import ObjectPickerSpec
+from ...schema import Diagnostics, uses_extensions
+from ...sensors.sensor import Looking, Mounted
+from ...sensors.virtual_camera import VirtualCameraSpec
+from ...sensors.virtual_range_image import VirtualRangeImageSpec
+from ..mounts import MountFrames, in_words
+from ..spec import SceneSpec
+from ..urdf.robot import RobotSpec
+from ..vehicle import VehicleSpec
 
 STEEP = 0.5
 """What looks higher looks up: sine of the angle above the horizon."""

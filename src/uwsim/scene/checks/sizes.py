@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..schema import Diagnostics
-from ..sensors.multibeam_sensor import MultibeamSensorSpec
-from ..sensors.profiling_sonar import ProfilingSonarSpec
-from ..sensors.sonar.spec import SonarSpec
-from ..sensors.virtual_camera import VirtualCameraSpec
-from ..sensors.virtual_range_image import VirtualRangeImageSpec
-from .sim_params import SimParamsSpec
-from .spec import SceneSpec
+from ...schema import Diagnostics
+from ...sensors.multibeam_sensor import MultibeamSensorSpec
+from ...sensors.profiling_sonar import ProfilingSonarSpec
+from ...sensors.sonar.spec import SonarSpec
+from ...sensors.virtual_camera import VirtualCameraSpec
+from ...sensors.virtual_range_image import VirtualRangeImageSpec
+from ..sim_params import SimParamsSpec
+from ..spec import SceneSpec
 
 MAX_PIXELS = 7680 * 4320
 """Largest image of a camera [px]: 8K. Drawing it takes about 1 GB."""

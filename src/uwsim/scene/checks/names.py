@@ -10,19 +10,19 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import chain
 
-from ..devices.force_sensor import ForceSensorSpec
-from ..devices.lamp import MAX_LAMPS, LampSpec
-from ..schema import Diagnostics
-from ..topics import InterfaceSpec, element_of
-from ..topics.interface import VehiclePublisherSpec
-from ..topics.simulated_device_ros import SimulatedDeviceROSSpec
-from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
-from .angle_checks import MORE_THAN_A_TURN
-from .comms_checks import check_comms
-from .object import ObjectSpec
-from .spec import SceneSpec
-from .urdf.robot import RobotSpec
-from .vehicle import VehicleSpec
+from ...devices.force_sensor import ForceSensorSpec
+from ...devices.lamp import MAX_LAMPS, LampSpec
+from ...schema import Diagnostics
+from ...topics import InterfaceSpec, element_of
+from ...topics.interface import VehiclePublisherSpec
+from ...topics.simulated_device_ros import SimulatedDeviceROSSpec
+from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
+from ..object import ObjectSpec
+from ..spec import SceneSpec
+from ..urdf.robot import RobotSpec
+from ..vehicle import VehicleSpec
+from .angles import MORE_THAN_A_TURN
+from .comms import check_comms
 
 SOLVERS = ("dantzig", "solveprojectedgauss", "sequentialimpulse")
 SHAPES = ("box", "sphere", "compound box", "compound cylinder", "trimesh", "compound trimesh")

@@ -1,0 +1,1 @@
+"""Errors and warnings about what a scene file says."""
