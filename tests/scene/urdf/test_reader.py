@@ -19,7 +19,7 @@ from uwsim.errors import SceneError
 from uwsim.scene.urdf.robot import RobotSpec
 from uwsim.schema import Diagnostics
 
-G500 = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "scenes" / "g500ARM5.urdf"
+G500 = Path(__file__).parents[3] / "src" / "uwsim" / "data" / "scenes" / "g500ARM5.urdf"
 
 
 def robot_of(inside: str, folder: Path) -> RobotSpec:

@@ -10,7 +10,7 @@
       </joint>
     </robot>
 
-`urdf_reader` makes it from a file.
+`reader` makes it from a file.
 """
 
 from __future__ import annotations
