@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from uwsim.geometry import Pose
+from uwsim.physics.collision.shapes import CollisionShape
 from uwsim.physics.compile import compile_scene, object_body
 from uwsim.physics.free_objects import loose_link
-from uwsim.physics.shapes import CollisionShape
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec

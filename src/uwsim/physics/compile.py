@@ -22,6 +22,7 @@ from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import JointSpec, LinkSpec, MimicSpec, RobotSpec
 from ..world import GRAVITY
+from .collision.shapes import CollisionShape
 from .engine_warnings import hush
 from .free_objects import loose_hydrodynamics, loose_link
 from .hydrodynamics import (
@@ -31,7 +32,6 @@ from .hydrodynamics import (
     VehicleHydrodynamics,
     prepare,
 )
-from .shapes import CollisionShape
 from .world_tree import rebuild_world_tree
 
 MAX_STEP = 0.02

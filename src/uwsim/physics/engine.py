@@ -18,8 +18,9 @@ from ..scene.urdf.kinematics import joint_positions
 from ..scene.urdf.robot import RobotSpec
 from ..world import Contact
 from .actuation.vehicle_actuation import actuation_of
+from .collision.contacts import EngineContacts, body_name
+from .collision.shapes import CollisionShape
 from .compile import compile_scene, vehicle_joint
-from .contacts import EngineContacts, body_name
 from .engine_warnings import StepCheck
 from .grips import Grips
 from .hydrodynamics import VehicleHydrodynamics
@@ -27,7 +28,6 @@ from .link_motion import LinkMotion
 from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
-from .shapes import CollisionShape
 from .uwsim_physics import UwsimPhysics
 
 if TYPE_CHECKING:

@@ -19,8 +19,8 @@ import numpy as np
 from ..geometry import Array
 from ..scene.object import PhysicsSpec
 from ..scene.urdf.robot import LinkSpec
+from .collision.shapes import CollisionShape, bounds
 from .hydrodynamics import BodyHydrodynamics
-from .shapes import CollisionShape, bounds
 
 BOX_DRAG = 1.05
 """Of a cube face on [1]."""

@@ -22,7 +22,7 @@ from ..geometry import Array
 from ..linear import turned
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
-from .kinematic_contacts import MAX_JUMP
+from .collision.kinematic_contacts import MAX_JUMP
 
 HEAVY = 1e4
 """Mass and inertia of a vehicle's links: nothing that is loose moves them [kg, kg m2]."""

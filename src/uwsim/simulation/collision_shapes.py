@@ -21,9 +21,15 @@ import numpy as np
 from ..assets.mesh import Model
 from ..geometry import Array, Pose
 from ..linear import placed, product, turned
+from ..physics.collision.ground import triangles_of
+from ..physics.collision.shapes import (
+    TRIMESHES,
+    CollisionShape,
+    convex_shapes,
+    seen_from,
+    shapes_of,
+)
 from ..physics.compile import object_body, vehicle_body
-from ..physics.ground import triangles_of
-from ..physics.shapes import TRIMESHES, CollisionShape, convex_shapes, seen_from, shapes_of
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf.kinematics import link_poses

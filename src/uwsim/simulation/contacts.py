@@ -1,7 +1,7 @@
 """Contacts between bodies: those of the engine, and overlaps of kinematic bodies.
 
 The engine knows contacts between simulated vehicles and objects with ``<physics>``. What it does
-not simulate is looked at by `uwsim.physics.kinematic_contacts`, from the first time that somebody
+not simulate is looked at by `uwsim.physics.collision.kinematic_contacts`, from the first time that somebody
 asks.
 """
 
@@ -14,8 +14,8 @@ from typing import Any
 
 from ..errors import UwsimError
 from ..geometry import Pose
+from ..physics.collision.kinematic_contacts import KinematicContacts
 from ..physics.engine import Engine
-from ..physics.kinematic_contacts import KinematicContacts
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from ..world import Contact

@@ -18,8 +18,8 @@ import numpy as np
 from ..errors import Diagnostic, SceneError
 from ..geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
 from ..linear import length, product
+from ..physics.collision.ground import Ground, triangles_of
 from ..physics.compile import object_body
-from ..physics.ground import Ground, triangles_of
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.on_floor import OnFloorSpec
 from ..scene.spec import SceneSpec, stands_on_floor

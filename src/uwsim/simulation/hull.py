@@ -10,7 +10,7 @@ import numpy as np
 
 from ..geometry import Array
 from ..linear import length
-from ..physics.ground import triangles_of
+from ..physics.collision.ground import triangles_of
 from ..scene.spec import SceneSpec
 from ..scene.urdf.kinematics import link_poses
 from ..scene.urdf.robot import RobotSpec

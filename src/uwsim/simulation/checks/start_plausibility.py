@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ...geometry import Array
-from ...physics.ground import Ground
+from ...physics.collision.ground import Ground
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ..floor import Floor

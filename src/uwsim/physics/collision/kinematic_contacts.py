@@ -14,10 +14,10 @@ from collections.abc import Callable, Mapping, Sequence
 import mujoco
 import numpy as np
 
-from ..geometry import Array, Pose, quaternion_from_rotation
-from ..linear import dot
-from ..world import Contact
-from .compile import ALL, OBJECTS, SHAPES
+from ...geometry import Array, Pose, quaternion_from_rotation
+from ...linear import dot
+from ...world import Contact
+from ..compile import ALL, OBJECTS, SHAPES
 from .shapes import CollisionShape
 
 MAX_JUMP = 1.0

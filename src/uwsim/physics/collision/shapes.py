@@ -26,10 +26,10 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ..assets.mesh import Model
-from ..errors import UwsimError
-from ..geometry import Array, Pose
-from ..linear import dot, length, placed, product
+from ...assets.mesh import Model
+from ...errors import UwsimError
+from ...geometry import Array, Pose
+from ...linear import dot, length, placed, product
 from .polygon_cache import cached_faces
 
 TRIMESHES = ("trimesh", "compound trimesh")

@@ -17,8 +17,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array, Pose
-from ..linear import length, product, pseudo_inverse, rank
+from ...geometry import Array, Pose
+from ...linear import length, product, pseudo_inverse, rank
 from .shapes import CollisionShape
 
 STEEPEST = 1e-6

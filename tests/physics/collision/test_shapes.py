@@ -6,13 +6,19 @@ import pytest
 from uwsim.assets import load_model, primitive
 from uwsim.assets.mesh import Mesh, Model
 from uwsim.errors import UwsimError
+from uwsim.physics.collision.shapes import (
+    MAX_PIECES,
+    CollisionShape,
+    bounds,
+    convex_shapes,
+    shapes_of,
+)
 from uwsim.physics.free_objects import (
     box_drag,
     ellipsoid_added_mass,
     loose_hydrodynamics,
     loose_link,
 )
-from uwsim.physics.shapes import MAX_PIECES, CollisionShape, bounds, convex_shapes, shapes_of
 from uwsim.scene.object import PhysicsSpec
 
 SAME = np.eye(4)

@@ -13,10 +13,10 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
-from ..linear import dot, turned_back
-from ..scene.spec import SceneSpec
-from ..world import Contact
+from ...geometry import Array
+from ...linear import dot, turned_back
+from ...scene.spec import SceneSpec
+from ...world import Contact
 
 
 class EngineContacts:

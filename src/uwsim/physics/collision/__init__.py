@@ -1,0 +1,1 @@
+"""Shapes that collide, and what touches what."""
