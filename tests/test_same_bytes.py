@@ -29,8 +29,8 @@ NEEDS = {"np.linalg.norm": "axis", "np.argsort": "kind"}
 """Of numpy: the argument that makes the difference."""
 MAKE_NO_NUMBERS = {
     "linear.py": "raises numpy's error",
-    "physics/hydrodynamics/checks.py": "says that a vehicle's file is wrong",
-    "physics/hydrodynamics/passivity.py": "says that a vehicle's file is wrong",
+    "physics/hydrodynamics/file/checks.py": "says that a vehicle's file is wrong",
+    "physics/hydrodynamics/file/passivity.py": "says that a vehicle's file is wrong",
     "physics/hydrodynamics/self_test.py": "says that MuJoCo is another",
     "examples/paper/station_keeping.py": "the theory beside the measurements in a report",
 }

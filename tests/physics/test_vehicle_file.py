@@ -16,8 +16,8 @@ from uwsim.physics.hydrodynamics import (
     VehicleHydrodynamics,
     vehicle_errors,
 )
-from uwsim.physics.hydrodynamics.checks import body_errors
-from uwsim.physics.hydrodynamics.spec import matrix
+from uwsim.physics.hydrodynamics.file.checks import body_errors
+from uwsim.physics.hydrodynamics.file.spec import matrix
 from uwsim.physics.vehicle_file import VehicleError, read_vehicle
 from uwsim.physics.vehicle_sets import find_vehicle, vehicle_sets
 

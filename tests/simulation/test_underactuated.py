@@ -22,7 +22,7 @@ from uwsim.physics.actuation.allocation import (
     thrusters_on_base,
 )
 from uwsim.physics.balance import balance_of
-from uwsim.physics.hydrodynamics.spec import ThrusterSpec
+from uwsim.physics.hydrodynamics.file.spec import ThrusterSpec
 from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.runs.check import diagnostics_of

@@ -21,7 +21,7 @@ from ..linear import dot, product
 from ..scene.urdf.kinematics import link_poses
 from ..scene.urdf.robot import RobotSpec
 from ..world import GRAVITY
-from .hydrodynamics.spec import VehicleHydrodynamics
+from .hydrodynamics.file.spec import VehicleHydrodynamics
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

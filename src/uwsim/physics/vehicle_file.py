@@ -46,9 +46,9 @@ from ..errors import FileError, choices
 from ..files.input_files import is_inside
 from ..schema import Diagnostics, cut, parse, read
 from .actuation.power import power_errors
-from .hydrodynamics.checks import body_errors, thruster_errors
-from .hydrodynamics.fin_checks import fin_errors
-from .hydrodynamics.spec import (
+from .hydrodynamics.file.checks import body_errors, thruster_errors
+from .hydrodynamics.file.fin_checks import fin_errors
+from .hydrodynamics.file.spec import (
     SIZES,
     BodyHydrodynamics,
     FinSpec,

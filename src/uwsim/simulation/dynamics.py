@@ -15,7 +15,7 @@ from ..currents import Place, PythonFunctionSpec
 from ..devices.fault import FaultSpec
 from ..errors import Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import MIN_MASS
-from ..physics.hydrodynamics.spec import VehicleHydrodynamics
+from ..physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ..physics.vehicle_file import VehicleError, read_vehicle_into
 from ..physics.vehicle_sets import find_vehicle
 from ..rng import stream

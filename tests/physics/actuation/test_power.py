@@ -11,7 +11,7 @@ import pytest
 from uwsim.physics.actuation.power import power_table
 from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
 from uwsim.physics.hydrodynamics import ThrusterSpec, VehicleHydrodynamics, vehicle_errors
-from uwsim.physics.hydrodynamics.spec import JointDrive
+from uwsim.physics.hydrodynamics.file.spec import JointDrive
 from uwsim.physics.vehicle_file import VehicleError, read_vehicle
 from uwsim.physics.vehicle_sets import vehicle_sets
 

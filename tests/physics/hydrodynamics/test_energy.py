@@ -15,8 +15,8 @@ from uwsim.scene.urdf.robot.reader import read_urdf
 from tests.physics.fossen import Fossen, angle_between, rotation
 from tests.physics.water_models import FAR_BELOW, ROBOTS, free_body, random_added_mass, set_options
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, VehicleHydrodynamics, prepare
+from uwsim.physics.hydrodynamics.file.spec import matrix
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
-from uwsim.physics.hydrodynamics.spec import matrix
 from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import vehicle_sets
 

@@ -11,7 +11,7 @@ import pytest
 
 from tests.physics.water_models import free_body
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec
-from uwsim.physics.hydrodynamics.checks import thruster_errors
+from uwsim.physics.hydrodynamics.file.checks import thruster_errors
 from uwsim.physics.hydrodynamics.hydrodynamics import install
 
 DENSITY, DIAMETER = 1025.0, 0.2

@@ -26,7 +26,7 @@ from ...geometry import Array
 from ...linear import dot, length, product, pseudo_inverse, turned
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import RobotSpec
-from ..hydrodynamics.spec import ThrusterSpec
+from ..hydrodynamics.file.spec import ThrusterSpec
 
 AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 UNITS = ("N", "N", "N", "N m", "N m", "N m")

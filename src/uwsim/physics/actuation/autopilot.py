@@ -49,7 +49,7 @@ import numpy.typing as npt
 from ...geometry import Array, Pose
 from ...linear import pseudo_inverse
 from ...vehicle import MAX_COMMAND
-from ..hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
+from ..hydrodynamics.file.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 from .allocation import ROLL, Allocation, allocate, curve
 from .records import AUTOPILOT, AUTOPILOT_STATE, POSITION, THRUSTER, THRUSTERS, VELOCITY, WRENCH
 

@@ -34,7 +34,7 @@ import numpy as np
 
 from ...geometry import Array
 from ...schema import Numbers
-from ..hydrodynamics.spec import ThrusterSpec
+from ..hydrodynamics.file.spec import ThrusterSpec
 
 DEFAULT_EFFICIENCY = 0.4
 """Of a thruster whose file says nothing [1]."""

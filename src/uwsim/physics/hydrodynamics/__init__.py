@@ -6,15 +6,15 @@ compiles a kernel when it is imported: who simulates nothing does not wait for i
 
 from __future__ import annotations
 
-from .checks import vehicle_errors
-from .spec import (
+from .file.checks import vehicle_errors
+from .file.spec import (
     BadHydrodynamics,
     BodyHydrodynamics,
     FinSpec,
     ThrusterSpec,
     VehicleHydrodynamics,
 )
-from .table import prepare
+from .file.table import prepare
 
 __all__ = [
     "BadHydrodynamics",

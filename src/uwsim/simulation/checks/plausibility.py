@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Literal
 
 from ...errors import Diagnostic, UwsimError
-from ...physics.hydrodynamics.spec import VehicleHydrodynamics
+from ...physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ...scene.checks.plausibility import VehicleWarning, unless_meant
 from ...scene.reader import angle_warnings
 from ...scene.spec import SceneSpec

@@ -20,7 +20,7 @@ from ...physics.actuation.allocation import (
     thrusters_on_base,
 )
 from ...physics.balance import Balance, balance_of
-from ...physics.hydrodynamics.spec import VehicleHydrodynamics
+from ...physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 

@@ -16,7 +16,7 @@ from ...linear import dot
 from ...physics.actuation.allocation import curve, thrusters_on_base
 from ...physics.balance import Balance, balance_of
 from ...physics.compile import MIN_INERTIA
-from ...physics.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
+from ...physics.hydrodynamics.file.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
 from ...scene.checks.plausibility import VehicleWarning
 from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from ...linear import length
-from ...schema import Numbers
-from .columns import MAX_POINTS
+from ....linear import length
+from ....schema import Numbers
+from ..columns import MAX_POINTS
 from .number_checks import beyond_limits, listed, number_errors
 from .spec import FinSpec
 

@@ -16,9 +16,9 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ...errors import UwsimError
-from ...geometry import ZERO, Triple
-from ...schema import Numbers, TwoNumbers, element
+from ....errors import UwsimError
+from ....geometry import ZERO, Triple
+from ....schema import Numbers, TwoNumbers, element
 
 DragLaw = Literal["axes", "speed", "x", "y", "z"]
 Shape = Literal["sphere", "ellipsoid", "box", "cylinder", "shrinking-sphere"]

@@ -7,10 +7,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ...errors import choices, did_you_mean
-from ...geometry import Array
-from ...schema import Numbers
-from .columns import MAX_POINTS
+from ....errors import choices, did_you_mean
+from ....geometry import Array
+from ....schema import Numbers
+from ..columns import MAX_POINTS
 from .fin_checks import fin_errors
 from .number_checks import beyond_limits, listed, number_errors, words
 from .passivity import Kind, bearable_share, driving_motion
