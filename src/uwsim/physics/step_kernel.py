@@ -13,10 +13,10 @@ from .actuation.autopilot_kernel import Seen, steer
 from .actuation.records import AUTOPILOT, AUTOPILOT_STATE, JOINT, JOINT_STATE, POSITION, THRUSTER
 from .actuation.servo_kernel import Forces, move_on, pull
 from .engine_warnings import too_fast
-from .hydrodynamics import fields as f
 from .hydrodynamics.columns import TURN, WATER_COLUMNS
-from .hydrodynamics.free_bodies import to_the_end, to_the_middle
-from .hydrodynamics.memory import Ints64, carray, floats, longs, pointer, small, word
+from .hydrodynamics.kernel import fields as f
+from .hydrodynamics.kernel.free_bodies import to_the_end, to_the_middle
+from .hydrodynamics.kernel.memory import Ints64, carray, floats, longs, pointer, small, word
 
 _TINY = 1e-15  # mjMINVAL
 ROW = 9

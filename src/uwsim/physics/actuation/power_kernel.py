@@ -10,7 +10,7 @@ import numpy.typing as npt
 from ...geometry import Array
 from ...jit import njit
 from ..hydrodynamics.columns import WATER_COLUMNS
-from ..hydrodynamics.thrusters import curve
+from ..hydrodynamics.kernel.thrusters import curve
 
 STATE, CONTROL, SITE, BODY, LOSS, INFLOW, ACTUATOR = range(7)
 """Columns of the rotors' addresses in the engine; a state below 0 is none."""

@@ -25,8 +25,8 @@ from numba import types
 
 from ...errors import UwsimError
 from ...jit import c_function, link_library
-from . import free_bodies, kernel, layout
-from .memory import Floats, Ints64
+from .kernel import free_bodies, kernel, layout
+from .kernel.memory import Floats, Ints64
 
 _SIGNATURE = types.void(types.intp, types.intp)
 _make: Any

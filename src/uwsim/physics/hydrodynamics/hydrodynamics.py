@@ -13,7 +13,7 @@ from ...linear import turned_back
 from . import callback
 from . import columns as c
 from .inverse_weights import correct_inverse_weights
-from .memory import Floats
+from .kernel.memory import Floats
 from .self_test import self_test
 
 

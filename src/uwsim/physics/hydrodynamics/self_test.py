@@ -10,7 +10,7 @@ import numpy as np
 from . import callback
 from .file.spec import BodyHydrodynamics, matrix
 from .file.table import prepare
-from .layout import MujocoChanged
+from .kernel.layout import MujocoChanged
 
 STEP, LOSS = 0.01, 1e-9
 """Of the step that is tried [s], and what it may change of the energy, relative to it."""

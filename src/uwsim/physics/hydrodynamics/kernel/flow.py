@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from ...jit import njit
-from . import fields as f
-from .columns import (
+from ....jit import njit
+from ..columns import (
     BODY_COLUMNS,
     CENTRE,
     DENSITY,
@@ -14,6 +13,7 @@ from .columns import (
     TURN,
     WATER_COLUMNS,
 )
+from . import fields as f
 from .equations import Three, relative_twist
 from .memory import Floats, Ints64, floats, real, small, word
 

@@ -24,9 +24,8 @@ from __future__ import annotations
 
 import math
 
-from ...jit import njit
-from . import fields as f
-from .columns import (
+from ....jit import njit
+from ..columns import (
     AREA,
     COEFFICIENTS,
     DRAG,
@@ -42,6 +41,7 @@ from .columns import (
     STALL,
     WATER_COLUMNS,
 )
+from . import fields as f
 from .flow import height_of, push_at, site_of, velocity_at, water_density, wet_share
 from .memory import Floats, Ints64, floats, real, small, word
 from .stratification import density_ratio

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 from mujoco.introspect import structs
 
-from ...errors import UwsimError
+from ....errors import UwsimError
 
 MODEL_FIELDS = (
     "opt.timestep", "opt.gravity", "opt.integrator", "opt.solver", "opt.noslip_iterations",

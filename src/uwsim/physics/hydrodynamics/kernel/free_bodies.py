@@ -11,9 +11,9 @@ import math
 
 import numpy as np
 
-from ...jit import njit
+from ....jit import njit
+from ..columns import BODY_COLUMNS, DRY, KIND, WATER_COLUMNS
 from . import fields as f
-from .columns import BODY_COLUMNS, DRY, KIND, WATER_COLUMNS
 from .equations import Six, Three, to_body
 from .memory import Floats, Ints64, floats, ints, real, small, word
 from .midpoint import (

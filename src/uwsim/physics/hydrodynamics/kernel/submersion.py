@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from ...jit import njit
-from .columns import BOX, CYLINDER, ELLIPSOID, SHRINKING_SPHERE, SPHERE
+from ....jit import njit
+from ..columns import BOX, CYLINDER, ELLIPSOID, SHRINKING_SPHERE, SPHERE
 from .memory import Floats
 
 CHORDS = 24

@@ -16,9 +16,8 @@ from __future__ import annotations
 
 import math
 
-from ...jit import njit
-from . import fields as f
-from .columns import (
+from ....jit import njit
+from ..columns import (
     ADVANCE,
     BACKWARD,
     CURVE_TERMS,
@@ -33,6 +32,7 @@ from .columns import (
     WAKE,
     WATER_COLUMNS,
 )
+from . import fields as f
 from .flow import push_at, site_of, velocity_at, water_density, wet_share
 from .memory import Floats, Ints64, floats, real, small, word
 

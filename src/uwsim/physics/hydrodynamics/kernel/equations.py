@@ -14,8 +14,8 @@ from __future__ import annotations
 
 import math
 
-from ...jit import njit
-from .columns import (
+from ....jit import njit
+from ..columns import (
     ABOUT_X,
     ABOUT_Y,
     ABOUT_Z,

@@ -30,9 +30,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...jit import njit
-from . import fields as f
-from .columns import (
+from ....jit import njit
+from ..columns import (
     ACTUATOR_COLUMNS,
     BODY_COLUMNS,
     DISPLACED,
@@ -49,6 +48,7 @@ from .columns import (
     THETA,
     WATER_COLUMNS,
 )
+from . import fields as f
 from .equations import (
     add_lift,
     buoyancy,

@@ -1,0 +1,1 @@
+"""The compiled functions: forces of the water on bodies, fins and thrusters."""
