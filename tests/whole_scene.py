@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from uwsim.cli.inventory import inventory
+from uwsim.cli.output.inventory import inventory
 from uwsim.messages import seconds
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation

@@ -22,7 +22,6 @@ from ..runs.plan_request import PlanRequest
 from ..runs.timing import Stopwatch, Timing
 from ..terminal import warn
 from .completion import algorithm_names
-from .console import standard_output
 from .exit_status import running
 from .help_texts import INPUT, OUTPUT, RUN, in_group
 from .options import (
@@ -33,7 +32,8 @@ from .options import (
     WorkerOptions,
     request_of,
 )
-from .progress import progress
+from .output.console import standard_output
+from .output.progress import progress
 
 if TYPE_CHECKING:
     from ..results.result import Result

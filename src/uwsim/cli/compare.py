@@ -11,9 +11,9 @@ from typing import Annotated
 import typer
 
 from ..terminal import printable
-from .console import standard_output
 from .help_texts import COMPARED, OUTPUT, in_group
 from .options import JsonOption
+from .output.console import standard_output
 
 Results = Annotated[
     list[Path],

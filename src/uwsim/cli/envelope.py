@@ -29,7 +29,7 @@ from .options import (
     WorkerOptions,
     request_of,
 )
-from .progress import progress
+from .output.progress import progress
 
 if TYPE_CHECKING:
     from ..envelope import Envelope

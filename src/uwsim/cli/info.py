@@ -16,8 +16,8 @@ from ..errors import AllErrors
 from ..runs.check import diagnostics_of
 from ..runs.option_values import pairs_of
 from ..terminal import printable
-from .console import standard_output
 from .options import DataPathOption, JsonOption, SceneArgument, SetOption
+from .output.console import standard_output
 
 DRAG_LAWS = {
     "axes": "by each component's own speed",
@@ -48,7 +48,7 @@ def info(
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting
     from ..simulation import Simulation
-    from .inventory import inventory
+    from .output.inventory import inventory
 
     folders = tuple(data_path or ())
     path = scene_file(scene, folders)

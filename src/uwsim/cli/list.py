@@ -14,9 +14,9 @@ from ..assets.bundled import bundled
 from ..errors import UnknownName
 from ..runs.tables import read_plugins
 from .completion import one_of
-from .console import standard_output
 from .descriptions import family, first_line, head_comment, without_title
 from .options import JsonOption, PluginOption
+from .output.console import standard_output
 
 if TYPE_CHECKING:
     from ..benchmark.plugin_tables import Tables

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Annotated
 
 from ..terminal import warn
-from .console import Console
 from .help_texts import OUTPUT, in_group
 from .options import ResultArgument
+from .output.console import Console
 
 Pdf = Annotated[bool, in_group(OUTPUT, "--pdf", help="Draw every plot as PDF, too, for a paper.")]
 

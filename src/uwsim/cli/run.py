@@ -22,9 +22,9 @@ from .completion import algorithm_names, one_of
 from .exit_status import running
 from .help_texts import INPUT, OUTPUT, RUN, in_group
 from .options import DataPathOption, JsonOption, NoCodeOption, SceneArgument, SettingOptions
-from .progress import progress
+from .output.progress import progress
+from .output.topic_table import print_json, print_topics
 from .render import scene_of
-from .topic_table import print_json, print_topics
 
 if TYPE_CHECKING:
     from ..bus import Algorithm

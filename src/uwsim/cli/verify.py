@@ -18,7 +18,7 @@ from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named
 from .exit_status import RUN_FAILED, running
 from .help_texts import FILES, RUN, in_group
 from .options import CodeOptions, ResultArgument, WorkerOptions
-from .progress import progress
+from .output.progress import progress
 
 if TYPE_CHECKING:
     from ..results.result import Result

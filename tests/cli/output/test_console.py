@@ -5,7 +5,7 @@ import io
 from rich.table import Table
 from rich.text import Text
 
-from uwsim.cli.console import Console
+from uwsim.cli.output.console import Console
 
 
 def test_escapes_in_tables_and_lines_are_shown() -> None:

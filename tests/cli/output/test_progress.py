@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from uwsim.cli.progress import TimeLeft
+from uwsim.cli.output.progress import TimeLeft
 
 
 def moments(n: int, *, start: float, each: float, at_once: int = 1) -> list[float]:

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image
 
 if TYPE_CHECKING:
-    from ..rendering.renderer import RenderedImage
+    from ...rendering.renderer import RenderedImage
 
 MILLIMETRES = 1000.0
 MAX_DEPTH_MM = 65535

@@ -12,22 +12,22 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..devices.device import DeviceSpec
-from ..devices.lamp import LampSpec
-from ..devices.sway import SwaySpec
-from ..errors import Diagnostic
-from ..physics.hydrodynamics import FinSpec, VehicleHydrodynamics
-from ..scene.object import ObjectSpec
-from ..scene.spec import SceneSpec
-from ..scene.unsupported import READ_ONLY, limit_of
-from ..scene.urdf.robot import JointSpec
-from ..scene.variation import draw
-from ..scene.vehicle import VehicleSpec
-from ..schema.names import local
-from ..sensors.virtual_camera import VirtualCameraSpec
-from ..simulation import Simulation
-from ..simulation.below import below_vehicle
-from ..topics import InterfaceSpec, element_of
+from ...devices.device import DeviceSpec
+from ...devices.lamp import LampSpec
+from ...devices.sway import SwaySpec
+from ...errors import Diagnostic
+from ...physics.hydrodynamics import FinSpec, VehicleHydrodynamics
+from ...scene.object import ObjectSpec
+from ...scene.spec import SceneSpec
+from ...scene.unsupported import READ_ONLY, limit_of
+from ...scene.urdf.robot import JointSpec
+from ...scene.variation import draw
+from ...scene.vehicle import VehicleSpec
+from ...schema.names import local
+from ...sensors.virtual_camera import VirtualCameraSpec
+from ...simulation import Simulation
+from ...simulation.below import below_vehicle
+from ...topics import InterfaceSpec, element_of
 
 Fields = dict[str, Any]
 
