@@ -15,10 +15,10 @@ from typing import Annotated
 import typer
 
 from .. import __version__
-from .completion import words_typed
 from .exit_status import INTERRUPTED, exit_status, one_line
-from .help_texts import HELP_NAMES, TaughtCommand
-from .option_groups import with_flat_options
+from .options.completion import words_typed
+from .options.help_texts import HELP_NAMES, TaughtCommand
+from .options.option_groups import with_flat_options
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,10 +21,10 @@ from ..runs.make_plan import make_plan, say_warnings
 from ..runs.plan_request import PlanRequest
 from ..runs.timing import Stopwatch, Timing
 from ..terminal import warn
-from .completion import algorithm_names
 from .exit_status import running
-from .help_texts import INPUT, OUTPUT, RUN, in_group
-from .options import (
+from .options.completion import algorithm_names
+from .options.help_texts import INPUT, OUTPUT, RUN, in_group
+from .options.options import (
     CodeOptions,
     ModeOption,
     SettingOptions,

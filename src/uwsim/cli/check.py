@@ -15,10 +15,10 @@ from ..errors import Diagnostic
 from ..runs.check import diagnostics_of
 from ..runs.tables import read_plugins
 from ..terminal import printable
-from .completion import checked_names, scene_names
 from .exit_status import WRONG_INPUT
-from .help_texts import INPUT, in_group
-from .options import DataPathOption, JsonOption, PluginOption
+from .options.completion import checked_names, scene_names
+from .options.help_texts import INPUT, in_group
+from .options.options import DataPathOption, JsonOption, PluginOption
 
 
 def check(

@@ -11,8 +11,8 @@ from typing import Annotated
 import typer
 
 from ..terminal import printable
-from .help_texts import COMPARED, OUTPUT, in_group
-from .options import JsonOption
+from .options.help_texts import COMPARED, OUTPUT, in_group
+from .options.options import JsonOption
 from .output.console import standard_output
 
 Results = Annotated[

@@ -19,16 +19,10 @@ from ..runs.option_values import chosen_level
 from ..runs.plan_request import PlanRequest
 from ..runs.timing import Stopwatch
 from ..terminal import printable, warn
-from .completion import algorithm_names
 from .exit_status import running
-from .help_texts import INPUT, OUTPUT, RUN, SEARCH, in_group
-from .options import (
-    CodeOptions,
-    SettingOptions,
-    TaskOptions,
-    WorkerOptions,
-    request_of,
-)
+from .options.completion import algorithm_names
+from .options.help_texts import INPUT, OUTPUT, RUN, SEARCH, in_group
+from .options.options import CodeOptions, SettingOptions, TaskOptions, WorkerOptions, request_of
 from .output.progress import progress
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from ..errors import AllErrors
 from ..runs.check import diagnostics_of
 from ..runs.option_values import pairs_of
 from ..terminal import printable
-from .options import DataPathOption, JsonOption, SceneArgument, SetOption
+from .options.options import DataPathOption, JsonOption, SceneArgument, SetOption
 from .output.console import standard_output
 
 DRAG_LAWS = {

@@ -13,9 +13,9 @@ from rich.text import Text
 from ..assets.bundled import bundled
 from ..errors import UnknownName
 from ..runs.tables import read_plugins
-from .completion import one_of
-from .descriptions import family, first_line, head_comment, without_title
-from .options import JsonOption, PluginOption
+from .options.completion import one_of
+from .options.descriptions import family, first_line, head_comment, without_title
+from .options.options import JsonOption, PluginOption
 from .output.console import standard_output
 
 if TYPE_CHECKING:

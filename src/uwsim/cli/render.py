@@ -13,8 +13,8 @@ from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.option_values import compatibility_of, pairs_of
 from ..runs.stand_ins import warn_of_stand_ins
 from ..terminal import print_warnings
-from .help_texts import INPUT, OUTPUT, in_group
-from .options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
+from .options.help_texts import INPUT, OUTPUT, in_group
+from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .output.image_files import save, save_depth, save_ids
 from .views import RenderedView, Wanted
 

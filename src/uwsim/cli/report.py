@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from ..terminal import warn
-from .help_texts import OUTPUT, in_group
-from .options import ResultArgument
+from .options.help_texts import OUTPUT, in_group
+from .options.options import ResultArgument
 from .output.console import Console
 
 Pdf = Annotated[bool, in_group(OUTPUT, "--pdf", help="Draw every plot as PDF, too, for a paper.")]

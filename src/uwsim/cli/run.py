@@ -18,10 +18,10 @@ from ..runs.option_values import compatibility_of, number_or_text, pairs_of
 from ..runs.program import load_program
 from ..runs.stand_ins import warn_of_stand_ins
 from ..terminal import print_warnings, warn
-from .completion import algorithm_names, one_of
 from .exit_status import running
-from .help_texts import INPUT, OUTPUT, RUN, in_group
-from .options import DataPathOption, JsonOption, NoCodeOption, SceneArgument, SettingOptions
+from .options.completion import algorithm_names, one_of
+from .options.help_texts import INPUT, OUTPUT, RUN, in_group
+from .options.options import DataPathOption, JsonOption, NoCodeOption, SceneArgument, SettingOptions
 from .output.progress import progress
 from .output.topic_table import print_json, print_topics
 from .render import scene_of

@@ -16,8 +16,8 @@ from ..runs.foreign_code import announce_code
 from ..terminal import printable
 from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named_input, plan_of
 from .exit_status import RUN_FAILED, running
-from .help_texts import FILES, RUN, in_group
-from .options import CodeOptions, ResultArgument, WorkerOptions
+from .options.help_texts import FILES, RUN, in_group
+from .options.options import CodeOptions, ResultArgument, WorkerOptions
 from .output.progress import progress
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typing import Any
 import typer
 from typer.core import TyperCommand
 
-from ..errors import AllErrors, BadSetting
+from ...errors import AllErrors, BadSetting
 
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 """The help options of ``uwsim`` and of each command."""

@@ -46,7 +46,7 @@ def checked_names(incomplete: str) -> list[tuple[str, str]]:
 
 def algorithm_names(incomplete: str) -> list[tuple[str, str]]:
     """Bundled algorithms; the only names that cost an import."""
-    from ..algorithms import ALGORITHMS, summary
+    from ...algorithms import ALGORITHMS, summary
 
     return _matching({name: summary(kind) for name, kind in ALGORITHMS.items()}, incomplete)
 
@@ -58,7 +58,7 @@ def one_of(names: Iterable[str]) -> Callable[[str], list[tuple[str, str]]]:
 
 
 def _bundled(kind: str, incomplete: str) -> list[tuple[str, str]]:
-    from ..assets.bundled import bundled
+    from ...assets.bundled import bundled
 
     return _matching({n: head_comment(p) for n, p in bundled(kind).items()}, incomplete)
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
-from ..runs.plan_request import PlanRequest
+from ...runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
+from ...runs.plan_request import PlanRequest
 from .completion import benchmark_names, one_of, scene_names
 from .help_texts import FILES, INPUT, OUTPUT, RUN, in_group
 
 if TYPE_CHECKING:
-    from ..runs.executors.executor import Executor
+    from ...runs.executors.executor import Executor
 
 BenchmarkArgument = Annotated[
     str,

@@ -22,7 +22,7 @@ def family(table: Mapping[str, type]) -> dict[str, str]:
 
 def is_of_a_plugin(spec: type) -> bool:
     """Tell whether a class came with ``--plugin``."""
-    from ..benchmark.plugin import MODULE
+    from ...benchmark.plugin import MODULE
 
     return spec.__module__.startswith(MODULE)
 
