@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from .stored_record import StoredRecord
+from .stored.record import StoredRecord
 
 ASSETS = "assets"
 """The role of what scene and benchmark name."""

@@ -17,7 +17,7 @@ from .inputs import Inputs
 from .journal import FOLDER, Record, head_of
 from .provenance import load_provenance
 from .run_info import RunInfo
-from .stored_shapes import HEAD
+from .stored.stored_shapes import HEAD
 
 ENVELOPE = "envelope.json"
 """What `uwsim envelope` writes in its own directory."""

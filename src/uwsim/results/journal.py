@@ -17,7 +17,7 @@ from ..errors import ReplayDiffers, ResultError
 from .chosen_code import other_code
 from .inputs import Inputs, differing
 from .provenance import codes_of, load_provenance
-from .stored_shapes import END, HEAD, ROW
+from .stored.stored_shapes import END, HEAD, ROW
 
 FOLDER = "units"
 TRACK = ".motion"

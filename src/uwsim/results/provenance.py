@@ -16,7 +16,7 @@ from pathlib import Path
 from ..errors import ResultError
 from .atomic_file import write_text
 from .chosen_code import chosen_code, other_code
-from .stored_shapes import PROVENANCE
+from .stored.stored_shapes import PROVENANCE
 
 BEFORE = "code_before"
 """What libraries had chosen on other machines, on which the run was begun."""

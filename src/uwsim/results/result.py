@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from ..errors import ResultError, UnknownName
-from .checked_values import checked_values
 from .inputs import Inputs
 from .run_info import RunInfo
+from .stored.checked_values import checked_values
 
 MAX_VALUE = 1e60
 """No number of a row is larger: what is made of it, powers and sums, is still a float64."""

@@ -22,7 +22,7 @@ from .inputs import Inputs
 from .interrupted import instead_of_a_result
 from .result import Column, ImageStream, Missing, Result, SavedImage, Variation
 from .run_info import RunInfo
-from .stored_shapes import RESULT
+from .stored.stored_shapes import RESULT
 
 FORMAT = "uwsim-result/1"
 STORED = {"images": "pictures"}

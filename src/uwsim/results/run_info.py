@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from .stored_record import StoredRecord
+from .stored.record import StoredRecord
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from numbers import Integral, Real
 from typing import Any
 
-from ..errors import ResultError
+from ...errors import ResultError
 
 
 def checked_values(value: object, at: str) -> Any:

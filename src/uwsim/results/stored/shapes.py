@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from types import NoneType
 from typing import Any
 
-from ..errors import ResultError
+from ...errors import ResultError
 
 Shape = Callable[[Any, str], None]
 MAX_DEPTH = 12

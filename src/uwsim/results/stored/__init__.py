@@ -1,0 +1,1 @@
+"""What a stored value must look like, checked as it is read."""
