@@ -18,7 +18,7 @@ import numpy as np
 from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node
 from uwsim.messages import Float32MultiArray, PoseStamped, String, floats
-from uwsim.simulation import undelivered
+from uwsim.simulation.nodes import undelivered
 
 TOPIC = "estimate"
 

@@ -20,7 +20,7 @@ from uwsim.messages import (
     String,
     image,
 )
-from uwsim.simulation.node import InProcessNode
+from uwsim.simulation.nodes.node import InProcessNode
 
 DOCS = Path(__file__).parents[2] / "docs"
 QUAD = rectangle(160.0, 120.0, 93.0, 28.0)

@@ -20,7 +20,7 @@ from uwsim.results.result import Result
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.run import Run
-from uwsim.simulation import undelivered
+from uwsim.simulation.nodes import undelivered
 
 LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
 <step>0.2</step> <interval>0.7</interval> </sceneFogUpdater>"""

@@ -6,8 +6,8 @@ scene updaters set; `scenery` renders; `node` is an algorithm that runs in this 
 
 from __future__ import annotations
 
-from .calls import BEFORE, Calls, Counter, Cut, open_call
-from .node import STOPPED, InProcessNode, latency_of, what_broke
+from .nodes.calls import BEFORE, Calls, Counter, Cut, open_call
+from .nodes.node import STOPPED, InProcessNode, latency_of, what_broke
 from .renderer_pool import RendererPool
 from .simulation import Simulation
 

@@ -25,8 +25,8 @@ from ..physics.motion import Motion
 from ..rendering.rendered_image import RenderedImage
 from ..scene.spec import SceneSpec
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
-from .calls import Calls
-from .node import InProcessNode
+from .nodes.calls import Calls
+from .nodes.node import InProcessNode
 from .snapshot import packed, put_state, state_of, unpacked
 from .stage import SceneStage
 

@@ -12,10 +12,10 @@ from typing import NoReturn, TypeVar
 
 import numpy as np
 
-from ..bus import Algorithm, Bus
-from ..errors import BadSetting, NotAllowed
-from ..interrupts import is_of_user
-from ..message_fields import copied
+from ...bus import Algorithm, Bus
+from ...errors import BadSetting, NotAllowed
+from ...interrupts import is_of_user
+from ...message_fields import copied
 from .calls import Calls, Stopped
 from .undelivered import UndeliveredMessages
 

@@ -1,0 +1,1 @@
+"""Algorithms that run in this process, and the calls of their callbacks."""
