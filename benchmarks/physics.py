@@ -38,7 +38,7 @@ from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.simulation.bodies import read_robots
-from uwsim.simulation.collision_shapes import simulated_shapes
+from uwsim.simulation.collision.collision_shapes import simulated_shapes
 from uwsim.simulation.dynamics import read_dynamics
 
 STEPS_PER_SECOND, RATIO = 60_000, 1.35

@@ -98,7 +98,7 @@ def _settled(scene: SceneSpec, data_path: tuple[Path, ...]) -> SceneSpec:
     if not stands_on_floor(scene):
         return scene
     from ..simulation.bodies import read_robots
-    from ..simulation.floor import set_on_floor
+    from ..simulation.collision.floor import set_on_floor
 
     try:
         return set_on_floor(scene, read_robots(scene, data_path), data_path)

@@ -28,10 +28,10 @@ from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact
 from .bodies import SceneBody, find_body, name_bodies, read_robots
 from .checks.plausibility import plausibility_warnings
-from .collision_shapes import simulated_shapes
-from .contacts import Contacts
+from .collision.collision_shapes import simulated_shapes
+from .collision.contacts import Contacts
+from .collision.floor import set_on_floor
 from .dynamics import read_dynamics
-from .floor import set_on_floor
 from .renderer_pool import RendererPool
 from .scene_rays import SceneRays
 from .scenery import Scenery

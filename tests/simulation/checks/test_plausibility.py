@@ -21,7 +21,7 @@ from uwsim.scene.urdf.robot import LinkSpec, RobotSpec
 from uwsim.simulation import Simulation
 from uwsim.simulation.checks.plausibility import warnings_of
 from uwsim.simulation.checks.vehicle_plausibility import size_said
-from uwsim.simulation.hull import Hull, LinkBox
+from uwsim.simulation.collision.hull import Hull, LinkBox
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 DATA = Path(str(resources.files("uwsim"))) / "data"

@@ -18,8 +18,8 @@ from ...scene.reader import angle_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ..bodies import read_robots
+from ..collision.hull import hull_of
 from ..dynamics import read_dynamics
-from ..hull import hull_of
 from .scene_lines import SceneLines
 from .start_plausibility import Starts
 from .thrust_warnings import thrust_said

@@ -11,9 +11,9 @@ from ...scene.spec import SceneSpec
 from ...scene.urdf.reader import read_urdf
 from ...scene.urdf.robot import RobotSpec
 from ..bodies import find_robot
-from ..collision_shapes import collision_shapes, simulated_solids
+from ..collision.collision_shapes import collision_shapes, simulated_solids
+from ..collision.floor import set_on_floor
 from ..dynamics import Search
-from ..floor import set_on_floor
 from .plausibility import plausibility_warnings
 from .scene_lines import SceneLines
 

@@ -16,7 +16,7 @@ from ...geometry import Array
 from ...physics.collision.ground import Ground
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
-from ..floor import Floor
+from ..collision.floor import Floor
 
 SUNK = 0.1
 """Share of its height by which a body may begin in the ground; what is sunk less is lifted."""

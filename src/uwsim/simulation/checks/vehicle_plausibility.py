@@ -22,7 +22,7 @@ from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import LinkSpec, RobotSpec
 from ...world import TIMESTEP
-from ..hull import Hull
+from ..collision.hull import Hull
 
 UNEVEN = 0.1
 """Difference between mass and displaced water, as a share of the greater, that is reported."""

@@ -18,24 +18,24 @@ from pathlib import Path
 
 import numpy as np
 
-from ..assets.mesh import Model
-from ..geometry import Array, Pose
-from ..linear import placed, product, turned
-from ..physics.collision.ground import triangles_of
-from ..physics.collision.shapes import (
+from ...assets.mesh import Model
+from ...geometry import Array, Pose
+from ...linear import placed, product, turned
+from ...physics.collision.ground import triangles_of
+from ...physics.collision.shapes import (
     TRIMESHES,
     CollisionShape,
     convex_shapes,
     seen_from,
     shapes_of,
 )
-from ..physics.compile import object_body, vehicle_body
-from ..scene.object import ObjectSpec, PhysicsSpec
-from ..scene.spec import SceneSpec
-from ..scene.urdf.kinematics import link_poses
-from ..scene.urdf.robot import RobotSpec, VisualSpec
-from ..scene.vehicle import VehicleSpec
-from .parts import object_models, visual_model
+from ...physics.compile import object_body, vehicle_body
+from ...scene.object import ObjectSpec, PhysicsSpec
+from ...scene.spec import SceneSpec
+from ...scene.urdf.kinematics import link_poses
+from ...scene.urdf.robot import RobotSpec, VisualSpec
+from ...scene.vehicle import VehicleSpec
+from ..parts import object_models, visual_model
 
 MAX_TRIANGLES = 8000
 """Of solid scenery without ``<physics>`` as it is touched: a mesh of more is simplified."""

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..geometry import Array
-from ..linear import length
-from ..physics.collision.ground import triangles_of
-from ..scene.spec import SceneSpec
-from ..scene.urdf.kinematics import link_poses
-from ..scene.urdf.robot import RobotSpec
+from ...geometry import Array
+from ...linear import length
+from ...physics.collision.ground import triangles_of
+from ...scene.spec import SceneSpec
+from ...scene.urdf.kinematics import link_poses
+from ...scene.urdf.robot import RobotSpec
 from .collision_shapes import collision_shapes
 
 

@@ -15,18 +15,18 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import Diagnostic, SceneError
-from ..geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
-from ..linear import length, product
-from ..physics.collision.ground import Ground, triangles_of
-from ..physics.compile import object_body
-from ..scene.object import ObjectSpec, PhysicsSpec
-from ..scene.on_floor import OnFloorSpec
-from ..scene.spec import SceneSpec, stands_on_floor
-from ..scene.urdf.kinematics import link_poses
-from ..scene.urdf.robot import RobotSpec
-from ..scene.vehicle import VehicleSpec
-from .checks.scene_lines import SceneLines
+from ...errors import Diagnostic, SceneError
+from ...geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
+from ...linear import length, product
+from ...physics.collision.ground import Ground, triangles_of
+from ...physics.compile import object_body
+from ...scene.object import ObjectSpec, PhysicsSpec
+from ...scene.on_floor import OnFloorSpec
+from ...scene.spec import SceneSpec, stands_on_floor
+from ...scene.urdf.kinematics import link_poses
+from ...scene.urdf.robot import RobotSpec
+from ...scene.vehicle import VehicleSpec
+from ..checks.scene_lines import SceneLines
 from .collision_shapes import collision_shapes, standing_faces
 
 HULL = PhysicsSpec(collision_shape_type="trimesh")

@@ -12,16 +12,16 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..errors import UwsimError
-from ..geometry import Pose
-from ..physics.collision.kinematic_contacts import KinematicContacts
-from ..physics.engine import Engine
-from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import RobotSpec
-from ..world import Contact
-from .bodies import touchable, untouchable
+from ...errors import UwsimError
+from ...geometry import Pose
+from ...physics.collision.kinematic_contacts import KinematicContacts
+from ...physics.engine import Engine
+from ...scene.spec import SceneSpec
+from ...scene.urdf.robot import RobotSpec
+from ...world import Contact
+from ..bodies import touchable, untouchable
+from ..snapshot import put_state, state_of
 from .collision_shapes import collision_shapes
-from .snapshot import put_state, state_of
 
 
 class Contacts:

@@ -8,7 +8,7 @@ from uwsim.scene.urdf.robot.reader import read_urdf
 
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
 from uwsim.scene.vehicle import VehicleSpec
-from uwsim.simulation.collision_shapes import collision_shapes
+from uwsim.simulation.collision.collision_shapes import collision_shapes
 
 WEDGE = """v 0 0 0
 v 0.2 0 0
