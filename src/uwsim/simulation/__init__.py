@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from .nodes.calls import BEFORE, Calls, Counter, Cut, open_call
 from .nodes.node import STOPPED, InProcessNode, latency_of, what_broke
-from .renderer_pool import RendererPool
+from .scenery.renderer_pool import RendererPool
 from .simulation import Simulation
 
 __all__ = [

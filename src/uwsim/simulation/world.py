@@ -32,9 +32,9 @@ from .collision.collision_shapes import simulated_shapes
 from .collision.contacts import Contacts
 from .collision.floor import set_on_floor
 from .dynamics import read_dynamics
-from .renderer_pool import RendererPool
-from .scene_rays import SceneRays
-from .scenery import Scenery
+from .scenery.renderer_pool import RendererPool
+from .scenery.scene_rays import SceneRays
+from .scenery.scenery import Scenery
 from .vehicles import SceneVehicle, vehicles_of
 from .water_density import density_levels
 from .water_motion import water_motion

@@ -26,7 +26,7 @@ from ...scene.vehicle import VehicleSpec
 from ...schema.names import local
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...simulation import Simulation
-from ...simulation.below import below_vehicle
+from ...simulation.scenery.below import below_vehicle
 from ...topics import InterfaceSpec, element_of
 
 Fields = dict[str, Any]

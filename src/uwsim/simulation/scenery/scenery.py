@@ -11,28 +11,28 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from ..assets.mesh import Model
-from ..devices.lamp import MAX_LAMPS, MountedLamp
-from ..devices.led_array import Led
-from ..devices.structured_light_projector import MountedProjector
-from ..errors import UwsimError
-from ..geometry import Array, Intrinsics, Pose
-from ..linear import product
-from ..physics.engine import Engine
-from ..rendering.grey import grey_truncated
-from ..rendering.lamp import Lamp
-from ..rendering.noise import add_noise
-from ..rendering.projector import Projector
-from ..rendering.rendered_image import RenderedImage
-from ..rendering.water import Light, Water
-from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import RobotSpec
-from .parts import Part, parts_of
+from ...assets.mesh import Model
+from ...devices.lamp import MAX_LAMPS, MountedLamp
+from ...devices.led_array import Led
+from ...devices.structured_light_projector import MountedProjector
+from ...errors import UwsimError
+from ...geometry import Array, Intrinsics, Pose
+from ...linear import product
+from ...physics.engine import Engine
+from ...rendering.grey import grey_truncated
+from ...rendering.lamp import Lamp
+from ...rendering.noise import add_noise
+from ...rendering.projector import Projector
+from ...rendering.rendered_image import RenderedImage
+from ...rendering.water import Light, Water
+from ...scene.spec import SceneSpec
+from ...scene.urdf.robot import RobotSpec
+from ..parts import Part, parts_of
 from .renderer_pool import RendererPool
 from .sand import heaps_of
 
 if TYPE_CHECKING:
-    from ..rendering.renderer import Renderer
+    from ...rendering.renderer import Renderer
 
 ALL_TARGETS = frozenset({"colour", "range", "ids"})
 

@@ -16,9 +16,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..assets.mesh import Mesh, Model
-from ..geometry import Array
-from ..scene.spec import SceneSpec
+from ...assets.mesh import Mesh, Model
+from ...geometry import Array
+from ...scene.spec import SceneSpec
 
 CELL = 0.01
 """Width of a column, and what is taken of one at once [m]."""

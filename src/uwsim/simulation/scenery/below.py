@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Array
-from ..linear import product
-from .parts import Part
+from ...geometry import Array
+from ...linear import product
+from ..parts import Part
+from ..world import SceneWorld
 from .scenery import Scenery
-from .world import SceneWorld
 
 
 @dataclass(frozen=True)

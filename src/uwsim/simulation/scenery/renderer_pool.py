@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..rendering.renderer import Renderer
+    from ...rendering.renderer import Renderer
 
 
 class RendererPool:
@@ -27,7 +27,7 @@ class RendererPool:
         Raises:
             NoGraphics: no OpenGL context could be made.
         """
-        from ..rendering.renderer import Renderer
+        from ...rendering.renderer import Renderer
 
         return self._idle.pop() if self._idle else Renderer()
 

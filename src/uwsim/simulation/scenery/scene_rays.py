@@ -7,13 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from ..acoustics import MATERIALS, Material, MaterialName
-from ..geometry import Array, Pose
-from ..linear import determinant, placed, product
-from ..physics.engine import Engine
-from ..rays import Hits, RayScene, Surface
-from ..scene.spec import SceneSpec
-from .parts import Part
+from ...acoustics import MATERIALS, Material, MaterialName
+from ...geometry import Array, Pose
+from ...linear import determinant, placed, product
+from ...physics.engine import Engine
+from ...rays import Hits, RayScene, Surface
+from ...scene.spec import SceneSpec
+from ..parts import Part
 from .sand import Heap
 
 

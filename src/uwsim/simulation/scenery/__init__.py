@@ -1,0 +1,1 @@
+"""What can be seen of a scene: images, rays, the sand below."""
