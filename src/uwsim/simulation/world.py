@@ -36,8 +36,8 @@ from .scenery.renderer_pool import RendererPool
 from .scenery.scene_rays import SceneRays
 from .scenery.scenery import Scenery
 from .vehicles import SceneVehicle, vehicles_of
-from .water_density import density_levels
-from .water_motion import water_motion
+from .water.water_density import density_levels
+from .water.water_motion import water_motion
 
 
 class SceneWorld:

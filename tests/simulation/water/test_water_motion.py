@@ -18,7 +18,7 @@ from uwsim.physics.vehicle_sets import vehicle_sets
 from uwsim.scene.reader import read_scene
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
-from uwsim.simulation.water_motion import WaterMotion
+from uwsim.simulation.water.water_motion import WaterMotion
 
 SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
 

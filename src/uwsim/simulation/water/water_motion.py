@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..currents import Place, TotalCurrent, bind_currents
-from ..geometry import Array, Pose
-from ..linear import product
-from ..scene.spec import SceneSpec
-from ..world import Flow
-from .bodies import find_file
+from ...currents import Place, TotalCurrent, bind_currents
+from ...geometry import Array, Pose
+from ...linear import product
+from ...scene.spec import SceneSpec
+from ...world import Flow
+from ..bodies import find_file
 
 WaterRow = tuple[Array, Array, Array | None]
 """Velocity, acceleration and rotation of the water at some points."""

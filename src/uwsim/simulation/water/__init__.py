@@ -1,0 +1,1 @@
+"""The water of a scene: its density and its motion."""
