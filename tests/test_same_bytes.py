@@ -63,7 +63,7 @@ def calls(path: Path) -> list[str]:
 
 
 def test_nothing_that_the_processor_chooses_makes_numbers() -> None:
-    """Use uwsim.linear and uwsim.elementwise instead, or the argument in `NEEDS`."""
+    """Use uwsim.numerics.linear and uwsim.numerics.elementwise instead, or the argument in `NEEDS`."""
     found = []
     for path in sorted(PACKAGE.rglob("*.py")):
         name = path.relative_to(PACKAGE).as_posix()

@@ -38,8 +38,8 @@ from typing import Any
 import lark
 import numpy as np
 
-from . import elementwise
 from .errors import UwsimError, did_you_mean
+from .numerics import elementwise
 
 MAX_LENGTH = 4096
 MAX_DEPTH = 100

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .geometry import Array
-from .linear import turned, turned_back
+from .numerics.linear import turned, turned_back
 
 SEMI_MAJOR_AXIS = 6378137.0
 """Of the ellipsoid [m]."""

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .linear import Array as Array
-from .linear import composed, length, placed, product, turned_back
+from .numerics.linear import Array as Array
+from .numerics.linear import composed, length, placed, product, turned_back
 
 Triple = tuple[float, float, float]
 ZERO: Triple = (0.0, 0.0, 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import Array
-from ..linear import product
+from ..numerics.linear import product
 from .esm.alignment import Method, align, zncc
 from .esm.homography import between, unimodular, warp
 from .esm.pyramid import Grey, level_from_image, pyramid

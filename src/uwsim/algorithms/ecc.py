@@ -8,8 +8,8 @@ from typing import ClassVar
 import numpy as np
 
 from ..geometry import Array
-from ..linear import determinant, inverse, product
-from ..opencv import plain_opencv
+from ..numerics.linear import determinant, inverse, product
+from ..numerics.opencv import plain_opencv
 from .direct_tracker import crossing
 from .esm.alignment import zncc
 from .esm.homography import between, unimodular, warp

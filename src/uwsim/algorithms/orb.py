@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array
-from ..linear import determinant
-from ..opencv import plain_opencv
+from ..numerics.linear import determinant
+from ..numerics.opencv import plain_opencv
 from .direct_tracker import crossing
 from .esm.alignment import zncc
 from .esm.homography import between, unimodular, warp

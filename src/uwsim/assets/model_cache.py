@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..files import disk_cache
-from ..opencv import plain_opencv
+from ..numerics.opencv import plain_opencv
 from .mesh import Mesh, Model, Texture
 from .stand_ins import STAND_INS
 

@@ -15,7 +15,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..opencv import plain_opencv
+from ..numerics.opencv import plain_opencv
 from .mesh import Model, Texture
 
 KEPT = 128

@@ -27,7 +27,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..geometry import Array
-from ..linear import placed, product, turned_back
+from ..numerics.linear import placed, product, turned_back
 from ..schema import element
 from ..world import Body, Box, Camera, World
 from .metrics.min_area_rectangle import like_rectangle, rectangle

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ..geometry import Array, Pose
-from ..linear import product
+from ..numerics.linear import product
 
 MAX_SPEED = 100.0
 """No current of a file or a function is faster: turbidity currents and tsunamis reach

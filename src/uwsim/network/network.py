@@ -22,7 +22,7 @@ from typing import Literal
 import numpy as np
 
 from ..errors import UnknownName
-from ..linear import length
+from ..numerics.linear import length
 from .channel import Channel, Path
 from .events import NANOSECONDS, EventQueue, nanoseconds
 from .modem import Modem, Waiting

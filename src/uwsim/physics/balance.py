@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..geometry import Array, Pose
-from ..linear import dot, product
+from ..numerics.linear import dot, product
 from ..scene.urdf.kinematics import link_poses
 from ..scene.urdf.robot import RobotSpec
 from ..world import GRAVITY

@@ -17,7 +17,7 @@ import numpy as np
 from ..devices.object_picker import ObjectPickerSpec
 from ..errors import BadSetting, UwsimError
 from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
-from ..linear import product
+from ..numerics.linear import product
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import JointSpec, LinkSpec, MimicSpec, RobotSpec

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ..errors import UwsimError
 from ..geometry import Array, Pose, quaternion_from_rotation
-from ..linear import turned_back
+from ..numerics.linear import turned_back
 from ..scene.spec import SceneSpec
 from ..scene.urdf.kinematics import joint_positions
 from ..scene.urdf.robot import RobotSpec

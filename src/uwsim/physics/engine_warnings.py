@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from ..errors import RunFailed
 from ..geometry import Array
-from ..jit import njit
+from ..numerics.jit import njit
 
 MAX_SPEED = 100.0
 """Of a body in water: no thing that a simulation of this kind is for goes faster, or turns more

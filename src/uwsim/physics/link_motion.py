@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 
 from ..geometry import Array
-from ..linear import product
+from ..numerics.linear import product
 from ..world import BodyMotion
 from .poses import Poses
 

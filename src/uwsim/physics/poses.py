@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ..devices.object_picker import ObjectPickerSpec
 from ..geometry import Array, Pose, quaternion_from_rotation
-from ..linear import points_of, product, turned
+from ..numerics.linear import points_of, product, turned
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from .compile import object_body, vehicle_body

@@ -19,7 +19,7 @@ import mujoco
 import numpy as np
 
 from ..geometry import Array
-from ..linear import turned
+from ..numerics.linear import turned
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
 from .collision.kinematic_contacts import MAX_JUMP

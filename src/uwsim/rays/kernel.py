@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array
-from ..jit import njit
+from ..numerics.jit import njit
 
 Whole = npt.NDArray[np.int32]
 Ray = tuple[float, float, float, float, float, float, float, float, float, float]

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array, Pose
-from ..linear import inverse, product
+from ..numerics.linear import inverse, product
 from .kernel import Hits, Trees, cast_rays
 from .tree import build_tree
 

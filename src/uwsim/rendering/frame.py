@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 
 from ..geometry import Array, Intrinsics, Pose
-from ..linear import product, turned_back
+from ..numerics.linear import product, turned_back
 from .program import Block
 from .sun_shadow import SunShadow
 from .water import AMBIENT, SPECULAR, SUN_COLOURS, Light, Water, sun_direction

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ..errors import UnknownName
 from ..geometry import Array, Intrinsics, Pose
-from ..linear import determinants, inverse, product
+from ..numerics.linear import determinants, inverse, product
 from .gpu_model import Batch
 from .minification import needs_no_copies
 from .program import Block

@@ -22,9 +22,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..elementwise import exp
 from ..geometry import Array, Pose
-from ..linear import product
+from ..numerics.elementwise import exp
+from ..numerics.linear import product
 from .water import Colour
 
 MAX_HALF_ANGLE = math.radians(80.0)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..devices.lamp import MAX_LAMPS
 from ..geometry import Array, Intrinsics, Pose, image_centre
-from ..linear import product
+from ..numerics.linear import product
 from .instance import INSTANCE, Instances, Slots, in_view
 from .lamp import MAX_HALF_ANGLE, Lamp
 from .program import Block, build

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array, Intrinsics, Pose
-from ..linear import product
+from ..numerics.linear import product
 
 MAX_TEXELS = 2.0**0.5
 """A pixel may cover so many, along its longer side: half a level of the smaller copies."""

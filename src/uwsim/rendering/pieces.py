@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array
-from ..linear import length, product
+from ..numerics.linear import length, product
 
 MAX_PIECE_LENGTH = 2.0
 """Pieces are no longer than this ... [m]"""

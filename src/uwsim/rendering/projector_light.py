@@ -8,7 +8,7 @@ import moderngl
 import numpy as np
 
 from ..geometry import Pose
-from ..linear import product
+from ..numerics.linear import product
 from .instance import INSTANCE, Instances, Slots
 from .lamps import draw_casters
 from .program import Block, build

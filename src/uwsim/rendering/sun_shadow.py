@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array, Pose
-from ..linear import length, product, solve
+from ..numerics.linear import length, product, solve
 from .instance import INSTANCE, Instances, Slots
 from .program import build
 

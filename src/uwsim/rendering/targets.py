@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Intrinsics
-from ..jit import njit
+from ..numerics.jit import njit
 from .rendered_image import RenderedImage
 
 TARGETS = ("colour", "range", "ids")

@@ -22,9 +22,9 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ..elementwise import exp
 from ..geometry import Intrinsics
-from ..linear import length
+from ..numerics.elementwise import exp
+from ..numerics.linear import length
 from ..scene.ocean_state import OceanStateSpec
 
 Colour = tuple[float, float, float]

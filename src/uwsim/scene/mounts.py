@@ -13,7 +13,7 @@ import numpy as np
 
 from ..devices.object_picker import ObjectPickerSpec
 from ..geometry import Array, Pose
-from ..linear import dot, length, product, turned, turned_back
+from ..numerics.linear import dot, length, product, turned, turned_back
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import LookAt, Mounted
 from ..sensors.sonar.spec import SonarSpec

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..acoustics import MaterialName
 from ..geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
-from ..linear import product
+from ..numerics.linear import product
 from ..schema import MAX_DISTANCE, REQUIRED, element
 from .checks.plausibility import ObjectWarning
 from .on_floor import OnFloorSpec

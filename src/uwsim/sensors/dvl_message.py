@@ -12,8 +12,8 @@ import numpy as np
 
 from ..acoustics import SeaWater
 from ..geometry import Array, Pose
-from ..linear import product, turned
 from ..messages import DVL, Header
+from ..numerics.linear import product, turned
 
 GOOD, BAD = "A", "V"
 """Status of a velocity in PD6."""

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array
-from ..linear import product, solve
+from ..numerics.linear import product, solve
 
 ENOUGH = 3
 """Beams from which a velocity follows."""

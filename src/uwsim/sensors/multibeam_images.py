@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from ..elementwise import arctan
 from ..geometry import Array, Pose
+from ..numerics.elementwise import arctan
 from ..world import Rays
 
 NEAR = 0.8

@@ -21,8 +21,8 @@ from typing import ClassVar
 import numpy as np
 
 from ..geometry import Pose, rotation_y, rotation_z
-from ..linear import product
 from ..messages import Image, ProjectedSonarImage, image
+from ..numerics.linear import product
 from ..schema import element
 from ..world import Body, SensorWorld
 from .scanning_sonar import RAYS_A_WIDTH

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ..assets import bundled_robot, find, folders_searched
 from ..errors import AssetNotFound, UnknownName, UwsimError
 from ..geometry import Pose
-from ..linear import placed, product
+from ..numerics.linear import placed, product
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
 from ..scene.urdf.reader import read_urdf

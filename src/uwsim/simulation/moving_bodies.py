@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..geometry import Array, Pose, quaternion_from_rotation
-from ..linear import length, product, turned_back
+from ..numerics.linear import length, product, turned_back
 from ..world import BodyMotion
 from .bodies import SceneBody
 

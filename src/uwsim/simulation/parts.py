@@ -16,7 +16,7 @@ from ..assets.weathering import weathered
 from ..devices.led_array import COLOURS, LedArraySpec
 from ..errors import AssetNotFound
 from ..geometry import Pose
-from ..linear import product
+from ..numerics.linear import product
 from ..scene.checks.comms import CommsDeviceSpec, comms_devices
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import BadSetting, UnknownName
 from ..geometry import Array, Intrinsics, Pose
-from ..linear import length, product
+from ..numerics.linear import length, product
 from ..scene.mounts import camera_axes
 from ..scene.object import TERRAIN
 from ..scene.sim_params import ViewerCameraSpec

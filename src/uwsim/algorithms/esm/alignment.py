@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...geometry import Array
-from ...linear import inverse, product
+from ...numerics.linear import inverse, product
 from .alignment_kernel import Settings, iterate
 from .correlation import nearest_zncc
 from .patch import Patch

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...geometry import Array
-from ...jit import njit
+from ...numerics.jit import njit
 from .correlation import Statistics, statistics
 from .homography import exponential, multiply
 from .normal_equations import normal_equations, solve

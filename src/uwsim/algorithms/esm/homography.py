@@ -13,8 +13,8 @@ import math
 import numpy as np
 
 from ...geometry import Array
-from ...jit import njit
-from ...linear import determinant, product, solve
+from ...numerics.jit import njit
+from ...numerics.linear import determinant, product, solve
 
 
 @njit

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...geometry import Array
-from ...jit import njit
+from ...numerics.jit import njit
 from .patch import Patch
 from .pyramid import Grey
 

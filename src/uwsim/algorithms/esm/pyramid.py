@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array
-from ...jit import njit
+from ...numerics.jit import njit
 
 Grey = npt.NDArray[np.float32]
 

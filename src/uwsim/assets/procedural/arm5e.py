@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...geometry import Triple
-from ...linear import length
+from ...numerics.linear import length
 from ..mesh import Mesh
 from .shapes import (
     Shape,

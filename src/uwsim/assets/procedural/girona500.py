@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from ...geometry import rotation_z
-from ...linear import product
+from ...numerics.linear import product
 from ..mesh import Mesh, Texture
 from .shapes import Shape, cylinder, facing, join, lathe, mesh, quad, rounded_box, tube
 from .textures import finished, mixed, noise, plain, step, worn, write

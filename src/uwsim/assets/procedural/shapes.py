@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...elementwise import arccos
 from ...geometry import Array, Triple
-from ...linear import dot, length, product
+from ...numerics.elementwise import arccos
+from ...numerics.linear import dot, length, product
 from ..mesh import Mesh, Texture
 
 CREASE = 0.85

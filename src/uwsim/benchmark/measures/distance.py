@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...geometry import Array
-from ...linear import length
+from ...numerics.linear import length
 from ...schema import element
 from ...world import Body, World
 from .measure import Measure, MeasureSpec

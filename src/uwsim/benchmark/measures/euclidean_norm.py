@@ -22,8 +22,8 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from ...geometry import Array
-from ...linear import length
 from ...messages import Float32MultiArray, GTpublish
+from ...numerics.linear import length
 from ...schema import element
 from ...world import World
 from ..ground_truth import GroundTruth, GroundTruthSpec

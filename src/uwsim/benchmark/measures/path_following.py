@@ -17,8 +17,8 @@ import numpy as np
 
 from ...bus import Inbox
 from ...geometry import Array
-from ...linear import turned_back
 from ...messages import Path
+from ...numerics.linear import turned_back
 from ...schema import element
 from ...world import Body, World
 from ..metrics.polyline import Polyline

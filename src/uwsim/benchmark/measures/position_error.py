@@ -20,8 +20,8 @@ import numpy as np
 
 from ...bus import Inbox
 from ...geometry import Array, Pose
-from ...linear import turned
 from ...messages import PoseStamped
+from ...numerics.linear import turned
 from ...schema import element
 from ...world import Body, World
 from ..metrics.signal import VALUES, Signal

@@ -17,8 +17,8 @@ from typing import ClassVar
 
 from ...errors import BadSetting
 from ...geometry import Array, Pose
-from ...linear import product
 from ...messages import PointCloud2, points
+from ...numerics.linear import product
 from ...schema import REQUIRED, element
 from ...world import Body, Box, World
 from ..metrics.coverage import Coverage

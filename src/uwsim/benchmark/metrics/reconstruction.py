@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...geometry import Array
-from ...linear import product
+from ...numerics.linear import product
 from ...world import Box
 from .coverage import Coverage
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...linear import length
+from ...numerics.linear import length
 from ...schema import element
 from ...world import Body, World
 from .trigger import Trigger, TriggerSpec

@@ -33,9 +33,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
-from ...linear import dot
 from ...messages import CameraInfo, Image, image, time_from_seconds
 from ...messages.bag_camera import DecodedImage, RecordedFrame, Recording, camera_info
+from ...numerics.linear import dot
 from ...schema import element
 from ...world import Stage
 from .fog_sweep import FogSweepSpec

@@ -47,7 +47,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array, Pose
-from ...linear import pseudo_inverse
+from ...numerics.linear import pseudo_inverse
 from ...vehicle import MAX_COMMAND
 from ..hydrodynamics.file.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 from .allocation import ROLL, Allocation, allocate, curve

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...geometry import Array
-from ...jit import njit
+from ...numerics.jit import njit
 from .records import POSITION, THRUSTERS, WRENCH
 
 MAX_SPEED = 0.5

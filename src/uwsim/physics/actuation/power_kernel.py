@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array
-from ...jit import njit
+from ...numerics.jit import njit
 from ..hydrodynamics.columns import WATER_COLUMNS
 from ..hydrodynamics.kernel.thrusters import curve
 

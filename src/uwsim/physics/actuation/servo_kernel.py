@@ -15,7 +15,7 @@ import math
 from typing import Any, NamedTuple
 
 from ...geometry import Array
-from ...jit import njit
+from ...numerics.jit import njit
 from .records import GEARED, OWN
 
 INTEGRAL = 1.0

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array
-from ...linear import dot, turned_back
+from ...numerics.linear import dot, turned_back
 from ...scene.spec import SceneSpec
 from ...world import Contact
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array
-from ...linear import dot, length, product
+from ...numerics.linear import dot, length, product
 
 SAME = 1e-4
 """Corners nearer than this are one, and triangles lower than this are none [m]."""

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array, Pose
-from ...linear import length, product, pseudo_inverse, rank
+from ...numerics.linear import length, product, pseudo_inverse, rank
 from .shapes import CollisionShape
 
 STEEPEST = 1e-6

@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from ...geometry import Array, Pose, quaternion_from_rotation
-from ...linear import dot
+from ...numerics.linear import dot
 from ...world import Contact
 from ..compile import ALL, OBJECTS, SHAPES
 from .shapes import CollisionShape

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ... import linear
 from ...files import disk_cache
 from ...geometry import Array
+from ...numerics import linear
 from . import convex_faces
 
 

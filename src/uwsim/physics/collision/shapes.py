@@ -29,7 +29,7 @@ import numpy.typing as npt
 from ...assets.mesh import Model
 from ...errors import UwsimError
 from ...geometry import Array, Pose
-from ...linear import dot, length, placed, product
+from ...numerics.linear import dot, length, placed, product
 from .polygon_cache import cached_faces
 
 TRIMESHES = ("trimesh", "compound trimesh")

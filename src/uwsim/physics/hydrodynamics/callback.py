@@ -24,7 +24,7 @@ import numpy as np
 from numba import types
 
 from ...errors import UwsimError
-from ...jit import c_function, link_library
+from ...numerics.jit import c_function, link_library
 from .kernel import free_bodies, kernel, layout
 from .kernel.memory import Floats, Ints64
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import UnknownName, UwsimError
-from ...linear import turned_back
+from ...numerics.linear import turned_back
 from . import callback
 from . import columns as c
 from .inverse_weights import correct_inverse_weights

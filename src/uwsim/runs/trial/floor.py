@@ -20,7 +20,7 @@ from numpy.linalg import LinAlgError
 from ...benchmark.ground_truth import CornersFromCameraSpec, FaceCorners, GroundTruth
 from ...benchmark.measures import EuclideanNormSpec
 from ...geometry import Array
-from ...linear import length, product, solve
+from ...numerics.linear import length, product, solve
 from ...results.result import FLOOR
 from ...simulation import Simulation
 from ..plan import Plan

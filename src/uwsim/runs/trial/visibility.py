@@ -30,7 +30,7 @@ import numpy.typing as npt
 from ...benchmark.ground_truth import CornersFromCameraSpec, GroundTruth
 from ...benchmark.measures import EuclideanNormSpec
 from ...geometry import Array
-from ...linear import length, product
+from ...numerics.linear import length, product
 from ...simulation import Simulation
 from ..plan import Plan
 

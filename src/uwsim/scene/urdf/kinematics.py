@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...geometry import Pose, rotation_about
-from ...linear import length
+from ...numerics.linear import length
 from .robot import JointSpec, RobotSpec
 
 

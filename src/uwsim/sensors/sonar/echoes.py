@@ -21,9 +21,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...acoustics import MATERIALS, Material
-from ...elementwise import log
 from ...geometry import Array, Pose
-from ...linear import product, turned_back
+from ...numerics.elementwise import log
+from ...numerics.linear import product, turned_back
 from ...world import SensorWorld
 from .kernel import Singles, add_echoes, received
 from .spec import SonarSpec

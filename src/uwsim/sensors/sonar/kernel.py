@@ -7,7 +7,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ...jit import njit
+from ...numerics.jit import njit
 
 Array = npt.NDArray[np.float64]
 Singles = npt.NDArray[np.float32]

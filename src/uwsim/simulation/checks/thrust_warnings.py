@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...linear import length, product
+from ...numerics.linear import length, product
 from ...physics.actuation.allocation import (
     AXES,
     HEAVE,

@@ -20,7 +20,7 @@ import numpy as np
 
 from ...assets.mesh import Model
 from ...geometry import Array, Pose
-from ...linear import placed, product, turned
+from ...numerics.linear import placed, product, turned
 from ...physics.collision.ground import triangles_of
 from ...physics.collision.shapes import (
     TRIMESHES,

@@ -17,7 +17,7 @@ import numpy as np
 
 from ...errors import Diagnostic, SceneError
 from ...geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
-from ...linear import length, product
+from ...numerics.linear import length, product
 from ...physics.collision.ground import Ground, triangles_of
 from ...physics.compile import object_body
 from ...scene.object import ObjectSpec, PhysicsSpec

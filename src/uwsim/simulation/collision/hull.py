@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ...geometry import Array
-from ...linear import length
+from ...numerics.linear import length
 from ...physics.collision.ground import triangles_of
 from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses

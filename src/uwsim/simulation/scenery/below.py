@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...geometry import Array
-from ...linear import product
+from ...numerics.linear import product
 from ..parts import Part
 from ..world import SceneWorld
 from .scenery import Scenery

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...acoustics import MATERIALS, Material, MaterialName
 from ...geometry import Array, Pose
-from ...linear import determinant, placed, product
+from ...numerics.linear import determinant, placed, product
 from ...physics.engine import Engine
 from ...rays import Hits, RayScene, Surface
 from ...scene.spec import SceneSpec

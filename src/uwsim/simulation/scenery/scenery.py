@@ -17,7 +17,7 @@ from ...devices.led_array import Led
 from ...devices.structured_light_projector import MountedProjector
 from ...errors import UwsimError
 from ...geometry import Array, Intrinsics, Pose
-from ...linear import product
+from ...numerics.linear import product
 from ...physics.engine import Engine
 from ...rendering.grey import grey_truncated
 from ...rendering.lamp import Lamp

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...currents import Place, TotalCurrent, bind_currents
 from ...geometry import Array, Pose
-from ...linear import product
+from ...numerics.linear import product
 from ...scene.spec import SceneSpec
 from ...world import Flow
 from ..bodies import find_file

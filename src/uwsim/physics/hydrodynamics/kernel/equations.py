@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 
-from ....jit import njit
+from ....numerics.jit import njit
 from ..columns import (
     ABOUT_X,
     ABOUT_Y,

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....jit import njit
+from ....numerics.jit import njit
 from ..columns import (
     ACTUATOR_COLUMNS,
     BODY_COLUMNS,

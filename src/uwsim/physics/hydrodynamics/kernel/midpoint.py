@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import math
 
-from ....jit import njit
+from ....numerics.jit import njit
 from .memory import Floats
 
 INERTIA, TWIST, MOMENTUM, SIDE, RATE = 0, 36, 42, 48, 54

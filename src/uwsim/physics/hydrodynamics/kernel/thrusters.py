@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from ....jit import njit
+from ....numerics.jit import njit
 from ..columns import (
     ADVANCE,
     BACKWARD,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from uwsim.linear import (
+from uwsim.numerics.linear import (
     composed,
     determinant,
     determinants,

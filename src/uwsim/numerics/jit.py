@@ -28,8 +28,8 @@ from numba.core.caching import FunctionCache, NullCache
 from numba.core.ccallback import CFunc
 from numba.core.serialize import dumps
 
+from ..files import disk_cache
 from .compiled_source import source_digest
-from .files import disk_cache
 
 
 def _load_arrays() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from uwsim import elementwise
+from uwsim.numerics import elementwise
 
 ONE = [
     name

@@ -1,0 +1,1 @@
+"""Compiled code, and arithmetic with the same bytes on every processor."""
