@@ -12,7 +12,7 @@ import pytest
 from uwsim.devices.lamp import LampSpec
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.geometry import Pose
-from uwsim.rendering.lamp import MAX_HALF_ANGLE
+from uwsim.rendering.lights.lamp import MAX_HALF_ANGLE
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec

@@ -7,8 +7,8 @@ import numpy as np
 
 from ..geometry import Array, Intrinsics, Pose
 from ..numerics.linear import product, turned_back
+from .lights.sun_shadow import SunShadow
 from .program import Block
-from .sun_shadow import SunShadow
 from .water import AMBIENT, SPECULAR, SUN_COLOURS, Light, Water, sun_direction
 
 FRAME = Block(

@@ -20,14 +20,14 @@ from .context import create_context
 from .frame import FRAME, Frame
 from .gpu_model import GpuModels
 from .instance import INSTANCE, Instances, Slots, in_view
-from .lamp import Lamp
-from .lamps import LAMPS, Lamps
+from .lights.lamp import Lamp
+from .lights.lamps import LAMPS, Lamps
+from .lights.projector import Projector
+from .lights.projector_light import PROJECTOR, ProjectorLight
+from .lights.sun_shadow import MAX_CASTER_RADIUS, SunShadow, reached
 from .program import build
 from .projection import clip_from_camera, frustum
-from .projector import Projector
-from .projector_light import PROJECTOR, ProjectorLight
 from .rendered_image import RenderedImage
-from .sun_shadow import MAX_CASTER_RADIUS, SunShadow, reached
 from .targets import STORES, TARGETS, Targets
 from .water import Light, Water, sun_direction
 

@@ -20,9 +20,9 @@ from ...geometry import Array, Intrinsics, Pose
 from ...numerics.linear import product
 from ...physics.engine import Engine
 from ...rendering.grey import grey_truncated
-from ...rendering.lamp import Lamp
+from ...rendering.lights.lamp import Lamp
+from ...rendering.lights.projector import Projector
 from ...rendering.noise import add_noise
-from ...rendering.projector import Projector
 from ...rendering.rendered_image import RenderedImage
 from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec

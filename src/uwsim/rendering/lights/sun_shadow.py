@@ -8,10 +8,10 @@ import moderngl
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array, Pose
-from ..numerics.linear import length, product, solve
-from .instance import INSTANCE, Instances, Slots
-from .program import build
+from ...geometry import Array, Pose
+from ...numerics.linear import length, product, solve
+from ..instance import INSTANCE, Instances, Slots
+from ..program import build
 
 SMALL, LARGE = 512, 1024
 """Edges of the map [texels]; the small one costs a third of the large one to draw."""

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from ..geometry import Pose
-from ..numerics.linear import product
-from .instance import INSTANCE, Instances, Slots
+from ...geometry import Pose
+from ...numerics.linear import product
+from ..instance import INSTANCE, Instances, Slots
+from ..program import Block, build
+from ..projection import clip_from_camera
 from .lamps import draw_casters
-from .program import Block, build
-from .projection import clip_from_camera
 from .projector import Projector
 
 PROJECTOR = Block(

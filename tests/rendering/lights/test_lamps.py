@@ -9,7 +9,7 @@ import pytest
 
 from tests.rendering.models import ball, block, placed, plate
 from uwsim.geometry import Intrinsics, Pose
-from uwsim.rendering.lamp import Lamp
+from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 

@@ -22,10 +22,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Array, Pose
-from ..numerics.elementwise import exp
-from ..numerics.linear import product
-from .water import Colour
+from ...geometry import Array, Pose
+from ...numerics.elementwise import exp
+from ...numerics.linear import product
+from ..water import Colour
 
 MAX_HALF_ANGLE = math.radians(80.0)
 """Greatest half angle: a wider cone does not fit one shadow map [rad]."""

@@ -9,7 +9,7 @@ import pytest
 
 from tests.rendering.models import block, placed, plate
 from uwsim.geometry import Intrinsics, Pose
-from uwsim.rendering.projector import Projector
+from uwsim.rendering.lights.projector import Projector
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 

@@ -12,13 +12,13 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from ..devices.lamp import MAX_LAMPS
-from ..geometry import Array, Intrinsics, Pose, image_centre
-from ..numerics.linear import product
-from .instance import INSTANCE, Instances, Slots, in_view
+from ...devices.lamp import MAX_LAMPS
+from ...geometry import Array, Intrinsics, Pose, image_centre
+from ...numerics.linear import product
+from ..instance import INSTANCE, Instances, Slots, in_view
+from ..program import Block, build
+from ..projection import clip_from_camera, frustum
 from .lamp import MAX_HALF_ANGLE, Lamp
-from .program import Block, build
-from .projection import clip_from_camera, frustum
 
 TILE = 512
 """Edge of one lamp's shadow map [texels]."""

@@ -1,0 +1,1 @@
+"""Lights: lamps, projectors, the sun's shadow."""
