@@ -17,7 +17,7 @@ from uwsim.assets.model_cache import _make
 from uwsim.assets.stand_ins import STAND_INS
 from uwsim.expression import parse
 from uwsim.geometry import Pose
-from uwsim.sensors.imaging_sonar import ImagingSonarSpec
+from uwsim.sensors.sonar.imaging_sonar import ImagingSonarSpec
 
 TRACKERS = ("ecc", "esm", "orb")
 MODELS = (

@@ -30,8 +30,8 @@ from uwsim.scene.reader import check_scene
 from uwsim.scene.sim_params import ShowTrajectorySpec
 from uwsim.scene.writer import to_original, write_scene
 from uwsim.schema import Diagnostics, Field, fields_of
-from uwsim.sensors.multibeam_sensor import MultibeamSensorSpec
-from uwsim.sensors.profiling_sonar import ProfilingSonarSpec
+from uwsim.sensors.sonar.multibeam_sensor import MultibeamSensorSpec
+from uwsim.sensors.sonar.profiling_sonar import ProfilingSonarSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.topics import INTERFACES
 from uwsim.topics.comms_device_ros import CustomCommsDeviceROSSpec

@@ -11,11 +11,11 @@ from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, box, plate,
 from uwsim.acoustics import MATERIALS
 from uwsim.geometry import Pose
 from uwsim.messages import ProjectedSonarImage, pixels_of
-from uwsim.sensors.imaging_sonar import ImagingSonar, ImagingSonarSpec
-from uwsim.sensors.scanning_sonar import ScanningSonarSpec
-from uwsim.sensors.side_scan_sonar import SideScanSonarSpec
 from uwsim.sensors.sonar.fan_image import FanImage
+from uwsim.sensors.sonar.imaging_sonar import ImagingSonar, ImagingSonarSpec
 from uwsim.sensors.sonar.message import amplitudes
+from uwsim.sensors.sonar.scanning_sonar import ScanningSonarSpec
+from uwsim.sensors.sonar.side_scan_sonar import SideScanSonarSpec
 
 STEEL = [MATERIALS["steel"]]
 SMALL = {"bins": 100, "rows": 32, "range": 10.0, "noise_level": 40.0}

@@ -14,8 +14,8 @@ from uwsim.devices.fault import FaultSpec
 from uwsim.devices.fault_times import FaultTimes
 from uwsim.errors import SceneError, UnknownName
 from uwsim.messages import Imu, LaserScan, Pressure, seconds
-from uwsim.sensors.multibeam_sensor import MultibeamSensorSpec
 from uwsim.sensors.pressure_sensor import PressureSensorSpec
+from uwsim.sensors.sonar.multibeam_sensor import MultibeamSensorSpec
 from uwsim.simulation import Simulation
 from uwsim.simulation.faulty_topic import FaultyTopic, SensorFault
 from uwsim.topics.sensor_topic import MultibeamSensorToLaserScanSpec, PressureSensorToROSSpec

@@ -15,8 +15,8 @@ from uwsim.scene.object import ObjectSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
-from uwsim.sensors.multibeam_sensor import MultibeamSensorSpec
 from uwsim.sensors.pressure_sensor import PressureSensorSpec
+from uwsim.sensors.sonar.multibeam_sensor import MultibeamSensorSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.simulation import Simulation
 from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec

@@ -7,15 +7,15 @@ docs/adding-a-sensor.md shows how to add one.
 from ..schema import NAMESPACE
 from .dvl_sensor import DvlSensorSpec
 from .gps_sensor import GpsSensorSpec
-from .imaging_sonar import ImagingSonarSpec
 from .imu import ImuSpec
-from .multibeam_sensor import MultibeamSensorSpec
 from .pressure_sensor import PressureSensorSpec
-from .profiling_sonar import ProfilingSonarSpec
 from .range_sensor import RangeSensorSpec
-from .scanning_sonar import ScanningSonarSpec
 from .sensor import SensorSpec
-from .side_scan_sonar import SideScanSonarSpec
+from .sonar.imaging_sonar import ImagingSonarSpec
+from .sonar.multibeam_sensor import MultibeamSensorSpec
+from .sonar.profiling_sonar import ProfilingSonarSpec
+from .sonar.scanning_sonar import ScanningSonarSpec
+from .sonar.side_scan_sonar import SideScanSonarSpec
 from .virtual_camera import VirtualCameraSpec
 from .virtual_range_image import VirtualRangeImageSpec
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...schema import Diagnostics
-from ...sensors.multibeam_sensor import MultibeamSensorSpec
-from ...sensors.profiling_sonar import ProfilingSonarSpec
+from ...sensors.sonar.multibeam_sensor import MultibeamSensorSpec
+from ...sensors.sonar.profiling_sonar import ProfilingSonarSpec
 from ...sensors.sonar.spec import SonarSpec
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...sensors.virtual_range_image import VirtualRangeImageSpec

@@ -9,8 +9,8 @@ import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, box, plate
 from uwsim.geometry import Pose, rotation_from_rpy
-from uwsim.sensors.multibeam_sensor import BeamFan, FanSpec, MultibeamSensorSpec
-from uwsim.sensors.profiling_sonar import ProfilingSonarSpec
+from uwsim.sensors.sonar.multibeam_sensor import BeamFan, FanSpec, MultibeamSensorSpec
+from uwsim.sensors.sonar.profiling_sonar import ProfilingSonarSpec
 
 FAN = {"init_angle": -60.0, "final_angle": 60.0, "angle_incr": 0.5, "range": 30.0}
 

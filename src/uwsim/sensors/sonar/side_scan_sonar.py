@@ -20,17 +20,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Pose, rotation_y, rotation_z
-from ..messages import Image, ProjectedSonarImage, image
-from ..numerics.linear import product
-from ..schema import element
-from ..world import Body, SensorWorld
+from ...geometry import Pose, rotation_y, rotation_z
+from ...messages import Image, ProjectedSonarImage, image
+from ...numerics.linear import product
+from ...schema import element
+from ...world import Body, SensorWorld
+from ..sensor import Carrier
+from .echoes import Echoes
+from .fan_image import Levels
+from .message import sonar_image
 from .scanning_sonar import RAYS_A_WIDTH
-from .sensor import Carrier
-from .sonar.echoes import Echoes
-from .sonar.fan_image import Levels
-from .sonar.message import sonar_image
-from .sonar.spec import SonarSpec
+from .spec import SonarSpec
 
 SIDES = (0.5 * math.pi, -0.5 * math.pi)
 """Azimuth of the beams: port, starboard [rad]."""

@@ -11,9 +11,9 @@ import math
 
 import numpy as np
 
-from ..geometry import Array, Pose
-from ..numerics.elementwise import arctan
-from ..world import Rays
+from ...geometry import Array, Pose
+from ...numerics.elementwise import arctan
+from ...world import Rays
 
 NEAR = 0.8
 """Near plane of the cameras [m]."""

@@ -8,14 +8,14 @@
       <range>10</range> <fov>2</fov>
     </ProfilingSonar>
 
-As in that branch a sample is a whole scan, taken at once: see `uwsim.sensors.multibeam_sensor`.
+As in that branch a sample is a whole scan, taken at once: see `uwsim.sensors.sonar.multibeam_sensor`.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..schema import element
+from ...schema import element
 from .multibeam_sensor import FanSpec
 
 

@@ -20,15 +20,15 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array
-from ..messages import Image, ProjectedSonarImage, image
-from ..schema import element
-from ..world import Body, SensorWorld
-from .sensor import Carrier
-from .sonar.echoes import Echoes
-from .sonar.fan_image import FanImage, Levels
-from .sonar.message import level_directions, sonar_image
-from .sonar.spec import SonarSpec
+from ...geometry import Array
+from ...messages import Image, ProjectedSonarImage, image
+from ...schema import element
+from ...world import Body, SensorWorld
+from ..sensor import Carrier
+from .echoes import Echoes
+from .fan_image import FanImage, Levels
+from .message import level_directions, sonar_image
+from .spec import SonarSpec
 
 
 @dataclass(frozen=True, kw_only=True)

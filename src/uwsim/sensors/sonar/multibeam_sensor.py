@@ -21,13 +21,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array
-from ..messages import LaserScan, header
-from ..schema import MAX_DISTANCE, element
-from ..world import Body, SensorWorld
+from ...geometry import Array
+from ...messages import LaserScan, header
+from ...schema import MAX_DISTANCE, element
+from ...world import Body, SensorWorld
+from ..pencil import pencil
+from ..sensor import SCAN_AXES, Carrier, LookAt, SensorSpec
 from .multibeam_images import DepthImages
-from .pencil import pencil
-from .sensor import SCAN_AXES, Carrier, LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
