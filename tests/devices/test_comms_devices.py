@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
-from uwsim.devices.acoustic_comms_device import AcousticCommsDeviceSpec, EnergyModelSpec
-from uwsim.devices.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
-from uwsim.devices.comms_device import CommsMeshSpec, MacProtocolSpec
-from uwsim.devices.custom_comms_device import CustomCommsDeviceSpec, RateErrorModelSpec
+from uwsim.devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec, EnergyModelSpec
+from uwsim.devices.comms.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
+from uwsim.devices.comms.comms_device import CommsMeshSpec, MacProtocolSpec
+from uwsim.devices.comms.custom_comms_device import CustomCommsDeviceSpec, RateErrorModelSpec
 from uwsim.errors import BadMessage
 from uwsim.messages import MultiArrayDimension, MultiArrayLayout, String, UInt8MultiArray
 from uwsim.scene.spec import NetTracingScriptSpec, OceanStateSpec, SceneSpec, SimParamsSpec

@@ -18,7 +18,7 @@ from uwsim.scene.urdf.robot.kinematics import link_poses
 from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.currents import UwsimSinusoidSpec
-from uwsim.devices.custom_comms_device import CustomCommsDeviceSpec
+from uwsim.devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from uwsim.devices.echo import EchoSpec, SimulatedDevicesSpec
 from uwsim.devices.structured_light_projector import StructuredLightProjectorSpec
 from uwsim.errors import SceneError

@@ -1,8 +1,8 @@
 """Devices of vehicles: lamps, faults, grippers, communication; one file each."""
 
 from ..schema import NAMESPACE
-from .acoustic_comms_device import AcousticCommsDeviceSpec
-from .custom_comms_device import CustomCommsDeviceSpec
+from .comms.acoustic_comms_device import AcousticCommsDeviceSpec
+from .comms.custom_comms_device import CustomCommsDeviceSpec
 from .dredge_tool import DredgeToolSpec
 from .echo import EchoSpec
 from .fault import FaultSpec

@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import get_args
 
-from ..devices.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
+from ..devices.comms.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..errors import BadSetting
 from ..geodesy import Geodetic
 from ..geometry import Pose

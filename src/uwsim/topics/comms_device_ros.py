@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..devices.comms_device import CommsDevice
+from ..devices.comms.comms_device import CommsDevice
 from ..errors import UnknownName
 from ..messages import Pose, TFMessage
 from .frames import TF, transform

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...devices.acoustic_comms_device import AcousticCommsDeviceSpec
-from ...devices.comms_channels import acoustic_channel, custom_channel
-from ...devices.comms_device import MacProtocolSpec
-from ...devices.custom_comms_device import CustomCommsDeviceSpec
+from ...devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec
+from ...devices.comms.comms_channels import acoustic_channel, custom_channel
+from ...devices.comms.comms_device import MacProtocolSpec
+from ...devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from ...expression import ScoreError
 from ...network import mac_kind
 from ...schema import Diagnostics

@@ -18,10 +18,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from ..messages import Pose
-from ..network import BitErrors, EnergyModel, LinkBudget, ModemSettings, WaterChannel
-from ..schema import REQUIRED, element
-from ..world import Stage
+from ...messages import Pose
+from ...network import BitErrors, EnergyModel, LinkBudget, ModemSettings, WaterChannel
+from ...schema import REQUIRED, element
+from ...world import Stage
+from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import acoustic_channel
 from .comms_device import (
     CommsDevice,
@@ -30,7 +31,6 @@ from .comms_device import (
     PacketBuilderSpec,
     packet_topics,
 )
-from .device import DeviceSpec, DeviceTopic, DeviceVehicle
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,9 +8,9 @@ from typing import Protocol
 
 import numpy as np
 
-from ..errors import BadMessage
-from ..geometry import Pose
-from ..messages import (
+from ...errors import BadMessage
+from ...geometry import Pose
+from ...messages import (
     Float64,
     MultiArrayDimension,
     MultiArrayLayout,
@@ -18,8 +18,8 @@ from ..messages import (
     Quaternion,
     UInt8MultiArray,
 )
-from ..messages import Pose as PoseMessage
-from ..network import (
+from ...messages import Pose as PoseMessage
+from ...network import (
     EVERYONE,
     Channel,
     Mac,
@@ -30,10 +30,10 @@ from ..network import (
     mac_kind,
     nanoseconds,
 )
-from ..schema import MAX_DISTANCE, REQUIRED, Original, element
-from ..sensors.sensor import Mounted
-from ..world import Body, Stage
-from .device import Device, DeviceTopic, DeviceVehicle
+from ...schema import MAX_DISTANCE, REQUIRED, Original, element
+from ...sensors.sensor import Mounted
+from ...world import Body, Stage
+from ..device import Device, DeviceTopic, DeviceVehicle
 
 SLOT_BYTES = 64
 """A slot of a protocol is long enough for a packet of this size, unless the file says otherwise."""

@@ -19,11 +19,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from .. import expression
-from ..messages import Pose
-from ..network import BitErrors, DelayChannel, ErrorModel, ModemSettings, RateErrors, Unit
-from ..schema import REQUIRED, element
-from ..world import Stage
+from ... import expression
+from ...messages import Pose
+from ...network import BitErrors, DelayChannel, ErrorModel, ModemSettings, RateErrors, Unit
+from ...schema import REQUIRED, element
+from ...world import Stage
+from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import MAX_MS, custom_channel
 from .comms_device import (
     CommsDevice,
@@ -32,7 +33,6 @@ from .comms_device import (
     PacketBuilderSpec,
     packet_topics,
 )
-from .device import DeviceSpec, DeviceTopic, DeviceVehicle
 
 
 @dataclass(frozen=True, kw_only=True)

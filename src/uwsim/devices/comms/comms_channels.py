@@ -14,8 +14,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from ..network import DelayChannel, Sea, WaterChannel
-from ..schema import element
+from ...network import DelayChannel, Sea, WaterChannel
+from ...schema import element
 
 MAX_MS = 1e9
 """Longest delay in a file [ms]."""

@@ -1,0 +1,1 @@
+"""Modems: the devices, and the channels they share."""
