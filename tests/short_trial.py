@@ -6,7 +6,7 @@ from pathlib import Path
 
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.bus import Algorithm
-from uwsim.runs.plan import Mode, Plan
+from uwsim.runs.planning.plan import Mode, Plan
 from uwsim.runs.trial.level_row import LevelRow
 from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene

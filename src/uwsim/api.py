@@ -97,8 +97,8 @@ def bench(
     from .results.directory import check as check_directory
     from .runs.executors.choose import CALLBACK_LIMIT, executor_of
     from .runs.executors.executor import run_all
-    from .runs.make_plan import make_plan
-    from .runs.plan_request import PlanRequest
+    from .runs.planning.make_plan import make_plan
+    from .runs.planning.plan_request import PlanRequest
     from .runs.prepare import prepare_run
 
     request = PlanRequest(

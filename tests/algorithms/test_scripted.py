@@ -11,7 +11,7 @@ from uwsim.algorithms.scripted import Scripted, twist_of
 from uwsim.assets.bundled import bundled
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, NeverStarted
-from uwsim.runs.plan import Plan
+from uwsim.runs.planning.plan import Plan
 from uwsim.runs.trial.level_row import LevelRow
 from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene

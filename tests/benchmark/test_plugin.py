@@ -19,9 +19,9 @@ from uwsim.errors import BadSetting, PluginError, RunFailed
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.processes import ProcessExecutor
-from uwsim.runs.make_plan import make_plan
-from uwsim.runs.plan import Plan
-from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.planning.make_plan import make_plan
+from uwsim.runs.planning.plan import Plan
+from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.runs.prepare import hash_inputs
 from uwsim.runs.run import Run
 from uwsim.runs.tables import bundled_tables, read_plugins

@@ -19,8 +19,8 @@ from uwsim.results.leaves import leaves
 from uwsim.results.provenance import save_provenance
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import run_all
-from uwsim.runs.make_plan import make_plan
-from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.planning.make_plan import make_plan
+from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.runs.prepare import hash_inputs
 from uwsim.runs.run import Run
 from uwsim.simulation import Simulation

@@ -29,8 +29,8 @@ from uwsim.results.log import Log, load_log
 from uwsim.results.result import Result
 from uwsim.results.run_info import RunInfo
 from uwsim.runs.executors.executor import run_all
-from uwsim.runs.make_plan import make_plan
-from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.planning.make_plan import make_plan
+from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.runs.prepare import hash_inputs
 from uwsim.runs.run import Run
 

@@ -18,9 +18,9 @@ from uwsim.files.input_files import recorded
 from uwsim.results import journal
 from uwsim.results.inputs import Inputs, differing
 from uwsim.runs.inputs_read import inputs_of
-from uwsim.runs.make_plan import make_plan
-from uwsim.runs.plan import Plan
-from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.planning.make_plan import make_plan
+from uwsim.runs.planning.plan import Plan
+from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.runs.run import Run
 from uwsim.simulation import Simulation
 from uwsim.verify.recorded_plan import check_inputs

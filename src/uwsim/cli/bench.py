@@ -17,8 +17,8 @@ from ..files.file_names import file_names
 from ..interrupts import raise_from_now_on
 from ..runs.executors.choose import n_at_once
 from ..runs.foreign_code import announce_code
-from ..runs.make_plan import make_plan, say_warnings
-from ..runs.plan_request import PlanRequest
+from ..runs.planning.make_plan import make_plan, say_warnings
+from ..runs.planning.plan_request import PlanRequest
 from ..runs.timing import Stopwatch, Timing
 from ..terminal import warn
 from .exit_status import running
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from ..results.result import Result
     from ..runs.executors.background import BackgroundProcess
     from ..runs.executors.executor import Executor, Outcome
-    from ..runs.plan import Plan
+    from ..runs.planning.plan import Plan
     from ..runs.run import Run
 
 

@@ -14,9 +14,9 @@ from ..envelope.search_request import SearchRequest, search_request
 from ..errors import AllErrors, BadSetting
 from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code
-from ..runs.make_plan import make_plan, say_warnings
-from ..runs.option_values import chosen_level
-from ..runs.plan_request import PlanRequest
+from ..runs.planning.make_plan import make_plan, say_warnings
+from ..runs.planning.option_values import chosen_level
+from ..runs.planning.plan_request import PlanRequest
 from ..runs.timing import Stopwatch
 from ..terminal import printable, warn
 from .exit_status import running
@@ -28,7 +28,7 @@ from .output.progress import progress
 if TYPE_CHECKING:
     from ..envelope import Envelope
     from ..runs.executors.executor import Executor
-    from ..runs.plan import Plan
+    from ..runs.planning.plan import Plan
 
 MAX_REPEATS = 1000
 

@@ -14,7 +14,7 @@ from rich.text import Text
 from ..assets.bundled import scene_file
 from ..errors import AllErrors
 from ..runs.check import diagnostics_of
-from ..runs.option_values import pairs_of
+from ..runs.planning.option_values import pairs_of
 from ..terminal import printable
 from .options.options import DataPathOption, JsonOption, SceneArgument, SetOption
 from .output.console import standard_output

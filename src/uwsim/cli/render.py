@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from ..assets.bundled import scene_file
 from ..errors import AllErrors, BadSetting
 from ..runs.foreign_code import announce_code, refuse_code
-from ..runs.option_values import compatibility_of, pairs_of
+from ..runs.planning.option_values import compatibility_of, pairs_of
 from ..runs.stand_ins import warn_of_stand_ins
 from ..terminal import print_warnings
 from .options.help_texts import INPUT, OUTPUT, in_group

@@ -22,7 +22,7 @@ from .output.progress import progress
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..runs.plan import Trial
+    from ..runs.planning.plan import Trial
     from ..runs.run import Run
     from ..verify.verify import Verification
 

@@ -15,7 +15,7 @@ from ..benchmark.updaters import Level
 from ..results import journal
 from ..results.journal import Record
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel
-from ..runs.plan import Plan, Trial
+from ..runs.planning.plan import Plan, Trial
 from ..runs.run import Run
 from .criterion import Criterion, Judgement
 from .search import Search, SeedSearch, Strategy

@@ -10,7 +10,7 @@ from ..errors import AllErrors, BadSetting, UwsimError, did_you_mean
 
 if TYPE_CHECKING:
     from ..benchmark.updaters import Level, SceneUpdaterSpec
-    from ..runs.plan import Plan
+    from ..runs.planning.plan import Plan
     from . import Asked, Criterion, Range
 
 MAX_CUTS = 30

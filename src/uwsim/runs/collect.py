@@ -11,7 +11,7 @@ from ..results.journal import Record, Stored
 from ..results.log import TIME, Log
 from ..results.result import Cell, Column, ImageStream, Missing, Result, SavedImage, Variation
 from ..results.run_info import RunInfo
-from .plan import Plan, Trial
+from .planning.plan import Plan, Trial
 from .trial.floor import largest
 
 

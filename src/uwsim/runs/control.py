@@ -7,7 +7,7 @@ from dataclasses import replace
 from ..benchmark.measures import EuclideanNormSpec
 from ..benchmark.updaters import chain
 from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
-from .plan import Plan
+from .planning.plan import Plan
 from .run import Run
 
 CONTROL = "frozen"

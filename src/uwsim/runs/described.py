@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import __version__
 from ..results.run_info import RunInfo
-from .plan import Plan
+from .planning.plan import Plan
 
 
 def described(plan: Plan, renderer: str) -> RunInfo:

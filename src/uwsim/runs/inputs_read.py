@@ -12,7 +12,7 @@ from ..files.input_files import InputFile, by_name, hash_of, portable, record
 from ..files.python_sources import sources_of
 from ..results.inputs import Inputs
 from ..simulation import Simulation
-from .plan import Plan
+from .planning.plan import Plan
 
 
 def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> Inputs:

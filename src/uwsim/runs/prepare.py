@@ -14,7 +14,7 @@ from ..results.inputs import Inputs
 from ..simulation import RendererPool, Simulation
 from .input_watch import watchable
 from .inputs_read import inputs_of, of_algorithm
-from .plan import Plan
+from .planning.plan import Plan
 from .run import Run
 from .trial.trial import bind_all
 

@@ -21,7 +21,7 @@ from ..results.run_info import RunInfo
 from ..results.summary import save_summary
 from .collect import collect
 from .described import described
-from .plan import Plan, Trial
+from .planning.plan import Plan, Trial
 from .trial.status import ended_its_process, was_stopped
 from .uwsim_files import save_dat, save_data
 

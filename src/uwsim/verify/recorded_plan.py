@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 from ..assets.bundled import bundled
 from ..errors import AssetNotFound, ResultError
 from ..results.inputs import Inputs, differing
-from ..runs.make_plan import make_plan
-from ..runs.plan_request import PlanRequest
+from ..runs.planning.make_plan import make_plan
+from ..runs.planning.plan_request import PlanRequest
 
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..results.run_info import RunInfo
-    from ..runs.plan import Plan
+    from ..runs.planning.plan import Plan
 
 NOT_DRAWN = "none"
 """The renderer of a control, which looks at no image."""

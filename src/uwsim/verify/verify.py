@@ -22,7 +22,7 @@ from ..results.result_file import dumps
 from ..rng import stream
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
 from ..runs.executors.worker import IMAGES
-from ..runs.plan import Plan, Trial
+from ..runs.planning.plan import Plan, Trial
 from ..runs.run import Run
 from . import differences
 from .derived import contradictions

@@ -20,7 +20,7 @@ from uwsim.errors import AssetError, AssetNotFound, BadSetting, RunFailed, Unkno
 from uwsim.messages import CameraInfo, Image, pixels_of, seconds
 from uwsim.messages.bag_camera import RecordedFrame
 from uwsim.rendering.water import Water, apply_water
-from uwsim.runs.plan import Plan
+from uwsim.runs.planning.plan import Plan
 from uwsim.runs.trial.level_row import TrialEnd
 from uwsim.runs.trial.trial import execute
 

@@ -19,9 +19,9 @@ from uwsim.messages import (
     pixels_of,
 )
 from uwsim.runs.executors.executor import run_all
-from uwsim.runs.make_plan import make_plan
-from uwsim.runs.plan import Plan
-from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.planning.make_plan import make_plan
+from uwsim.runs.planning.plan import Plan
+from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.runs.prepare import hash_inputs
 from uwsim.runs.run import Run
 from uwsim.runs.trial.level_row import LevelRow

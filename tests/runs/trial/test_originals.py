@@ -25,7 +25,7 @@ from uwsim.benchmark.updaters import (
 from uwsim.cli import main
 from uwsim.compatibility import compatibility
 from uwsim.errors import BenchmarkError, NeverStarted, UwsimError
-from uwsim.runs.plan import Plan
+from uwsim.runs.planning.plan import Plan
 from uwsim.runs.trial.level_row import LevelRow
 from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene

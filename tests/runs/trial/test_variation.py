@@ -21,8 +21,8 @@ from uwsim.benchmark.updaters import CurrentForceUpdaterSpec
 from uwsim.cli import main
 from uwsim.errors import ResultError, SeveralErrors, UwsimError
 from uwsim.results.result_file import dumps, load, loads
-from uwsim.runs.make_plan import make_plan
-from uwsim.runs.plan_request import PlanRequest
+from uwsim.runs.planning.make_plan import make_plan
+from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
-from ...runs.plan_request import PlanRequest
+from ...runs.planning.plan_request import PlanRequest
 from .completion import benchmark_names, one_of, scene_names
 from .help_texts import FILES, INPUT, OUTPUT, RUN, in_group
 

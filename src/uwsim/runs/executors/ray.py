@@ -28,7 +28,7 @@ from ...errors import BadSetting, MissingExtra, RunFailed, UwsimError
 from ...files.scratch import OWNER, scratch_folder
 from ...results import journal
 from ...simulation import RendererPool
-from ..plan import Trial
+from ..planning.plan import Trial
 from ..prepare import hash_inputs
 from ..run import Run
 from .executor import ENVIRONMENT, Job, JobQueue

@@ -21,7 +21,7 @@ from ...results import journal
 from ...results.atomic_file import atomic_write
 from ...simulation import Calls, RendererPool
 from ..input_watch import Watch
-from ..plan import Plan, Trial
+from ..planning.plan import Plan, Trial
 from ..run import Run
 from ..trial.level_row import LevelRow, TrialEnd
 from ..trial.trial import execute

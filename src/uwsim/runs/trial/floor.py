@@ -23,7 +23,7 @@ from ...geometry import Array
 from ...numerics.linear import length, product, solve
 from ...results.result import FLOOR
 from ...simulation import Simulation
-from ..plan import Plan
+from ..planning.plan import Plan
 from .visibility import Fact
 
 EVERY = 16

@@ -18,7 +18,7 @@ from collections.abc import Mapping
 
 from ...benchmark.ground_truth import ConstantSpec
 from ...benchmark.measures import EuclideanNormSpec
-from ..plan import Plan
+from ..planning.plan import Plan
 
 PARAMETER = "corners"
 """Of the algorithm: x, y of four corners [px], eight numbers separated by blanks."""

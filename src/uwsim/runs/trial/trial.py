@@ -32,7 +32,7 @@ from ...interrupts import is_of_user
 from ...messages import String
 from ...simulation import Calls, RendererPool, Simulation, what_broke
 from ...simulation.markers import SERVICE as SPAWN_MARKER
-from ..plan import Plan, Trial
+from ..planning.plan import Plan, Trial
 from .fingerprint import Fingerprinter
 from .floor import Floor
 from .known_corners import known_corners

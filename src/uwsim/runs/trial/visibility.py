@@ -32,7 +32,7 @@ from ...benchmark.measures import EuclideanNormSpec
 from ...geometry import Array
 from ...numerics.linear import length, product
 from ...simulation import Simulation
-from ..plan import Plan
+from ..planning.plan import Plan
 
 GREY = np.array([0.299, 0.587, 0.114])
 """Weights of red, green and blue in grey (ITU-R BT.601)."""

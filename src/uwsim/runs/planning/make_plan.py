@@ -7,28 +7,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..assets.bundled import benchmark_file, scene_file
-from ..errors import AllErrors, AssetNotFound, BadSetting
-from ..terminal import print_warnings
-from .foreign_code import announce, refuse_code, refused
-from .option_values import (
-    compatibility_of,
-    levels_of,
-    mode_of,
-    number_or_text,
-    pairs_of,
-)
+from ...assets.bundled import benchmark_file, scene_file
+from ...errors import AllErrors, AssetNotFound, BadSetting
+from ...terminal import print_warnings
+from ..foreign_code import announce, refuse_code, refused
+from ..program import load_program
+from ..stand_ins import warn_of_stand_ins
+from ..tables import read_plugins
+from .option_values import compatibility_of, levels_of, mode_of, number_or_text, pairs_of
 from .plan_request import PlanRequest
-from .program import load_program
-from .stand_ins import warn_of_stand_ins
-from .tables import read_plugins
 
 if TYPE_CHECKING:
-    from ..benchmark.plugin import Plugin
-    from ..benchmark.plugin_tables import Tables
-    from ..benchmark.spec import BenchmarkSpec
-    from ..bus import Algorithm
-    from ..scene.spec import SceneSpec
+    from ...benchmark.plugin import Plugin
+    from ...benchmark.plugin_tables import Tables
+    from ...benchmark.spec import BenchmarkSpec
+    from ...bus import Algorithm
+    from ...scene.spec import SceneSpec
     from .plan import Mode, Plan
 
 MAX_REPEATS = 10_000
@@ -124,8 +118,8 @@ def _read_files(request: PlanRequest, wrong: AllErrors) -> _Files:
 
 def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErrors) -> _Files:
     """Apply every ``--set`` of scene and updaters; collects errors."""
-    from ..benchmark.updater_settings import apply_updater_setting, leads_to_updater
-    from ..scene.settings import apply_setting
+    from ...benchmark.updater_settings import apply_updater_setting, leads_to_updater
+    from ...scene.settings import apply_setting
 
     spec, scene = read.benchmark, read.scene
     for name, value in pairs:
@@ -157,7 +151,7 @@ def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
 
 def say_warnings(plan: Plan) -> None:
     """Print warnings about stand-ins for missing files and about unlikely values."""
-    from ..simulation.checks.plausibility import warnings_of
+    from ...simulation.checks.plausibility import warnings_of
 
     warn_of_stand_ins(plan.scene, plan.data_path)
     print_warnings(warnings_of(plan.scene, plan.data_path))
@@ -165,8 +159,8 @@ def say_warnings(plan: Plan) -> None:
 
 def benchmark_of(path: Path, own: Sequence[Plugin], tables: Tables) -> BenchmarkSpec:
     """Read the benchmark, with what plugins have added to the tables."""
-    from ..benchmark.plugin import attribute_errors_to
-    from ..benchmark.reader import read_benchmark
+    from ...benchmark.plugin import attribute_errors_to
+    from ...benchmark.reader import read_benchmark
 
     with attribute_errors_to(own):
         return read_benchmark(
@@ -187,7 +181,7 @@ def scene_of(
         AssetNotFound: it is nowhere.
         SceneError: it is wrong.
     """
-    from ..scene.reader import read_scene
+    from ...scene.reader import read_scene
 
     named = scene or (None if spec is None else spec.scene)
     if named is None:
@@ -227,8 +221,8 @@ def check_parameters(
     kind: type[Algorithm] | None, parameters: Mapping[str, float | str], wrong: AllErrors
 ) -> None:
     """Collect errors for parameters that the algorithm does not have."""
-    from .. import algorithms
-    from ..simulation import latency_of
+    from ... import algorithms
+    from ...simulation import latency_of
 
     for name, value in parameters.items():
         with wrong.kept():
@@ -241,7 +235,7 @@ def check_length(
     spec: BenchmarkSpec | None, chosen: Sequence[tuple[str, float]], repeat: int
 ) -> None:
     """Refuse a benchmark of excessive length; raises BadSetting."""
-    from ..benchmark import updaters
+    from ...benchmark import updaters
     from .plan import chosen_levels
 
     if repeat > MAX_REPEATS:

@@ -11,16 +11,16 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, Literal
 
-from ..benchmark.plugin import Plugin
-from ..benchmark.spec import BenchmarkSpec
-from ..benchmark.updater_settings import updater_draws
-from ..benchmark.updaters import Level
-from ..benchmark.updaters import levels as levels_of
-from ..bus import Algorithm
-from ..errors import BadSetting, did_you_mean
-from ..scene.spec import SceneSpec
-from ..scene.variation import Draw, draw
-from ..world import TIMESTEP
+from ...benchmark.plugin import Plugin
+from ...benchmark.spec import BenchmarkSpec
+from ...benchmark.updater_settings import updater_draws
+from ...benchmark.updaters import Level
+from ...benchmark.updaters import levels as levels_of
+from ...bus import Algorithm
+from ...errors import BadSetting, did_you_mean
+from ...scene.spec import SceneSpec
+from ...scene.variation import Draw, draw
+from ...world import TIMESTEP
 
 Mode = Literal["sequential", "independent"]
 PATIENCE = 10.0

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ..errors import AllErrors, BadSetting, did_you_mean
+from ...errors import AllErrors, BadSetting, did_you_mean
 
 if TYPE_CHECKING:
-    from ..benchmark.spec import BenchmarkSpec
+    from ...benchmark.spec import BenchmarkSpec
     from .plan import Mode
 
 
@@ -33,7 +33,7 @@ def mode_of(mode: str | None) -> Mode:
 
 def compatibility_of(compat: Sequence[str], wrong: AllErrors) -> frozenset[str]:
     """Return the quirks of ``--compat``; an unknown name goes into ``wrong``."""
-    from ..compatibility import compatibility
+    from ...compatibility import compatibility
 
     found: frozenset[str] = frozenset()
     for name in [word for words in compat for word in words.replace(",", " ").split()]:
@@ -46,7 +46,7 @@ def levels_of(
     texts: Sequence[str], spec: BenchmarkSpec | None, wrong: AllErrors
 ) -> tuple[tuple[str, float], ...]:
     """Parse ``--level``; collects errors and levels that the sweep does not have."""
-    from ..benchmark import updaters
+    from ...benchmark import updaters
     from .plan import chosen_levels
 
     levels = () if spec is None or not texts else updaters.levels(spec.scene_updater)
