@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.assets.bundled import benchmark_file, scene_file
 from uwsim.benchmark.reader import read_benchmark
@@ -16,6 +15,7 @@ from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.results.log import load_log
 from uwsim.results.result_file import load
 from uwsim.scene.reader import read_scene
+from uwsim.scene.urdf.reader import read_urdf
 from uwsim.simulation import Simulation
 
 READERS: list[Callable[[str], object]] = [

@@ -28,7 +28,7 @@ CHOSEN_BY_THE_PROCESSOR = """
 NEEDS = {"np.linalg.norm": "axis", "np.argsort": "kind"}
 """Of numpy: the argument that makes the difference."""
 MAKE_NO_NUMBERS = {
-    "linear.py": "raises numpy's error",
+    "numerics/linear.py": "raises numpy's error",
     "physics/hydrodynamics/file/checks.py": "says that a vehicle's file is wrong",
     "physics/hydrodynamics/file/passivity.py": "says that a vehicle's file is wrong",
     "physics/hydrodynamics/self_test.py": "says that MuJoCo is another",
@@ -63,7 +63,7 @@ def calls(path: Path) -> list[str]:
 
 
 def test_nothing_that_the_processor_chooses_makes_numbers() -> None:
-    """Use uwsim.numerics.linear and uwsim.numerics.elementwise instead, or the argument in `NEEDS`."""
+    """Use linear and elementwise of uwsim.numerics instead, or the argument in `NEEDS`."""
     found = []
     for path in sorted(PACKAGE.rglob("*.py")):
         name = path.relative_to(PACKAGE).as_posix()

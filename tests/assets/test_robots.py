@@ -4,11 +4,11 @@ from functools import cache
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from uwsim.scene.urdf.robot.kinematics import link_poses
-from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.assets import find, load_model
 from uwsim.geometry import Pose
+from uwsim.scene.urdf.kinematics import link_poses
+from uwsim.scene.urdf.reader import read_urdf
 
 POSTURES = [
     (0.0, 0.0, 2.15, 0.0, 0.8),

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from uwsim.simulation.scenery.scenery.sand import Heap
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
 from uwsim.devices.dredge_tool import DredgeToolSpec
@@ -17,6 +16,7 @@ from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.simulation import Simulation
+from uwsim.simulation.scenery.sand import Heap
 
 EYE = VirtualCameraSpec(name="eye", relative_to="base_link", position=(0.0, 0.0, 2.0))
 TOOL = DredgeToolSpec(name="dredge", target="base_link")

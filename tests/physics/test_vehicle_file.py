@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.errors import UnknownName
 from uwsim.physics.hydrodynamics import (
@@ -20,6 +19,7 @@ from uwsim.physics.hydrodynamics.file.checks import body_errors
 from uwsim.physics.hydrodynamics.file.spec import matrix
 from uwsim.physics.vehicle_file import VehicleError, read_vehicle
 from uwsim.physics.vehicle_sets import find_vehicle, vehicle_sets
+from uwsim.scene.urdf.reader import read_urdf
 
 DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data"
 ROBOTS = {

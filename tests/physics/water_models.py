@@ -7,7 +7,6 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
-from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.geometry import Pose, rotation_about
 from uwsim.physics.hydrodynamics import (
@@ -19,6 +18,7 @@ from uwsim.physics.hydrodynamics import (
 )
 from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import vehicle_sets
+from uwsim.scene.urdf.reader import read_urdf
 
 FAR_BELOW = 1000.0  # a surface that nothing reaches [m]
 

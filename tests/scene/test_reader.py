@@ -14,8 +14,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
-from uwsim.scene.urdf.robot.kinematics import link_poses
-from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.currents import UwsimSinusoidSpec
 from uwsim.devices.comms.custom_comms_device import CustomCommsDeviceSpec
@@ -28,6 +26,8 @@ from uwsim.scene import SceneSpec, read_scene
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import check_scene
 from uwsim.scene.sim_params import ShowTrajectorySpec
+from uwsim.scene.urdf.kinematics import link_poses
+from uwsim.scene.urdf.reader import read_urdf
 from uwsim.scene.writer import to_original, write_scene
 from uwsim.schema import Diagnostics, Field, fields_of
 from uwsim.sensors.sonar.multibeam_sensor import MultibeamSensorSpec

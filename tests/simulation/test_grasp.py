@@ -4,8 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from uwsim.scene.urdf.robot.kinematics import link_poses
-from uwsim.scene.urdf.robot.reader import read_urdf
 
 from tests.simulation.girona500 import SCENE, run
 from uwsim.geometry import Pose, quaternion_from_rotation
@@ -13,6 +11,8 @@ from uwsim.messages import JointState, Point, Quaternion, header
 from uwsim.messages import Pose as PoseMessage
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
+from uwsim.scene.urdf.kinematics import link_poses
+from uwsim.scene.urdf.reader import read_urdf
 from uwsim.simulation import Simulation
 from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 from uwsim.topics.ros_pose_to_pat import ROSPoseToPATSpec

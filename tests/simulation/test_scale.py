@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from uwsim.scene.urdf.robot.kinematics import link_poses
 
 from tests.simulation.small_robots import begin, joint, scene_of, shape, write_robot
 from uwsim.devices.lamp import LampSpec
@@ -16,6 +15,7 @@ from uwsim.geometry import Pose, rotation_from_rpy, rotation_from_xyz
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
+from uwsim.scene.urdf.kinematics import link_poses
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from uwsim.scene.urdf.robot.kinematics import link_poses
 
 from uwsim.messages import JointState
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
+from uwsim.scene.urdf.kinematics import link_poses
 from uwsim.simulation import Simulation
 from uwsim.topics.arm_to_ros_joint_state import ArmToROSJointStateSpec
 

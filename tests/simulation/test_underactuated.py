@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.geometry import quaternion_from_rotation, rotation_from_rpy
 from uwsim.messages import Twist, TwistStamped, Vector3, header
@@ -27,6 +26,7 @@ from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
+from uwsim.scene.urdf.reader import read_urdf
 from uwsim.simulation import Simulation
 
 DATA = Path(str(resources.files("uwsim"))) / "data"

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
-from uwsim.scene.urdf.robot.reader import read_urdf
 
 from uwsim.errors import SceneError
 from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.urdf.reader import read_urdf
 from uwsim.xacro import parse_expanded
 from uwsim.xacro.expression import ExpressionError, evaluate
 

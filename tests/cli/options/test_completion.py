@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from uwsim.cli.options.options.completion import VARIABLE
 
 from uwsim.cli import COMMANDS, main
+from uwsim.cli.options.completion import VARIABLE
 
 
 def offered(

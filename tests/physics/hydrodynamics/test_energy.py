@@ -10,7 +10,6 @@ import mujoco
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from uwsim.scene.urdf.robot.reader import read_urdf
 
 from tests.physics.fossen import Fossen, angle_between, rotation
 from tests.physics.water_models import FAR_BELOW, ROBOTS, free_body, random_added_mass, set_options
@@ -19,6 +18,7 @@ from uwsim.physics.hydrodynamics.file.spec import matrix
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import vehicle_sets
+from uwsim.scene.urdf.reader import read_urdf
 
 TAG = BodyHydrodynamics(  # a plate of steel, 10 x 10 x 0.2 cm
     link="body",

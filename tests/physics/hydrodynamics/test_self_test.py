@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import mujoco
 import pytest
-from uwsim.physics.hydrodynamics.kernel.kernel.layout import MujocoChanged
 
 from uwsim.physics.hydrodynamics import self_test
+from uwsim.physics.hydrodynamics.kernel.layout import MujocoChanged
 
 
 def test_this_mujoco_passes() -> None:

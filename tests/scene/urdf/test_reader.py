@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from uwsim.scene.urdf.robot.kinematics import joint_positions, link_poses
-from uwsim.scene.urdf.robot.reader import read_robot, read_urdf
 
 from uwsim.errors import SceneError
+from uwsim.scene.urdf.kinematics import joint_positions, link_poses
+from uwsim.scene.urdf.reader import read_robot, read_urdf
 from uwsim.scene.urdf.robot import RobotSpec
 from uwsim.schema import Diagnostics
 

@@ -11,11 +11,11 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from uwsim.scene.checks.names.plausibility import PLAUSIBILITY_WARNINGS, VehicleWarning
 
 from uwsim.cli.app import main
 from uwsim.errors import Diagnostic
 from uwsim.runs.check import diagnostics_of
+from uwsim.scene.checks.plausibility import PLAUSIBILITY_WARNINGS, VehicleWarning
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf.robot import LinkSpec, RobotSpec
 from uwsim.simulation import Simulation

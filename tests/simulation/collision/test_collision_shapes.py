@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from uwsim.scene.urdf.robot.reader import read_urdf
-
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
+from uwsim.scene.urdf.reader import read_urdf
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation.collision.collision_shapes import collision_shapes
 

@@ -9,11 +9,11 @@ import pytest
 import trimesh
 from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import Delaunay
-from uwsim.simulation.scenery.scenery.below import _highest, below, below_vehicle
 
 from uwsim.assets.bundled import scene_file
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
+from uwsim.simulation.scenery.below import _highest, below, below_vehicle
 
 
 def test_a_plumb_line_meets_a_triangulated_surface_where_scipy_says() -> None:

@@ -8,7 +8,8 @@
       <range>10</range> <fov>2</fov>
     </ProfilingSonar>
 
-As in that branch a sample is a whole scan, taken at once: see `uwsim.sensors.sonar.multibeam_sensor`.
+As in that branch a sample is a whole scan, taken at once: see
+`uwsim.sensors.sonar.multibeam_sensor`.
 """
 
 from __future__ import annotations

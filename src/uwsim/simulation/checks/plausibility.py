@@ -1,7 +1,7 @@
 """Likely mistakes of a scene, each with its line and how a file accepts it.
 
 `uwsim check` says it, and `uwsim bench` and `uwsim render` before anything moves. All are warnings:
-no run is refused for them. `uwsim.scene.checks.names.plausibility` has their names.
+no run is refused for them. `uwsim.scene.checks.plausibility` has their names.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Contacts between bodies: those of the engine, and overlaps of kinematic bodies.
 
 The engine knows contacts between simulated vehicles and objects with ``<physics>``. What it does
-not simulate is looked at by `uwsim.physics.collision.kinematic_contacts`, from the first time that somebody
-asks.
+not simulate is looked at by `uwsim.physics.collision.kinematic_contacts`, from the first time that
+somebody asks.
 """
 
 from __future__ import annotations

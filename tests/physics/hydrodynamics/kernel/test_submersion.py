@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
-from uwsim.physics.hydrodynamics.kernel.kernel.submersion import submerged
 
 from uwsim.physics.hydrodynamics import columns as c
+from uwsim.physics.hydrodynamics.kernel.submersion import submerged
 
 
 def part(

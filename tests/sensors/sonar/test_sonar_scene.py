@@ -13,7 +13,7 @@ from uwsim.scene.reader import check_scene, read_scene
 from uwsim.sensors.sonar.message import amplitudes
 from uwsim.simulation import Simulation
 
-PAGE = Path(__file__).parents[2] / "docs" / "sonar.md"
+PAGE = Path(__file__).parents[3] / "docs" / "sonar.md"
 (TEXT,) = re.findall(r"^`wreck-sonar.xml`:\n\n```xml\n(.*?)^```", PAGE.read_text(), re.M | re.S)
 SMALLER = TEXT.replace("<beams>512<", "<beams>64<").replace("<rows>64<", "<rows>24<")
 
