@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 SOURCE = """
-from uwsim import jit
+from uwsim.numerics import jit
 
 @jit.njit
 def twice(x: float) -> float:
@@ -97,9 +97,12 @@ def test_a_changed_source_is_compiled_anew(cache: Path) -> None:
 def test_a_changed_constant_or_function_of_another_module_is_compiled_anew(
     cache: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str
 ) -> None:
-    other = "from uwsim import jit\nFACTOR = 3.0\n\n@jit.njit\ndef same(x):\n    return 1.0 * x\n"
+    other = (
+        "from uwsim.numerics import jit\nFACTOR = 3.0\n\n"
+        "@jit.njit\ndef same(x):\n    return 1.0 * x\n"
+    )
     user = """
-from uwsim import jit
+from uwsim.numerics import jit
 import factors
 from factors import FACTOR, same
 
@@ -135,7 +138,7 @@ def test_a_c_function_is_read_back(cache: Path, monkeypatch: pytest.MonkeyPatch)
 
     source = """
 from numba import types
-from uwsim import jit
+from uwsim.numerics import jit
 
 def thrice(x):
     return 3.0 * x

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..geometry import Array, quaternion_from_rotation
-from ..scene.urdf import RobotSpec
+from ..scene.urdf.robot import RobotSpec
 from .parts import Part
 from .world import SceneWorld
 
