@@ -28,6 +28,7 @@ GROUND = {
     "message_fields",
     "sampling",
     "interrupts",
+    "raised",
     "files",
     "terminal",
     "tracks",

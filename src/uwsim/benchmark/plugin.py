@@ -19,12 +19,8 @@ that hash, so nothing global changes and two plugins cannot disturb each other.
 from __future__ import annotations
 
 import hashlib
-import importlib.abc
-import importlib.machinery
-import importlib.util
 import inspect
 import re
-import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -40,6 +36,7 @@ from ..errors import (
     UwsimError,
 )
 from ..files.input_files import read_bytes
+from ..files.source_module import source_module
 from ..interrupts import is_of_user
 from ..world import Stage
 from .measures import Measure, MeasureSpec
@@ -90,28 +87,18 @@ class Plugin:
         Raises:
             PluginError: it cannot be imported.
         """
-        name = self.module_name
-        if name in sys.modules:
-            return sys.modules[name]
-        spec = importlib.machinery.ModuleSpec(name, _Loader(self), origin=self.path)
-        module = importlib.util.module_from_spec(spec)
-        module.__file__ = self.path
-        sys.modules[name] = module
         try:
-            _Loader(self).exec_module(module)
+            return source_module(self.module_name, self.path, self.source)
         except SyntaxError as error:
-            del sys.modules[name]
             line = error.lineno if error.filename == self.path else None
             raise self.diagnostic(f"not Python: {error.msg}", line) from error
         except BaseException as error:
-            del sys.modules[name]
             if is_of_user(error):
                 raise
             message = f"cannot be imported: {raised(error)}"
             if isinstance(error, ModuleNotFoundError):
                 message += " (a plugin is one file; what it imports must be installed)"
             raise self.diagnostic(message, self.line_of(error)) from error
-        return module
 
     def diagnostic(self, message: str, line: int | None = None) -> PluginError:
         """Return a `PluginError` for this file."""
@@ -128,19 +115,6 @@ def _imported(path: str, source: bytes) -> Plugin:
     plugin = Plugin(path, source)
     plugin.module()
     return plugin
-
-
-class _Loader(importlib.abc.InspectLoader):
-    """Loads a plugin's module from its stored source."""
-
-    def __init__(self, plugin: Plugin) -> None:
-        self._plugin = plugin
-
-    def get_source(self, fullname: str) -> str:
-        return importlib.util.decode_source(self._plugin.source)
-
-    def get_code(self, fullname: str) -> CodeType:
-        return self.source_to_code(self._plugin.source, self._plugin.path)
 
 
 def read_plugin(path: Path) -> Plugin:

@@ -82,15 +82,20 @@ def sample_of(measure: Measure) -> Sequence[object]:
 
 
 def parameters_of(
-    algorithm: object, given: Mapping[str, float | str]
+    algorithm: object, given: Mapping[str, float | str], *, name: str
 ) -> dict[str, float | int | str]:
     """Return the parameters that an algorithm reports; without them, those given.
+
+    Args:
+        algorithm: the algorithm.
+        given: what the user set.
+        name: of its class.
 
     Raises:
         RunFailed: they are no dict of name -> number or text, which is what a result can hold.
     """
     returned: object = getattr(algorithm, "parameters", given)
-    who = f"Algorithm {type(algorithm).__name__}: its attribute parameters"
+    who = f"Algorithm {name}: its attribute parameters"
     if not isinstance(returned, Mapping):
         raise RunFailed(f"{who} is {_shown(returned)}; expected a dict of name -> number or text.")
     found: dict[str, float | int | str] = {}

@@ -23,6 +23,8 @@ class RunInfo(StoredRecord):
     """``sequential`` or ``independent``."""
     algorithm: str | None = None
     """Name of the algorithm, or ``module:Class``."""
+    clients: tuple[tuple[str, str], ...] | None = None
+    """Third-party algorithm and external clients: name, and how each takes part (`docs`)."""
     parameters: Mapping[str, object] | None = None
     """Parameters that the algorithm ran with."""
     settings: tuple[tuple[str, str], ...] | None = None

@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import __version__
 from ..results.run_info import RunInfo
+from .own_process.program import clients_of
 from .planning.plan import Plan
 
 
@@ -18,6 +19,7 @@ def described(plan: Plan, renderer: str) -> RunInfo:
         repeats=plan.repeats,
         mode=plan.mode,
         algorithm=plan.algorithm_name,
+        clients=clients_of(plan),
         parameters=dict(sorted(plan.parameters.items())),
         settings=plan.settings,
         levels=plan.chosen,

@@ -6,7 +6,7 @@ scene updaters set; `scenery` renders; `node` is an algorithm that runs in this 
 
 from __future__ import annotations
 
-from .nodes.calls import BEFORE, Calls, Counter, Cut, open_call
+from .nodes.calls import BEFORE, Calls, Counter, Cut, Stopped, open_call
 from .nodes.node import STOPPED, InProcessNode, latency_of, what_broke
 from .scenery.renderer_pool import RendererPool
 from .simulation import Simulation
@@ -20,6 +20,7 @@ __all__ = [
     "InProcessNode",
     "RendererPool",
     "Simulation",
+    "Stopped",
     "latency_of",
     "open_call",
     "what_broke",

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ..assets.bundled import bundled
 from ..errors import AssetNotFound, ResultError
 from ..results.inputs import Inputs, differing
+from ..runs.own_process.program import IN_PROCESS
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.plan_request import PlanRequest
 
@@ -75,6 +76,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
         data_path=overrides.data_path,
         plugins=_plugins(result, overrides.plugins),
         no_code=overrides.no_code,
+        in_process=IN_PROCESS in dict(run.clients or ()).values(),
         algorithm_is_from=str(directory),
     )
     return replace(make_plan(request), is_blind=is_blind)

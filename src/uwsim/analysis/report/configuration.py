@@ -22,8 +22,13 @@ FACTS = {
     "shift": "how far the target moved in the image",
 }
 """Constant of a scene -> what it is (`uwsim.runs.trial.visibility`)."""
-SAID_ELSEWHERE = ("notes", "levels", "settings", "compatibility", "units")
+SAID_ELSEWHERE = ("notes", "clients", "levels", "settings", "compatibility", "units")
 """Parts of ``run`` that are in sentences above the table."""
+CLIENTS = {
+    "own process": "in lock-step, in a process of its own, by messages only",
+    "in process": "in the process of the simulation (--in-process)",
+}
+"""How an algorithm or an external client takes part -> what that means."""
 CODE = ("code", "code_before")
 """Parts of the provenance: what libraries chose for the processor."""
 NOT_OF_THE_RESULT = {"--out": 1, "--workers": 1, "--resume": 0, "--overwrite": 0}
@@ -59,6 +64,7 @@ def remarks(result: Result, unchecked: str | None = None) -> list[str]:
         message.append(f"Only these levels of the sweep were run: {', '.join(chosen)}.")
     if settings := run.pairs_of_settings:
         message.append(f"Changed for this run: {', '.join(settings)}.")
+    message += [f"{who} takes part: {CLIENTS.get(how, how)}." for who, how in run.clients or ()]
     if names := run.compatibility:
         message.append(f"Compatibility quirks: {', '.join(names)}.")
     return message + [f"{note}." for note in run.notes or ()]

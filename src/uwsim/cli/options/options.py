@@ -114,6 +114,16 @@ NoCodeOption = Annotated[
     ),
 ]
 
+InProcessOption = Annotated[
+    bool,
+    in_group(
+        RUN,
+        "--in-process",
+        help="Run an algorithm of your own in the process of the simulation, for debugging, not "
+        "in one of its own; the result says so. The rows are the same.",
+    ),
+]
+
 WorkersOption = Annotated[
     str,
     in_group(
@@ -177,6 +187,7 @@ class CodeOptions:
     plugin: PluginOption = None
     no_code: NoCodeOption = False
     data_path: DataPathOption = None
+    in_process: InProcessOption = False
 
     @property
     def folders(self) -> tuple[Path, ...]:
@@ -194,4 +205,5 @@ def request_of(task: TaskOptions, changes: SettingOptions, files: CodeOptions) -
         data_path=files.folders,
         plugins=files.plugin or (),
         no_code=files.no_code,
+        in_process=files.in_process,
     )

@@ -25,6 +25,7 @@ RUN = fields(
         "repeats": whole,
         "mode": text,
         "algorithm": text,
+        "clients": each(items(text, text)),
         "parameters": table(anything),
         "settings": each(items(text, text)),
         "levels": each(items(text, number)),

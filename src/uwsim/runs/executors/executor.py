@@ -20,9 +20,9 @@ from ...interrupts import is_of_user, raise_if_interrupted
 from ...results.journal import path_of
 from ...results.result import Result
 from ...simulation import Calls, Cut, RendererPool
+from ..own_process.process import PROCESS_ENDED
 from ..planning.plan import Plan, Trial
 from ..run import Run
-from ..trial.status import PROCESS_ENDED
 from .worker import Event, JournalWriter, picklable, run_trial
 
 OnLevel = Callable[[], None]

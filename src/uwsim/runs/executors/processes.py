@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import ctypes
 import multiprocessing
-import signal
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
@@ -21,6 +20,7 @@ from multiprocessing.connection import Connection, wait
 from ...environment import environment
 from ...interrupts import is_of_user
 from ...simulation import BEFORE, Calls, Counter, Cut, RendererPool, open_call
+from ..own_process.process import how
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 from .worker import TrialFailed, picklable
@@ -196,13 +196,6 @@ class WorkerProcess:
         with suppress(EOFError, OSError):
             while self._pipe.poll():
                 yield self._pipe.recv()
-
-
-def how(exit_code: int | None) -> str:
-    """Describe how a process ended."""
-    if exit_code is not None and exit_code < 0:
-        return f"killed by {signal.Signals(-exit_code).name}"
-    return f"with exit status {exit_code}"
 
 
 def work(pipe: Connection, parent: Connection, counter: Counter) -> None:

@@ -95,7 +95,16 @@ def make_plan(request: PlanRequest) -> Plan:
         compatibility=quirks,
         data_path=tuple(request.data_path),
         plugins=read.plugins,
+        own_process=not request.in_process
+        and kind not in _bundled_algorithms(_wanted(request, spec)),
     )
+
+
+def _bundled_algorithms(name: str) -> tuple[type[Algorithm], ...]:
+    """Return the bundled algorithm of this name, if there is one; ``module:Class`` is none."""
+    from ..algorithms import ALGORITHMS
+
+    return (ALGORITHMS[name],) if name in ALGORITHMS else ()
 
 
 def _read_files(request: PlanRequest, wrong: AllErrors) -> _Files:

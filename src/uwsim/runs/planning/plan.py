@@ -85,6 +85,8 @@ class Plan:
     """Whether images are black: for a control that does not look at them."""
     plugins: tuple[Plugin, ...] = ()
     """What was read with ``--plugin``."""
+    own_process: bool = False
+    """Whether the algorithm runs in a process of its own, in lock-step."""
 
     def __reduce__(self) -> tuple[Callable[..., Plan], tuple[object, ...]]:
         """Pickle the plugins first, because later fields may be of their classes."""

@@ -35,5 +35,7 @@ class PlanRequest:
     """Files of ``--plugin``."""
     no_code: bool = False
     """Whether code that the files name is refused."""
+    in_process: bool = False
+    """Whether a third-party algorithm shares the simulation's process."""
     algorithm_is_from: str = ""
     """The file that names ``algorithm``, where the user did not."""

@@ -7,14 +7,11 @@ from collections.abc import Sequence
 from ...bus import Inbox
 from ...messages import String
 from ...simulation import STOPPED, InProcessNode
+from ..own_process.process import PROCESS_ENDED
 from .triggered_measure import TriggeredMeasure
 
 SILENCE = 1.0
 """A measure that waits longer than this for an estimate ends in ``timeout`` [s]."""
-
-
-PROCESS_ENDED = "its process ended"
-"""How the reason begins of an algorithm that took its process with it."""
 
 
 def was_stopped(name: str, why: str | None) -> bool:

@@ -7,7 +7,7 @@ its target and runs 1 s; then the level's values are ramped in over 1 s; only th
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import closing
 
 from ...benchmark.plugin import attribute_errors_to
@@ -32,6 +32,7 @@ from ...interrupts import is_of_user
 from ...messages import String
 from ...simulation import Calls, RendererPool, Simulation, what_broke
 from ...simulation.markers import SERVICE as SPAWN_MARKER
+from ..own_process.program import Program, program_of
 from ..planning.plan import Plan, Trial
 from .fingerprint import Fingerprinter
 from .floor import Floor
@@ -67,24 +68,25 @@ def execute(
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    simulation = Simulation(
-        plan.scene,
-        seed=trial.seed,
-        stream_prefix=trial.stream_prefix,
-        timestep=plan.timestep,
-        data_path=plan.data_path,
-        compatibility=plan.compatibility,
-        is_blind=plan.is_blind,
-        pool=pool,
-    )
-    try:
-        with (
-            attribute_errors_to(plan.plugins, is_running=True),
-            closing(_Execution(plan, trial, simulation, calls or Calls())) as execution,
-        ):
-            yield from execution.rows()
-    finally:
-        simulation.close()
+    with program_of(plan) as program:  # its process starts while the scene is opened
+        simulation = Simulation(
+            plan.scene,
+            seed=trial.seed,
+            stream_prefix=trial.stream_prefix,
+            timestep=plan.timestep,
+            data_path=plan.data_path,
+            compatibility=plan.compatibility,
+            is_blind=plan.is_blind,
+            pool=pool,
+        )
+        try:
+            with (
+                attribute_errors_to(plan.plugins, is_running=True),
+                closing(_Execution(plan, trial, simulation, program, calls or Calls())) as running,
+            ):
+                yield from running.rows()
+        finally:
+            simulation.close()
 
 
 def bind_all(plan: Plan, simulation: Simulation) -> None:
@@ -103,7 +105,9 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
 class _Execution:
     """A trial during its execution."""
 
-    def __init__(self, plan: Plan, trial: Trial, simulation: Simulation, calls: Calls) -> None:
+    def __init__(
+        self, plan: Plan, trial: Trial, simulation: Simulation, program: Program, calls: Calls
+    ) -> None:
         self._plan, self._trial, self._simulation = plan, trial, simulation
         benchmark = benchmark_of_seed(plan.benchmark, trial.seed)
         self._updater = benchmark.scene_updater
@@ -120,8 +124,8 @@ class _Execution:
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
         self._calls = calls
-        self._algorithm = _make(plan, calls)
         self._parameters = {**known_corners(plan), **plan.parameters}
+        self._algorithm = _make(plan, program, self._parameters, calls)
         self._node = simulation.attach(
             self._algorithm,
             name=plan.algorithm_name,
@@ -183,7 +187,9 @@ class _Execution:
         """
         try:
             with self._calls:
-                return parameters_of(self._algorithm, self._parameters)
+                return parameters_of(
+                    self._algorithm, self._parameters, name=self._plan.algorithm.__name__
+                )
         except UwsimError:
             raise
         except BaseException as error:
@@ -356,11 +362,13 @@ class _Execution:
         )
 
 
-def _make(plan: Plan, calls: Calls) -> Algorithm:
-    """Make the algorithm; an exception of its constructor is a RunFailed."""
+def _make(
+    plan: Plan, program: Program, parameters: Mapping[str, float | str], calls: Calls
+) -> Algorithm:
+    """Make the algorithm; an exception of its constructor is a NeverStarted."""
     try:
         with calls:
-            return plan.algorithm()
+            return program(parameters)
     except BaseException as error:
         if is_of_user(error):
             raise

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import math
-import sys
 import threading
-import traceback
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import NoReturn, TypeVar
 
 import numpy as np
@@ -16,6 +13,7 @@ from ...bus import Algorithm, Bus
 from ...errors import BadSetting, NotAllowed
 from ...interrupts import is_of_user
 from ...message_fields import copied
+from ...raised import what_was_raised
 from .calls import Calls, Stopped
 from .undelivered import UndeliveredMessages
 
@@ -33,27 +31,8 @@ def latency_of(parameters: Mapping[str, float | str]) -> float:
 
 
 def what_broke(error: BaseException, algorithm: type) -> str:
-    """Describe what a third-party program raised, with the line of its file.
-
-    The file is the algorithm's, without its folders: results are the same wherever it lies. Where
-    the error did not pass through it, the file is the one that raised.
-    """
-    if isinstance(error, Stopped):
-        return str(error)
-    frames = traceback.extract_tb(error.__traceback__)[1:]  # the first is that of who called it
-    own = getattr(sys.modules.get(algorithm.__module__), "__file__", None)
-    through = [frame for frame in frames if frame.filename == own] or frames
-    place = f"{Path(through[-1].filename).name}:{through[-1].lineno}: " if through else ""
-    return f"{place}{type(error).__name__}: {_text(error)}"
-
-
-def _text(error: BaseException) -> str:
-    try:
-        return str(error)
-    except BaseException as odd:  # even str() of a third-party error may raise
-        if is_of_user(odd):
-            raise
-        return "its text cannot be shown"
+    """Describe what a third-party program raised, or why it was stopped."""
+    return str(error) if isinstance(error, Stopped) else what_was_raised(error, algorithm)
 
 
 class _Timer:

@@ -1,0 +1,99 @@
+"""What lock-step costs: a round trip with an algorithm outside the simulation's process.
+
+Run ``python benchmarks/lockstep.py``. A controller gets an odometry message and answers with a
+twist, 1000 times: one simulated control period at 100 Hz. The target is 0.5 ms of wall time.
+"""
+
+from __future__ import annotations
+
+import importlib
+import time
+from collections.abc import Callable
+from statistics import median
+
+import numpy as np
+from measure import main
+
+from uwsim.bus import Bus, Node
+from uwsim.messages import Image, Odometry, TwistStamped
+from uwsim.rng import stream
+from uwsim.runs.own_process.process import OwnProcess, ProcessAlgorithm
+from uwsim.simulation import InProcessNode
+
+TARGET = 0.5
+"""Of a round trip [ms]."""
+ROUNDS = 1000
+
+
+class Controller:
+    """Answers each odometry message, and reads images."""
+
+    def start(self, node: Node) -> None:
+        self.say = node.publisher("twist", TwistStamped)
+        node.subscribe("odometry", Odometry, self.on_odometry)
+        node.subscribe("image", Image, lambda message: None)
+
+    def on_odometry(self, message: Odometry) -> None:
+        answer = TwistStamped(header=message.header)
+        answer.twist.linear.x = -0.4 * message.pose.pose.position.x
+        self.say(answer)
+
+
+def round_trips(bus: Bus, publish: Callable[[], None], rounds: int) -> list[float]:
+    """Return the time of each publishing and delivering [ms]."""
+    times = []
+    for _ in range(rounds):
+        bus.step += 5
+        began = time.perf_counter_ns()
+        publish()
+        bus.deliver()
+        times.append((time.perf_counter_ns() - began) / 1e6)
+    return times
+
+
+def summary(times: list[float], target: float | None = None) -> dict[str, object]:
+    """Return median and 95th percentile, and the share of the target."""
+    figures: dict[str, object] = {
+        "wall_ms": round(median(times), 4),
+        "wall_ms_95": round(sorted(times)[int(0.95 * len(times))], 4),
+        "rounds": len(times),
+    }
+    if target is not None:
+        figures |= {"target_ms": target, "ratio": round(median(times) / target, 3)}
+    return figures
+
+
+def own_process(rounds: int = ROUNDS) -> dict[str, object]:
+    """Measure an algorithm in a process of its own."""
+    bus = Bus()
+    heard = bus.inbox("twist", TwistStamped)
+    began = time.perf_counter()
+    with OwnProcess() as process:
+        importable: type = importlib.import_module("lockstep").Controller  # not that of __main__
+        algorithm = ProcessAlgorithm(process, importable)
+        node = InProcessNode(
+            bus, name="controller", timestep=0.002, random=stream(0, "c"), parameters={}
+        )
+        node.run(algorithm)
+        start = time.perf_counter() - began
+        say = bus.publisher("odometry", Odometry)
+        trips = round_trips(bus, lambda: say(Odometry()), rounds)
+        show = bus.publisher("image", Image)
+        pixels = np.zeros(640 * 480 * 3, dtype=np.uint8)
+        picture = Image(height=480, width=640, encoding="rgb8", step=1920, data=pixels)
+        images = round_trips(bus, lambda: show(picture), rounds // 10)
+    assert len(heard.take()) == rounds
+    return {
+        "odometry in, twist out": summary(trips, TARGET),
+        "image 640x480": summary(images),
+        "start_s": round(start, 3),
+    }
+
+
+def measure() -> dict[str, object]:
+    """Measure everything."""
+    return {"a process of its own": own_process()}
+
+
+if __name__ == "__main__":
+    main(measure)

@@ -1,0 +1,231 @@
+"""The process of an algorithm: ``python -m uwsim.runs.own_process.child FD``.
+
+It gets frames through one socket, answers each, and has nothing else of the simulation.
+
+.. code-block:: text
+
+    from the simulation                 answer, when the algorithm has come back
+      make  path, plugins, class          done  value, rule broken
+      start now, parameters, random       raised  kind, message, text
+      call  callback, now, message
+      parameters  given
+      given / refused                   (what the algorithm asked for)
+
+Within a call the algorithm asks for what a node offers (`ask`): the frames nest, as the calls of
+one process do.
+"""
+
+from __future__ import annotations
+
+import builtins
+import importlib
+import os
+import sys
+import threading
+import time
+from collections.abc import Callable, Mapping
+from multiprocessing.connection import Connection
+from types import MappingProxyType
+from typing import Any, NoReturn, TypeVar
+
+import numpy as np
+
+from ... import errors
+from ...bus import Bus
+from ...errors import BadSetting, NotAllowed, UwsimError
+from ...files.source_module import source_module
+from ...raised import what_was_raised
+from .codec import MAX_FRAME, Unknown, decode, encode, message_class
+
+M = TypeVar("M")
+GLANCE = 0.5
+"""How often this process looks whether its parent is still there [s]."""
+
+
+class ChildNode:
+    """The node of an algorithm in this process: everything is asked of the simulation."""
+
+    def __init__(self, ask: Callable[..., Any]) -> None:
+        self._ask = ask
+        self._types = Bus()  # checks the classes of messages, where they still are what they are
+        self._thread = threading.get_ident()
+        self.callbacks: list[Callable[..., object]] = []
+        """What the simulation may call, by its number."""
+        self.broken: str | None = None
+        """The rule that a thread of the algorithm has broken."""
+        self.now = 0.0
+        """Simulation time [s]."""
+        self.parameters: Mapping[str, float | str] = MappingProxyType({})
+        """The parameters that the user set."""
+        self.random = np.random.default_rng(0)
+        """The algorithm's own random stream."""
+
+    def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
+        """Have ``callback`` called with every message on ``topic``."""
+        self._asked("subscribe", topic, _sendable(type), self._number(callback))
+
+    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
+        """Return ``publish(message)`` for ``topic``."""
+        number = self._asked("publisher", topic, _sendable(type))
+        check = self._types.publisher(topic, type)
+
+        def publish(message: M) -> None:
+            check(message)
+            self._asked("publish", number, message)
+
+        return publish
+
+    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
+        """Offer a service; ``type`` is the class of its request."""
+        self._asked("serve", name, _sendable(type), self._number(handler))
+
+    def call(self, name: str, request: object) -> object:
+        """Call a service; UnknownName if it is not offered."""
+        return self._asked("call", name, request)
+
+    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
+        self._asked("every", period_s, self._number(callback))
+
+    def _number(self, callback: Callable[..., object]) -> int:
+        self.callbacks.append(callback)
+        return len(self.callbacks) - 1
+
+    def _asked(self, method: str, *arguments: object) -> Any:
+        if threading.get_ident() != self._thread:
+            self.broken = self.broken or "it uses its node from a thread of its own"
+            raise NotAllowed(self.broken)
+        return self._ask(method, *arguments)
+
+
+class Child:
+    """Serves the frames of the simulation.
+
+    Args:
+        pipe: the way to it.
+    """
+
+    def __init__(self, pipe: Connection) -> None:
+        self._pipe = pipe
+        self._node = ChildNode(self._ask)
+        self._algorithm: Any = None
+        self._class: type = object
+
+    def serve(self) -> None:
+        """Answer every frame until the simulation has gone."""
+        while True:
+            self._run(*self._receive())
+
+    def _run(self, kind: str, *arguments: Any) -> None:
+        """Do what a frame says, and answer it."""
+        try:
+            value = getattr(self, f"_{kind}")(*arguments)
+        except BaseException as error:
+            message = str(error) if isinstance(error, UwsimError) else ""
+            trace = error.__traceback__
+            error.__traceback__ = trace and trace.tb_next  # the first is that of this function
+            text = what_was_raised(error, self._class)
+            self._send(["raised", type(error).__name__, message, text])
+        else:
+            self._send(["done", value, self._node.broken])
+
+    def _make(self, path: list[str], sources: list[list[Any]], module: str, name: str) -> None:
+        """Import the class as the simulation did, and make the algorithm."""
+        sys.path[:] = path
+        for each, file, source in sources:
+            source_module(each, file, source)
+        found: Any = sys.modules.get(module) or importlib.import_module(module)
+        for part in name.split("."):
+            found = getattr(found, part)
+        self._class = found
+        self._algorithm = found()
+
+    def _start(self, now: float, parameters: dict[str, Any], random: list[Any]) -> None:
+        name, state = random
+        bits = getattr(np.random, name)()
+        bits.state = state
+        self._node.random = np.random.Generator(bits)
+        self._node.now, self._node.parameters = now, parameters
+        self._algorithm.start(self._node)
+
+    def _call(self, number: int, now: float, *arguments: Any) -> object:
+        self._node.now = now
+        return self._node.callbacks[number](*arguments)
+
+    def _parameters(self, given: dict[str, Any]) -> object:
+        reported: object = getattr(self._algorithm, "parameters", given)
+        return dict(reported) if isinstance(reported, Mapping) else reported
+
+    def _ask(self, method: str, *arguments: object) -> Any:
+        """Ask the simulation for something; calls that come in between are answered."""
+        self._send(["ask", method, *arguments])
+        while True:
+            kind, *rest = self._receive()
+            if kind == "given":
+                return rest[0]
+            if kind == "refused":
+                _raise(*rest)
+            self._run(kind, *rest)
+
+    def _send(self, frame: list[object]) -> None:
+        try:
+            self._pipe.send_bytes(encode(frame))
+        except OSError:
+            os._exit(1)  # the simulation has gone
+
+    def _receive(self) -> list[Any]:
+        try:
+            frame: list[Any] = decode(self._pipe.recv_bytes(MAX_FRAME))
+        except (EOFError, OSError):
+            _leave()
+        return frame
+
+
+def _sendable(cls: type) -> type:
+    """Return the class of a message, which has to be known outside this process, too."""
+    name = f"{cls.__module__}:{cls.__qualname__}" if isinstance(cls, type) else ""
+    if message_class(name) is not cls:
+        raise BadSetting(f"{cls!r} is no class of messages that its process could exchange.")
+    return cls
+
+
+def _raise(kind: str, message: str, about: dict[str, Any]) -> NoReturn:
+    """Raise what the simulation raised."""
+    found = getattr(errors, kind, None) or getattr(builtins, kind, None)
+    if not (isinstance(found, type) and issubclass(found, Exception)):
+        raise RuntimeError(f"{kind}: {message}")
+    error = found.__new__(found)
+    error.args = (message,)
+    for name, value in about.items():
+        if not isinstance(value, Unknown):
+            setattr(error, name, value)
+    raise error
+
+
+def _leave() -> NoReturn:
+    """End this process: nobody waits for it any more."""
+    sys.stdout.flush()
+    os._exit(0)
+
+
+def main(descriptor: int, parent: int) -> None:
+    """Serve the simulation at the other end of a socket, and end with it.
+
+    Args:
+        descriptor: of the socket.
+        parent: the process that holds the other end.
+    """
+    os.set_inheritable(descriptor, False)  # not for processes that the algorithm starts
+    threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
+    Child(Connection(descriptor)).serve()
+
+
+def _exit_with(parent: int) -> None:
+    """End this process when its parent has ended, also from within an endless callback."""
+    while os.getppid() == parent:
+        time.sleep(GLANCE)
+    os._exit(1)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), int(sys.argv[2]))

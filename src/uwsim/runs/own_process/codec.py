@@ -1,0 +1,193 @@
+"""Messages as bytes between the simulation and an algorithm's process.
+
+A frame is JSON, which keeps every float64, and behind it the bytes of all arrays. What is read can
+only become numbers, texts, lists, arrays and message classes that this process already knows: no
+code comes in with a frame, and nothing is imported for it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import json
+import struct
+import sys
+from typing import Any, cast
+
+import numpy as np
+
+MAX_FRAME = 2**30
+"""Longest frame [bytes]."""
+_LENGTH = struct.Struct("<I")
+_BASES: tuple[Any, ...] = (bool, int, float, str, list, tuple, dict)
+_PLAIN = (type(None), bool, int, float, str)
+
+
+class FrameError(Exception):
+    """Bytes that are no frame."""
+
+
+class Unknown:
+    """Stands for a value that cannot leave the process it was made in; shown as it is there."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def __repr__(self) -> str:
+        return self._text
+
+
+def encode(value: object) -> bytes:
+    """Return a value as a frame: numbers, texts, lists, dicts, arrays, messages, message classes.
+
+    Anything else becomes `Unknown` over there.
+    """
+    arrays: list[bytes] = []
+    head = json.dumps(_tagged(value, arrays), separators=(",", ":")).encode()
+    return b"".join((_LENGTH.pack(len(head)), head, *arrays))
+
+
+def decode(frame: bytes) -> Any:
+    """Return the value of a frame; its arrays are read-only.
+
+    Raises:
+        FrameError: it is none.
+    """
+    try:
+        (n,) = _LENGTH.unpack_from(frame)
+        start = _LENGTH.size + n
+        value, end = _Reader(frame, start).value(json.loads(frame[_LENGTH.size : start]))
+    except (ValueError, TypeError, KeyError, IndexError, RecursionError, struct.error) as error:
+        raise FrameError(f"{type(error).__name__}: {error}") from error
+    if end != len(frame):
+        raise FrameError(f"{len(frame) - end} bytes too many")
+    return value
+
+
+def _tagged(value: Any, arrays: list[bytes]) -> object:
+    """Return JSON of a value; what JSON has no form for is an object with one key."""
+    cls: Any = value.__class__
+    if cls in _PLAIN:
+        return value
+    if cls is list:
+        return [_tagged(item, arrays) for item in value]
+    if cls is tuple:
+        return {"t": [_tagged(item, arrays) for item in value]}
+    if cls is dict:
+        return {"d": [[_tagged(k, arrays), _tagged(v, arrays)] for k, v in value.items()]}
+    if isinstance(value, np.ndarray | np.generic) and value.dtype.kind in "biufSU":
+        arrays.append(value.tobytes())
+        key = "a" if isinstance(value, np.ndarray) else "s"
+        return {key: [value.dtype.str, *value.shape]}
+    if isinstance(value, bytes):
+        arrays.append(value)
+        return {"b": len(value)}
+    if isinstance(value, type):
+        return {"c": _name(value)}
+    known = message_class(_name(cls))
+    if known is not None and known is value.__class__:
+        fields = [_tagged(getattr(value, name), arrays) for name in _fields(known)]
+        return {"m": [_name(known), *fields]}
+    derived = next((plain for plain in _BASES if isinstance(value, plain)), None)
+    if derived is not None:
+        return _tagged(derived(value), arrays)
+    return {"o": [cls.__name__, _shown(value)]}
+
+
+class _Reader:
+    """Reads the value of a frame, and its arrays in their order."""
+
+    def __init__(self, frame: bytes, start: int) -> None:
+        self._frame, self._at = frame, start
+
+    def value(self, tagged: object) -> tuple[Any, int]:
+        return self._read(tagged), self._at
+
+    def _read(self, tagged: Any) -> Any:
+        if isinstance(tagged, list):
+            return [self._read(item) for item in tagged]
+        if not isinstance(tagged, dict):
+            return tagged
+        ((tag, rest),) = tagged.items()
+        if tag == "m":
+            return self._message(*rest)
+        if tag in ("a", "s"):
+            return self._array(tag, *rest)
+        if tag == "t":
+            return tuple(self._read(item) for item in rest)
+        if tag == "d":
+            return {self._read(key): self._read(value) for key, value in rest}
+        if tag == "b":
+            return self._bytes(int(rest))
+        if tag == "c":
+            return _known(rest)
+        if tag == "o":
+            return type(str(rest[0]), (Unknown,), {})(str(rest[1]))
+        raise ValueError(f"no value is called {tag!r}")
+
+    def _message(self, name: str, *values: object) -> object:
+        cls = _known(name)
+        message: object = object.__new__(cls)
+        for field, value in zip(_fields(cls), values, strict=True):
+            object.__setattr__(message, field, self._read(value))  # of a frozen one, too
+        return message
+
+    def _array(self, tag: str, dtype: str, *shape: int) -> Any:
+        kind = np.dtype(dtype)
+        if kind.kind not in "biufSU":
+            raise ValueError(f"no array of {dtype!r} is sent")
+        n = int(np.prod(shape, dtype=np.int64))
+        array = np.frombuffer(self._bytes(n * kind.itemsize), dtype=kind).reshape(shape)
+        return array[()] if tag == "s" else array
+
+    def _bytes(self, n: int) -> bytes:
+        if not 0 <= n <= len(self._frame) - self._at:
+            raise ValueError("it is too short")
+        self._at += n
+        return self._frame[self._at - n : self._at]
+
+
+def _name(cls: type) -> str:
+    return f"{cls.__module__}:{cls.__qualname__}"
+
+
+def _known(name: str) -> type:
+    """Return a message class by its name; ValueError if this process has none."""
+    cls = message_class(name)
+    if cls is None:
+        raise ValueError(f"no message is called {name!r}")
+    return cls
+
+
+def message_class(name: str) -> type | None:
+    """Return the message class ``module:Class``, or ``object``; None if this process has none.
+
+    Message classes are dataclasses, those of uwsim with a ROS name. Nothing is imported.
+    """
+    if name == "builtins:object":
+        return object
+    module, _, path = name.partition(":")
+    found: Any = sys.modules.get(module)
+    for part in path.split("."):
+        found = getattr(found, part, None)
+    if not isinstance(found, type) or not dataclasses.is_dataclass(found):
+        return None
+    is_own = module.partition(".")[0] == "uwsim"
+    return found if hasattr(found, "__msgtype__") or not is_own else None
+
+
+def _fields(cls: type) -> tuple[str, ...]:
+    return _names(cast(Any, cls))
+
+
+@functools.cache
+def _names(cls: Any) -> tuple[str, ...]:
+    names = [field.name for field in dataclasses.fields(cls)]
+    return tuple(name for name in names if name != "__msgtype__")  # rosbags has it as a field
+
+
+def _shown(value: object) -> str:
+    try:
+        return repr(value)[:1000]
+    except Exception:
+        return f"a {type(value).__name__}"

@@ -1,0 +1,222 @@
+"""An algorithm in a process of its own, as the simulation sees it: an `Algorithm` like any other.
+
+Its node is that of the simulation's process (`uwsim.simulation.InProcessNode`). Each callback is a
+frame to the process and waits for the answer; what the algorithm asks of its node meanwhile is done
+in the order in which it asks. So everything happens in the same order as in one process, and
+simulation time does not move: the rows are the same.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from multiprocessing.connection import Connection
+from types import TracebackType
+from typing import Any, Self
+
+from ...benchmark.plugin import Plugin
+from ...bus import Node
+from ...errors import BadSetting, RunFailed, UwsimError
+from ...interrupts import ignoring_interrupts
+from ...raised import RaisedElsewhere
+from ...simulation import Stopped
+from .codec import MAX_FRAME, FrameError, decode, encode
+
+PROCESS_ENDED = "its process ended"
+"""How the reason begins of an algorithm whose process is gone."""
+PATIENCE = 10.0
+"""How long a process that has closed its socket may take to end [s of wall time]."""
+MODULE = "uwsim.runs.own_process.child"
+
+
+class OwnProcess:
+    """A process that waits for the class of an algorithm; a context manager, which ends it."""
+
+    def __init__(self) -> None:
+        ours, theirs = socket.socketpair()
+        with theirs, ignoring_interrupts():
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", MODULE, str(theirs.fileno()), str(os.getpid())],
+                pass_fds=(theirs.fileno(),),
+                stdin=subprocess.DEVNULL,
+                env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            )
+        self._pipe = Connection(ours.detach())
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._pipe.close()
+        self._process.kill()
+        self._process.wait()
+
+    @property
+    def pid(self) -> int:
+        """Number of the process."""
+        return self._process.pid
+
+    def request(self, frame: list[object], answer: Callable[[list[Any]], object]) -> Any:
+        """Send a frame and return the value of its answer.
+
+        Args:
+            frame: what is asked of the process.
+            answer: does what the algorithm asks for meanwhile, and returns the result.
+
+        Raises:
+            RaisedElsewhere: the algorithm raised, or broke a rule.
+            BadSetting: it refused a parameter in its start.
+            Stopped: its process has ended, or sent what is no frame.
+        """
+        self._send(frame)
+        while True:
+            kind, *rest = self._receive()
+            if kind == "ask":
+                self._send(_answered(answer, rest))
+            elif kind == "done" and len(rest) == 2:
+                value, broken = rest
+                if broken is not None:
+                    raise RaisedElsewhere(f"NotAllowed: {broken}")
+                return value
+            elif kind == "raised" and len(rest) == 3:
+                raise _raised(str(frame[0]), *map(str, rest))
+            else:
+                raise Stopped("its process sent a frame that nobody understands")
+
+    def _send(self, frame: list[object]) -> None:
+        try:
+            self._pipe.send_bytes(encode(frame))
+        except OSError:
+            raise self._ended() from None
+
+    def _receive(self) -> list[Any]:
+        try:
+            frame = decode(self._pipe.recv_bytes(MAX_FRAME))
+        except FrameError as error:
+            raise Stopped(f"its process sent bytes that are no frame: {error}") from None
+        except (EOFError, OSError):
+            raise self._ended() from None
+        if not (isinstance(frame, list) and frame and isinstance(frame[0], str)):
+            raise Stopped("its process sent a frame that nobody understands")
+        return frame
+
+    def _ended(self) -> Stopped:
+        try:
+            status = self._process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            status = self._process.wait()
+        return Stopped(f"{PROCESS_ENDED} ({how(status)})")
+
+
+class ProcessAlgorithm:
+    """The algorithm that runs in the process.
+
+    Args:
+        process: waits for a class.
+        algorithm: the class; its module can be imported there, too, or is that of a plugin.
+        plugins: what was read with ``--plugin``.
+        given: the parameters set by the user.
+
+    Raises:
+        RaisedElsewhere: the algorithm cannot be made.
+    """
+
+    def __init__(
+        self,
+        process: OwnProcess,
+        algorithm: type,
+        plugins: Sequence[Plugin] = (),
+        given: Mapping[str, float | str] | None = None,
+    ) -> None:
+        self._process, self._given = process, dict(given or {})
+        self._node: Node | None = None
+        self._publish: list[Callable[[Any], None]] = []
+        sources = [[plugin.module_name, plugin.path, plugin.source] for plugin in plugins]
+        self._request("make", sys.path, sources, algorithm.__module__, algorithm.__qualname__)
+
+    @property
+    def parameters(self) -> Mapping[str, float | int | str]:
+        """The parameters that the algorithm reports; those given if it reports none."""
+        reported: Mapping[str, float | int | str] = self._request("parameters", self._given)
+        return reported
+
+    def start(self, node: Node) -> None:
+        """Start it there."""
+        self._node = node
+        bits = node.random.bit_generator
+        random = [type(bits).__name__, dict(bits.state)]
+        self._request("start", node.now, dict(node.parameters), random)
+
+    def _request(self, *frame: object) -> Any:
+        return self._process.request(list(frame), self._do)
+
+    def _calling(self, number: int) -> Callable[..., Any]:
+        """Return what calls callback ``number`` over there."""
+        node = self._required
+
+        def call(*arguments: object) -> object:
+            return self._request("call", number, node.now, *arguments)
+
+        return call
+
+    @property
+    def _required(self) -> Node:
+        if self._node is None:
+            raise RunFailed("the node is used before start(node)")
+        return self._node
+
+    def _do(self, asked: list[Any]) -> object:
+        """Do what the algorithm asks of its node."""
+        node = self._required
+        match asked:
+            case ["subscribe", str(topic), type() as cls, int(number)]:
+                node.subscribe(topic, cls, self._calling(number))
+            case ["publisher", str(topic), type() as cls]:
+                self._publish.append(node.publisher(topic, cls))
+                return len(self._publish) - 1
+            case ["publish", int(number), message] if 0 <= number < len(self._publish):
+                self._publish[number](message)
+            case ["serve", str(name), type() as cls, int(number)]:
+                node.serve(name, cls, self._calling(number))
+            case ["call", str(name), request]:
+                return node.call(name, request)
+            case ["every", period, int(number)]:
+                node.every(period, self._calling(number))
+            case _:
+                raise TypeError(f"{asked[0] if asked else ''}: wrong arguments")
+        return None
+
+
+def _answered(answer: Callable[[list[Any]], object], asked: list[Any]) -> list[object]:
+    """Return the frame with the result of what the algorithm asked for, or with its error."""
+    try:
+        return ["given", answer(asked)]
+    except Exception as error:
+        if isinstance(error, Stopped):
+            raise
+        about = vars(error) if isinstance(error, UwsimError) else {}
+        return ["refused", type(error).__name__, str(error), dict(about)]
+
+
+def _raised(request: str, kind: str, message: str, text: str) -> Exception:
+    """Return what the algorithm raised, as the simulation's process would have it."""
+    if request == "start" and kind == "BadSetting":
+        return BadSetting(message)
+    return RaisedElsewhere(text)
+
+
+def how(exit_code: int | None) -> str:
+    """Describe how a process ended."""
+    if exit_code is not None and exit_code < 0:
+        return f"killed by {signal.Signals(-exit_code).name}"
+    return f"with exit status {exit_code}"

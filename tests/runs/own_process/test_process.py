@@ -1,0 +1,161 @@
+"""A third-party algorithm in its own process: the same rows, and it has messages only."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.runs.own_process import programs
+from tests.short_trial import TIME, make_plan, rows_of
+from uwsim.errors import BadSetting, NeverStarted, RunFailed
+from uwsim.runs.planning.plan import Plan
+from uwsim.runs.trial.level_row import LevelRow, TrialEnd
+from uwsim.runs.trial.trial import execute
+
+LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
+<step>0.2</step> <interval>0.7</interval> </sceneFogUpdater>"""
+MEASURES = f"""{TIME} <euclideanNorm> <name>e</name>
+<groundTruth type="constant"> <value>1</value> </groundTruth> <target>estimate</target>
+<log>0.1</log> </euclideanNorm>"""
+SAME = (
+    programs.Does,
+    programs.Sleeps,
+    programs.Raises,
+    programs.Exits,
+    programs.Threads,
+    programs.Misshapes,
+    programs.Mistypes,
+    programs.CallsNobody,
+    programs.Recovers,
+    programs.Nests,
+)
+
+
+def plan_of(folder: Path, algorithm: type, *, own: bool = True) -> Plan:
+    plan = make_plan(
+        folder, algorithm, LEVELS, measures=MEASURES, function="<function>t+e</function>"
+    )
+    return replace(plan, own_process=own)
+
+
+def rows(folder: Path, algorithm: type, *, own: bool = True) -> list[LevelRow]:
+    return rows_of(plan_of(folder, algorithm, own=own))
+
+
+@pytest.mark.parametrize("algorithm", SAME, ids=lambda algorithm: algorithm.__name__)
+def test_rows_are_those_of_the_simulations_process(tmp_path: Path, algorithm: type) -> None:
+    own = rows(tmp_path, algorithm)
+    assert own == rows(tmp_path, algorithm, own=False)
+    assert len(own) == 2
+
+
+def test_what_is_reported_as_parameters_is_the_same(tmp_path: Path) -> None:
+    ends = []
+    for own in (True, False):
+        plan = plan_of(tmp_path, programs.Reports, own=own)
+        outcomes = [each for trial in plan.trials() for each in execute(plan, trial)]
+        ends += [each.parameters for each in outcomes if isinstance(each, TrialEnd)]
+    assert ends[0] == ends[1] == {"gain": 0.1 + 0.2, "made": "there"}
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "error"),
+    [
+        (programs.ReportsRubbish, RunFailed),
+        (programs.RefusesToStart, BadSetting),
+        (programs.CannotBeMade, NeverStarted),
+    ],
+    ids=lambda value: value.__name__,
+)
+def test_what_ends_the_run_is_the_same_line(
+    tmp_path: Path, algorithm: type, error: type[Exception]
+) -> None:
+    lines = []
+    for own in (True, False):
+        with pytest.raises(error) as caught:
+            rows(tmp_path, algorithm, own=own)
+        lines.append(str(caught.value))
+    assert lines[0] == lines[1]
+
+
+def test_ctrl_c_of_the_algorithm_is_its_own_mistake(tmp_path: Path) -> None:
+    first, _ = rows(tmp_path, programs.Interrupts)
+    assert "KeyboardInterrupt" in first.missing["total"]
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "why"),
+    [
+        (programs.Dies, "algorithm was stopped at 0.4 s: its process ended (with exit status 3)"),
+        (programs.IsKilled, "its process ended (killed by SIGKILL)"),
+        (programs.SendsGarbage, "its process "),
+    ],
+    ids=lambda value: getattr(value, "__name__", ""),
+)
+def test_a_process_that_ends_ends_its_rows_and_no_more(
+    tmp_path: Path, algorithm: type, why: str
+) -> None:
+    found = rows(tmp_path, algorithm)
+    assert [row.status for row in found] == ["algorithm error"] * 2
+    assert why in found[0].missing["total"]
+    assert [row.measures["t"][0] for row in found] == pytest.approx([0.7, 0.7])
+
+
+def test_there_is_nothing_of_the_simulation_in_its_process(tmp_path: Path) -> None:
+    assert [row.status for row in rows(tmp_path, programs.LooksForTheTruth)] == ["ok"] * 2
+
+
+def is_there(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+
+
+PARENT = """
+import sys
+sys.path[:] = {path!r}
+import numpy as np
+from uwsim.runs.own_process.process import OwnProcess, ProcessAlgorithm
+from tests.runs.own_process.programs import Hangs
+
+class Node:
+    now, parameters, random = 0.0, {{}}, np.random.default_rng(0)
+
+    def publisher(self, topic, type):
+        return lambda message: None
+
+    def every(self, period, callback):
+        print(process.pid, flush=True)
+        for _ in range(5):
+            callback()
+
+with OwnProcess() as process:
+    ProcessAlgorithm(process, Hangs).start(Node())
+"""
+
+
+def test_a_process_ends_with_its_parent_also_from_an_endless_callback() -> None:
+    parent = subprocess.Popen(
+        [sys.executable, "-c", PARENT.format(path=sys.path)], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        assert parent.stdout is not None
+        with parent.stdout:
+            pid = int(parent.stdout.readline())
+        parent.send_signal(signal.SIGKILL)
+    finally:
+        parent.kill()
+        parent.wait()
+    deadline = time.monotonic() + 60.0
+    while is_there(pid) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not is_there(pid)
