@@ -29,11 +29,13 @@ class Controller:
     """Answers each odometry message, and reads images."""
 
     def start(self, node: Node) -> None:
+        """Connect to the bus."""
         self.say = node.publisher("twist", TwistStamped)
         node.subscribe("odometry", Odometry, self.on_odometry)
         node.subscribe("image", Image, lambda message: None)
 
     def on_odometry(self, message: Odometry) -> None:
+        """Command against the error."""
         answer = TwistStamped(header=message.header)
         answer.twist.linear.x = -0.4 * message.pose.pose.position.x
         self.say(answer)
