@@ -102,7 +102,7 @@ def make_plan(request: PlanRequest) -> Plan:
 
 def _bundled_algorithms(name: str) -> tuple[type[Algorithm], ...]:
     """Return the bundled algorithm of this name, if there is one; ``module:Class`` is none."""
-    from ..algorithms import ALGORITHMS
+    from ...algorithms import ALGORITHMS
 
     return (ALGORITHMS[name],) if name in ALGORITHMS else ()
 
