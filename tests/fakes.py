@@ -88,8 +88,8 @@ class FakeWorld:
     """A `uwsim.world.Stage`: bodies, cameras and a bus; time moves only by `advance`.
 
     What updaters do to it is kept in ``fog``, ``light_rate``, ``camera_noise``, ``joints``,
-    ``current`` and ``put_backs``; what touches what stands in ``touching``, what drives a vehicle
-    in ``driven``.
+    ``current`` and ``put_backs``; what touches what stands in ``touching``, with which force in
+    ``pressing``, what drives a vehicle in ``driven``.
     """
 
     def __init__(
@@ -117,6 +117,7 @@ class FakeWorld:
         self.current: Flow | None = None
         self.put_backs: list[tuple[str, float]] = []
         self.touching: dict[str, list[Contact]] = {}
+        self.pressing: dict[str, dict[str, np.ndarray]] = {}
         self.driven: dict[str, Actuators] = {}
         self._timers: list[tuple[float, Callable[[], None]]] = []
         self._seed = seed
@@ -147,6 +148,10 @@ class FakeWorld:
     def contacts(self, name: str) -> Sequence[Contact]:
         self.body(name)
         return tuple(self.touching.get(name, ()))
+
+    def contact_forces(self, name: str) -> Mapping[str, np.ndarray]:
+        self.body(name)
+        return self.pressing.get(name, {})
 
     def actuators(self, name: str) -> Actuators | None:
         known = {*self.driven, *self.vehicles}

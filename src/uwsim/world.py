@@ -189,6 +189,13 @@ class World(Protocol):
     def contacts(self, name: str) -> Sequence[Contact]:
         """Where a vehicle (all its links) or object touches others now; UnknownName if none."""
 
+    def contact_forces(self, name: str) -> Mapping[str, npt.NDArray[np.float64]]:
+        """Forces on a vehicle or object of what it touches; UnknownName if there is none.
+
+        The sum over all contacts with each other thing, by its name, (3,) in W [N], in the last
+        step. Empty where nothing is touched, or the engine does not simulate it.
+        """
+
     def actuators(self, name: str) -> Actuators | None:
         """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
 

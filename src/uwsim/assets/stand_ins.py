@@ -90,6 +90,7 @@ STAND_INS: dict[str, StandIn] = {
     "terrain/desert/desert2": _modelled("seafloor", "desert"),
     "terrain/floor/floor": _modelled("solids", "floor"),
     "terrain/islands/islands": _box("ISLANDS", 40.0, 40.0, 8.0),
+    "terrain/sand/sand": _modelled("seafloor", "flat_sand"),
     "terrain/seafloor/terrain_noship": _modelled("seafloor", "seafloor"),
     "terrain/shipwreck/terrain": _modelled("seafloor", "shipwreck"),
 }

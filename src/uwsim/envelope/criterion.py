@@ -19,7 +19,17 @@ from dataclasses import dataclass
 from .. import expression as expressions
 from ..results.journal import Record
 
-STATUSES = {"ok": 0.0, "lost": 1.0, "timeout": 2.0, "collision": 3.0, "algorithm error": 4.0}
+STATUSES = {
+    "ok": 0.0,
+    "lost": 1.0,
+    "timeout": 2.0,
+    "collision": 3.0,
+    "algorithm error": 4.0,
+    "not found": 5.0,
+    "lost target": 6.0,
+    "missed": 7.0,
+    "dropped": 8.0,
+}
 """Status of a row -> its number."""
 NAMES = {"ok": 0.0, "lost": 1.0, "timeout": 2.0, "collision": 3.0, "error": 4.0}
 """What they are called in an expression."""

@@ -181,6 +181,10 @@ class Engine:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""
         return self._contacts.of(kind, index)
 
+    def contact_forces(self, kind: Literal["vehicle", "object"], index: int) -> dict[str, Array]:
+        """Forces on a vehicle or object of what it touches, by its name, (3,) in W [N]."""
+        return self._contacts.forces(kind, index)
+
     def contact_wrench(self, index: int, link: str, point: Array) -> Array:
         """Force and torque about a point of the contacts on a link, in W, (6,) [N, N m]."""
         return self._contacts.wrench(self.poses.link_body(index, link), point)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
@@ -195,6 +195,14 @@ class SceneWorld:
             UwsimError: it cannot be touched.
         """
         return self.touch.contacts(name)
+
+    def contact_forces(self, name: str) -> Mapping[str, npt.NDArray[np.float64]]:
+        """Forces on a vehicle or object of what it touches, by its name, (3,) in W [N].
+
+        Raises:
+            UnknownName: there is none of that name.
+        """
+        return self.touch.forces(name)
 
     def actuators(self, name: str) -> Actuators | None:
         """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""

@@ -17,8 +17,14 @@ MEANINGS = {
     "timeout": "no estimate for more than 1 s, or an end of the level that never came",
     "collision": "a contact ended the level, as the benchmark requires",
     "algorithm error": "the algorithm raised an exception, or reported that it failed",
+    "not found": "the object was never found",
+    "lost target": "the object was found and lost before anything closed on it",
+    "missed": "the object was reached for and never lifted",
+    "dropped": "the object was lifted and fell",
 }
 """Status of a row -> its meaning (``docs/levels.md``)."""
+OF_TASKS = ("not found", "lost target", "missed", "dropped")
+"""Statuses that only a measure that judges a task gives; listed where one occurred."""
 MAX_REASONS = 5
 """Greatest number of reasons listed for a status."""
 MAX_BREAKS = 100
@@ -69,7 +75,7 @@ def endings(result: Result) -> list[Ending]:
     cells = [str(cell) for cell in result.values(status[0].name)]
     levels = {row: level for level, rows in rows_by_level(result).items() for row in rows}
     repeats = repeats_of(result)
-    known = list(MEANINGS)
+    known = [name for name in MEANINGS if name in cells or name not in OF_TASKS]
     names = sorted(
         {*cells, *known},
         key=lambda s: (s != "ok", -cells.count(s), known.index(s) if s in known else 99, s),

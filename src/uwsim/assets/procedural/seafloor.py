@@ -1,6 +1,7 @@
 """Sea floors: ``terrain/seafloor``, ``terrain/shipwreck`` (z up) and ``terrain/desert``.
 
 Ours lie at z = -15 m and reach 40 m each way: the vehicles of UWSim's scenes start at 10 and 11 m.
+``terrain/sand`` is a plane through the origin.
 """
 
 from __future__ import annotations
@@ -12,12 +13,14 @@ import numpy as np
 
 from ...geometry import Array, rotation_from_rpy, rotation_y
 from ..mesh import Mesh, Texture
-from .shapes import Shape, cylinder, join, mesh, sphere, surface
+from .shapes import Shape, cylinder, join, mesh, quad, sphere, surface
 from .ships import hull
 from .textures import finished, lit, mixed, noise, plain, step, worn
 
 DEPTH, REACH = 15.0, 40.0
 """Mean depth of the floor, and how far it reaches from the middle [m]."""
+FLAT_SIDE = 24.0
+"""Edge of the plane of sand [m]."""
 
 
 @cache
@@ -82,3 +85,11 @@ def desert() -> tuple[Mesh, ...]:
     """A sand floor through the origin whose up is +x: the scene turns it with a pitch of 1.57."""
     floor = _terrain("desert/dunes", 40, 0.4).turned(rotation_y(np.pi / 2))
     return (mesh(floor, texture=sand(), two_sided=True),)
+
+
+def flat_sand() -> tuple[Mesh, ...]:
+    """A plane of rippled sand through the origin, 24 x 24 m, z up."""
+    half = 0.5 * FLAT_SIDE
+    turns = FLAT_SIDE / 4.0  # of the image
+    corners = [(-half, -half, 0.0), (half, -half, 0.0), (half, half, 0.0), (-half, half, 0.0)]
+    return (mesh(quad(*corners, uv=(0.0, 0.0, turns, turns), cuts=(10, 10)), texture=sand()),)

@@ -8,6 +8,7 @@ from .control import Control, ControlSpec
 from .distance import Distance, DistanceSpec
 from .energy import Energy, EnergySpec
 from .euclidean_norm import EuclideanNorm, EuclideanNormSpec
+from .grasp import Grasp, GraspSpec
 from .measure import Measure, MeasureSpec
 from .object_centered_on_cam import ObjectCenteredOnCam, ObjectCenteredOnCamSpec
 from .path_following import PathFollowing, PathFollowingSpec
@@ -26,6 +27,7 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "time": TimeSpec,
     "u:control": ControlSpec,
     "u:energy": EnergySpec,
+    "u:grasp": GraspSpec,
 }
 """Element name -> spec. In alphabetical order."""
 
@@ -41,6 +43,8 @@ __all__ = [
     "EnergySpec",
     "EuclideanNorm",
     "EuclideanNormSpec",
+    "Grasp",
+    "GraspSpec",
     "Measure",
     "MeasureSpec",
     "ObjectCenteredOnCam",

@@ -69,7 +69,9 @@ class Measure(abc.ABC):
     unit: ClassVar[str]
     """Unit of its value."""
     detail_units: ClassVar[Mapping[str, str]] = {}
-    """Units of those details that have another than its value: column suffix -> unit."""
+    """Units of those details that have another than its value: column suffix -> unit.
+
+    ``time`` is that of all ``time.<name>`` that have no entry."""
     fed_by_algorithm: ClassVar[bool] = False
     """Whether it scores what the algorithm under test publishes."""
 
@@ -131,7 +133,15 @@ class Measure(abc.ABC):
 
     @property
     def ends_level(self) -> str | None:
-        """Why it ends the level, in status ``collision``; None: it does not."""
+        """Why it ends the level, in status ``collision`` unless it has a `verdict`; None: not."""
+        return None
+
+    @property
+    def verdict(self) -> tuple[str, str | None] | None:
+        """Status of the level as a task and, unless it is ``ok``, why; None: it is no judge.
+
+        It counts at the end of the level, unless the algorithm failed.
+        """
         return None
 
     def close(self) -> None:  # noqa: B027 - most measures hold nothing

@@ -56,6 +56,24 @@ class EngineContacts:
             return []
         return contacts_of(self._model, self._data, self._owners == owner, self._names)
 
+    def forces(self, kind: Literal["vehicle", "object"], index: int) -> dict[str, Array]:
+        """Forces on a vehicle or object of what it touches, by its name, (3,) in W [N]."""
+        found: dict[str, Array] = {}
+        if not self.hold or self._data.ncon == 0:
+            return found
+        contacts, own = self._data.contact, np.zeros(6)
+        geoms = contacts.geom  # (n, 2)
+        is_own = (self._owners == f"{kind}/{index}")[geoms]  # (n, 2)
+        for i in np.flatnonzero(is_own[:, 0] != is_own[:, 1]).tolist():
+            mujoco.mj_contactForce(self._model, self._data, i, own)
+            force = turned_back(
+                contacts.frame[i].reshape(3, 3), own[:3]
+            )  # the first's on the second
+            second = int(is_own[i, 1])
+            other = self._names[geoms[i, 1 - second]]
+            found[other] = found.get(other, 0.0) + (force if second else -force)
+        return found
+
     def wrench(self, body: int, point: Array) -> Array:
         """Force and torque of the contacts on a body, by its number, in W, (6,) [N, N m].
 

@@ -85,6 +85,7 @@ def cells_of(measures: Sequence[TriggeredMeasure], status: str, why: str | None)
             cells.missing[name] = reason or measure.why or "nothing to measure"
         for detail, value in measure.details.items():
             unit = "1" if detail.split(".")[-1] == "n" else measure.unit
+            unit = measure.detail_units.get(detail.partition(".")[0], unit)
             unit = measure.detail_units.get(detail, unit)
             number, reason = (None, None) if blank else finite(value)
             cells.details[f"{name}.{detail}"] = (number, unit)

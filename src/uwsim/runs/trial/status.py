@@ -71,7 +71,8 @@ class StatusMonitor:
     ) -> tuple[str, str | None]:
         """Status of a row and, unless it is ``ok``, why: the first that applies.
 
-        An algorithm that declared itself lost or failed owes no more estimates.
+        An algorithm that declared itself lost or failed owes no more estimates. Where a measure
+        judges the level as a task, its verdict counts.
 
         Args:
             measures: those of the level.
@@ -80,6 +81,9 @@ class StatusMonitor:
         """
         if self.failed is not None:
             return "algorithm error", self.failed
+        for gated in measures:
+            if (verdict := gated.measure.verdict) is not None:
+                return verdict
         if overran is not None:
             return "timeout", f"stopOn did not go on within {overran:g} s"
         if self.lost is None:

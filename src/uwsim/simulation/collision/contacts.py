@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import UwsimError
-from ...geometry import Pose
+from ...geometry import Array, Pose
 from ...physics.collision.kinematic_contacts import KinematicContacts
 from ...physics.engine import Engine
 from ...scene.spec import SceneSpec
@@ -102,6 +102,15 @@ class Contacts:
             what = "none of its links has a <collision> or a <visual>"
             raise untouchable(name, what if kind == "vehicle" else "its mesh is empty")
         return contacts
+
+    def forces(self, name: str) -> Mapping[str, Array]:
+        """Forces on the vehicle or object of that name of what it touches, (3,) in W [N].
+
+        Raises:
+            UnknownName: there is none.
+        """
+        kind, index = touchable(name, self._scene)
+        return self._state.contact_forces(kind, index)
 
     def _lay(self) -> KinematicContacts:
         scene, state = self._scene, self._state
