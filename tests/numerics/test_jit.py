@@ -14,6 +14,8 @@ import numba
 import numpy as np
 import pytest
 
+from uwsim.numerics.jit import Signatures
+
 SOURCE = """
 from uwsim.numerics import jit
 
@@ -81,6 +83,19 @@ def test_a_damaged_file_is_compiled_anew_and_that_is_reported_once(
     assert module.twice(1.5) == 3.0
     assert sum(module.twice.stats.cache_hits.values()) == 1
     assert [" is damaged; what it held" in entry.getMessage() for entry in caplog.records] == [True]
+
+
+def test_what_calls_a_module_that_was_moved_is_compiled_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    moved = ModuleType("moved")
+    moved.Compiled = type("Compiled", (), {"__module__": "moved"})  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "moved", moved)
+    signatures = Signatures(folder=tmp_path, base="twice", stamp=lambda: "the same")
+    signatures.save("key", moved.Compiled())
+    assert signatures.load("key") is not None
+    monkeypatch.delitem(sys.modules, "moved")
+    assert signatures.load("key") is None
 
 
 def test_a_changed_source_is_compiled_anew(cache: Path) -> None:

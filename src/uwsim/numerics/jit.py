@@ -121,7 +121,10 @@ class Signatures:
         data = disk_cache.read(self._file(key))
         if data is None:
             return None
-        stamp, kept_key, compiled = pickle.loads(data)
+        try:
+            stamp, kept_key, compiled = pickle.loads(data)
+        except (ImportError, AttributeError):  # it calls what was moved since
+            return None
         return compiled if (stamp, kept_key) == (self._find_stamp(), key) else None
 
     def save(self, key: object, compiled: object) -> None:

@@ -82,7 +82,9 @@ def test_without_the_wish_a_contact_costs_only_its_score(tmp_path: Path) -> None
 
 
 def measure(silence: float) -> SimpleNamespace:
-    return SimpleNamespace(measure=SimpleNamespace(longest_silence=silence, why="quiet", verdict=None))
+    return SimpleNamespace(
+        measure=SimpleNamespace(longest_silence=silence, why="quiet", verdict=None)
+    )
 
 
 @pytest.mark.parametrize(

@@ -19,8 +19,8 @@ from typing import ClassVar
 
 from ...bus import Inbox
 from ...geometry import Array, Pose
-from ...linear import length
 from ...messages import String
+from ...numerics.linear import length
 from ...schema import element
 from ...world import Body, World
 from ..metrics.impulse import Impulse

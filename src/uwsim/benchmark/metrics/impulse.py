@@ -13,7 +13,7 @@ from collections import deque
 import numpy as np
 
 from ...geometry import Array
-from ...linear import length
+from ...numerics.linear import length
 
 WINDOW = 0.05
 """[s]"""
