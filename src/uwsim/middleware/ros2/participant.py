@@ -1,0 +1,214 @@
+"""A participant of a DDS domain that ROS 2 nodes see as a node of theirs.
+
+One thread (``uwsim-ros2``) waits for what arrives and calls the callbacks of the readers; endpoints
+are made and written to from any thread. No listener of Cyclone DDS is used: its threads would wait
+for Python's lock while they hold their own.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from cyclonedds.core import (
+    DDSException,
+    DDSStatus,
+    GuardCondition,
+    InstanceState,
+    ReadCondition,
+    SampleState,
+    ViewState,
+    WaitSet,
+)
+from cyclonedds.domain import DomainParticipant
+from cyclonedds.pub import DataWriter
+from cyclonedds.qos import Policy, Qos
+from cyclonedds.sub import DataReader
+from cyclonedds.topic import Topic
+from cyclonedds.util import duration
+
+from ...errors import UwsimError
+from .quality import Quality
+from .raw_types import RawSample
+
+TAKEN_AT_ONCE = 100
+"""Samples that are taken from a reader before the next one has its turn."""
+VARIABLE = "CYCLONEDDS_URI"
+WAKE_S = 1.0
+"""How long the thread sleeps at most [s]."""
+
+
+class Writer:
+    """Writes ready-made samples to a topic.
+
+    ``n_dropped`` counts samples that were dropped because a reliable reader was too far behind.
+    """
+
+    def __init__(self, entity: Any, type: type[RawSample]) -> None:
+        self.entity = entity
+        self._type = type
+        self.n_dropped = 0
+
+    def write(self, data: bytes) -> bool:
+        """Write a sample, its CDR header included; whether it was accepted."""
+        try:
+            self.entity.write(self._type(data))
+        except DDSException as error:
+            if error.code != DDSException.DDS_RETCODE_TIMEOUT:
+                raise
+            self.n_dropped += 1
+            return False
+        return True
+
+    @property
+    def n_readers(self) -> int:
+        """How many readers it has now, in other processes or this one."""
+        return len(self.entity.get_matched_subscriptions())
+
+
+class Participant:
+    """A participant; `close` ends it.
+
+    Args:
+        domain: DDS domain.
+        configuration: of Cyclone DDS, in XML; the first in a process for a domain holds.
+
+    Raises:
+        UwsimError: there is no network interface, or no free port.
+    """
+
+    def __init__(self, domain: int, configuration: str) -> None:
+        quality = Qos(Policy.Userdata(b"enclave=/;"))
+        try:
+            with _configured(configuration):
+                self._entity: Any = DomainParticipant(domain, quality)
+        except DDSException as error:
+            raise UwsimError(
+                f"--ros2: Cyclone DDS cannot join domain {domain}: {error} (CYCLONEDDS_URI is "
+                "read too)"
+            ) from error
+        self._topics: dict[str, Any] = {}
+        self._lock = threading.Lock()
+        self._readers: dict[Any, tuple[Any, Callable[[Any], None]]] = {}
+        self._watched: dict[Any, Callable[[int], None]] = {}
+        self._waitset: Any = WaitSet(self._entity)
+        self._wake: Any = GuardCondition(self._entity)
+        self._waitset.attach(self._wake)
+        self._is_open = True
+        self.error: BaseException | None = None
+        """What ended the thread, if anything did."""
+        self._thread = threading.Thread(target=self._run, name="uwsim-ros2", daemon=True)
+        self._thread.start()
+
+    @property
+    def guid(self) -> bytes:
+        """Its identity on the network, 16 bytes."""
+        return guid_of(self._entity)
+
+    def writer(
+        self,
+        name: str,
+        type: type[RawSample],
+        quality: Quality,
+        *,
+        user_data: bytes = b"",
+        on_readers: Callable[[int], None] | None = None,
+    ) -> Writer:
+        """Make a writer; ``on_readers(n)`` is called in the thread when their number changes."""
+        with self._lock:
+            entity = DataWriter(self._entity, self._topic(name, type), quality.policies(user_data))
+            if on_readers is not None:
+                entity.set_status_mask(DDSStatus.PublicationMatched)
+                self._watched[entity] = on_readers
+                self._waitset.attach(entity)
+        return Writer(entity, type)
+
+    def reader(
+        self,
+        name: str,
+        type: type[RawSample],
+        quality: Quality,
+        callback: Callable[[Any], None],
+        *,
+        user_data: bytes = b"",
+    ) -> Any:
+        """Make a reader; ``callback(sample)`` is called in the thread."""
+        with self._lock:
+            entity = DataReader(self._entity, self._topic(name, type), quality.policies(user_data))
+            fresh = ViewState.Any | SampleState.NotRead | InstanceState.Any
+            condition = ReadCondition(entity, fresh)
+            self._readers[condition] = (entity, callback)
+            self._waitset.attach(condition)
+        return entity
+
+    def forget(self, entity: Any) -> None:
+        """End a reader or writer that this participant made."""
+        with self._lock:
+            for condition, (reader, _) in list(self._readers.items()):
+                if reader is entity:
+                    self._waitset.detach(condition)
+                    del self._readers[condition]
+            if self._watched.pop(entity, None) is not None:
+                self._waitset.detach(entity)
+
+    def close(self) -> None:
+        """Leave the domain."""
+        if not self._is_open:
+            return
+        self._is_open = False
+        self._wake.set(True)
+        self._thread.join()
+        self._readers.clear()
+        self._watched.clear()
+        self._waitset = self._wake = None
+        self._topics.clear()
+        self._entity = None
+
+    def _topic(self, name: str, type: type[RawSample]) -> Any:
+        if name not in self._topics:
+            self._topics[name] = Topic(self._entity, name, type)
+        return self._topics[name]
+
+    def _run(self) -> None:
+        """Call callbacks until `close`."""
+        pause = duration(milliseconds=round(WAKE_S * 1000))
+        try:
+            while self._is_open:
+                self._waitset.wait(pause)
+                self._take()
+        except BaseException as error:  # reported by the owner; a thread has nobody to raise to
+            self.error = error
+
+    def _take(self) -> None:
+        with self._lock:
+            readers = list(self._readers.values())
+            watched = list(self._watched.items())
+        for entity, on_readers in watched:
+            if entity.get_status_changes() & DDSStatus.PublicationMatched:
+                on_readers(entity.get_publication_matched_status().current_count)
+        for reader, callback in readers:
+            for sample in reader.take(TAKEN_AT_ONCE):
+                if isinstance(sample, RawSample):
+                    callback(sample)
+
+
+def guid_of(entity: Any) -> bytes:
+    """Return the identity of a participant or endpoint on the network, 16 bytes."""
+    return bytes(entity.get_guid().bytes)
+
+
+@contextmanager
+def _configured(configuration: str) -> Iterator[None]:
+    """Have Cyclone DDS read this configuration: it looks into a variable when a domain begins."""
+    before = os.environ.get(VARIABLE)
+    os.environ[VARIABLE] = configuration
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[VARIABLE]
+        else:
+            os.environ[VARIABLE] = before
