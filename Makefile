@@ -13,5 +13,6 @@ demo: install
 	@echo "The report: $(CURDIR)/demo.result/report.html"
 
 test:
-	@scripts/setup dev docs ray
+	@scripts/setup dev docs ray ros2
+	@scripts/ros2_peers --if-possible
 	scripts/check --all

@@ -20,6 +20,7 @@ from ..runs.stand_ins import warn_of_stand_ins
 from ..terminal import print_warnings, warn
 from .exit_status import running
 from .options.completion import algorithm_names, one_of
+from .options.connections import ConnectionOptions, connected
 from .options.help_texts import INPUT, OUTPUT, RUN, in_group
 from .options.options import DataPathOption, JsonOption, NoCodeOption, SceneArgument, SettingOptions
 from .output.progress import progress
@@ -43,14 +44,15 @@ class ProgramOptions:
     """For how long, and with what program."""
 
     duration: Annotated[
-        str,
+        str | None,
         in_group(
             INPUT,
             "--for",
             metavar="TIME",
-            help="How long, in simulation time: 10s, 500ms, 2min, 1h.",
+            help="How long, in simulation time: 10s, 500ms, 2min, 1h [10s; with a connection "
+            "until Ctrl-C].",
         ),
-    ] = "10s"
+    ] = None
     program: Annotated[
         str | None,
         in_group(
@@ -118,6 +120,7 @@ def run(
     *,
     what: ProgramOptions,
     changes: SettingOptions,
+    connections: ConnectionOptions,
     seed: Annotated[
         int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of every random stream.")
     ] = 0,
@@ -131,6 +134,9 @@ def run(
     callbacks take no simulation time. Same files, program and seed: the same messages, and the
     same bytes of the recording. Without --hz and --record, images that no program reads are not
     drawn. Ctrl-C ends the run; the recording is complete up to there.
+
+    With a connection (--ros2) programs outside read and write topics and call services while the
+    scene runs in real time, and the run is not repeatable.
     """
     from ..simulation import Simulation
 
@@ -141,7 +147,7 @@ def run(
         if spec is not None and no_code:
             refuse_code(spec)
     quirks = compatibility_of(changes.compat or [], wrong)
-    wanted = wanted_of(what, output, changes, wrong)
+    wanted = wanted_of(what, output, changes, connections, wrong)
     wrong.check()
     assert spec is not None
     announce_code(spec)
@@ -151,7 +157,8 @@ def run(
     ) as simulation:
         print_warnings(simulation.world.warnings)
         raise_from_now_on()
-        run_and_report(simulation, spec, wanted, output)
+        with connected(simulation, connections):
+            run_and_report(simulation, spec, wanted, output)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -159,7 +166,7 @@ class Wanted:
     """What the options ask for, checked."""
 
     duration: float
-    """Simulation time [s]."""
+    """Simulation time [s]; inf for no end."""
     program: type[Algorithm] | None
     """What is attached."""
     parameters: dict[str, float | str]
@@ -169,7 +176,11 @@ class Wanted:
 
 
 def wanted_of(
-    what: ProgramOptions, output: RecordOptions, changes: SettingOptions, wrong: AllErrors
+    what: ProgramOptions,
+    output: RecordOptions,
+    changes: SettingOptions,
+    connections: ConnectionOptions,
+    wrong: AllErrors,
 ) -> Wanted:
     """Check the options; collects their errors."""
     from ..algorithms import ALGORITHMS
@@ -177,8 +188,10 @@ def wanted_of(
 
     duration, program, images = 0.0, None, image_storage("raw")
     own = [each for each in changes.settings or () if each.startswith(OF_ALGORITHM)]
+    connections.check(wrong)
     with wrong.kept():
-        duration = duration_of(what.duration)
+        is_endless = what.duration is None and connections.is_connected
+        duration = math.inf if is_endless else duration_of(what.duration or "10s")
     with wrong.kept():
         if what.program is not None:
             program = load_program(what.program, ALGORITHMS)
@@ -247,7 +260,11 @@ def run_and_report(
 
 
 def pieces(simulation: Simulation, duration: float, title: str) -> Iterator[None]:
-    """Advance by a second at a time, showing progress."""
+    """Advance by a second at a time, showing progress if there is an end."""
+    if duration == math.inf:
+        while True:
+            simulation.advance(1.0)
+            yield
     total = max(1, math.ceil(duration))
     with progress(title, total, of="s of simulation time") as on_piece:
         simulation.advance(0.0)

@@ -21,11 +21,12 @@ INPUT = "What is run"
 RUN = "Repeats and processes"
 SEARCH = "What is searched"
 COMPARED = "What is compared"
+CONNECTED = "Connections"
 FILES = "Your own files and code"
 OUTPUT = "Output"
 OTHERS = "Options"
 """Groups of options, in the order in which help shows them."""
-ORDER = (INPUT, COMPARED, SEARCH, RUN, OUTPUT, FILES, OTHERS)
+ORDER = (INPUT, COMPARED, SEARCH, CONNECTED, RUN, OUTPUT, FILES, OTHERS)
 
 Completion = Callable[[str], list[tuple[str, str]]]
 """What has been typed of a word -> words it may become, each with a line about it."""

@@ -23,7 +23,7 @@ from ..queues import LatestQueue
 from ..stamps import clock_time, inward, outward
 from ..types import message_class, ros2_store, wire_service, wire_type
 from .names import topic_name, type_hash_data
-from .participant import Participant, Writer
+from .participant import READERS_CHANGED, WRITER_REFUSED, Participant, Writer
 from .presence import Presence
 from .quality import CLOCK, LATCHED, Quality, quality_of
 from .raw_types import RawSample, raw_type
@@ -133,11 +133,11 @@ class Ros2(Bridge):
         self._participant.close()
         super().close()
 
-    def _on_clocks(self, n_readers: int) -> None:
-        self._n_clocks = n_readers
+    def _on_clocks(self, writer: Any) -> None:
+        self._n_clocks = len(writer.get_matched_subscriptions())
         self._next_clock = 0.0
 
-    def _add_writer(self, name: str, type: type, on_readers: Callable[[int], None]) -> None:
+    def _add_writer(self, name: str, type: type, on_readers: Callable[[Any], None]) -> None:
         wire = wire_type(type)
         assert wire is not None
         writer = self._participant.writer(
@@ -145,7 +145,7 @@ class Ros2(Bridge):
             self._raw(type),
             quality_of(name),
             user_data=type_hash_data(wire.type_hash),
-            on_readers=on_readers,
+            events={READERS_CHANGED: on_readers},
         )
         self._writers[name] = writer
         self._presence.add(writers=(writer.entity,))
@@ -159,6 +159,7 @@ class Ros2(Bridge):
             Quality(is_latched=name in LATCHED, ignores_own=True),
             partial(self._receive, name, type),
             user_data=type_hash_data(wire.type_hash),
+            events={WRITER_REFUSED: partial(self._refuse, name)},
         )
         self._readers[name] = reader
         self._presence.add(readers=(reader,))
@@ -187,6 +188,13 @@ class Ros2(Bridge):
         except BadMessage as error:
             self.log.say(f"/{name}: a message was refused: {error}", kind=f"refused {name}")
 
+    def _refuse(self, name: str, _reader: Any) -> None:
+        self.log.say(
+            f"/{name}: a publisher offers best effort only; it is not read, as commands must not "
+            "be lost: set its reliability to RELIABLE",
+            kind=f"best effort {name}",
+        )
+
     def _write(self) -> None:
         """Encode and write until `close`."""
         while (item := self._outgoing.get()) is not None:
@@ -214,7 +222,8 @@ class _Demand:
     def __init__(self, bridge: Bridge, topic: str) -> None:
         self._bridge, self._topic, self._n = bridge, topic, 0
 
-    def __call__(self, n_readers: int) -> None:
+    def __call__(self, writer: Any) -> None:
+        n_readers = len(writer.get_matched_subscriptions())
         for _ in range(n_readers - self._n):
             self._bridge.want(self._topic)
         for _ in range(self._n - n_readers):

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from types import MappingProxyType
 from typing import Any
 
 from cyclonedds.core import (
@@ -34,6 +35,15 @@ from ...errors import UwsimError
 from .quality import Quality
 from .raw_types import RawSample
 
+Events = Mapping[int, Callable[[Any], None]]
+"""Status of an endpoint -> what is called with the endpoint when it changes."""
+NO_EVENTS: Events = MappingProxyType({})
+READERS_CHANGED = DDSStatus.PublicationMatched
+"""Of a writer: readers came or left."""
+WRITERS_CHANGED = DDSStatus.SubscriptionMatched
+"""Of a reader: writers came or left."""
+WRITER_REFUSED = DDSStatus.RequestedIncompatibleQos
+"""Of a reader: there is a writer whose quality of service does not suffice."""
 TAKEN_AT_ONCE = 100
 """Samples that are taken from a reader before the next one has its turn."""
 VARIABLE = "CYCLONEDDS_URI"
@@ -93,7 +103,7 @@ class Participant:
         self._topics: dict[str, Any] = {}
         self._lock = threading.Lock()
         self._readers: dict[Any, tuple[Any, Callable[[Any], None]]] = {}
-        self._watched: dict[Any, Callable[[int], None]] = {}
+        self._watched: dict[Any, Events] = {}
         self._waitset: Any = WaitSet(self._entity)
         self._wake: Any = GuardCondition(self._entity)
         self._waitset.attach(self._wake)
@@ -115,15 +125,12 @@ class Participant:
         quality: Quality,
         *,
         user_data: bytes = b"",
-        on_readers: Callable[[int], None] | None = None,
+        events: Events = NO_EVENTS,
     ) -> Writer:
-        """Make a writer; ``on_readers(n)`` is called in the thread when their number changes."""
+        """Make a writer; ``events`` are called in the thread, as `READERS_CHANGED`."""
         with self._lock:
             entity = DataWriter(self._entity, self._topic(name, type), quality.policies(user_data))
-            if on_readers is not None:
-                entity.set_status_mask(DDSStatus.PublicationMatched)
-                self._watched[entity] = on_readers
-                self._waitset.attach(entity)
+            self._watch(entity, events)
         return Writer(entity, type)
 
     def reader(
@@ -134,14 +141,16 @@ class Participant:
         callback: Callable[[Any], None],
         *,
         user_data: bytes = b"",
+        events: Events = NO_EVENTS,
     ) -> Any:
-        """Make a reader; ``callback(sample)`` is called in the thread."""
+        """Make a reader; ``callback(sample)`` and ``events`` are called in the thread."""
         with self._lock:
             entity = DataReader(self._entity, self._topic(name, type), quality.policies(user_data))
             fresh = ViewState.Any | SampleState.NotRead | InstanceState.Any
             condition = ReadCondition(entity, fresh)
             self._readers[condition] = (entity, callback)
             self._waitset.attach(condition)
+            self._watch(entity, events)
         return entity
 
     def forget(self, entity: Any) -> None:
@@ -153,6 +162,7 @@ class Participant:
                     del self._readers[condition]
             if self._watched.pop(entity, None) is not None:
                 self._waitset.detach(entity)
+        _delete(entity)
 
     def close(self) -> None:
         """Leave the domain."""
@@ -161,16 +171,21 @@ class Participant:
         self._is_open = False
         self._wake.set(True)
         self._thread.join()
-        self._readers.clear()
-        self._watched.clear()
-        self._waitset = self._wake = None
-        self._topics.clear()
-        self._entity = None
+        _delete(self._entity)
 
     def _topic(self, name: str, type: type[RawSample]) -> Any:
         if name not in self._topics:
             self._topics[name] = Topic(self._entity, name, type)
         return self._topics[name]
+
+    def _watch(self, entity: Any, events: Events) -> None:
+        if events:
+            mask = 0
+            for status in events:
+                mask |= status
+            entity.set_status_mask(mask)
+            self._watched[entity] = events
+            self._waitset.attach(entity)
 
     def _run(self) -> None:
         """Call callbacks until `close`."""
@@ -186,9 +201,12 @@ class Participant:
         with self._lock:
             readers = list(self._readers.values())
             watched = list(self._watched.items())
-        for entity, on_readers in watched:
-            if entity.get_status_changes() & DDSStatus.PublicationMatched:
-                on_readers(entity.get_publication_matched_status().current_count)
+        for entity, events in watched:
+            changes = entity.get_status_changes()
+            for status, call in events.items():
+                if changes & status:
+                    entity.take_status(status)
+                    call(entity)
         for reader, callback in readers:
             for sample in reader.take(TAKEN_AT_ONCE):
                 if isinstance(sample, RawSample):
@@ -198,6 +216,11 @@ class Participant:
 def guid_of(entity: Any) -> bytes:
     """Return the identity of a participant or endpoint on the network, 16 bytes."""
     return bytes(entity.get_guid().bytes)
+
+
+def _delete(entity: Any) -> None:
+    """Delete an entity and all that belongs to it now, whoever holds the Python objects."""
+    entity._delete(entity._ref)
 
 
 @contextmanager

@@ -20,7 +20,7 @@ from ..encodings import from_cdr, to_cdr
 from ..log import Log
 from ..types import WireService, ros2_store
 from .names import reply_name, request_name, type_hash_data
-from .participant import Participant
+from .participant import WRITERS_CHANGED, Participant
 from .quality import Quality
 from .raw_types import CDR_HEADER, RawSample, raw_type
 
@@ -63,6 +63,7 @@ class ServiceServer:
             reliable,
             self._receive,
             user_data=hash_data,
+            events={WRITERS_CHANGED: self._look_at_clients},
         )
 
     def close(self) -> None:
@@ -70,23 +71,34 @@ class ServiceServer:
         self._participant.forget(self.reader)
         self._participant.forget(self.writer.entity)
 
+    def _look_at_clients(self, reader: Any) -> None:
+        """Report clients that cannot be answered."""
+        for handle in reader.get_matched_publications():
+            found = reader.get_matched_publication_data(handle)
+            vendor = CYCLONE if found is None else bytes(found.key.bytes[:2])
+            if vendor != CYCLONE:
+                name = VENDORS.get(vendor, "another DDS")
+                self._log.say(
+                    f"service /{self._name} cannot answer a client that uses {name}; its node "
+                    "needs RMW_IMPLEMENTATION=rmw_cyclonedds_cpp",
+                    kind=f"vendor {self._name}",
+                )
+
     def _receive(self, sample: RawSample) -> None:
-        vendor = vendor_of(self.reader, sample)
-        if vendor != CYCLONE:
-            name = VENDORS.get(vendor, "another DDS")
-            self._log.say(
-                f"service /{self._name} was called by a node that uses {name}, which it cannot "
-                "answer; such a node needs RMW_IMPLEMENTATION=rmw_cyclonedds_cpp",
-                kind=f"vendor {self._name}",
-            )
+        if not self._is_of_cyclone(sample):
             return
         try:
             call, body = split_call(sample.data)
-            request = from_cdr(self._kind.service.request, body)
+            request: object = from_cdr(self._kind.service.request, body)
         except (BadMessage, struct.error) as error:
             self._log.say(f"service /{self._name}: a call was refused: {error}", kind=self._name)
             return
         self._call(request).add_done_callback(partial(self._reply, call))
+
+    def _is_of_cyclone(self, sample: RawSample) -> bool:
+        handle = sample.sample_info.publication_handle
+        found = self.reader.get_matched_publication_data(handle)
+        return found is not None and bytes(found.key.bytes[:2]) == CYCLONE
 
     def _reply(self, call: bytes, response: Future[object]) -> None:
         try:
@@ -107,9 +119,3 @@ def split_call(data: bytes) -> tuple[bytes, bytes]:
     if len(call) < CALL.size:
         raise BadMessage(f"{len(data)} bytes are no call.")
     return call, data[:CDR_HEADER] + data[start:]
-
-
-def vendor_of(reader: Any, sample: RawSample) -> bytes:
-    """Return the vendor of the writer of a sample, 2 bytes; empty if it is gone."""
-    found = reader.get_matched_publication_data(sample.sample_info.publication_handle)
-    return b"" if found is None else bytes(found.key.bytes[:2])

@@ -1,8 +1,9 @@
 """Where a ROS 2 graph is looked for: the domain, and which network interfaces are used.
 
 The variables are those of ROS 2 (Jazzy): ``ROS_DOMAIN_ID``, ``ROS_AUTOMATIC_DISCOVERY_RANGE``
-(``LOCALHOST``, ``SUBNET``), ``ROS_LOCALHOST_ONLY`` (``1``, ``0``; it takes precedence, as there) and
-``ROS_STATIC_PEERS``. Unlike a node of ROS 2, the simulator keeps to this computer if none is set.
+(``LOCALHOST``, ``SUBNET``), ``ROS_LOCALHOST_ONLY`` (``1``, ``0``; it takes precedence, as there)
+and ``ROS_STATIC_PEERS``. Unlike a node of ROS 2, the simulator keeps to this computer if none is
+set.
 """
 
 from __future__ import annotations

@@ -1,0 +1,210 @@
+"""A bus as a node of ROS 2, seen by real nodes of rclpy (Fast DDS)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from tests.ros2_peers import free_domain, needs_rclpy, peer, until
+from uwsim.bus import Bus
+from uwsim.messages import Image, Odometry, String, TwistStamped
+from uwsim.messages.build import image
+
+pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
+
+from uwsim.middleware.log import Log
+from uwsim.middleware.ros2.adapter import Ros2
+from uwsim.middleware.ros2.settings import Ros2Settings
+from uwsim.middleware.types import wire_type
+
+pytestmark = needs_rclpy
+
+
+class Simulator:
+    """A bus, its bridge, and a clock that a test turns."""
+
+    def __init__(self, domain: int) -> None:
+        self.bus, self.time, self.domain = Bus(), 0.0, domain
+        self.lines: list[str] = []
+        self.bridge = Ros2(
+            self.bus, lambda: self.time, Ros2Settings(domain=domain), log=Log("", self.lines.append)
+        )
+
+    def step(self) -> None:
+        """Pass one step boundary."""
+        self.time += 0.002
+        self.bus.step += 1
+        self.bus.deliver()
+        self.bridge.step()
+
+
+@pytest.fixture
+def simulator() -> Iterator[Simulator]:
+    with free_domain() as domain:
+        found = Simulator(domain)
+        try:
+            yield found
+        finally:
+            found.bridge.close()
+
+
+def test_a_node_reads_the_odometry_with_its_stamp_on_the_clock_of_ros(simulator: Simulator) -> None:
+    publish = simulator.bus.publisher("rov/odom", Odometry)
+    source = """
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+got, clocks = [], []
+node.create_subscription(Odometry, "/rov/odom", got.append, 10)
+node.create_subscription(Clock, "/clock", clocks.append, qos_profile_sensor_data)
+spin_until(lambda: got and clocks)
+has_begun = clocks[0].clock.sec >= 1
+say(x=got[0].pose.pose.position.x, sec=got[0].header.stamp.sec, has_begun=has_begun)
+"""
+    with peer(source, simulator.domain) as node:
+        answers: list[dict[str, object]] = []
+
+        def step() -> None:
+            message = Odometry()
+            message.pose.pose.position.x = 1.25
+            publish(message)
+            simulator.step()
+            answers.extend(node.answers())
+
+        until(lambda: answers, step)
+    assert answers == [{"x": 1.25, "sec": 1, "has_begun": True}]
+
+
+def test_a_node_drives_a_vehicle(simulator: Simulator) -> None:
+    inbox = simulator.bus.inbox("rov/twist", TwistStamped)
+    source = """
+from geometry_msgs.msg import TwistStamped
+out = node.create_publisher(TwistStamped, "/rov/twist", 10)
+message = TwistStamped()
+message.twist.linear.x = 0.5
+while True:
+    out.publish(message)
+    rclpy.spin_once(node, timeout_sec=0.02)
+"""
+    with peer(source, simulator.domain):
+        until(lambda: inbox.last is not None, simulator.step)
+    assert inbox.last is not None
+    assert inbox.last.twist.linear.x == 0.5
+    assert inbox.last.header.stamp.sec == 0, "none given: none"
+
+
+def test_the_graph_shows_one_node_with_its_endpoints_and_type_hashes(simulator: Simulator) -> None:
+    simulator.bus.publisher("rov/odom", Odometry)
+    simulator.bus.inbox("rov/twist", TwistStamped)
+    simulator.step()
+    source = """
+from rclpy.node import Node
+def ours():
+    return ("uwsim", "/") in node.get_node_names_and_namespaces() and len(
+        node.get_publisher_names_and_types_by_node("uwsim", "/")
+    ) >= 2 and node.get_subscriber_names_and_types_by_node("uwsim", "/")
+spin_until(ours)
+(info,) = node.get_publishers_info_by_topic("/rov/odom")
+say(
+    published=node.get_publisher_names_and_types_by_node("uwsim", "/"),
+    read=node.get_subscriber_names_and_types_by_node("uwsim", "/"),
+    hash=str(info.topic_type_hash),
+    reliability=info.qos_profile.reliability.name,
+)
+"""
+    with peer(source, simulator.domain) as node:
+        answers: list[dict[str, object]] = []
+        until(lambda: answers, lambda: (simulator.step(), answers.extend(node.answers())))
+    odometry = wire_type(Odometry)
+    assert odometry is not None
+    assert answers == [
+        {
+            "published": [
+                ["/clock", ["rosgraph_msgs/msg/Clock"]],
+                ["/rov/odom", ["nav_msgs/msg/Odometry"]],
+            ],
+            "read": [["/rov/twist", ["geometry_msgs/msg/TwistStamped"]]],
+            "hash": odometry.type_hash,
+            "reliability": "RELIABLE",
+        }
+    ]
+
+
+def test_a_camera_is_read_only_while_a_node_subscribes(simulator: Simulator) -> None:
+    simulator.bus.publisher("camera", Image)
+    source = """
+from sensor_msgs.msg import Image
+node.create_subscription(Image, "/camera", print, qos_profile_sensor_data)
+spin_until(lambda: False)
+"""
+    simulator.step()
+    assert not simulator.bus.has_readers("camera")
+    with peer(source, simulator.domain) as node:
+        until(lambda: simulator.bus.has_readers("camera"), simulator.step)
+        node.process.terminate()  # rclpy leaves the graph
+        until(lambda: not simulator.bus.has_readers("camera"), simulator.step)
+
+
+def test_images_of_640_by_480_pixels_arrive_each_and_whole(simulator: Simulator) -> None:
+    publish = simulator.bus.publisher("camera", Image)
+    seen = simulator.bus.inbox("seen", String)
+    source = """
+from sensor_msgs.msg import Image
+from std_msgs.msg import String
+out = node.create_publisher(String, "/seen", 10)
+def look(image):
+    size = f"{image.width}x{image.height}"
+    out.publish(String(data=f"{size} {image.data[0]} {len(image.data)}"))
+node.create_subscription(Image, "/camera", look, 10)
+spin_until(lambda: False)
+"""
+    pixels = np.zeros((480, 640, 3), dtype=np.uint8)
+    got: list[str] = []
+
+    def step() -> None:
+        simulator.step()
+        got.extend(each.data for each in seen.take())
+
+    def send(n: int) -> None:
+        pixels[0, 0, 0] = n
+        publish(image(pixels.copy(), time=float(n)))
+
+    with peer(source, simulator.domain):
+        until(lambda: got, lambda: (send(0), step()))  # both ends know each other from here on
+        for n in range(1, 21):
+            send(n)
+            until(lambda n=n: got[-1].split()[1] == str(n), step)
+    assert [each for each in got if each.split()[1] != "0"] == [
+        f"640x480 {n} 921600" for n in range(1, 21)
+    ]
+
+
+def test_a_late_node_gets_what_was_published_before(simulator: Simulator) -> None:
+    publish = simulator.bus.publisher("robot_description", String)
+    publish(String(data="<robot/>"))
+    for _ in range(3):
+        simulator.step()
+    source = """
+from std_msgs.msg import String
+late = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+node.create_subscription(String, "/robot_description", lambda m: say(text=m.data), late)
+spin_until(lambda: False)
+"""
+    with peer(source, simulator.domain) as node:
+        answers: list[dict[str, object]] = []
+        until(lambda: answers, lambda: (simulator.step(), answers.extend(node.answers())))
+    assert answers == [{"text": "<robot/>"}]
+
+
+def test_a_publisher_of_best_effort_is_reported(simulator: Simulator) -> None:
+    simulator.bus.inbox("rov/twist", TwistStamped)
+    source = """
+from geometry_msgs.msg import TwistStamped
+out = node.create_publisher(TwistStamped, "/rov/twist", qos_profile_sensor_data)
+spin_until(lambda: False)
+"""
+    with peer(source, simulator.domain):
+        until(lambda: simulator.lines, simulator.step)
+    assert "/rov/twist" in simulator.lines[0]
+    assert "best effort" in simulator.lines[0]

@@ -1,0 +1,87 @@
+"""Two participants of one DDS domain, without ROS 2."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from tests.ros2_peers import free_domain, until
+from uwsim.errors import UwsimError
+from uwsim.messages import String
+from uwsim.middleware.encodings import from_cdr, to_cdr
+
+pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
+
+from uwsim.middleware.ros2.participant import READERS_CHANGED, Participant
+from uwsim.middleware.ros2.quality import Quality
+from uwsim.middleware.ros2.raw_types import raw_type
+from uwsim.middleware.ros2.settings import Ros2Settings
+from uwsim.middleware.types import ros2_store
+
+TEXT = raw_type(ros2_store(), "std_msgs/msg/String")
+
+
+@pytest.fixture
+def two() -> Iterator[tuple[Participant, Participant]]:
+    with free_domain() as domain:
+        configuration = Ros2Settings(domain=domain).configuration()
+        one, other = Participant(domain, configuration), Participant(domain, configuration)
+        try:
+            yield one, other
+        finally:
+            other.close()
+            one.close()
+
+
+def nothing() -> None:
+    """What there is to do while a test waits."""
+
+
+def test_bytes_go_from_one_to_the_other_as_they_are(two: tuple[Participant, Participant]) -> None:
+    sender, receiver = two
+    n_readers: list[int] = []
+    writer = sender.writer(
+        "rt/a",
+        TEXT,
+        Quality(),
+        events={READERS_CHANGED: lambda w: n_readers.append(len(w.get_matched_subscriptions()))},
+    )
+    got: list[Any] = []
+    receiver.reader("rt/a", TEXT, Quality(), got.append)
+    until(lambda: n_readers and n_readers[-1] == 1, nothing)
+    sent = [bytes(to_cdr(String(data="x" * n))) for n in range(5)]
+    for data in sent:
+        assert writer.write(data)
+    until(lambda: len(got) == 5, nothing)
+    assert [from_cdr(String, each.data).data for each in got] == ["x" * n for n in range(5)]
+
+
+def test_what_is_latched_reaches_a_reader_that_comes_late(
+    two: tuple[Participant, Participant],
+) -> None:
+    sender, receiver = two
+    writer = sender.writer("rt/a", TEXT, Quality(depth=2, is_latched=True))
+    for text in "abc":
+        writer.write(bytes(to_cdr(String(data=text))))
+    got: list[Any] = []
+    receiver.reader("rt/a", TEXT, Quality(is_latched=True), got.append)
+    until(lambda: len(got) == 2, nothing)
+    assert [from_cdr(String, each.data).data for each in got] == ["b", "c"]
+
+
+def test_a_writer_that_is_forgotten_leaves_its_readers(
+    two: tuple[Participant, Participant],
+) -> None:
+    sender, receiver = two
+    writer = sender.writer("rt/a", TEXT, Quality())
+    reader = receiver.reader("rt/a", TEXT, Quality(), lambda sample: None)
+    until(reader.get_matched_publications, nothing)
+    sender.forget(writer.entity)
+    until(lambda: not reader.get_matched_publications(), nothing)
+
+
+def test_a_configuration_that_cyclone_dds_refuses_is_an_error_of_the_user() -> None:
+    with free_domain() as domain, pytest.raises(UwsimError, match="CYCLONEDDS_URI"):
+        Participant(domain, "<CycloneDDS><Domain><Nonsense/></Domain></CycloneDDS>")

@@ -1,0 +1,46 @@
+"""Simulation time in step with real time, on a clock that the test turns."""
+
+from __future__ import annotations
+
+import pytest
+
+from uwsim.middleware.pacing import Pace
+
+
+class Wall:
+    """Real time and simulation time of a test."""
+
+    def __init__(self, speed: float) -> None:
+        self.now, self.simulated = 100.0, 5.0
+        self.pace = Pace(lambda: self.simulated, speed, now=lambda: self.now, sleep=self.sleep)
+        self.pace.step()
+
+    def sleep(self, seconds: float) -> None:
+        self.now += seconds
+
+    def step(self, simulated: float, takes: float) -> None:
+        self.simulated += simulated
+        self.now += takes
+        self.pace.step()
+
+
+@pytest.mark.parametrize("speed", [1.0, 4.0, 0.5])
+def test_a_simulation_that_is_fast_enough_takes_the_time_that_passes(speed: float) -> None:
+    wall = Wall(speed)
+    for _ in range(1000):
+        wall.step(0.01, takes=0.002)
+    assert wall.now - 100.0 == pytest.approx(10.0 / speed, abs=0.002)
+    assert wall.pace.lost == 0.0
+
+
+def test_a_short_lag_is_caught_up_and_a_long_one_is_lost() -> None:
+    wall = Wall(1.0)
+    wall.step(0.01, takes=0.11)
+    for _ in range(20):
+        wall.step(0.01, takes=0.0)
+    assert wall.now == pytest.approx(100.21)
+    wall.step(0.01, takes=3.01)
+    for _ in range(20):
+        wall.step(0.01, takes=0.0)
+    assert wall.now == pytest.approx(100.21 + 3.01 + 0.2)
+    assert wall.pace.lost == pytest.approx(3.0)

@@ -1,0 +1,138 @@
+"""Real ROS 2 nodes for tests: rclpy in an environment of its own, each node a process."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from queue import Empty, Queue
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PYTHON = ROOT / "build" / "ros2-peers" / "bin" / "python"
+BOUND_S = 60.0
+"""How long a test waits for what must come [s]; nothing that works takes nearly as long."""
+needs_rclpy = pytest.mark.skipif(
+    not (PYTHON.parents[1] / "installed").is_file(),
+    reason="rclpy is not installed; scripts/ros2_peers installs it",
+)
+
+
+@contextmanager
+def free_domain() -> Iterator[int]:
+    """Reserve a DDS domain for one test: the port of its first participant is held."""
+    for domain in range(1 + os.getpid() % 50, 101):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as held:
+            try:
+                held.bind(("0.0.0.0", 7400 + 250 * domain + 10))
+            except OSError:
+                continue
+            yield domain
+            return
+    raise RuntimeError("no free DDS domain")
+
+
+class Peer:
+    """A node in a process of its own; it prints JSON, one object a line."""
+
+    def __init__(self, source: str, domain: int, log_folder: str) -> None:
+        variables = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "ROS_"))}
+        variables |= {
+            "ROS_DOMAIN_ID": str(domain),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "ROS_LOG_DIR": log_folder,
+        }
+        self.process = subprocess.Popen(
+            [PYTHON, "-c", PRELUDE + source],
+            env=variables,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self._lines: Queue[str] = Queue()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def answers(self) -> list[Any]:
+        """What it has printed since the last call."""
+        assert self.process.poll() in (None, 0), "the node failed"
+        found = []
+        while True:
+            try:
+                found.append(json.loads(self._lines.get_nowait()))
+            except Empty:
+                return found
+
+    def kill(self) -> None:
+        """End it at once, as a crash does."""
+        self.process.kill()
+        self.process.wait()
+
+    def errors(self) -> str:
+        """What it wrote to standard error, once it has ended."""
+        assert self.process.stderr is not None
+        return self.process.stderr.read()
+
+    def close(self) -> None:
+        """End it and close its pipes."""
+        self.kill()
+        self._reader.join(timeout=BOUND_S)
+        for stream in (self.process.stdin, self.process.stderr, self.process.stdout):
+            assert stream is not None
+            stream.close()
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self._lines.put(line)
+
+
+@contextmanager
+def peer(source: str, domain: int) -> Iterator[Peer]:
+    """Run a node while the block lasts; what it wrote to standard error is shown if it fails."""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as logs:
+        node = Peer(source, domain, logs)
+        try:
+            yield node
+        except BaseException:
+            node.kill()
+            print(node.errors(), file=sys.stderr)
+            raise
+        finally:
+            node.close()
+
+
+def until(is_done: Callable[[], object], step: Callable[[], object]) -> None:
+    """Call ``step`` again and again until something is so."""
+    end = time.monotonic() + BOUND_S
+    while not is_done():
+        assert time.monotonic() < end, "it did not come"
+        step()
+        time.sleep(0.001)
+
+
+PRELUDE = """
+import json, sys
+import rclpy
+from rclpy.qos import QoSProfile, qos_profile_sensor_data, DurabilityPolicy, ReliabilityPolicy
+from rclpy.node import Node
+rclpy.init()
+node = Node("peer")
+def say(**values):
+    print(json.dumps(values), flush=True)
+def spin_until(is_done):
+    while not is_done():
+        rclpy.spin_once(node, timeout_sec=0.05)
+"""
+"""What each node begins with."""
