@@ -51,6 +51,7 @@ class Peer:
             "ROS_DOMAIN_ID": str(domain),
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
             "ROS_LOG_DIR": log_folder,
+            "FASTRTPS_DEFAULT_PROFILES_FILE": str(ROOT / "examples" / "ros2" / "fastdds.xml"),
         }
         self.process = subprocess.Popen(
             [PYTHON, "-c", PRELUDE + source],
