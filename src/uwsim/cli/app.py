@@ -96,6 +96,15 @@ COMMANDS: dict[str, Command] = {
             "--set oceanState.fog.density=0.4",
         ),
     ),
+    "replay": Command(
+        module="replay",
+        function="replay",
+        summary="See a trial of a result again: a film with curves and a camera's image.",
+        examples=(
+            "uwsim replay visibility.result -o visibility.mp4",
+            "uwsim replay currents.result --trial 3 --view chase --speed 4 -o currents.webp",
+        ),
+    ),
     "report": Command(
         module="report",
         function="report",

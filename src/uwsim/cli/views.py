@@ -74,7 +74,7 @@ class Wanted:
             camera=camera,
             view=None if view is None else _named(view),
             line=None if eye is None or at is None else (_point("--from", eye), _point("--at", at)),
-            size=None if size is None else _size(size),
+            size=None if size is None else size_of(size),
             has_fog=any(setting.strip().startswith(FOG) for setting in settings),
         )
 
@@ -149,7 +149,8 @@ def _point(option: str, text: str) -> Array:
     return numbers
 
 
-def _size(text: str) -> tuple[int, int]:
+def size_of(text: str) -> tuple[int, int]:
+    """Return width and height [px] as they are typed: ``800x600``; raises BadSetting."""
     match = re.fullmatch(r"(\d{1,6})[xX](\d{1,6})", text.strip())
     edges = (int(match[1]), int(match[2])) if match else (0, 0)
     if not all(1 <= edge <= MAX_SIDE for edge in edges):

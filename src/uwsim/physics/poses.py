@@ -141,6 +141,33 @@ class Poses:
         self.refresh()
         return np.concatenate([self._data.xpos[bodies], self._data.xquat[bodies]], axis=1)
 
+    def show(self, bodies: npt.NDArray[np.intp], rows: Array) -> None:
+        """Put frames where they were in another run, for images; the engine's state stays.
+
+        What is fixed to these bodies follows them. The next `moved` undoes it.
+
+        Args:
+            bodies: numbers of the engine's bodies.
+            rows: position in W [m] and quaternion (wxyz) of each, (n, 7).
+        """
+        self.refresh()
+        model, axes = self._model, np.zeros(9)
+        shown = dict(zip(bodies.tolist(), rows, strict=True))
+        follows = set(shown)
+        for body in range(1, model.nbody):
+            parent = int(model.body_parentid[body])
+            if body in shown:
+                mujoco.mju_quat2Mat(axes, np.ascontiguousarray(shown[body][3:]))
+                self._origins[body], self._axes[body] = shown[body][:3], axes.reshape(3, 3)
+            elif parent in follows:
+                follows.add(body)
+                mujoco.mju_quat2Mat(axes, model.body_quat[body])
+                self._origins[body] = self._origins[parent] + turned(
+                    self._axes[parent], model.body_pos[body]
+                )
+                self._axes[body] = product(self._axes[parent], axes.reshape(3, 3))
+        self.version += 1
+
     def is_fixed(self, index: int) -> bool:
         """Whether an object stays where it is for good."""
         return index in self._fixed and index not in self._movable

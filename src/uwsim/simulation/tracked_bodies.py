@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import Array, quaternion_from_rotation
+from ..geometry import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
 from ..scene.urdf.robot import RobotSpec
 from .parts import Part
 from .world import SceneWorld
@@ -63,6 +63,13 @@ class TrackedBodies:
             rows[self._row_of_object[i], :3] = pose.position
             rows[self._row_of_object[i], 3:] = quaternion_from_rotation(pose.rotation)
         return rows
+
+    def show(self, rows: Array) -> None:
+        """Put all of them where rows (n, 7), as of `rows`, say, for images."""
+        n = len(self._numbers)
+        self._poses.show(self._numbers, rows[:n])
+        for i, row in zip(self._placed, rows[n:], strict=True):
+            self._poses.put(i, Pose(row[:3].copy(), rotation_from_quaternion(row[3:])))
 
 
 def leaders(robot: RobotSpec) -> dict[str, str]:

@@ -1,0 +1,238 @@
+"""``uwsim replay``: a recorded trial as a film."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import AllErrors, BadSetting
+from .options.help_texts import FILES, INPUT, OUTPUT, in_group
+from .options.options import DataPathOption, ResultArgument
+from .output.progress import progress
+from .views import size_of
+
+if TYPE_CHECKING:
+    from ..viewer.film.film import FilmSpec
+    from ..viewer.recorded import RecordedTrial
+
+MAX_RATE = 120.0
+"""Most images a second of a film [Hz]."""
+WEBP_RATE = 10.0
+"""Images a second of a WebP, unless --fps says otherwise [Hz]."""
+FILM_RATE = 30.0
+"""Of the other films [Hz]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrialOptions:
+    """Which part of which trial."""
+
+    trial: Annotated[
+        int,
+        in_group(
+            INPUT, "--trial", metavar="N", min=0, help="Number of the trial, as of units/N.jsonl."
+        ),
+    ] = 0
+    start: Annotated[
+        float | None,
+        in_group(
+            INPUT,
+            "--begin",
+            metavar="SECONDS",
+            min=0.0,
+            help="Simulation time of the first image; without it the trial's beginning.",
+        ),
+    ] = None
+    end: Annotated[
+        float | None,
+        in_group(
+            INPUT,
+            "--until",
+            metavar="SECONDS",
+            min=0.0,
+            help="Simulation time of the last image; without it the trial's end.",
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmOptions:
+    """How a film looks."""
+
+    view: Annotated[
+        str,
+        in_group(
+            INPUT,
+            "--view",
+            metavar="orbit|chase|fixed|camera",
+            help="A slow orbit, behind the vehicle, from one place, or what a camera sees.",
+        ),
+    ] = "orbit"
+    camera: Annotated[
+        str | None,
+        in_group(
+            INPUT,
+            "--camera",
+            metavar="NAME",
+            help="The virtual camera of the inset, or of --view camera; else the first.",
+        ),
+    ] = None
+    curve: Annotated[
+        list[str] | None,
+        in_group(
+            INPUT,
+            "--curve",
+            metavar="MEASURE",
+            help="A measure whose curve is drawn; may be repeated. Without it the first four.",
+        ),
+    ] = None
+    plain: Annotated[
+        bool, in_group(INPUT, "--plain", help="No inset and no curves: the view alone.")
+    ] = False
+    fog: Annotated[
+        bool,
+        in_group(
+            INPUT,
+            "--with-fog",
+            help="The view from outside has the water's fog; a camera's image always has.",
+        ),
+    ] = False
+    size: Annotated[
+        str,
+        in_group(OUTPUT, "--size", metavar="WxH", help="Of the film [px]; even numbers."),
+    ] = "960x720"
+    rate: Annotated[
+        float | None,
+        in_group(
+            OUTPUT,
+            "--fps",
+            metavar="HZ",
+            help="Images a second; without it 30, and 10 of a .webp.",
+        ),
+    ] = None
+    speed: Annotated[
+        float,
+        in_group(
+            OUTPUT, "--speed", metavar="FACTOR", help="Simulation time in a second of the film."
+        ),
+    ] = 1.0
+
+    def spec(self, part: TrialOptions, out: Path) -> FilmSpec:
+        """Return what they ask for.
+
+        Raises:
+            SeveralErrors: they are wrong.
+        """
+        from ..viewer.film.encoder import WEBP
+        from ..viewer.film.film import FilmSpec
+        from ..viewer.film.paths import view_kind
+
+        wrong = AllErrors()
+        view, size = view_kind("orbit"), (960, 720)
+        usual = WEBP_RATE if out.suffix.lower() == WEBP else FILM_RATE
+        rate = usual if self.rate is None else self.rate
+        with wrong.kept():
+            view = view_kind(self.view)
+        with wrong.kept():
+            size = even(size_of(self.size))
+        with wrong.kept():
+            if not 0.1 <= rate <= MAX_RATE:
+                raise BadSetting(f"--fps {rate:g}: expected 0.1 to {MAX_RATE:g}.")
+        with wrong.kept():
+            if not 0.01 <= self.speed <= 1000.0:
+                raise BadSetting(f"--speed {self.speed:g}: expected 0.01 to 1000.")
+        wrong.check()
+        return FilmSpec(
+            size=size,
+            rate=rate,
+            speed=self.speed,
+            view=view,
+            camera=self.camera,
+            inset=not self.plain,
+            curves=tuple(self.curve or ()),
+            has_curves=not self.plain,
+            start=part.start,
+            end=part.end,
+            fog=self.fog,
+        )
+
+
+def replay(
+    result: ResultArgument,
+    *,
+    part: TrialOptions,
+    look: FilmOptions,
+    out: Annotated[
+        Path,
+        in_group(
+            OUTPUT,
+            "--out",
+            "-o",
+            metavar="FILE",
+            help="A film: .mp4, .webm (both by ffmpeg, extra 'film') or .webp.",
+        ),
+    ],
+    overwrite: Annotated[
+        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier file.")
+    ] = False,
+    scene: Annotated[
+        Path | None,
+        in_group(
+            FILES, "--scene", metavar="FILE.xml", help="The scene, where it is not found by name."
+        ),
+    ] = None,
+    data_path: DataPathOption = None,
+) -> None:
+    """See a trial of a result again: a film with a view from outside, a camera, and curves.
+
+    Nothing is run again: every bench keeps where everything was (units/N.motion), and the images
+    are drawn from that, with the fog and the light of the moment, without noise. Levels are
+    chapters. The same result and options give the same bytes.
+    """
+    from ..viewer.film.encoder import check_film_path
+
+    check_film_path(out, overwrite=overwrite)
+    spec = look.spec(part, out)
+    trial = recorded(result, part.trial, scene, tuple(data_path or ()))
+    typer.echo(write_film(trial, spec, out))
+
+
+def recorded(
+    result: Path, index: int, scene: Path | None, folders: tuple[Path, ...]
+) -> RecordedTrial:
+    """Open a trial of a result; the result may be named by its result.json."""
+    from ..verify.recorded_plan import FileOverrides
+    from ..viewer.recorded import RecordedTrial
+
+    directory = result.parent if result.name == "result.json" else result
+    overrides = FileOverrides(scene=scene, data_path=folders)
+    return RecordedTrial.open(directory, index, overrides)
+
+
+def write_film(trial: RecordedTrial, spec: FilmSpec, out: Path) -> str:
+    """Write a film, showing progress; returns what was written."""
+    from ..viewer.film.film import Film, record
+
+    film = Film(trial, spec)
+    try:
+        with progress("film", film.n_frames, of="images") as on_frame:
+            record(film, out, on_frame)
+        seconds = film.n_frames / spec.rate
+        return (
+            f"{trial.title}: {film.n_frames} images, {seconds:.1f} s, "
+            f"{spec.size[0]}x{spec.size[1]}; written: {out}"
+        )
+    finally:
+        film.close()
+
+
+def even(size: tuple[int, int]) -> tuple[int, int]:
+    """Refuse an odd width or height, which films cannot have; raises BadSetting."""
+    if size[0] % 2 or size[1] % 2 or min(size) < 160:
+        raise BadSetting(
+            f"--size {size[0]}x{size[1]}: expected even numbers from 160, as in 960x720."
+        )
+    return size

@@ -1,0 +1,211 @@
+"""Encoders of films: ffmpeg, which runs as a process of its own, or animated WebP.
+
+Equal images give equal bytes: ffmpeg is told to use one thread and to leave out what varies.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Protocol
+
+from PIL import Image
+
+from ...errors import BadSetting, MissingExtra, RunFailed, did_you_mean
+from .overlay import Pixels
+
+CODECS = {
+    ".mp4": ("-c:v", "libx264", "-preset", "veryfast", "-crf", "26", "-movflags", "+faststart"),
+    ".webm": (
+        *("-c:v", "libvpx-vp9", "-crf", "34", "-b:v", "0"),
+        *("-deadline", "realtime", "-cpu-used", "8", "-row-mt", "0"),
+    ),
+}
+"""Suffix of a film -> what ffmpeg is told."""
+WEBP = ".webp"
+SUFFIXES = (*CODECS, WEBP)
+MAX_WEBP_FRAMES = 1200
+"""Frames of a WebP, which are all held in memory."""
+QUALITY = 60
+"""Of WebP, 0..100."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chapter:
+    """A chapter of a film."""
+
+    title: str
+    """Shown by players."""
+    start: float
+    """Where it begins in the film [s]."""
+    end: float
+    """Where it ends [s]."""
+
+
+class Encoder(Protocol):
+    """Takes the images of a film one after the other."""
+
+    def add(self, frame: Pixels) -> None:
+        """Append an image (h, w, 3)."""
+
+    def close(self, *, is_whole: bool) -> None:
+        """Finish the file, or leave nothing where the film is not whole."""
+
+
+def check_film_path(path: Path, *, overwrite: bool) -> None:
+    """Refuse a path that cannot be written; raises BadSetting or MissingExtra."""
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        near = did_you_mean(suffix, SUFFIXES)
+        raise BadSetting(f"-o {path}: expected one of {', '.join(SUFFIXES)}.{near}")
+    if path.is_dir():
+        raise BadSetting(f"-o {path}: is a folder.")
+    if path.exists() and not overwrite:
+        raise BadSetting(f"-o {path}: exists; --overwrite replaces it.")
+    if suffix in CODECS and importlib.util.find_spec("imageio_ffmpeg") is None:
+        raise MissingExtra(
+            f"-o {path}: {suffix} is written by ffmpeg, which is not installed. Install it with: "
+            "pip install 'uwsim[film]'; .webp needs nothing."
+        )
+
+
+def encoder_of(
+    path: Path, size: tuple[int, int], rate: float, chapters: Sequence[Chapter]
+) -> Encoder:
+    """Return the encoder for a path, as its suffix says."""
+    if path.suffix.lower() == WEBP:
+        return WebpEncoder(path, rate)
+    return FfmpegEncoder(path, size, rate, chapters)
+
+
+class FfmpegEncoder:
+    """A film by ffmpeg; MP4 (H.264) or WebM (VP9), with chapters.
+
+    Args:
+        path: of the film; it is there after `close`.
+        size: width and height, both even [px].
+        rate: images a second [Hz].
+        chapters: in order.
+    """
+
+    def __init__(
+        self, path: Path, size: tuple[int, int], rate: float, chapters: Sequence[Chapter]
+    ) -> None:
+        import imageio_ffmpeg
+
+        self._path = path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self._folder = tempfile.TemporaryDirectory(prefix=f".{path.stem}-", dir=path.parent)
+        folder = Path(self._folder.name)
+        self._draft = folder / f"film{path.suffix.lower()}"
+        self._said: IO[bytes] = (folder / "said").open("w+b")
+        (folder / "chapters").write_text(_metadata(chapters), encoding="utf-8")
+        command = [
+            *(imageio_ffmpeg.get_ffmpeg_exe(), "-y", "-nostdin", "-loglevel", "error"),
+            *("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}"),
+            *("-r", f"{rate:g}", "-threads", "1", "-i", "pipe:0"),
+            *("-i", str(folder / "chapters"), "-map_metadata", "1", "-map_chapters", "1"),
+            *("-map", "0:v", *CODECS[path.suffix.lower()], "-pix_fmt", "yuv420p", "-threads", "1"),
+            *("-fflags", "+bitexact", "-flags:v", "+bitexact", str(self._draft)),
+        ]
+        self._process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=self._said, stderr=self._said
+        )
+
+    def add(self, frame: Pixels) -> None:
+        """Append an image (h, w, 3).
+
+        Raises:
+            RunFailed: ffmpeg has failed.
+        """
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(frame.data if frame.flags.c_contiguous else frame.tobytes())
+        except OSError:
+            raise self._failure() from None
+
+    def close(self, *, is_whole: bool) -> None:
+        """Finish the film and put it in its place; or stop, and leave nothing."""
+        assert self._process.stdin is not None
+        try:
+            if not is_whole:
+                self._process.kill()
+                self._process.wait()
+                return
+            self._process.stdin.close()
+            if self._process.wait() != 0:
+                raise self._failure()
+            self._draft.replace(self._path)
+        finally:
+            self._said.close()
+            self._folder.cleanup()
+
+    def _failure(self) -> RunFailed:
+        self._process.wait()
+        self._said.seek(0)
+        lines = self._said.read().decode(errors="replace").strip().splitlines()
+        return RunFailed(f"ffmpeg has failed: {lines[-1] if lines else 'it said nothing'}")
+
+
+class WebpEncoder:
+    """An animated WebP that plays for ever.
+
+    Args:
+        path: of the file; it is there after `close`.
+        rate: images a second [Hz].
+    """
+
+    def __init__(self, path: Path, rate: float) -> None:
+        self._path, self._rate = path, rate
+        self._frames: list[Image.Image] = []
+
+    def add(self, frame: Pixels) -> None:
+        """Append an image (h, w, 3).
+
+        Raises:
+            RunFailed: there are too many.
+        """
+        if len(self._frames) >= MAX_WEBP_FRAMES:
+            raise RunFailed(
+                f"A .webp holds {MAX_WEBP_FRAMES} images at most; choose fewer with --fps, --speed "
+                "or --until, or another suffix."
+            )
+        self._frames.append(Image.fromarray(frame.copy()))
+
+    def close(self, *, is_whole: bool) -> None:
+        """Write the file; or nothing, if the film is not whole."""
+        if not is_whole or not self._frames:
+            return
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        draft = self._path.with_name(f".{self._path.name}.part")
+        first, *others = self._frames
+        first.save(
+            draft,
+            format="WEBP",
+            save_all=True,
+            append_images=others,
+            duration=round(1000.0 / self._rate),
+            loop=0,
+            quality=QUALITY,
+            method=4,
+        )
+        draft.replace(self._path)
+
+
+def _metadata(chapters: Sequence[Chapter]) -> str:
+    """Return the chapters as ffmpeg reads them."""
+    lines = [";FFMETADATA1"]
+    for chapter in chapters:
+        lines += ["[CHAPTER]", "TIMEBASE=1/1000", f"START={round(1000 * chapter.start)}"]
+        lines += [f"END={round(1000 * chapter.end)}", f"title={_escaped(chapter.title)}"]
+    return "\n".join([*lines, ""])
+
+
+def _escaped(text: str) -> str:
+    for letter in "\\=;#":
+        text = text.replace(letter, f"\\{letter}")
+    return text.replace("\n", " ")

@@ -1,0 +1,266 @@
+"""The film of a recorded trial: image by image, from the motion that was kept."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import BadSetting, UnknownName
+from ...geometry import Intrinsics
+from ..recorded import RecordedLevel, RecordedTrial
+from . import overlay
+from .curves import CurvePanel
+from .encoder import Chapter, encoder_of
+from .overlay import Pixels
+from .paths import CameraPath, ViewKind
+from .puppets import Puppets
+
+MARGIN = 12
+"""Between panels and the edge [px]."""
+BAR = 4
+"""Height of the bar that shows how far the film is [px]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmSpec:
+    """What a film shows."""
+
+    size: tuple[int, int] = (960, 720)
+    """Width and height [px]; even."""
+    rate: float = 30.0
+    """Images a second [Hz]."""
+    speed: float = 1.0
+    """Simulation time in a second of the film [s]."""
+    view: ViewKind = "orbit"
+    """From where."""
+    camera: str | None = None
+    """The camera of the inset, or of the view ``camera``; None: the first of the scene."""
+    inset: bool = True
+    """Whether a camera's image is shown in a corner."""
+    curves: tuple[str, ...] = ()
+    """Measures whose curves are drawn; empty: the first ones."""
+    has_curves: bool = True
+    """Whether any curve is drawn."""
+    start: float | None = None
+    """Simulation time of the first image; None: the beginning [s]."""
+    end: float | None = None
+    """Simulation time of the last image; None: the end [s]."""
+    fog: bool = False
+    """Whether the view from outside has the water's fog; cameras always have it."""
+
+
+class Film:
+    """A film while it is drawn.
+
+    Args:
+        trial: what is seen.
+        spec: how.
+
+    Raises:
+        BadSetting: nothing lies between start and end, or a measure has no curve.
+        UnknownName: there is no such camera.
+    """
+
+    def __init__(self, trial: RecordedTrial, spec: FilmSpec) -> None:
+        self._trial = trial
+        self.spec = spec
+        """What it shows."""
+        last = trial.track.duration
+        self.start = 0.0 if spec.start is None else max(0.0, spec.start)
+        """Simulation time of the first image [s]."""
+        self._end = last if spec.end is None else min(spec.end, last)
+        if not self.start < self._end:
+            raise BadSetting(
+                f"Nothing to show from {self.start:g} s to {self._end:g} s: the trial is "
+                f"{last:g} s long."
+            )
+        self.n_frames = max(1, math.ceil((self._end - self.start) * spec.rate / spec.speed - 1e-6))
+        """Number of images."""
+        _check_curves(trial, spec)
+        self._puppets = Puppets(trial)
+        self._puppets.put(self.start)
+        self._camera = self._chosen_camera()
+        self._path = CameraPath(self._puppets, spec.view, spec.size, self.start)
+        self._panels: dict[int, CurvePanel] = {}
+        self._inset: tuple[float, Pixels] | None = None
+        self._letters = max(11, round(spec.size[1] / 45))
+
+    def time_of(self, frame: int) -> float:
+        """Return the simulation time of an image [s]."""
+        return self.start + frame * self.spec.speed / self.spec.rate
+
+    def frames(self) -> Iterator[Pixels]:
+        """Draw all images, (h, w, 3) each."""
+        for number in range(self.n_frames):
+            yield self.draw(self.time_of(number))
+
+    def draw(self, time: float) -> Pixels:
+        """Draw the image of a simulation time [s], (h, w, 3)."""
+        self._puppets.put(time)
+        frame = self._view(time)
+        number, level = self._level(time)
+        if self.spec.inset and self._camera is not None and self.spec.view != "camera":
+            self._draw_inset(frame, time)
+        if level is not None and number is not None and self.spec.has_curves:
+            self._panel(number, level).draw(frame, time)
+        self._write(frame, time, level)
+        return frame
+
+    def chapters(self) -> list[Chapter]:
+        """Return a chapter for each level, and one for what is before the first."""
+        starts = [(level.began, level.label or f"level {i}") for i, level in self._shown_levels()]
+        if not starts or starts[0][0] > self.start:
+            starts.insert(0, (self.start, "start"))
+        ends = [began for began, _ in starts[1:]] + [self._end]
+        scale = 1.0 / self.spec.speed
+        return [
+            Chapter(
+                title=title,
+                start=(max(began, self.start) - self.start) * scale,
+                end=(end - self.start) * scale,
+            )
+            for (began, title), end in zip(starts, ends, strict=True)
+        ]
+
+    def close(self) -> None:
+        """Close the scene."""
+        self._puppets.close()
+
+    def _shown_levels(self) -> list[tuple[int, RecordedLevel]]:
+        levels = enumerate(self._trial.levels)
+        return [(i, one) for i, one in levels if one.ended > self.start and one.began < self._end]
+
+    def _level(self, time: float) -> tuple[int | None, RecordedLevel | None]:
+        """The level measured at a time, if there is one."""
+        for number, level in reversed(list(enumerate(self._trial.levels))):
+            if level.began - 1e-9 <= time <= level.ended + 1e-9:
+                return number, level
+        return None, None
+
+    def _chosen_camera(self) -> str | None:
+        cameras = self._puppets.simulation.world.cameras
+        wanted = self.spec.camera
+        if wanted is not None and wanted not in cameras:
+            raise UnknownName("virtual camera", wanted, cameras)
+        if self.spec.view == "camera" and not cameras:
+            raise BadSetting("--view camera: the scene has no virtual camera.")
+        return wanted or next(iter(cameras), None)
+
+    def _view(self, time: float) -> Pixels:
+        if self.spec.view == "camera":
+            assert self._camera is not None
+            return self._seen(self._camera, self.spec.size, time)
+        scenery = self._puppets.simulation.world.scenery
+        rendered = scenery.render_view(
+            self._path.pose(time),
+            self._path.intrinsics,
+            targets={"colour"},
+            fog=None if self.spec.fog else 0.0,
+        )
+        assert rendered.colour is not None
+        return rendered.colour.view(np.uint8)
+
+    def _seen(self, name: str, size: tuple[int, int], time: float) -> Pixels:
+        """What a camera sees, without noise, with the corners of truth and estimate."""
+        world = self._puppets.simulation.world
+        camera = world.camera(name)
+        lens = fitted(camera.intrinsics, size)
+        rendered = world.scenery.render_clean(camera.world_from_camera, lens)
+        assert rendered.colour is not None
+        image = rendered.colour.view(np.uint8)
+        scale = lens.width / camera.intrinsics.width
+        for kind, colour in (("truth", overlay.TRUTH), ("estimate", overlay.ESTIMATE)):
+            corners = self._puppets.corners(kind, name, time)
+            if corners is not None:
+                image = overlay.quadrangle(image, (corners + 0.5) * scale - 0.5, colour)
+        return image if (lens.width, lens.height) == size else centred(image, size)
+
+    def _draw_inset(self, frame: Pixels, time: float) -> None:
+        """Draw a camera's image in the lower right; again only ten times a second."""
+        assert self._camera is not None
+        camera = self._puppets.simulation.world.camera(self._camera)
+        width = round(0.3 * self.spec.size[0])
+        height = round(width * camera.intrinsics.height / camera.intrinsics.width)
+        due = math.floor(time * 10.0 + 1e-6)
+        if self._inset is None or self._inset[0] != due:
+            image = self._seen(self._camera, (width, height), time)
+            overlay.shade(image, 0, 0, width, round(1.5 * self._letters))
+            overlay.write(image, self._camera, (6, 2), self._letters)
+            self._inset = due, image
+        x, y = self.spec.size[0] - width - MARGIN, self.spec.size[1] - height - MARGIN - BAR
+        overlay.paste(frame, self._inset[1], x, y)
+
+    def _panel(self, number: int, level: RecordedLevel) -> CurvePanel:
+        if number not in self._panels:
+            width, height = self.spec.size
+            n = max(1, len(self.spec.curves) or min(4, len(level.curves)))
+            tall = round(min(0.34, 0.1 * n) * height)
+            wide = round(0.42 * width)
+            box = MARGIN, height - tall - MARGIN - BAR, wide, tall
+            self._panels = {number: CurvePanel(level, self.spec.curves, box, self._letters)}
+        return self._panels[number]
+
+    def _write(self, frame: Pixels, time: float, level: RecordedLevel | None) -> None:
+        """Write title, level and clock above, and draw below how far the film is."""
+        width, height = self.spec.size
+        size = self._letters
+        overlay.shade(frame, 0, 0, width, round(2.2 * size))
+        top = round(0.4 * size)
+        at = MARGIN + overlay.write(frame, self._trial.title, (MARGIN, top), size) + 2 * size
+        if level is not None:
+            at += overlay.write(frame, level.label, (at, top), size, overlay.DIM) + size
+            colour = overlay.STATUS.get(level.status, overlay.FAILED)
+            overlay.write(frame, level.status, (at, top), size, colour)
+        overlay.write(frame, f"{time:.1f} s", (width - MARGIN, top), size, right=True)
+        share = (time - self.start) / (self._end - self.start)
+        frame[height - BAR :] = overlay.PANEL
+        frame[height - BAR :, : round(share * width)] = overlay.COLOURS[0]
+        for _, one in self._shown_levels():
+            mark = round((one.began - self.start) / (self._end - self.start) * width)
+            if 0 < mark < width:
+                frame[height - BAR :, mark] = overlay.INK
+
+
+def record(film: Film, path: Path, on_frame: Callable[[], object] = lambda: None) -> None:
+    """Draw a film and write it, whole or not at all.
+
+    Args:
+        film: the one.
+        path: of the file; its suffix is one of `encoder.SUFFIXES`.
+        on_frame: called after each image.
+    """
+    encoder = encoder_of(path, film.spec.size, film.spec.rate, film.chapters())
+    is_whole = False
+    try:
+        for frame in film.frames():
+            encoder.add(frame)
+            on_frame()
+        is_whole = True
+    finally:
+        encoder.close(is_whole=is_whole)
+
+
+def fitted(lens: Intrinsics, size: tuple[int, int]) -> Intrinsics:
+    """Return a camera's pinhole with as many pixels as there is room for, in its own shape."""
+    scale = min(size[0] / lens.width, size[1] / lens.height)
+    return lens.resized(max(1, round(scale * lens.width)), max(1, round(scale * lens.height)))
+
+
+def centred(image: Pixels, size: tuple[int, int]) -> Pixels:
+    """Put an image into the middle of a black one."""
+    frame = np.zeros((size[1], size[0], 3), np.uint8)
+    x, y = (size[0] - image.shape[1]) // 2, (size[1] - image.shape[0]) // 2
+    frame[y : y + image.shape[0], x : x + image.shape[1]] = image
+    return frame
+
+
+def _check_curves(trial: RecordedTrial, spec: FilmSpec) -> None:
+    """Refuse measures that have no log."""
+    known = dict.fromkeys(curve.measure for level in trial.levels for curve in level.curves)
+    for name in spec.curves:
+        if name not in known:
+            raise UnknownName("measure with a log", name, tuple(known))

@@ -1,0 +1,93 @@
+"""A scene in which everything is put where it was in a recorded trial."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...geometry import Array
+from ...simulation import Simulation
+from ...simulation.tracked_bodies import TrackedBodies
+from ...tracks import MotionTrack
+from ..recorded import RecordedTrial
+
+
+class Puppets:
+    """The scene of a trial, opened, and the motion that its bodies are moved by.
+
+    Args:
+        trial: the one.
+    """
+
+    def __init__(self, trial: RecordedTrial) -> None:
+        self.simulation = Simulation(
+            trial.scene,
+            seed=trial.seed,
+            timestep=trial.timestep,
+            data_path=trial.data_path,
+            compatibility=trial.compatibility,
+            runs_code=False,
+        )
+        """The scene; it is not run."""
+        self.track = trial.track
+        """Where everything was."""
+        self._bodies = TrackedBodies(self.simulation.world)
+        known = {name: row for row, name in enumerate(self.track.bodies)}
+        self._rows = [known.get(name) for name in self._bodies.names]
+        self._first = self._bodies.rows()
+
+    def put(self, time: float) -> None:
+        """Show the scene of a time since the simulation began [s], between two frames too."""
+        before, share = frame_at(self.track, time)
+        after = min(before + 1, self.track.n_frames - 1)
+        poses = blended(self.track.poses[before], self.track.poses[after], share)
+        rows = self._first.copy()
+        for row, number in enumerate(self._rows):
+            if number is not None:
+                rows[row] = poses[number]
+        self._bodies.show(rows)
+        world = self.simulation.world
+        fog, light = self.signal("fog", before), self.signal("light_rate", before)
+        if fog is not None:
+            world.set_fog(fog)
+        if light is not None:
+            world.set_light_rate(light)
+
+    def signal(self, name: str, frame: int) -> float | None:
+        """Return a signal in a frame; None where there is none."""
+        values = self.track.signal(name)
+        return None if values is None or math.isnan(values[frame]) else float(values[frame])
+
+    def corners(self, kind: str, camera: str, time: float) -> Array | None:
+        """Return four corners in a camera's image at a time, (4, 2) [px]; None: there are none.
+
+        Args:
+            kind: ``truth`` or ``estimate``.
+            camera: its name.
+            time: since the simulation began [s].
+        """
+        frame, _ = frame_at(self.track, time)
+        names = [f"{kind}/{camera}/{k}/{axis}" for k in range(4) for axis in "uv"]
+        found = [self.signal(name, frame) for name in names]
+        if any(each is None for each in found):
+            return None
+        return np.array(found, dtype=np.float64).reshape(4, 2)
+
+    def close(self) -> None:
+        """Close the scene."""
+        self.simulation.close()
+
+
+def frame_at(track: MotionTrack, time: float) -> tuple[int, float]:
+    """Return the frame at or before a time [s], and the share of the way to the next, 0..1."""
+    place = min(max(time * track.rate, 0.0), track.n_frames - 1.0)
+    frame = min(int(place + 1e-6), track.n_frames - 1)
+    return frame, min(max(place - frame, 0.0), 1.0)
+
+
+def blended(before: Array, after: Array, share: float) -> Array:
+    """Return poses (n, 7) between two rows of poses; quaternions by normalised mean."""
+    rows: Array = (1.0 - share) * before + share * after
+    rows[:, 3:] /= np.maximum(np.linalg.norm(rows[:, 3:], axis=1, keepdims=True), 1e-9)
+    return rows

@@ -1,0 +1,192 @@
+"""A trial of a stored result, as it is seen again: its scene, its motion, its levels and curves."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ResultError, UwsimError
+from ..geometry import Array
+from ..results import journal
+from ..results.result import Result
+from ..results.result_file import load
+from ..runs.planning.make_plan import OF_ALGORITHM
+from ..scene.reader import read_scene
+from ..scene.settings import apply_setting
+from ..scene.spec import SceneSpec
+from ..tracks import MotionTrack, TrackLevel, load_track
+from ..verify.recorded_plan import (
+    FileOverrides,
+    find_input,
+    named_input,
+    scene_named_by,
+    typed_words,
+)
+from ..world import TIMESTEP
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Curve:
+    """The samples of a measure in one level."""
+
+    measure: str
+    """Its name."""
+    unit: str
+    """Of its value."""
+    times: Array
+    """Since the simulation began, (n,) [s]."""
+    values: Array
+    """(n,); NaN: there was nothing to measure."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RecordedLevel:
+    """A level of a trial."""
+
+    label: str
+    """As ``fog 0.5``."""
+    status: str
+    """``ok``, or what went wrong."""
+    why: str
+    """Why it is not ok; empty if it is."""
+    began: float
+    """Simulation time at which it began [s]."""
+    ended: float
+    """Simulation time at which it ended [s]."""
+    values: dict[str, float | None]
+    """Measure -> its value at the end."""
+    curves: tuple[Curve, ...]
+    """Of all measures that have a log, in the file's order."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RecordedTrial:
+    """A trial that was run."""
+
+    directory: Path
+    """The result."""
+    index: int
+    """Its number."""
+    title: str
+    """As ``currents, pi, seed 7``."""
+    seed: int
+    """Of its random streams."""
+    scene: SceneSpec
+    """As it was run, with ``--set``; what varies is drawn for the seed when it is opened."""
+    timestep: float
+    """Of the run [s]."""
+    compatibility: frozenset[str]
+    """Quirks that were on."""
+    data_path: tuple[Path, ...]
+    """Folders in which files are looked for."""
+    track: MotionTrack
+    """Where everything was."""
+    levels: tuple[RecordedLevel, ...]
+    """In order."""
+
+    @staticmethod
+    def open(
+        directory: Path, index: int = 0, overrides: FileOverrides | None = None
+    ) -> RecordedTrial:
+        """Read a trial of a result.
+
+        Args:
+            directory: of the result.
+            index: number of the trial, from 0.
+            overrides: where the files are, if not where they were.
+
+        Raises:
+            ResultError: there is no such trial, it was not finished, or its motion was not kept.
+            AssetNotFound: its scene is nowhere.
+        """
+        where = overrides or FileOverrides()
+        result = load(directory)
+        head, stored = journal.read_any(_finished(directory, index))
+        if head is None or stored.end is None:
+            raise ResultError(f"{directory}: trial {index} is not finished; --resume runs it.")
+        track = load_track(journal.track_path(directory, index))
+        run = result.run
+        name = Path(named_input(result, "benchmark")[0]).stem
+        return RecordedTrial(
+            directory=directory,
+            index=index,
+            title=f"{name}, {run.algorithm}, seed {head['seed']}",
+            seed=int(head["seed"]),
+            scene=scene_of(result, directory, where),
+            timestep=run.timestep[0] if run.timestep else TIMESTEP,
+            compatibility=frozenset(run.compatibility or ()),
+            data_path=where.data_path,
+            track=track,
+            levels=tuple(
+                _level(row, began) for row, began in zip(stored.rows, track.levels, strict=False)
+            ),
+        )
+
+
+def trials_of(directory: Path) -> tuple[int, ...]:
+    """Return the numbers of the trials whose motion is in a result directory."""
+    tracks = (directory / journal.FOLDER).glob(f"*{journal.TRACK}")
+    return tuple(sorted(int(path.stem) for path in tracks if path.stem.isdecimal()))
+
+
+def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> SceneSpec:
+    """Find the scene of a result by name and hash, and change it as it was (``--set``)."""
+    typed = typed_words(directory)
+    with suppress(UwsimError):  # a benchmark that is gone leads to no scene, and needs not
+        named = named_input(result, "benchmark")
+        file = find_input("benchmark", named, overrides.benchmark, directory, overrides, typed)
+        typed += [str(file.parent / name) for name in scene_named_by(file)]
+    named = named_input(result, "scene")
+    path = find_input("scene", named, overrides.scene, directory, overrides, typed)
+    scene = read_scene(path)
+    for name, value in result.run.settings or ():
+        if not name.startswith(OF_ALGORITHM):
+            with suppress(UwsimError):  # it was right when it was run: it is of an updater
+                scene = apply_setting(scene, name, value)
+    return scene
+
+
+def _finished(directory: Path, index: int) -> Path:
+    """Return the journal of a trial whose motion is there; raises ResultError."""
+    there = trials_of(directory)
+    if not there:
+        raise ResultError(
+            f"{directory}: holds no motion (units/*{journal.TRACK}): it was made by an earlier "
+            "version, or no trial of it is finished. Run it again to see it."
+        )
+    if index not in there:
+        raise ResultError(
+            f"{directory}: no motion of trial {index}; expected one of {_ranges(there)}."
+        )
+    return journal.path_of(directory, index)
+
+
+def _ranges(numbers: tuple[int, ...]) -> str:
+    if len(numbers) > 1 and numbers == tuple(range(numbers[0], numbers[-1] + 1)):
+        return f"{numbers[0]} to {numbers[-1]}"
+    return ", ".join(map(str, numbers))
+
+
+def _level(row: journal.Record, began: TrackLevel) -> RecordedLevel:
+    label = ", ".join(f"{name} {value:g}" for name, value in began.values.items())
+    return RecordedLevel(
+        label=label,
+        status=str(row["status"]),
+        why=str(row["missing"].get("total", "")),
+        began=began.began,
+        ended=began.began + began.duration,
+        values={name: value for name, (value, _) in row["measures"].items()},
+        curves=tuple(
+            _curve(name, row["measures"][name][1], samples, began.began)
+            for name, samples in row["logs"].items()
+            if samples
+        ),
+    )
+
+
+def _curve(name: str, unit: str, samples: list[list[float | None]], began: float) -> Curve:
+    values = np.array([[np.nan if v is None else v for v in sample[:2]] for sample in samples])
+    return Curve(measure=name, unit=unit, times=began + values[:, 0], values=values[:, 1])
