@@ -99,7 +99,7 @@ COMMANDS: dict[str, Command] = {
     "replay": Command(
         module="replay",
         function="replay",
-        summary="See a trial of a result again: a film with curves and a camera's image.",
+        summary="See a trial of a result again, with its curves, as a film.",
         examples=(
             "uwsim replay visibility.result -o visibility.mp4",
             "uwsim replay currents.result --trial 3 --view chase --speed 4 -o currents.webp",

@@ -31,11 +31,15 @@ class TrialOptions:
     """Which part of which trial."""
 
     trial: Annotated[
-        int,
+        int | None,
         in_group(
-            INPUT, "--trial", metavar="N", min=0, help="Number of the trial, as of units/N.jsonl."
+            INPUT,
+            "--trial",
+            metavar="N",
+            min=0,
+            help="Number of the trial, as of units/N.motion; without it all of the first seed.",
         ),
-    ] = 0
+    ] = None
     start: Annotated[
         float | None,
         in_group(
@@ -196,37 +200,41 @@ def replay(
 
     check_film_path(out, overwrite=overwrite)
     spec = look.spec(part, out)
-    trial = recorded(result, part.trial, scene, tuple(data_path or ()))
-    typer.echo(write_film(trial, spec, out))
+    trials = recorded(result, part.trial, scene, tuple(data_path or ()))
+    typer.echo(write_film(trials, spec, out))
 
 
 def recorded(
-    result: Path, index: int, scene: Path | None, folders: tuple[Path, ...]
-) -> RecordedTrial:
-    """Open a trial of a result; the result may be named by its result.json."""
+    result: Path, index: int | None, scene: Path | None, folders: tuple[Path, ...]
+) -> list[RecordedTrial]:
+    """Open a trial of a result, or all of its first seed.
+
+    The result may be named by its result.json.
+    """
     from ..verify.recorded_plan import FileOverrides
-    from ..viewer.recorded import RecordedTrial
+    from ..viewer.recorded import RecordedTrial, trials_of_first_seed
 
     directory = result.parent if result.name == "result.json" else result
     overrides = FileOverrides(scene=scene, data_path=folders)
-    return RecordedTrial.open(directory, index, overrides)
+    indices = trials_of_first_seed(directory) if index is None else (index,)
+    return [RecordedTrial.open(directory, each, overrides) for each in indices]
 
 
-def write_film(trial: RecordedTrial, spec: FilmSpec, out: Path) -> str:
+def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
     """Write a film, showing progress; returns what was written."""
-    from ..viewer.film.film import Film, record
+    from ..viewer.film.film import Reel, record
 
-    film = Film(trial, spec)
+    reel = Reel(trials, spec)
     try:
-        with progress("film", film.n_frames, of="images") as on_frame:
-            record(film, out, on_frame)
-        seconds = film.n_frames / spec.rate
+        with progress("film", reel.n_frames, of="images") as on_frame:
+            record(reel, out, on_frame)
+        seconds = reel.n_frames / spec.rate
         return (
-            f"{trial.title}: {film.n_frames} images, {seconds:.1f} s, "
+            f"{trials[0].title}: {reel.n_frames} images, {seconds:.1f} s, "
             f"{spec.size[0]}x{spec.size[1]}; written: {out}"
         )
     finally:
-        film.close()
+        reel.close()
 
 
 def even(size: tuple[int, int]) -> tuple[int, int]:

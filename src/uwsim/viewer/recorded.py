@@ -132,6 +132,21 @@ def trials_of(directory: Path) -> tuple[int, ...]:
     return tuple(sorted(int(path.stem) for path in tracks if path.stem.isdecimal()))
 
 
+def trials_of_first_seed(directory: Path) -> tuple[int, ...]:
+    """Return the numbers of the trials whose motion is there and whose seed is that of the first.
+
+    Where a benchmark's levels are independent they are a trial each, and these are all levels.
+
+    Raises:
+        ResultError: there is no motion.
+    """
+    there = trials_of(directory)
+    if not there:
+        _finished(directory, 0)
+    seeds = [journal.head_of(journal.path_of(directory, i)).get("seed") for i in there]
+    return tuple(i for i, seed in zip(there, seeds, strict=True) if seed == seeds[0])
+
+
 def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> SceneSpec:
     """Find the scene of a result by name and hash, and change it as it was (``--set``)."""
     typed = typed_words(directory)

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import BadSetting, UnknownName
 from ...geometry import Intrinsics
+from ...simulation import Simulation
 from ..recorded import RecordedLevel, RecordedTrial
 from . import overlay
 from .curves import CurvePanel
 from .encoder import Chapter, encoder_of
 from .overlay import Pixels
 from .paths import CameraPath, ViewKind
-from .puppets import Puppets
+from .puppets import Puppets, scene_of
 
 MARGIN = 12
 """Between panels and the edge [px]."""
@@ -59,13 +60,16 @@ class Film:
     Args:
         trial: what is seen.
         spec: how.
+        simulation: the scene, opened before (`puppets.scene_of`); None: it is opened.
 
     Raises:
         BadSetting: nothing lies between start and end, or a measure has no curve.
         UnknownName: there is no such camera.
     """
 
-    def __init__(self, trial: RecordedTrial, spec: FilmSpec) -> None:
+    def __init__(
+        self, trial: RecordedTrial, spec: FilmSpec, simulation: Simulation | None = None
+    ) -> None:
         self._trial = trial
         self.spec = spec
         """What it shows."""
@@ -81,7 +85,7 @@ class Film:
         self.n_frames = max(1, math.ceil((self._end - self.start) * spec.rate / spec.speed - 1e-6))
         """Number of images."""
         _check_curves(trial, spec)
-        self._puppets = Puppets(trial)
+        self._puppets = Puppets(trial, simulation)
         self._puppets.put(self.start)
         self._camera = self._chosen_camera()
         self._path = CameraPath(self._puppets, spec.view, spec.size, self.start)
@@ -225,7 +229,52 @@ class Film:
                 frame[height - BAR :, mark] = overlay.INK
 
 
-def record(film: Film, path: Path, on_frame: Callable[[], object] = lambda: None) -> None:
+class Reel:
+    """A film of several trials of one result and seed, one after the other.
+
+    Args:
+        trials: in order; one at least.
+        spec: how each is shown.
+
+    Raises:
+        BadSetting: as of `Film`.
+        UnknownName: as of `Film`.
+    """
+
+    def __init__(self, trials: Sequence[RecordedTrial], spec: FilmSpec) -> None:
+        self.spec = spec
+        """What it shows."""
+        self._simulation = scene_of(trials[0])
+        try:
+            self._films = [Film(trial, spec, self._simulation) for trial in trials]
+        except BaseException:
+            self._simulation.close()
+            raise
+        self.n_frames = sum(film.n_frames for film in self._films)
+        """Number of images."""
+
+    def frames(self) -> Iterator[Pixels]:
+        """Draw all images, (h, w, 3) each."""
+        for film in self._films:
+            yield from film.frames()
+
+    def chapters(self) -> list[Chapter]:
+        """Return the chapters of all."""
+        found, before = [], 0.0
+        for film in self._films:
+            found += [
+                replace(each, start=each.start + before, end=each.end + before)
+                for each in film.chapters()
+            ]
+            before += film.n_frames / self.spec.rate
+        return found
+
+    def close(self) -> None:
+        """Close the scene."""
+        self._simulation.close()
+
+
+def record(film: Film | Reel, path: Path, on_frame: Callable[[], object] = lambda: None) -> None:
     """Draw a film and write it, whole or not at all.
 
     Args:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import BadSetting, did_you_mean
 from ...geometry import Array, Intrinsics, Pose, rotation_z
-from ...linear import product
+from ...numerics.linear import product
 from ...scene.mounts import camera_axes
 from ...simulation.views import Size, focus_of, orbit_view
 from .puppets import Puppets, frame_at

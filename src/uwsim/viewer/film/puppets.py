@@ -18,17 +18,11 @@ class Puppets:
 
     Args:
         trial: the one.
+        simulation: its scene, opened before; it is not closed here. None: it is opened.
     """
 
-    def __init__(self, trial: RecordedTrial) -> None:
-        self.simulation = Simulation(
-            trial.scene,
-            seed=trial.seed,
-            timestep=trial.timestep,
-            data_path=trial.data_path,
-            compatibility=trial.compatibility,
-            runs_code=False,
-        )
+    def __init__(self, trial: RecordedTrial, simulation: Simulation | None = None) -> None:
+        self.simulation = simulation or scene_of(trial)
         """The scene; it is not run."""
         self.track = trial.track
         """Where everything was."""
@@ -36,6 +30,7 @@ class Puppets:
         known = {name: row for row, name in enumerate(self.track.bodies)}
         self._rows = [known.get(name) for name in self._bodies.names]
         self._first = self._bodies.rows()
+        self._owns = simulation is None
 
     def put(self, time: float) -> None:
         """Show the scene of a time since the simulation began [s], between two frames too."""
@@ -75,8 +70,21 @@ class Puppets:
         return np.array(found, dtype=np.float64).reshape(4, 2)
 
     def close(self) -> None:
-        """Close the scene."""
-        self.simulation.close()
+        """Close the scene, if it was opened here."""
+        if self._owns:
+            self.simulation.close()
+
+
+def scene_of(trial: RecordedTrial) -> Simulation:
+    """Open the scene of a trial; Python code that it names is not run."""
+    return Simulation(
+        trial.scene,
+        seed=trial.seed,
+        timestep=trial.timestep,
+        data_path=trial.data_path,
+        compatibility=trial.compatibility,
+        runs_code=False,
+    )
 
 
 def frame_at(track: MotionTrack, time: float) -> tuple[int, float]:

@@ -1,0 +1,160 @@
+"""Films: what is seen is what was, chapters and size are those asked for, twice the same bytes."""
+
+import shutil
+import subprocess
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from tests.short_benchmark import run, write_benchmark
+from uwsim.cli import main
+from uwsim.results.journal import track_path
+from uwsim.viewer.film.film import Film, FilmSpec, record
+from uwsim.viewer.film.puppets import Puppets
+from uwsim.viewer.recorded import RecordedTrial, trials_of
+
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("film")
+    run(write_benchmark(folder, "0.4"), folder / "out", seed=3)
+    return folder / "out"
+
+
+@pytest.fixture(scope="module")
+def trial(result: Path) -> RecordedTrial:
+    return RecordedTrial.open(result, 0)
+
+
+@pytest.fixture
+def small(trial: RecordedTrial) -> Iterator[Film]:
+    film = Film(trial, FilmSpec(size=(240, 180)))
+    yield film
+    film.close()
+
+
+def test_a_recorded_trial_has_its_levels_and_the_samples_of_its_measures(
+    result: Path, trial: RecordedTrial
+) -> None:
+    assert trials_of(result) == (0,)
+    assert trial.title == "short, esm, seed 3"
+    assert [level.label for level in trial.levels] == ["fog 0", "fog 0.4", "fog 0.8"]
+    curve = trial.levels[1].curves[0]
+    assert (curve.measure, curve.unit) == ("corners", "px")
+    assert curve.times[0] == pytest.approx(trial.levels[1].began, abs=0.051)
+
+
+def test_bodies_are_put_where_they_were_and_cameras_go_with_them(trial: RecordedTrial) -> None:
+    number = trial.track.bodies.index("girona500/base_link")
+    poses = trial.track.poses.copy()
+    poses[30:, number, 0] += 1.0
+    puppets = Puppets(replace(trial, track=replace(trial.track, poses=poses)))
+    try:
+        world = puppets.simulation.world
+        puppets.put(0.7)
+        np.testing.assert_allclose(world.state.poses.vehicle(0).position, poses[21, number, :3])
+        assert world.scenery.water.fog == pytest.approx(0.4)
+        before = world.camera("bowtech1").world_from_camera.position
+        puppets.put(1.0)
+        now = world.camera("bowtech1").world_from_camera.position
+        np.testing.assert_allclose(now - before, [1.0, 0.0, 0.0], atol=1e-3)
+    finally:
+        puppets.close()
+
+
+def test_levels_are_chapters(small: Film) -> None:
+    assert [(c.title, round(c.start, 3), round(c.end, 3)) for c in small.chapters()] == [
+        ("fog 0", 0.0, 0.4),
+        ("fog 0.4", 0.4, 0.8),
+        ("fog 0.8", 0.8, 1.2),
+    ]
+
+
+def test_the_inset_is_the_image_of_the_camera(small: Film, trial: RecordedTrial) -> None:
+    frame = small.draw(0.6)
+    assert frame.shape == (180, 240, 3)
+    inset = frame[180 - 54 - 16 : 180 - 16, 240 - 72 - 12 : 240 - 12]
+    puppets = Puppets(trial)
+    try:
+        puppets.put(0.6)
+        camera = puppets.simulation.world.camera("bowtech1")
+        lens = camera.intrinsics.resized(72, 54)
+        seen = puppets.simulation.world.scenery.render_clean(camera.world_from_camera, lens)
+        assert seen.colour is not None
+        rows = slice(22, None)  # below its name
+        off = np.abs(inset[rows].astype(int) - seen.colour[rows].astype(int)).max(axis=2) > 2
+        assert off.mean() < 0.1  # the corners that are drawn into it
+    finally:
+        puppets.close()
+
+
+@pytest.mark.parametrize("view", ["chase", "fixed", "camera"])
+def test_every_view_shows_something(trial: RecordedTrial, view: str) -> None:
+    film = Film(trial, FilmSpec(size=(160, 160), view=view, inset=False, has_curves=False))  # type: ignore[arg-type]
+    try:
+        assert film.draw(0.5)[40:120].std() > 10.0
+    finally:
+        film.close()
+
+
+def test_a_webp_is_written_twice_with_the_same_bytes(
+    result: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    one, two = tmp_path / "one.webp", tmp_path / "two.webp"
+    options = ["--size", "160x160", "--fps", "5"]
+    for out in (one, two):
+        assert main(["replay", str(result), "-o", str(out), *options]) == 0
+    assert "6 images, 1.2 s, 160x160; written: " in capsys.readouterr().out
+    assert one.read_bytes() == two.read_bytes()
+    with Image.open(one) as image:
+        assert (image.n_frames, image.size) == (6, (160, 160))  # type: ignore[attr-defined]
+    assert main(["replay", str(result), "-o", str(one)]) == 2
+    assert "exists; --overwrite replaces it" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("suffix", [".mp4", ".webm"])
+def test_a_film_has_its_frames_its_chapters_and_the_same_bytes_twice(
+    trial: RecordedTrial, tmp_path: Path, suffix: str
+) -> None:
+    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="the extra film").get_ffmpeg_exe()
+    paths = [tmp_path / f"{name}{suffix}" for name in ("one", "two")]
+    for path in paths:
+        film = Film(trial, FilmSpec(size=(160, 160), rate=10.0))
+        record(film, path)
+        film.close()
+    assert paths[0].read_bytes() == paths[1].read_bytes()
+    command = [ffmpeg, "-i", str(paths[0]), "-map", "0:v", "-f", "null", "-stats", "-"]
+    said = subprocess.run(command, capture_output=True, text=True, timeout=60).stderr
+    assert "frame=   12" in said
+    assert said.partition("Output #0")[0].count("Chapter #") == 3
+    assert "fog 0.8" in said
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"one{suffix}", f"two{suffix}"]
+
+
+def test_what_cannot_be_filmed_is_said_in_a_line(
+    result: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = str(tmp_path / "x.webp")
+    for arguments, said in [
+        (["-o", str(tmp_path / "x.avi")], "expected one of .mp4, .webm, .webp"),
+        (["-o", out, "--trial", "7"], "no motion of trial 7; expected one of 0"),
+        (["-o", out, "--view", "orbitt"], "Did you mean 'orbit'?"),
+        (["-o", out, "--size", "161x160"], "expected even numbers"),
+        (["-o", out, "--begin", "9"], "Nothing to show from 9 s"),
+        (["-o", out, "--curve", "corner"], "Did you mean 'corners'?"),
+        (["-o", out, "--camera", "bowtech"], "No virtual camera is called 'bowtech'"),
+    ]:
+        assert main(["replay", str(result), *arguments]) == 2
+        error = capsys.readouterr().err
+        assert said in error
+        assert error.count("\n") == 1
+    old = tmp_path / "old"
+    shutil.copytree(result, old)
+    track_path(old, 0).unlink()
+    assert main(["replay", str(old), "-o", out]) == 2
+    assert "holds no motion" in capsys.readouterr().err
+    assert not Path(out).exists()
