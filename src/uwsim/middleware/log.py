@@ -32,6 +32,7 @@ class Log:
         self._name, self._write = name, write
         self._lock = threading.Lock()
         self._counts: Counter[str] = Counter()
+        self._others: list[Callable[[str], None]] = []
         self.lines: deque[str] = deque(maxlen=200)
         """The newest lines, for whoever shows them."""
 
@@ -47,7 +48,15 @@ class Log:
                 return
             more = " (further such lines are not shown)" if n > MAX_OF_A_KIND else ""
             self.lines.append(line)
+            others = list(self._others)
         self._write(f"uwsim: {self._name}: {line}{more}")
+        for write in others:
+            write(line)
+
+    def also(self, write: Callable[[str], None]) -> None:
+        """Give the lines to ``write``, too, from now on; without the name in front."""
+        with self._lock:
+            self._others.append(write)
 
     def count(self, kind: str) -> int:
         """How many events of a kind there were, shown or not."""

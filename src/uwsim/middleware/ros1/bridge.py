@@ -1,0 +1,295 @@
+"""A bus in a ROS 1 graph, as one node.
+
+What is published on the bus is advertised; what is read there is subscribed to; services of the
+bus are offered, and services that only the graph has are called there. ``/clock`` goes out at
+`CLOCK_RATE`, and what the bridge reports goes to ``/rosout``. The contract of threads is in
+`uwsim.middleware.bridge`.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+from collections.abc import Callable, Hashable, Mapping
+from types import MappingProxyType
+from typing import Any, cast
+
+from ...bus import Bus, TopicEnds
+from ...errors import BadSetting, UwsimError
+from ...messages.services import Service
+from ..bridge import Bridge
+from ..log import Log
+from ..stamps import clock_time
+from ..types import WireService, message_class, service_of, wire_service, wire_type
+from . import services as tcp_services
+from .listener import HEADER_TIMEOUT, Listener, Serve
+from .publication import Publication
+from .registrar import POLL, Registrar, Wanted
+from .rosout import rosout
+from .subscription import Subscription
+from .tcpros import PeerError
+from .xmlrpc import Answer, Refused, XmlRpcServer
+
+CLOCK_RATE = 100.0
+"""Messages on ``/clock`` for each second of simulation time [Hz]."""
+SEND_TIMEOUT = 30.0
+"""How long a subscriber may take to read a message before it is left [s]."""
+NODE = "/uwsim"
+USE_SIM_TIME = MappingProxyType({"/use_sim_time": True})
+"""Parameter by which nodes read the time from ``/clock``."""
+
+
+class Ros1Bridge(Bridge):
+    """Connects a bus to the graph of a ROS 1 master.
+
+    Args:
+        bus: of the simulation.
+        clock: returns the simulation time [s].
+        master: URI of the master.
+        host: address to listen on, which peers are told.
+        node: name of the node in the graph.
+        log: where it reports.
+        parameters: set on the master while the node is there.
+        send_timeout: how long a subscriber may take to read a message [s].
+        header_timeout: how long a client may take to send its header [s].
+        poll: how often the master is looked for [s].
+    """
+
+    def __init__(
+        self,
+        bus: Bus,
+        clock: Callable[[], float],
+        *,
+        master: str,
+        host: str = "127.0.0.1",
+        node: str = NODE,
+        log: Log | None = None,
+        parameters: Mapping[str, Any] = USE_SIM_TIME,
+        send_timeout: float = SEND_TIMEOUT,
+        header_timeout: float = HEADER_TIMEOUT,
+        poll: float = POLL,
+    ) -> None:
+        super().__init__(bus, clock, log or Log("ros1"))
+        self._master, self._host, self._node, self._send_timeout = master, host, node, send_timeout
+        self._publications: dict[str, Publication] = {}
+        self._subscriptions: dict[str, Subscription] = {}
+        self._offered: dict[str, WireService] = {}
+        self._clock = self._publication("/clock", "rosgraph_msgs/Clock")
+        self._next_clock = 0.0
+        self._rosout = rosout(node, self.log, clock, send_timeout)
+        self._publications["/rosout"] = self._rosout
+        try:
+            self._listener = Listener(host, self.log, self._choose, header_timeout=header_timeout)
+        except OSError as error:
+            raise BadSetting(f"ROS 1 cannot listen on {host}: {error.strerror or error}") from None
+        methods = {name: getattr(self, f"_{name}") for name in SLAVE_METHODS}
+        self._server = XmlRpcServer(host, 0, methods, self.log, "node")
+        self.uri = f"http://{host}:{self._server.port}/"
+        """Address of the node's own XML-RPC server."""
+        self._registrar = Registrar(
+            master, node, self.uri, self.log, self._update, parameters=parameters, poll=poll
+        )
+        self._stop_elsewhere = bus.serve_elsewhere(self._is_offered_outside, self._call_outside)
+        self._register()
+
+    def wait(self, timeout: float) -> bool:
+        """Wait until the master knows all topics and services; whether it does [s]."""
+        return self._registrar.wait(timeout)
+
+    def get_parameter(self, name: str) -> Any:
+        """Return a parameter of the master; None if it is not set. Raises PeerError."""
+        try:
+            return self._registrar.call("getParam", name)
+        except Refused:
+            return None
+
+    def set_parameter(self, name: str, value: Any) -> None:
+        """Set a parameter of the master; raises PeerError."""
+        self._registrar.call("setParam", name, value)
+
+    def n_connected(self, topic: str) -> int:
+        """How many subscribers and publishers outside a topic is connected with now."""
+        publication = self._publications.get(topic)
+        subscription = self._subscriptions.get(topic)
+        return (publication.n_subscribers if publication else 0) + (
+            subscription.n_publishers if subscription else 0
+        )
+
+    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+        """Advertise what is published on the bus, subscribe to what is read there."""
+        for name, ends in topics.items():
+            kind = wire_type(ends.type)
+            if kind is None or not kind.md5:
+                self.log.say(f"/{name}: ROS 1 has no type {ends.type.__name__}")
+                continue
+            topic = f"/{name}"
+            if ends.is_published and topic not in self._publications:
+                self._publications[topic] = Publication(
+                    topic, kind, self._node, self.log, self._send_timeout
+                )
+            if ends.is_read and topic not in self._subscriptions:
+                self._subscriptions[topic] = Subscription(
+                    topic, kind, self._node, self.log, self._receiver(topic)
+                )
+        for topic in [each for each in self._subscriptions if not _is_read(topics, each)]:
+            self._subscriptions.pop(topic).close()
+        self._register()
+
+    def on_services(self, services: Mapping[str, Service]) -> None:
+        """Offer the services of the bus."""
+        self._offered = {f"/{name}": wire_service(each) for name, each in services.items()}
+        self._register()
+
+    def send(self, topic: str, message: object) -> None:
+        """Hand a message to the subscribers outside."""
+        publication = self._publications.get(f"/{topic}")
+        if publication is not None:
+            publication.send(message)
+
+    def tick(self) -> None:
+        """Publish the clock when it is due."""
+        now = self.clock()
+        if now < self._next_clock - 1e-9:
+            return
+        self._next_clock = now + 1.0 / CLOCK_RATE
+        self._clock.send(self._clock.kind.message(clock=clock_time(now)))
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._stop_elsewhere()
+        self._registrar.close()
+        self._server.close()
+        self._listener.close()
+        for publication in self._publications.values():
+            publication.close()
+        for subscription in self._subscriptions.values():
+            subscription.close()
+        super().close()
+
+    def _publication(self, topic: str, type_name: str) -> Publication:
+        """Advertise a topic that is not of the bus."""
+        kind = wire_type(message_class(type_name))
+        assert kind is not None
+        found = Publication(topic, kind, self._node, self.log, self._send_timeout)
+        self._publications[topic] = found
+        return found
+
+    def _receiver(self, topic: str) -> Callable[[object], None]:
+        return lambda message: self.put(topic, message)
+
+    def _register(self) -> None:
+        at = f"rosrpc://{self._host}:{self._listener.port}"
+        self._registrar.want(
+            Wanted(
+                publishers={k: v.kind.ros1_name for k, v in self._publications.items()},
+                subscribers={k: v.kind.ros1_name for k, v in self._subscriptions.items()},
+                services=dict.fromkeys(self._offered, at),
+            )
+        )
+
+    def _update(self, topic: str, uris: list[str]) -> None:
+        subscription = self._subscriptions.get(topic)
+        if subscription is not None:
+            subscription.update(each for each in uris if each != self.uri)
+
+    def _choose(self, header: dict[str, str]) -> Serve | str:
+        """What serves a connection with this header, or why nothing does."""
+        if "service" in header:
+            return self._choose_service(header)
+        publication = self._publications.get(header.get("topic", ""))
+        if publication is None:
+            return f"topic {header.get('topic', '')[:100]!r} is not published here"
+        if (refusal := publication.check(header)) is not None:
+            return refusal
+        own = publication in (self._clock, self._rosout)
+
+        def serve(connection: socket.socket, header: dict[str, str]) -> None:
+            if own:
+                publication.serve(connection, header)
+                return
+            self.want(publication.topic)
+            try:
+                publication.serve(connection, header)
+            finally:
+                self.unwant(publication.topic)
+
+        return serve
+
+    def _choose_service(self, header: dict[str, str]) -> Serve | str:
+        name = header["service"]
+        offered = self._offered.get(name)
+        if offered is None:
+            return f"service {name[:100]!r} is not offered here"
+        if (refusal := tcp_services.check(offered, header)) is not None:
+            return refusal
+        return lambda connection, header: tcp_services.serve(
+            connection, header, offered, self._node, lambda asked: self.request(name, asked)
+        )
+
+    def _is_offered_outside(self, name: str) -> bool:
+        try:
+            return bool(self._registrar.call("lookupService", f"/{name}"))
+        except PeerError:
+            return False
+
+    def _call_outside(self, name: str, request: object) -> object:
+        kind = service_of(cast(Hashable, request.__class__))
+        if kind is None:
+            raise UwsimError(f"Service {name!r}: {type(request).__name__} has no definition.")
+        uri = str(self._registrar.call("lookupService", f"/{name}"))
+        return tcp_services.call(uri, f"/{name}", wire_service(kind), self._node, request)
+
+    def _publisherUpdate(self, caller: str, topic: str, uris: list[str]) -> Answer:  # noqa: N802
+        self._update(topic, [each for each in uris if isinstance(each, str)])
+        return [1, "", 0]
+
+    def _requestTopic(self, caller: str, topic: str, protocols: list[Any]) -> Answer:  # noqa: N802
+        if topic not in self._publications:
+            return [-1, f"{topic} is not published here", []]
+        if not any(each[:1] == ["TCPROS"] for each in protocols if isinstance(each, list)):
+            return [0, "only TCPROS is spoken here", []]
+        return [1, "ready", ["TCPROS", self._host, self._listener.port]]
+
+    def _getBusStats(self, caller: str) -> Answer:  # noqa: N802
+        return [1, "", [[], [], []]]
+
+    def _getBusInfo(self, caller: str) -> Answer:  # noqa: N802
+        out = [
+            [i, "?", "o", "TCPROS", topic, bool(each.n_subscribers)]
+            for i, (topic, each) in enumerate(list(self._publications.items()))
+        ]
+        return [1, "", out]
+
+    def _getMasterUri(self, caller: str) -> Answer:  # noqa: N802
+        return [1, "", self._master]
+
+    def _getPid(self, caller: str) -> Answer:  # noqa: N802
+        return [1, "", os.getpid()]
+
+    def _getSubscriptions(self, caller: str) -> Answer:  # noqa: N802
+        found = list(self._subscriptions.items())
+        return [1, "", [[topic, each.kind.ros1_name] for topic, each in found]]
+
+    def _getPublications(self, caller: str) -> Answer:  # noqa: N802
+        found = list(self._publications.items())
+        return [1, "", [[topic, each.kind.ros1_name] for topic, each in found]]
+
+    def _paramUpdate(self, caller: str, key: str, value: Any) -> Answer:  # noqa: N802
+        return [1, "", 0]
+
+    def _shutdown(self, caller: str, why: str = "") -> Answer:
+        self.log.say(f"{caller[:100]} asks this node to leave the graph: {why[:200]}")
+        self._registrar.give_up()
+        return [1, "", 0]
+
+
+SLAVE_METHODS = (
+    *("publisherUpdate", "requestTopic", "getBusStats", "getBusInfo", "getMasterUri", "getPid"),
+    *("getSubscriptions", "getPublications", "paramUpdate", "shutdown"),
+)
+"""Methods that every node of ROS 1 serves."""
+
+
+def _is_read(topics: Mapping[str, TopicEnds], topic: str) -> bool:
+    ends = topics.get(topic.lstrip("/"))
+    return ends is not None and ends.is_read

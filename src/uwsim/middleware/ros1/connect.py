@@ -1,0 +1,103 @@
+"""Where the master is, and a master of our own where none runs."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from urllib.parse import urlsplit
+
+from ...bus import Bus
+from ...errors import BadSetting
+from ..log import Log
+from .bridge import NODE, Ros1Bridge
+from .master import Master
+from .tcpros import PeerError
+from .xmlrpc import call
+
+DEFAULT_MASTER = "http://127.0.0.1:11311"
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ros1Options:
+    """How a simulation joins ROS 1."""
+
+    master: str | None = None
+    """URI of the master; None: that of ``ROS_MASTER_URI``, else port 11311 of this computer."""
+    host: str = "127.0.0.1"
+    """Address at which the node listens, and which it tells other nodes."""
+    node: str = NODE
+    """Name of the node."""
+
+
+@dataclass(frozen=True)
+class Ros1Connection:
+    """A bridge, and the master that was started for it."""
+
+    bridge: Ros1Bridge
+    """The node."""
+    master: Master | None
+    """The master, if none was there."""
+
+    def close(self) -> None:
+        """Leave the graph, and end the master that was started."""
+        self.bridge.close()
+        if self.master is not None:
+            self.master.close()
+
+
+def connect(
+    bus: Bus, clock: Callable[[], float], options: Ros1Options, log: Log | None = None
+) -> Ros1Connection:
+    """Join the graph of a master; starts one on this computer where none answers.
+
+    Args:
+        bus: of the simulation.
+        clock: returns the simulation time [s].
+        options: where the master is and where to listen.
+        log: where it reports.
+
+    Raises:
+        BadSetting: the master's URI is wrong, or it is on another computer and does not answer.
+    """
+    log = log or Log("ros1")
+    uri = options.master or os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER
+    place = urlsplit(uri)
+    try:
+        name, port = place.hostname, place.port
+    except ValueError:
+        name, port = None, None
+    if place.scheme != "http" or not name or port is None:
+        raise BadSetting(f"ROS_MASTER_URI {uri!r}: expected http://HOST:PORT, as {DEFAULT_MASTER}.")
+    master = None
+    try:
+        call(uri, "getUri", options.node)
+    except PeerError as error:
+        if name not in LOOPBACK:
+            raise BadSetting(f"The ROS master does not answer: {error}.") from None
+        master = _start(log, port, error)
+        uri = master.uri
+    if name not in LOOPBACK and options.host in LOOPBACK:
+        log.say(
+            f"the master is on {name}, but this node listens on {options.host} only: "
+            "--ros1-host ADDRESS gives other computers access"
+        )
+    try:
+        bridge = Ros1Bridge(bus, clock, master=uri, host=options.host, node=options.node, log=log)
+    except BadSetting:
+        if master is not None:
+            master.close()
+        raise
+    return Ros1Connection(bridge, master)
+
+
+def _start(log: Log, port: int, why: PeerError) -> Master:
+    try:
+        master = Master(log, port=port)
+    except OSError as error:
+        raise BadSetting(
+            f"{why}, and no master can be started at port {port}: {error.strerror or error}."
+        ) from None
+    log.say(f"no master answers; one was started at {master.uri}")
+    return master

@@ -1,0 +1,207 @@
+"""A small master: who publishes, subscribes and serves what, and the parameters.
+
+It is what ``rosmaster`` is to nodes: registrations, look-ups, ``publisherUpdate`` to the
+subscribers of a topic, and a parameter server with ``paramUpdate``. It takes the place of
+``roscore`` where none runs; log messages on ``/rosout`` are not collected.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from typing import Any
+
+from ..log import Log
+from .parameters import Parameters, resolve
+from .tcpros import PeerError
+from .xmlrpc import Answer, XmlRpcServer, call
+
+Registrations = dict[str, dict[str, str]]
+"""Topic or service -> node -> its URI."""
+
+
+class Master:
+    """A master of ROS 1.
+
+    Args:
+        log: where it reports.
+        host: address to listen on.
+        port: port; 0 takes a free one.
+
+    Raises:
+        OSError: the port is taken.
+    """
+
+    def __init__(self, log: Log, *, host: str = "127.0.0.1", port: int = 0) -> None:
+        self._lock = threading.RLock()
+        self._publishers: Registrations = {}
+        self._subscribers: Registrations = {}
+        self._services: dict[str, tuple[str, str, str]] = {}
+        self._nodes: dict[str, str] = {}
+        self._types: dict[str, str] = {}
+        self._parameters = Parameters()
+        self._updates = ThreadPoolExecutor(4, thread_name_prefix="ros1-master")
+        methods = {name: getattr(self, f"_{_snake(name)}") for name in METHODS}
+        methods |= {name: self._guarded(name) for name in PARAMETER_METHODS}
+        self._server = XmlRpcServer(host, port, methods, log, "master")
+        self.uri = f"http://{host}:{self._server.port}/"
+        """Its address, as ``ROS_MASTER_URI``."""
+
+    def close(self) -> None:
+        """Stop."""
+        self._server.close()
+        self._updates.shutdown(wait=False, cancel_futures=True)
+
+    def _guarded(self, name: str) -> Any:
+        method = getattr(self._parameters, _snake(name))
+
+        def answer(*arguments: Any) -> Answer:
+            with self._lock:
+                result, changed = method(*arguments)
+            for uri, key, value in changed:
+                self._later(uri, "paramUpdate", "/master", key, value)
+            return list(result)
+
+        return answer
+
+    def _register_publisher(self, caller: str, topic: str, kind: str, uri: str) -> Answer:
+        with self._lock:
+            topic = resolve(topic, caller)
+            self._enter(caller, uri)
+            self._publishers.setdefault(topic, {})[caller] = uri
+            if kind != "*" or topic not in self._types:
+                self._types[topic] = kind
+            subscribers = list(self._subscribers.get(topic, {}).values())
+        self._tell(topic)
+        return [1, f"Registered {caller} as publisher of {topic}", subscribers]
+
+    def _unregister_publisher(self, caller: str, topic: str, uri: str) -> Answer:
+        n = self._leave(self._publishers, resolve(topic, caller), caller, uri)
+        if n:
+            self._tell(resolve(topic, caller))
+        return [1, "Unregistered" if n else "Was not registered", n]
+
+    def _register_subscriber(self, caller: str, topic: str, kind: str, uri: str) -> Answer:
+        with self._lock:
+            topic = resolve(topic, caller)
+            self._enter(caller, uri)
+            self._subscribers.setdefault(topic, {})[caller] = uri
+            if kind != "*":
+                self._types.setdefault(topic, kind)
+            publishers = list(self._publishers.get(topic, {}).values())
+        return [1, f"Subscribed to {topic}", publishers]
+
+    def _unregister_subscriber(self, caller: str, topic: str, uri: str) -> Answer:
+        n = self._leave(self._subscribers, resolve(topic, caller), caller, uri)
+        return [1, "Unregistered" if n else "Was not registered", n]
+
+    def _register_service(self, caller: str, service: str, api: str, uri: str) -> Answer:
+        with self._lock:
+            self._enter(caller, uri)
+            self._services[resolve(service, caller)] = (caller, api, uri)
+        return [1, f"Registered service {service}", 1]
+
+    def _unregister_service(self, caller: str, service: str, api: str) -> Answer:
+        with self._lock:
+            name = resolve(service, caller)
+            is_its = self._services.get(name, ("", "", ""))[1] == api
+            if is_its:
+                del self._services[name]
+        return [1, "Unregistered" if is_its else "Was not registered", int(is_its)]
+
+    def _lookup_service(self, caller: str, service: str) -> Answer:
+        with self._lock:
+            found = self._services.get(resolve(service, caller))
+        return [1, "rosrpc URI", found[1]] if found else [-1, f"no provider of {service}", ""]
+
+    def _lookup_node(self, caller: str, node: str) -> Answer:
+        with self._lock:
+            uri = self._nodes.get(resolve(node, caller))
+        return [1, "node api", uri] if uri else [-1, f"unknown node {node}", ""]
+
+    def _get_published_topics(self, caller: str, subgraph: str) -> Answer:
+        prefix = resolve(subgraph, caller).rstrip("/") + "/" if subgraph else "/"
+        with self._lock:
+            found = [
+                [topic, self._types.get(topic, "*")]
+                for topic in sorted(self._publishers)
+                if topic.startswith(prefix) and self._publishers[topic]
+            ]
+        return [1, "current topics", found]
+
+    def _get_topic_types(self, caller: str) -> Answer:
+        with self._lock:
+            return [1, "current topic types", [list(each) for each in sorted(self._types.items())]]
+
+    def _get_system_state(self, caller: str) -> Answer:
+        with self._lock:
+            publishers, subscribers = (
+                [[name, sorted(nodes)] for name, nodes in sorted(which.items()) if nodes]
+                for which in (self._publishers, self._subscribers)
+            )
+            services = [[name, [who[0]]] for name, who in sorted(self._services.items())]
+        return [1, "current system state", [publishers, subscribers, services]]
+
+    def _get_uri(self, caller: str) -> Answer:
+        return [1, "", self.uri]
+
+    def _get_pid(self, caller: str) -> Answer:
+        return [1, "", os.getpid()]
+
+    def _enter(self, caller: str, uri: str) -> None:
+        """Note a node; one of the same name is asked to end, as ROS does."""
+        before = self._nodes.get(caller)
+        if before is not None and before != uri:
+            for each in (self._publishers, self._subscribers):
+                for nodes in each.values():
+                    if nodes.get(caller) == before:
+                        del nodes[caller]
+            self._services = {k: v for k, v in self._services.items() if v[2] != before}
+            self._later(before, "shutdown", "/master", f"new node registered with name {caller}")
+        self._nodes[caller] = uri
+
+    def _leave(self, which: Registrations, name: str, caller: str, uri: str) -> int:
+        with self._lock:
+            if which.get(name, {}).get(caller) != uri:
+                return 0
+            del which[name][caller]
+            return 1
+
+    def _tell(self, topic: str) -> None:
+        """Tell the subscribers of a topic its publishers; the list is read when it is sent."""
+        with self._lock:
+            subscribers = list(self._subscribers.get(topic, {}).values())
+        for uri in subscribers:
+            with suppress(RuntimeError):  # closed
+                self._updates.submit(self._send_publishers, uri, topic)
+
+    def _send_publishers(self, uri: str, topic: str) -> None:
+        with self._lock:
+            publishers = list(self._publishers.get(topic, {}).values())
+        with suppress(PeerError):
+            call(uri, "publisherUpdate", "/master", topic, publishers)
+
+    def _later(self, uri: str, method: str, *arguments: Any) -> None:
+        def run() -> None:
+            with suppress(PeerError):
+                call(uri, method, *arguments)
+
+        with suppress(RuntimeError):  # closed
+            self._updates.submit(run)
+
+
+METHODS = (
+    *("registerPublisher", "unregisterPublisher", "registerSubscriber", "unregisterSubscriber"),
+    *("registerService", "unregisterService", "lookupService", "lookupNode"),
+    *("getPublishedTopics", "getTopicTypes", "getSystemState", "getUri", "getPid"),
+)
+PARAMETER_METHODS = (
+    *("setParam", "getParam", "deleteParam", "hasParam", "searchParam", "getParamNames"),
+    *("subscribeParam", "unsubscribeParam"),
+)
+
+
+def _snake(name: str) -> str:
+    return "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name)

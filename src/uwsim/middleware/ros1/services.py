@@ -1,0 +1,123 @@
+"""Services over TCPROS: those of the bus for clients outside, and calls of services outside.
+
+A request is a frame. The answer is a byte, 1 for success, and a frame: the response, or the text of
+the error.
+"""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Callable
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as FutureTimeout
+from typing import Any
+from urllib.parse import urlsplit
+
+from ...errors import BadMessage, UwsimError
+from ..encodings import from_ros1, to_ros1
+from ..types import WireService
+from .tcpros import (
+    PeerError,
+    close,
+    encode_header,
+    framed,
+    open_connection,
+    read_frame,
+    read_header,
+    write,
+)
+
+ANSWER_TIMEOUT = 60.0
+"""How long a client waits for the end of a step [s]."""
+CALL_TIMEOUT = 30.0
+"""How long a service outside may take to answer [s]."""
+
+
+def check(offered: WireService, header: dict[str, str]) -> str | None:
+    """Why a client with this connection header cannot be served; None if it can."""
+    md5 = header.get("md5sum", "")
+    if md5 in ("*", offered.md5):
+        return None
+    return f"service is {offered.ros1_name} (md5sum {offered.md5}), not md5sum {md5}"
+
+
+def serve(
+    connection: socket.socket,
+    header: dict[str, str],
+    offered: WireService,
+    caller: str,
+    request: Callable[[Any], Future[object]],
+) -> None:
+    """Answer the calls of one client; in the connection's thread.
+
+    Raises:
+        PeerError: the client broke off.
+    """
+    write(
+        connection,
+        encode_header(
+            {
+                "callerid": caller,
+                "md5sum": offered.md5,
+                "request_type": offered.request.ros1_name,
+                "response_type": offered.response.ros1_name,
+                "type": offered.ros1_name,
+            }
+        ),
+    )
+    if header.get("probe") == "1":
+        return
+    is_persistent = header.get("persistent") == "1"
+    if is_persistent:
+        connection.settimeout(None)
+    while (data := read_frame(connection)) is not None:
+        write(connection, _answer(data, offered, request))
+        if not is_persistent:
+            return
+
+
+def _answer(data: bytes, offered: WireService, request: Callable[[Any], Future[object]]) -> bytes:
+    try:
+        asked: object = from_ros1(offered.service.request, data)
+        response = request(asked).result(timeout=ANSWER_TIMEOUT)
+        return b"\x01" + framed(to_ros1(response))
+    except FutureTimeout:
+        return b"\x00" + framed(b"the simulation does not advance")
+    except UwsimError as error:
+        return b"\x00" + framed(str(error).encode())
+
+
+def call(uri: str, name: str, wanted: WireService, caller: str, request: object) -> object:
+    """Call a service outside and return its response.
+
+    Args:
+        uri: ``rosrpc://host:port``.
+        name: of the service.
+        wanted: its type.
+        caller: name of this node.
+        request: of the type's class.
+
+    Raises:
+        PeerError: nobody answers, or with an error.
+    """
+    place = urlsplit(uri)
+    if not place.hostname or not place.port:
+        raise PeerError(f"service {name} is at {uri}, which is no address")
+    connection = open_connection(place.hostname, place.port, CALL_TIMEOUT)
+    try:
+        fields = {"callerid": caller, "md5sum": wanted.md5, "service": name}
+        write(connection, encode_header(fields) + framed(to_ros1(request)))
+        read_header(connection)
+        success = connection.recv(1)
+        data = read_frame(connection)
+    except OSError as error:
+        raise PeerError(f"service {name} does not answer: {error}") from error
+    finally:
+        close(connection)
+    if success != b"\x01" or data is None:
+        what = "closed the connection" if data is None else data[:300].decode("utf-8", "replace")
+        raise PeerError(f"service {name}: {what}")
+    try:
+        return from_ros1(wanted.service.response, data)
+    except BadMessage as error:
+        raise PeerError(f"service {name}: {error}") from error

@@ -1,0 +1,157 @@
+"""A topic that is read from publishers of ROS 1, with a thread for each of them."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Callable, Iterable
+
+from ...errors import BadMessage
+from ..encodings import from_ros1
+from ..log import Log
+from ..stamps import inward
+from ..types import WireType
+from .tcpros import (
+    PeerError,
+    close,
+    encode_header,
+    open_connection,
+    read_frame,
+    read_header,
+    write,
+)
+from .xmlrpc import call
+
+RETRY = 1.0
+"""How long after a lost connection it is tried again [s]."""
+CONNECT_TIMEOUT = 10.0
+"""How long a publisher may take to answer [s]."""
+
+
+class Subscription:
+    """A topic that is read, and its publishers.
+
+    Args:
+        topic: name with a leading slash.
+        kind: its type.
+        caller: name of this node.
+        log: where it reports.
+        receive: called with each message, stamps in simulation time, in a publisher's thread.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        kind: WireType,
+        caller: str,
+        log: Log,
+        receive: Callable[[object], None],
+    ) -> None:
+        self.topic, self.kind = topic, kind
+        self._caller, self._log, self._receive = caller, log, receive
+        self._lock = threading.Lock()
+        self._links: dict[str, _Link] = {}
+        self._is_closed = False
+
+    @property
+    def n_publishers(self) -> int:
+        """Publishers it is connected to."""
+        return sum(link.is_connected for link in list(self._links.values()))
+
+    def update(self, uris: Iterable[str]) -> None:
+        """Connect to publishers with these URIs, and to no others."""
+        wanted = set(uris)
+        with self._lock:
+            if self._is_closed:
+                return
+            gone = [self._links.pop(uri) for uri in sorted(set(self._links) - wanted)]
+            for uri in sorted(wanted - set(self._links)):
+                self._links[uri] = _Link(self, uri)
+        for link in gone:
+            link.close()
+
+    def close(self) -> None:
+        """Leave all publishers."""
+        with self._lock:
+            self._is_closed = True
+            links, self._links = list(self._links.values()), {}
+        for link in links:
+            link.close()
+
+    def connect(self, uri: str) -> socket.socket:
+        """Ask a node for the topic and connect to it; raises PeerError."""
+        answer = call(uri, "requestTopic", self._caller, self.topic, [["TCPROS"]])
+        match answer:
+            case ["TCPROS", str(host), int(port)]:
+                connection = open_connection(host, port, CONNECT_TIMEOUT)
+            case _:
+                raise PeerError(f"{uri} offers {self.topic} over another protocol than TCPROS")
+        try:
+            self._greet(connection)
+        except PeerError:
+            close(connection)
+            raise
+        return connection
+
+    def _greet(self, connection: socket.socket) -> None:
+        fields = {
+            "callerid": self._caller,
+            "md5sum": self.kind.md5,
+            "message_definition": self.kind.ros1_definition,
+            "tcp_nodelay": "1",
+            "topic": self.topic,
+            "type": self.kind.ros1_name,
+        }
+        write(connection, encode_header(fields))
+        header = read_header(connection)
+        if header.get("md5sum") not in ("*", self.kind.md5):
+            raise PeerError(f"it publishes {header.get('type')}, not {self.kind.ros1_name}")
+        connection.settimeout(None)  # a publisher may have nothing to say for long
+
+    def take(self, data: bytes) -> None:
+        """Decode a message and hand it on; one that is none is reported."""
+        try:
+            message: object = inward(from_ros1(self.kind.message, data))
+        except BadMessage as error:
+            self._log.say(f"{self.topic}: {error}", kind=f"garbage {self.topic}")
+        else:
+            self._receive(message)
+
+    def report(self, uri: str, error: PeerError) -> None:
+        """Report what a publisher did."""
+        self._log.say(f"{self.topic}: publisher {uri}: {error}", kind=f"lost {self.topic} {uri}")
+
+
+class _Link:
+    """The connection to one publisher; tried again until it is closed."""
+
+    def __init__(self, subscription: Subscription, uri: str) -> None:
+        self._subscription, self._uri = subscription, uri
+        self._stopped = threading.Event()
+        self._connection: socket.socket | None = None
+        self.is_connected = False
+        threading.Thread(target=self._run, name=f"ros1{subscription.topic}", daemon=True).start()
+
+    def _run(self) -> None:
+        while not self._stopped.is_set():
+            try:
+                self._connection = self._subscription.connect(self._uri)
+                self.is_connected = True
+                while not self._stopped.is_set():
+                    data = read_frame(self._connection)
+                    if data is None:
+                        break
+                    self._subscription.take(data)
+            except PeerError as error:
+                if not self._stopped.is_set():
+                    self._subscription.report(self._uri, error)
+            finally:
+                self.is_connected = False
+                if self._connection is not None:
+                    close(self._connection)
+            self._stopped.wait(RETRY)
+
+    def close(self) -> None:
+        self._stopped.set()
+        if self._connection is not None:
+            close(self._connection)

@@ -1,0 +1,144 @@
+"""Frames and connection headers of TCPROS.
+
+A frame is its length as a little-endian uint32, then as many bytes. The first frame of each side
+is the connection header: fields ``name=value``, each with its own length in front. A reply with
+a field ``error`` is a refusal.
+"""
+
+from __future__ import annotations
+
+import select
+import socket
+import struct
+from collections.abc import Mapping
+from contextlib import suppress
+
+from ...errors import UwsimError
+
+MAX_HEADER = 256 * 1024
+"""Longest connection header read; that of a point cloud with its definition has 4 kB [bytes]."""
+MAX_MESSAGE = 64 * 2**20
+"""Longest message read [bytes]."""
+CHUNK = 256 * 1024
+LENGTH = struct.Struct("<I")
+
+
+class PeerError(UwsimError):
+    """What a peer sent, or did not send; the message says so in one line."""
+
+
+def encode_header(fields: Mapping[str, str]) -> bytes:
+    """Return a connection header as a frame."""
+    pairs = [f"{name}={value}".encode() for name, value in fields.items()]
+    body = b"".join(LENGTH.pack(len(pair)) + pair for pair in pairs)
+    return LENGTH.pack(len(body)) + body
+
+
+def decode_header(body: bytes) -> dict[str, str]:
+    """Return the fields of a connection header, given without its length; raises PeerError."""
+    fields: dict[str, str] = {}
+    at = 0
+    while at < len(body):
+        if at + LENGTH.size > len(body):
+            raise PeerError("its connection header is cut off")
+        (length,) = LENGTH.unpack_from(body, at)
+        at += LENGTH.size
+        pair = body[at : at + length]
+        if len(pair) < length or b"=" not in pair:
+            raise PeerError("its connection header is not made of fields")
+        name, _, value = pair.partition(b"=")
+        fields[name.decode("utf-8", "replace")] = value.decode("utf-8", "replace")
+        at += length
+    return fields
+
+
+def read_header(connection: socket.socket) -> dict[str, str]:
+    """Read a connection header.
+
+    Raises:
+        PeerError: there was none, or it is no header, or it says ``error``.
+    """
+    body = read_frame(connection, MAX_HEADER)
+    if body is None:
+        raise PeerError("it closed the connection without a header")
+    fields = decode_header(body)
+    if "error" in fields:
+        raise PeerError(f"it refuses: {fields['error'][:300]}")
+    return fields
+
+
+def read_frame(connection: socket.socket, limit: int = MAX_MESSAGE) -> bytes | None:
+    """Read one frame without its length; None if the peer has closed the connection before it.
+
+    Raises:
+        PeerError: the frame is cut off, too long, or does not come within the socket's timeout.
+    """
+    head = _read(connection, LENGTH.size)
+    if not head:
+        return None
+    if len(head) < LENGTH.size:
+        raise PeerError("it closed the connection in the middle of a length")
+    (length,) = LENGTH.unpack(head)
+    if length > limit:
+        raise PeerError(f"it announces {length} bytes; at most {limit} are read")
+    body = _read(connection, length)
+    if len(body) < length:
+        raise PeerError(f"it closed the connection after {len(body)} of {length} bytes")
+    return body
+
+
+def _read(connection: socket.socket, n: int) -> bytes:
+    """Read ``n`` bytes, or fewer if the connection ends; memory grows with what has come."""
+    found = bytearray()
+    while len(found) < n:
+        try:
+            part = connection.recv(min(CHUNK, n - len(found)))
+        except TimeoutError:
+            raise PeerError("it sends nothing") from None
+        except OSError as error:
+            raise PeerError(f"the connection broke: {error.strerror or error}") from error
+        if not part:
+            break
+        found += part
+    return bytes(found)
+
+
+def write(connection: socket.socket, data: bytes | memoryview) -> None:
+    """Send bytes; raises PeerError if the peer does not take them within the socket's timeout."""
+    try:
+        connection.sendall(data)
+    except TimeoutError:
+        raise PeerError("it does not read") from None
+    except OSError as error:
+        raise PeerError(f"the connection broke: {error.strerror or error}") from error
+
+
+def framed(data: bytes | memoryview) -> bytes:
+    """Return bytes with their length in front."""
+    return b"".join((LENGTH.pack(len(data)), data))
+
+
+def has_left(connection: socket.socket) -> bool:
+    """Whether the peer has closed a connection on which it sends nothing."""
+    try:
+        readable, _, _ = select.select([connection], [], [], 0)
+        return bool(readable) and connection.recv(1, socket.MSG_PEEK) == b""
+    except (OSError, ValueError):
+        return True
+
+
+def open_connection(host: str, port: int, timeout: float) -> socket.socket:
+    """Connect without delay of small packets; raises PeerError."""
+    try:
+        connection = socket.create_connection((host, port), timeout)
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    except (OSError, OverflowError, UnicodeError) as error:
+        raise PeerError(f"{host}:{port} cannot be reached: {error}") from error
+    return connection
+
+
+def close(connection: socket.socket) -> None:
+    """Close a connection, also while another thread waits for it."""
+    with suppress(OSError):
+        connection.shutdown(socket.SHUT_RDWR)
+    connection.close()

@@ -1,0 +1,161 @@
+"""XML-RPC as ROS 1 uses it: servers and calls with limits of size, number and time.
+
+Every method of ROS returns ``[code, text, value]``: code 1 is success, 0 failure, -1 an error of
+the caller.
+"""
+
+from __future__ import annotations
+
+import http.client
+import socket
+import threading
+import xmlrpc.client
+from collections.abc import Callable, Mapping
+from socketserver import ThreadingMixIn
+from typing import Any
+from xml.parsers.expat import ExpatError
+from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
+
+from ..log import Log
+from .tcpros import PeerError
+
+MAX_REQUEST = 2**20
+"""Longest request and response read [bytes]."""
+MAX_AT_ONCE = 64
+"""Requests that a server works on at the same time; others are closed."""
+READ_TIMEOUT = 15.0
+"""How long a client may take to send its request [s]."""
+CALL_TIMEOUT = 5.0
+"""How long a call waits for its answer [s]."""
+Answer = list[Any]
+Methods = Mapping[str, Callable[..., Answer]]
+
+
+class RequestHandler(SimpleXMLRPCRequestHandler):
+    """Reads requests of limited length."""
+
+    rpc_paths = ()  # any path, as ROS's own servers
+    timeout = READ_TIMEOUT
+    disable_nagle_algorithm = True
+
+    def do_POST(self) -> None:  # noqa: N802 - the name is http.server's
+        """Answer a request, unless it is too long."""
+        length = self.headers.get("content-length", "")
+        if not length.isdecimal() or int(length) > MAX_REQUEST:
+            self.send_error(413)
+            self.close_connection = True
+            return
+        super().do_POST()
+
+    def log_message(self, format: str, *args: object) -> None:
+        """Print nothing: errors of a request are the peer's."""
+
+
+class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
+    """Serves methods in threads of its own, until `close`.
+
+    Args:
+        host: address to listen on.
+        port: port; 0 takes a free one.
+        methods: by name.
+        log: where errors are reported.
+        name: what the lines in the log call it.
+
+    Raises:
+        OSError: the port is taken.
+    """
+
+    daemon_threads = True
+    allow_reuse_address = True
+    request_queue_size = 128
+
+    def __init__(self, host: str, port: int, methods: Methods, log: Log, name: str) -> None:
+        super().__init__((host, port), RequestHandler, logRequests=False, allow_none=True)
+        self._log, self._name = log, name
+        self._free = threading.BoundedSemaphore(MAX_AT_ONCE)
+        for each, method in methods.items():
+            self.register_function(method, each)
+        self._thread = threading.Thread(target=self.serve_forever, args=(0.1,), daemon=True)
+        self._thread.start()
+
+    @property
+    def port(self) -> int:
+        """The port it listens on."""
+        return int(self.server_address[1])
+
+    def process_request(self, request: Any, client_address: Any) -> None:
+        """Work on a request in a thread, if there are not too many."""
+        if not self._free.acquire(blocking=False):
+            self._log.say(f"{self._name}: more than {MAX_AT_ONCE} requests at once; one is refused")
+            self.shutdown_request(request)
+            return
+        super().process_request(request, client_address)
+
+    def process_request_thread(self, request: Any, client_address: Any) -> None:
+        """Work on one request."""
+        try:
+            super().process_request_thread(request, client_address)
+        finally:
+            self._free.release()
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Report a request that broke off."""
+        self._log.say(f"{self._name}: a request broke off")
+
+    def close(self) -> None:
+        """Stop listening."""
+        self.shutdown()
+        self.server_close()
+        self._thread.join(timeout=10.0)
+
+
+class _Transport(xmlrpc.client.Transport):
+    """Calls with a time limit and responses of limited length."""
+
+    def __init__(self, timeout: float) -> None:
+        super().__init__()
+        self._timeout = timeout
+
+    def make_connection(self, host: Any) -> http.client.HTTPConnection:
+        """Connect with a time limit."""
+        connection = super().make_connection(host)
+        connection.timeout = self._timeout
+        return connection
+
+    def parse_response(self, response: http.client.HTTPResponse) -> Any:
+        """Parse a response of limited length."""
+        parser, unmarshaller = self.getparser()
+        data = response.read(8 * MAX_REQUEST + 1)
+        if len(data) > 8 * MAX_REQUEST:
+            raise ValueError("the response is too long")
+        parser.feed(data)
+        parser.close()
+        return unmarshaller.close()
+
+
+def call(uri: str, method: str, *arguments: Any, timeout: float = CALL_TIMEOUT) -> Any:
+    """Call a method of a master or a node, and return the value of its answer.
+
+    Raises:
+        Refused: the answer's code is not 1.
+        PeerError: nothing answered, or no answer of ROS.
+    """
+    try:
+        with xmlrpc.client.ServerProxy(uri, _Transport(timeout), allow_none=True) as proxy:
+            answer = getattr(proxy, method)(*arguments)
+    except (OSError, socket.gaierror) as error:
+        raise PeerError(f"{uri} does not answer: {error.strerror or error}") from error
+    except (
+        *(xmlrpc.client.Error, http.client.HTTPException, ExpatError),
+        *(ValueError, TypeError, KeyError, OverflowError, UnicodeError, AssertionError),
+    ) as error:
+        raise PeerError(f"{uri} gives no answer of ROS: {type(error).__name__}") from error
+    if not isinstance(answer, list) or len(answer) != 3 or not isinstance(answer[0], int):
+        raise PeerError(f"{uri} gives no answer of ROS")
+    if answer[0] != 1:
+        raise Refused(f"{uri} refuses {method}: {str(answer[1])[:300]}")
+    return answer[2]
+
+
+class Refused(PeerError):
+    """The peer answered, with an error."""
