@@ -14,5 +14,6 @@ demo: install
 
 test:
 	@scripts/setup dev docs ray ros2
+	@scripts/ros1_peers --if-possible
 	@scripts/ros2_peers --if-possible
 	scripts/check --all

@@ -26,6 +26,7 @@ GROUND = {
     "rays",
     "schema",
     "message_fields",
+    "inbox",
     "sampling",
     "interrupts",
     "raised",

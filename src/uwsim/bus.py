@@ -12,18 +12,16 @@ import dataclasses
 import math
 from collections import deque
 from collections.abc import Callable, Mapping
-from typing import Any, Generic, Protocol, TypeVar, runtime_checkable
+from typing import Any, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
 from .errors import BadMessage, BadSetting, UnknownName, UwsimError, did_you_mean
-from .message_fields import freeze, size_of, unfit
+from .inbox import Inbox
+from .message_fields import freeze, unfit
 
 M = TypeVar("M")
 MAX_MESSAGES_PER_STEP = 100_000
-MAX_KEPT = 10_000
-MAX_BYTES_KEPT = 256 * 2**20
-"""Number of messages that an unread inbox keeps."""
 
 
 @runtime_checkable
@@ -65,59 +63,8 @@ class Algorithm(Protocol):
         """Subscribe, serve, call ``startBench``; from then on only callbacks."""
 
 
-class Inbox(Generic[M]):
-    """The messages of one topic that one reader has not taken yet, and the last one.
-
-    One that is not looked into keeps the newest, at most `MAX_KEPT` of `MAX_BYTES_KEPT` together.
-    """
-
-    def __init__(self) -> None:
-        self._new: deque[M] = deque()
-        self._sizes: deque[int] = deque()
-        self._n_bytes = 0
-        self._stop: Callable[[], None] | None = None
-        self.last: M | None = None
-        """The newest message ever received."""
-        self.last_step: int | None = None
-        """The step at which it was delivered."""
-
-    def receive(self, message: M, step: int) -> None:
-        """Put a message in; called by the bus."""
-        self._new.append(message)
-        self._sizes.append(size_of(message))
-        self._n_bytes += self._sizes[-1]
-        while len(self._new) > MAX_KEPT or (self._n_bytes > MAX_BYTES_KEPT and len(self._new) > 1):
-            self._new.popleft()
-            self._n_bytes -= self._sizes.popleft()
-        self.last, self.last_step = message, step
-
-    def take(self) -> list[M]:
-        """Take out all messages that came since the last call, oldest first."""
-        if not self._new:
-            return []
-        messages = list(self._new)
-        self._empty()
-        return messages
-
-    def clear(self) -> None:
-        """Forget everything."""
-        self._empty()
-        self.last, self.last_step = None, None
-
-    def close(self) -> None:
-        """Receive nothing more."""
-        if self._stop is not None:
-            self._stop()
-            self._stop = None
-
-    def _empty(self) -> None:
-        self._new.clear()
-        self._sizes.clear()
-        self._n_bytes = 0
-
-    def stop_with(self, stop: Callable[[], None]) -> None:
-        """Have ``stop`` called by `close`; used by the bus."""
-        self._stop = stop
+OBSERVER = object()
+"""Owner of those who only listen to what others publish, as a recorder: at no end of a topic."""
 
 
 @dataclasses.dataclass
@@ -242,14 +189,17 @@ class Bus:
         return inbox
 
     def ends(self, topic: str, *, besides: object = None) -> TopicEnds | None:
-        """Who is at the ends of a topic, one owner left out; None before it has a type."""
+        """Who is at the ends of a topic, one owner and observers left out; None without a type."""
         entry = self._topics.get(_without_slash(topic))
         if entry is None or entry.type is None:
             return None
         return TopicEnds(
             entry.type,
             is_published=any(each is None or each is not besides for each in entry.writers),
-            is_read=any(each is None or each is not besides for each in entry.owners),
+            is_read=any(
+                each is None or (each is not besides and each is not OBSERVER)
+                for each in entry.owners
+            ),
         )
 
     def publisher(

@@ -19,10 +19,10 @@ from ..runs.program import load_program
 from ..runs.stand_ins import warn_of_stand_ins
 from ..terminal import print_warnings, warn
 from .exit_status import running
-from .options.completion import algorithm_names, one_of
 from .options.connections import ConnectionOptions, connected
-from .options.help_texts import INPUT, OUTPUT, RUN, in_group
-from .options.options import DataPathOption, JsonOption, NoCodeOption, SceneArgument, SettingOptions
+from .options.help_texts import RUN, in_group
+from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
+from .options.run_options import ProgramOptions, RecordOptions
 from .output.progress import progress
 from .output.topic_table import print_json, print_topics
 from .render import scene_of
@@ -37,82 +37,6 @@ UNITS = {"ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 DURATION = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*([a-z]*)\s*")
 MAX_DURATION = 1e8
 """Longest simulation time; longer is taken for a typing error [s]."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class ProgramOptions:
-    """For how long, and with what program."""
-
-    duration: Annotated[
-        str | None,
-        in_group(
-            INPUT,
-            "--for",
-            metavar="TIME",
-            help="How long, in simulation time: 10s, 500ms, 2min, 1h [10s; with a connection "
-            "until Ctrl-C].",
-        ),
-    ] = None
-    program: Annotated[
-        str | None,
-        in_group(
-            INPUT,
-            "--program",
-            metavar="FILE.py|module:Class",
-            help="A program of your own: a class with start(node), as of an algorithm "
-            "(FILE.py:Class where the file has several); or a name of `uwsim list algorithms`. "
-            "--set algorithm.NAME=VALUE sets its parameters.",
-            autocompletion=algorithm_names,
-        ),
-    ] = None
-    udp_address: Annotated[
-        str | None,
-        in_group(
-            INPUT,
-            "--udp-address",
-            metavar="ADDRESS",
-            help="Address of this computer at which the element fdm of a vehicle takes UDP "
-            "packets, as 127.0.0.1; such a run is not repeatable.",
-        ),
-    ] = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class RecordOptions:
-    """What is written."""
-
-    hz: Annotated[
-        bool,
-        in_group(
-            OUTPUT,
-            "--hz",
-            help="Read every topic, images too, and report number, rate and gaps of its messages.",
-        ),
-    ] = False
-    record: Annotated[
-        Path | None,
-        in_group(
-            OUTPUT,
-            "--record",
-            metavar="FILE.mcap",
-            help="Record every topic as ROS 2 messages; read by ros2 bag, Foxglove, rosbags.",
-        ),
-    ] = None
-    images: Annotated[
-        str,
-        in_group(
-            OUTPUT,
-            "--images",
-            metavar="raw|png|none",
-            help="In the recording: images as they are, as TOPIC/compressed without loss (smaller, "
-            "slower), or none.",
-            autocompletion=one_of(("raw", "png", "none")),
-        ),
-    ] = "raw"
-    overwrite: Annotated[
-        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier recording.")
-    ] = False
-    as_json: JsonOption = False
 
 
 def run(
@@ -135,8 +59,8 @@ def run(
     same bytes of the recording. Without --hz and --record, images that no program reads are not
     drawn. Ctrl-C ends the run; the recording is complete up to there.
 
-    With a connection (--ros2) programs outside read and write topics and call services while the
-    scene runs in real time, and the run is not repeatable.
+    With a connection (--ros1, --ros2) programs outside read and write topics and call services
+    while the scene runs in real time, and the run is not repeatable.
     """
     from ..simulation import Simulation
 

@@ -10,7 +10,7 @@ from typing import Literal, Self, get_args
 import cv2
 import numpy as np
 
-from ..bus import Bus
+from ..bus import OBSERVER, Bus
 from ..errors import BadSetting, did_you_mean
 from ..messages import CompressedImage, Image, pixels_of
 from ..messages.build import NANOSECONDS
@@ -66,7 +66,7 @@ class Recorder:
             def receive(message: object) -> None:
                 self._keep(f"/{topic}", name, round(clock() * NANOSECONDS), message)
 
-            self._stops.append(self._bus.subscribe(topic, type, receive))
+            self._stops.append(self._bus.subscribe(topic, type, receive, owner=OBSERVER))
 
         self._stops.append(self._bus.observe(appeared))
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from ..bus import Bus
+from ..bus import OBSERVER, Bus
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +58,7 @@ class TopicRates:
         if not self._reads(type):
             return
         gaps = self._gaps[topic] = _Gaps()
-        self._bus.subscribe(topic, type, lambda message: gaps.add(self._clock()))
+        self._bus.subscribe(topic, type, lambda message: gaps.add(self._clock()), owner=OBSERVER)
 
     def rates(self) -> list[TopicRate]:
         """Return what came on each topic, sorted by name."""

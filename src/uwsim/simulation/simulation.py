@@ -18,9 +18,10 @@ from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
 from .. import __version__
-from ..bus import Algorithm, Bus, Inbox
+from ..bus import Algorithm, Bus
 from ..errors import BadSetting, UnknownName, UwsimError
 from ..geometry import Array, Pose
+from ..inbox import Inbox
 from ..physics.motion import Motion
 from ..rendering.rendered_image import RenderedImage
 from ..scene.spec import SceneSpec

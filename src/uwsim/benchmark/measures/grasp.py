@@ -17,8 +17,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...bus import Inbox
 from ...geometry import Array, Pose
+from ...inbox import Inbox
 from ...messages import String
 from ...numerics.linear import length
 from ...schema import element

@@ -15,8 +15,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...bus import Inbox
 from ...geometry import Array
+from ...inbox import Inbox
 from ...messages import Path
 from ...numerics.linear import turned_back
 from ...schema import element

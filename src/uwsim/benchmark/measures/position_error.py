@@ -18,8 +18,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...bus import Inbox
 from ...geometry import Array, Pose
+from ...inbox import Inbox
 from ...messages import PoseStamped
 from ...numerics.linear import turned
 from ...schema import element

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
@@ -21,6 +21,25 @@ if TYPE_CHECKING:
 class ConnectionOptions:
     """To what a simulation is connected, and how fast it runs then."""
 
+    ros1: Annotated[
+        bool,
+        in_group(
+            CONNECTED,
+            "--ros1",
+            help="Be a node of ROS 1: topics, services, /clock and /tf, at the master of "
+            "ROS_MASTER_URI; a master is started where none runs. ROS need not be installed.",
+        ),
+    ] = False
+    ros1_host: Annotated[
+        str | None,
+        in_group(
+            CONNECTED,
+            "--ros1-host",
+            metavar="ADDRESS",
+            help="Address of this computer at which ROS 1 nodes on others reach it [127.0.0.1: "
+            "nodes on this computer only].",
+        ),
+    ] = None
     ros2: Annotated[
         bool,
         in_group(
@@ -53,7 +72,7 @@ class ConnectionOptions:
     @property
     def is_connected(self) -> bool:
         """Whether there is any connection."""
-        return self.ros2
+        return self.ros1 or self.ros2
 
     @property
     def pace(self) -> float:
@@ -65,6 +84,9 @@ class ConnectionOptions:
         with wrong.kept():
             if self.domain is not None and not self.ros2:
                 raise BadSetting("--domain is of --ros2.")
+        with wrong.kept():
+            if self.ros1_host is not None and not self.ros1:
+                raise BadSetting("--ros1-host is of --ros1.")
         with wrong.kept():
             if not 0 <= self.pace < float("inf"):
                 raise BadSetting(f"--speed {self.pace:g}: expected 0 or more.")
@@ -85,21 +107,8 @@ class ConnectionOptions:
 @contextmanager
 def connected(simulation: Simulation, options: ConnectionOptions) -> Iterator[None]:
     """Connect a simulation, and pace it, within the block."""
-    bridges: list[Bridge] = []
-    try:
-        if options.ros2:
-            from ...middleware.ros2.adapter import Ros2
-            from ...middleware.ros2.settings import settings_from
-
-            bridges.append(
-                Ros2(
-                    simulation.bus,
-                    lambda: simulation.time,
-                    settings_from(os.environ, options.domain),
-                    more=os.environ.get("CYCLONEDDS_URI", ""),
-                )
-            )
-        for bridge in bridges:
+    with ExitStack() as stack:
+        for bridge in _bridges(simulation, options, stack):
             bridge.step()
             simulation.watch(bridge.step)
         if options.pace > 0:
@@ -107,6 +116,28 @@ def connected(simulation: Simulation, options: ConnectionOptions) -> Iterator[No
 
             simulation.watch(Pace(lambda: simulation.time, options.pace).step)
         yield
-    finally:
-        for bridge in bridges:
-            bridge.close()
+
+
+def _bridges(
+    simulation: Simulation, options: ConnectionOptions, stack: ExitStack
+) -> Iterator[Bridge]:
+    """Open what the options ask for; ``stack`` closes it."""
+    if options.ros1:
+        from ...middleware.ros1 import Ros1Options, connect
+
+        ros1_options = Ros1Options(host=options.ros1_host or "127.0.0.1")
+        connection = connect(simulation.bus, lambda: simulation.time, ros1_options)
+        stack.callback(connection.close)
+        yield connection.bridge
+    if options.ros2:
+        from ...middleware.ros2.adapter import Ros2
+        from ...middleware.ros2.settings import settings_from
+
+        ros2 = Ros2(
+            simulation.bus,
+            lambda: simulation.time,
+            settings_from(os.environ, options.domain),
+            more=os.environ.get("CYCLONEDDS_URI", ""),
+        )
+        stack.callback(ros2.close)
+        yield ros2

@@ -1,0 +1,61 @@
+"""A simulation's bus in a ROS 1 graph, and a second one that stands for any other node."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.waiting import LIMIT, until
+from uwsim.bus import Bus
+from uwsim.middleware.log import Log
+from uwsim.middleware.ros1 import Master, Ros1Bridge
+
+TIMESTEP = 0.002
+
+
+class Graph:
+    """A master and nodes; to be closed."""
+
+    def __init__(self) -> None:
+        self.printed: list[str] = []
+        self.log = Log("test", self.printed.append)
+        self.master = Master(self.log)
+        self.nodes: list[Ros1Bridge] = []
+
+    def node(self, name: str = "/uwsim", **options: Any) -> Ros1Bridge:
+        """Add a node with a bus of its own."""
+        bus = Bus()
+        bridge = Ros1Bridge(
+            bus,
+            lambda: bus.step * TIMESTEP,
+            master=self.master.uri,
+            node=name,
+            log=self.log,
+            **{"poll": 0.05, "parameters": {}, **options},
+        )
+        self.nodes.append(bridge)
+        return bridge
+
+    def step(self) -> None:
+        """Take a step of every node's bus."""
+        for node in self.nodes:
+            node.bus.step += 1
+            node.bus.deliver()
+            node.step()
+
+    def ready(self) -> None:
+        """Wait until the master knows all."""
+        self.step()
+        assert all(node.wait(LIMIT) for node in self.nodes)
+
+    def connected(self, topic: str) -> None:
+        """Wait until a topic has a subscriber outside, and the bus knows."""
+        until(
+            lambda: self.nodes[0].n_connected(topic) and self.nodes[0].bus.has_readers(topic),
+            self.step,
+        )
+
+    def close(self) -> None:
+        """End all of it."""
+        for node in self.nodes:
+            node.close()
+        self.master.close()

@@ -1,0 +1,228 @@
+"""A bus in a ROS 1 graph: topics both ways, services both ways, clock, parameters, restarts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.middleware.ros1.nodes import Graph
+from tests.waiting import until
+from uwsim.errors import UwsimError
+from uwsim.messages import (
+    DVL,
+    EmptyResponse,
+    Float64,
+    GTpublish,
+    GTpublishResponse,
+    Image,
+    Odometry,
+    Time,
+    TwistStamped,
+    header,
+    image,
+)
+from uwsim.messages.services import Empty
+from uwsim.middleware.ros1 import Master
+from uwsim.middleware.ros1.xmlrpc import call
+from uwsim.middleware.types import message_class
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    made = Graph()
+    yield made
+    made.close()
+
+
+def heard_by(node: Any, topic: str, kind: type) -> list[Any]:
+    found: list[Any] = []
+    node.bus.subscribe(topic, kind, found.append)
+    return found
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        Odometry(header=header(2.5, "world"), child_frame_id="g500"),
+        DVL(header=header(2.5), bi_x_axis=0.25, bi_status="A"),
+        image(np.arange(320 * 240 * 3, dtype=np.uint8).reshape(240, 320, 3), time=2.5),
+    ],
+    ids=lambda message: type(message).__name__,
+)
+def test_a_message_arrives_as_it_was_sent(graph: Graph, message: Any) -> None:
+    sim, other = graph.node(), graph.node("/other")
+    publish = sim.bus.publisher("/topic", type(message))
+    found = heard_by(other, "topic", type(message))
+    graph.ready()
+    graph.connected("/topic")
+    publish(message)
+    until(lambda: found, graph.step)
+    assert found[0].header == message.header
+    assert repr(found[0]) == repr(message)
+
+
+def test_a_topic_without_subscribers_outside_is_not_read(graph: Graph) -> None:
+    sim, other = graph.node(), graph.node("/other")
+    sim.bus.publisher("camera", Image)
+    graph.ready()
+    assert not sim.bus.has_readers("camera")
+    stop = other.bus.subscribe("camera", Image, print)
+    graph.ready()
+    graph.connected("/camera")
+    stop()
+    until(lambda: not sim.bus.has_readers("camera"), graph.step)
+
+
+def test_a_command_from_outside_arrives_with_its_stamp_in_simulation_time(graph: Graph) -> None:
+    sim, other = graph.node(), graph.node("/other")
+    found = heard_by(sim, "twist", TwistStamped)
+    publish = other.bus.publisher("twist", TwistStamped)
+    graph.ready()
+    until(lambda: other.bus.has_readers("twist"), graph.step)
+    for i in range(20):
+        publish(TwistStamped(header=header(0.5 + i)))
+    until(lambda: len(found) == 20, graph.step)
+    assert [each.header.stamp for each in found] == [
+        Time(sec=i, nanosec=500_000_000) for i in range(20)
+    ]
+
+
+def test_the_clock_begins_at_one_second(graph: Graph) -> None:
+    sim, other = graph.node(), graph.node("/other")
+    clock = message_class("rosgraph_msgs/Clock")
+    found = heard_by(other, "clock", clock)
+    graph.ready()
+    until(lambda: sim.n_connected("/clock") and found, graph.step)
+    assert found[0].clock.sec >= 1
+
+
+def test_a_service_is_called_from_outside(graph: Graph) -> None:
+    sim, other = graph.node(), graph.node("/other")
+    asked: list[Any] = []
+
+    def answer(request: GTpublish) -> GTpublishResponse:
+        asked.append(request)
+        return GTpublishResponse()
+
+    sim.bus.serve("vision/init", GTpublish, answer)
+    graph.ready()
+    assert other.bus.serves("/vision/init")
+    import threading
+
+    results: list[object] = []
+    request = GTpublish(np.arange(8, dtype=np.float32))
+    caller = threading.Thread(
+        target=lambda: results.append(other.bus.call("vision/init", request)), daemon=True
+    )
+    caller.start()
+    until(lambda: results, sim.step)
+    assert results == [GTpublishResponse()]
+    assert asked[0].groundTruth.tolist() == list(range(8))
+
+
+def test_a_service_that_fails_is_an_error_of_the_caller(graph: Graph) -> None:
+    sim, other = graph.node(), graph.node("/other")
+
+    def answer(request: Empty) -> EmptyResponse:
+        raise UwsimError("the arm is stuck")
+
+    sim.bus.serve("reset", Empty, answer)
+    graph.ready()
+    import threading
+
+    errors: list[str] = []
+
+    def ask() -> None:
+        try:
+            other.bus.call("reset", Empty())
+        except UwsimError as error:
+            errors.append(str(error))
+
+    threading.Thread(target=ask, daemon=True).start()
+    until(lambda: errors, sim.step)
+    assert "the arm is stuck" in errors[0]
+
+
+def test_a_service_of_another_type_is_refused(graph: Graph) -> None:
+    sim, other = graph.node(), graph.node("/other")
+    sim.bus.serve("reset", Empty, lambda request: EmptyResponse())
+    graph.ready()
+    with pytest.raises(UwsimError, match="service is std_srvs/Empty"):
+        other.bus.call("reset", GTpublish(np.zeros(8, np.float32)))
+
+
+def test_a_service_that_nobody_has_is_not_served(graph: Graph) -> None:
+    sim = graph.node()
+    graph.ready()
+    assert not sim.bus.serves("nothing")
+
+
+def test_a_topic_of_another_type_is_refused_on_both_sides(graph: Graph) -> None:
+    sim, other = graph.node(), graph.node("/other")
+    sim.bus.publisher("depth", Float64)
+    other.bus.subscribe("depth", Odometry, print)
+    graph.ready()
+    until(lambda: any("topic /depth carries std_msgs/Float64" in x for x in graph.printed))
+    assert sim.n_connected("/depth") == 0
+
+
+def test_parameters_are_set_while_the_node_is_there_and_put_back(graph: Graph) -> None:
+    call(graph.master.uri, "setParam", "/x", "/use_sim_time", False)
+    sim = graph.node(parameters={"/use_sim_time": True, "/uwsim/seed": 7})
+    graph.ready()
+    until(lambda: sim.get_parameter("/uwsim/seed") == 7)
+    assert sim.get_parameter("/use_sim_time") is True
+    assert sim.get_parameter("/nothing") is None
+    sim.set_parameter("/gain", 0.5)
+    assert sim.get_parameter("/gain") == 0.5
+    sim.close()
+    graph.nodes.clear()
+    assert call(graph.master.uri, "getParam", "/x", "/use_sim_time") is False
+    assert call(graph.master.uri, "hasParam", "/x", "/uwsim/seed") is False
+    assert call(graph.master.uri, "getSystemState", "/x") == [[], [], []]
+
+
+def test_a_master_that_is_restarted_knows_the_node_again(graph: Graph) -> None:
+    sim = graph.node()
+    sim.bus.publisher("depth", Float64)
+    graph.ready()
+    port = int(graph.master.uri.rsplit(":", 1)[1].strip("/"))
+    graph.master.close()
+    until(lambda: any("is tried again" in line for line in graph.printed))
+    graph.step()
+    graph.master = Master(graph.log, port=port)
+    until(lambda: _topics(graph.master) == ["/clock", "/depth", "/rosout"])
+    assert any("restarted" in line for line in graph.printed)
+
+
+def _topics(master: Master) -> list[str]:
+    return [name for name, _ in call(master.uri, "getPublishedTopics", "/x", "")]
+
+
+def test_a_node_whose_name_is_taken_leaves_the_graph(graph: Graph) -> None:
+    first = graph.node()
+    graph.ready()
+    second = graph.node()
+    until(lambda: any("leave" in line for line in graph.printed), graph.step)
+    until(lambda: call(graph.master.uri, "lookupNode", "/x", "/uwsim") == second.uri)
+    first.step()
+
+
+def test_what_happens_is_on_rosout(graph: Graph) -> None:
+    from uwsim.middleware.ros1.tcpros import encode_header, open_connection, read_frame, read_header
+
+    sim = graph.node()
+    graph.ready()
+    place = call(sim.uri, "requestTopic", "/x", "/rosout", [["TCPROS"]])
+    peer = open_connection(place[1], place[2], 60.0)
+    peer.sendall(encode_header({"callerid": "/x", "md5sum": "*", "topic": "/rosout", "type": "*"}))
+    assert read_header(peer)["type"] == "rosgraph_msgs/Log"
+    until(lambda: sim.n_connected("/rosout"))
+    sim.log.say("something happened")
+    frame = read_frame(peer)
+    assert frame is not None
+    assert b"something happened" in frame
+    peer.close()

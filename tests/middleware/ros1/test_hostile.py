@@ -1,0 +1,250 @@
+"""Peers that send garbage, stall, flood or die: the simulation goes on and the log says it."""
+
+from __future__ import annotations
+
+import socket
+import struct
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.middleware.ros1.nodes import Graph
+from tests.waiting import LIMIT, until
+from uwsim.messages import Float64, Image, JointState, image
+from uwsim.middleware.encodings import to_ros1
+from uwsim.middleware.log import Log
+from uwsim.middleware.ros1.bridge import Ros1Bridge
+from uwsim.middleware.ros1.publication import QUEUE_BYTES, QUEUE_LENGTH
+from uwsim.middleware.ros1.tcpros import encode_header, framed, read_header
+from uwsim.middleware.ros1.xmlrpc import Answer, XmlRpcServer, call
+from uwsim.middleware.types import wire_type
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    made = Graph()
+    yield made
+    made.close()
+
+
+def port_of(node: Ros1Bridge, topic: str = "/clock") -> int:
+    return int(call(node.uri, "requestTopic", "/x", topic, [["TCPROS"]])[2])
+
+
+def connect(port: int) -> socket.socket:
+    return socket.create_connection(("127.0.0.1", port), LIMIT)
+
+
+def subscribe(node: Ros1Bridge, topic: str) -> socket.socket:
+    peer = connect(port_of(node, topic))
+    fields = {"callerid": "/x", "md5sum": "*", "topic": topic, "type": "*"}
+    peer.sendall(encode_header(fields))
+    read_header(peer)
+    return peer
+
+
+class FakePublisher:
+    """A node that publishes a topic with bytes of the test's choice."""
+
+    def __init__(self, graph: Graph, topic: str, kind: type) -> None:
+        self.server = socket.create_server(("127.0.0.1", 0))
+        self.server.settimeout(LIMIT)
+        port = self.server.getsockname()[1]
+
+        def request(*arguments: Any) -> Answer:
+            return [1, "", ["TCPROS", "127.0.0.1", port]]
+
+        self.node = XmlRpcServer(
+            "127.0.0.1", 0, {"requestTopic": request}, Log("test", print), "publisher"
+        )
+        uri = f"http://127.0.0.1:{self.node.port}/"
+        found = wire_type(kind)
+        assert found is not None
+        self.type = found
+        call(graph.master.uri, "registerPublisher", "/x", topic, found.ros1_name, uri)
+
+    def accept(self) -> socket.socket:
+        connection, _ = self.server.accept()
+        connection.settimeout(LIMIT)
+        read_header(connection)
+        fields = {"callerid": "/x", "md5sum": self.type.md5, "type": self.type.ros1_name}
+        connection.sendall(encode_header(fields))
+        return connection
+
+    def close(self) -> None:
+        self.server.close()
+        self.node.close()
+
+
+@pytest.mark.parametrize(
+    ("sent", "said"),
+    [
+        (b"", "without a header"),
+        (b"\xde\xad\xbe\xef" * 100, "announces"),
+        (b"\x10\x00\x00\x00abc", "after 3 of 16 bytes"),
+        (encode_header({"topic": "/nothing"}), "is not published here"),
+        (encode_header({"service": "/nothing"}), "is not offered here"),
+        (encode_header({"topic": "/depth", "md5sum": "0" * 32}), "carries std_msgs/Float64"),
+        (encode_header({"no": "thing"}), "is not published here"),
+    ],
+)
+def test_garbage_on_the_port_is_reported(graph: Graph, sent: bytes, said: str) -> None:
+    sim = graph.node()
+    sim.bus.publisher("depth", Float64)
+    graph.ready()
+    with connect(port_of(sim)) as peer:
+        peer.sendall(sent)
+        peer.shutdown(socket.SHUT_WR)
+        while peer.recv(4096):
+            pass
+    until(lambda: any(said in line for line in graph.printed), graph.step)
+    assert call(sim.uri, "getPid", "/x") > 0
+
+
+def test_a_client_that_sends_no_header_is_left(graph: Graph) -> None:
+    sim = graph.node(header_timeout=0.05)
+    graph.ready()
+    with connect(port_of(sim)) as peer:
+        assert peer.recv(1) == b""
+    until(lambda: any("sends nothing" in line for line in graph.printed), graph.step)
+
+
+def test_a_subscriber_that_stalls_costs_bounded_memory_and_no_time(graph: Graph) -> None:
+    sim = graph.node(send_timeout=0.2)
+    publish = sim.bus.publisher("camera", Image)
+    graph.ready()
+    peer = subscribe(sim, "/camera")
+    graph.connected("/camera")
+    pixels = np.zeros((480, 640, 3), np.uint8)
+    n_bytes_held = []
+    for i in range(200):
+        publish(image(pixels, time=float(i)))
+        graph.step()
+        (queue,) = sim._publications["/camera"]._queues or [None]
+        if queue is not None:
+            n_bytes_held.append(len(queue) * pixels.nbytes)
+    assert max(n_bytes_held) <= QUEUE_BYTES + pixels.nbytes
+    until(lambda: any("does not read" in line for line in graph.printed), graph.step)
+    assert any("too slowly" in line for line in graph.printed)
+    until(lambda: not sim.bus.has_readers("camera"), graph.step)
+    peer.close()
+
+
+def test_a_subscriber_killed_in_mid_transfer_is_forgotten(graph: Graph) -> None:
+    sim = graph.node()
+    publish = sim.bus.publisher("camera", Image)
+    graph.ready()
+    peer = subscribe(sim, "/camera")
+    graph.connected("/camera")
+    publish(image(np.zeros((480, 640, 3), np.uint8), time=0.0))
+    graph.step()
+    assert peer.recv(1000)
+    peer.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    peer.close()  # with a reset
+    until(lambda: not sim.bus.has_readers("camera"), graph.step)
+
+
+def test_a_flood_of_messages_is_bounded(graph: Graph) -> None:
+    sim = graph.node()
+    found: list[Float64] = []
+    sim.bus.subscribe("cmd", Float64, found.append)
+    graph.ready()
+    publisher = FakePublisher(graph, "/cmd", Float64)
+    connection = publisher.accept()
+    frames = b"".join(framed(to_ros1(Float64(data=float(i)))) for i in range(100_000))
+    connection.sendall(frames)
+    last = 99_999.0
+    until(lambda: _newest(sim, "cmd") == last)
+    graph.step()
+    assert found[-1].data == last
+    assert len(found) <= 1000
+    assert any("faster than the simulation takes them" in line for line in graph.printed)
+    connection.close()
+    publisher.close()
+
+
+def _newest(sim: Ros1Bridge, topic: str) -> float | None:
+    queue = sim._incoming.get(topic)
+    items = list(queue._items) if queue else []
+    return items[-1][0].data if items else None  # type: ignore[attr-defined]
+
+
+def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph: Graph) -> None:
+    sim = graph.node()
+    found: list[JointState] = []
+    sim.bus.subscribe("joints", JointState, found.append)
+    graph.ready()
+    publisher = FakePublisher(graph, "/joints", JointState)
+    connection = publisher.accept()
+    connection.sendall(
+        framed(b"\xff" * 100) + framed(b"") + framed(to_ros1(JointState(name=["a"])))
+    )
+    until(lambda: found, graph.step)
+    assert found[0].name == ["a"]
+    assert any("100 bytes are no sensor_msgs/msg/JointState" in line for line in graph.printed)
+    connection.close()
+    publisher.close()
+
+
+@pytest.mark.parametrize(
+    ("sent", "said"),
+    [
+        (b"\xff\xff\xff\x7f", "announces 2147483647 bytes"),
+        (b"\x10\x00\x00\x00abc", "after 3 of 16 bytes"),
+        (b"\x10\x00", "in the middle of a length"),
+    ],
+)
+def test_a_publisher_that_breaks_off_is_tried_again(graph: Graph, sent: bytes, said: str) -> None:
+    sim = graph.node()
+    found: list[Float64] = []
+    sim.bus.subscribe("cmd", Float64, found.append)
+    graph.ready()
+    publisher = FakePublisher(graph, "/cmd", Float64)
+    connection = publisher.accept()
+    connection.sendall(sent)
+    connection.close()
+    until(lambda: any(said in line for line in graph.printed), graph.step)
+    again = publisher.accept()
+    again.sendall(framed(to_ros1(Float64(data=3.0))))
+    until(lambda: found, graph.step)
+    again.close()
+    publisher.close()
+
+
+def test_a_publisher_that_does_not_exist_is_reported(graph: Graph) -> None:
+    sim = graph.node()
+    sim.bus.subscribe("cmd", Float64, print)
+    graph.ready()
+    call(graph.master.uri, "registerPublisher", "/x", "/cmd", "std_msgs/Float64", "http://[bad")
+    call(graph.master.uri, "registerPublisher", "/y", "/cmd", "*", "http://127.0.0.1:1/")
+    until(lambda: sum("publisher http://" in line for line in graph.printed) >= 2, graph.step)
+
+
+def test_a_client_of_a_service_that_sends_garbage_gets_an_error(graph: Graph) -> None:
+    from uwsim.messages import GTpublish, GTpublishResponse
+
+    sim = graph.node()
+    sim.bus.serve("init", GTpublish, lambda request: GTpublishResponse())
+    graph.ready()
+    with connect(port_of(sim)) as peer:
+        peer.sendall(encode_header({"callerid": "/x", "md5sum": "*", "service": "/init"}))
+        read_header(peer)
+        peer.sendall(framed(b"\xff\xff\xff\xff"))
+        assert peer.recv(1) == b"\x00"
+
+
+def test_many_connections_are_bounded(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("uwsim.middleware.ros1.listener.MAX_CONNECTIONS", 5)
+    sim = graph.node()
+    graph.ready()
+    port = port_of(sim)
+    peers = [connect(port) for _ in range(8)]
+    until(
+        lambda: any("more than 5 connections" in x or "one is refused" in x for x in graph.printed)
+    )
+    for peer in peers:
+        peer.close()
+    until(lambda: not sim._listener.n_connections)
+    assert QUEUE_LENGTH > 0

@@ -1,0 +1,169 @@
+"""The small master: registrations, look-ups, updates, parameters."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from tests.waiting import until
+from uwsim.middleware.log import Log
+from uwsim.middleware.ros1.master import Master
+from uwsim.middleware.ros1.tcpros import PeerError
+from uwsim.middleware.ros1.xmlrpc import MAX_REQUEST, Answer, Refused, XmlRpcServer, call
+
+NODE = "http://127.0.0.1:1/"
+
+
+@pytest.fixture
+def printed() -> list[str]:
+    return []
+
+
+@pytest.fixture
+def master(printed: list[str]) -> Iterator[Master]:
+    made = Master(Log("test", printed.append))
+    yield made
+    made.close()
+
+
+def test_topics_are_registered_and_listed(master: Master) -> None:
+    register = ("/sim", "odom", "nav_msgs/Odometry", NODE)
+    assert call(master.uri, "registerPublisher", *register) == []
+    assert call(master.uri, "registerSubscriber", "/echo", "/odom", "*", "http://x:2/") == [NODE]
+    assert call(master.uri, "registerPublisher", *register) == ["http://x:2/"]
+    assert call(master.uri, "getPublishedTopics", "/x", "") == [["/odom", "nav_msgs/Odometry"]]
+    assert call(master.uri, "getTopicTypes", "/x") == [["/odom", "nav_msgs/Odometry"]]
+    assert call(master.uri, "lookupNode", "/x", "/sim") == NODE
+    assert call(master.uri, "getSystemState", "/x") == [
+        [["/odom", ["/sim"]]],
+        [["/odom", ["/echo"]]],
+        [],
+    ]
+    assert call(master.uri, "unregisterPublisher", "/sim", "/odom", NODE) == 1
+    assert call(master.uri, "unregisterPublisher", "/sim", "/odom", NODE) == 0
+    assert call(master.uri, "getPublishedTopics", "/x", "") == []
+
+
+def test_services_are_found(master: Master) -> None:
+    call(master.uri, "registerService", "/sim", "/reset", "rosrpc://127.0.0.1:5", NODE)
+    assert call(master.uri, "lookupService", "/x", "/reset") == "rosrpc://127.0.0.1:5"
+    call(master.uri, "unregisterService", "/sim", "/reset", "rosrpc://127.0.0.1:5")
+    with pytest.raises(Refused, match="no provider"):
+        call(master.uri, "lookupService", "/x", "/reset")
+
+
+def test_subscribers_hear_of_new_publishers(master: Master, printed: list[str]) -> None:
+    heard: list[tuple[Any, ...]] = []
+
+    def update(*arguments: Any) -> Answer:
+        heard.append(arguments)
+        return [1, "", 0]
+
+    node = XmlRpcServer(
+        "127.0.0.1", 0, {"publisherUpdate": update}, Log("test", printed.append), "node"
+    )
+    uri = f"http://127.0.0.1:{node.port}/"
+    call(master.uri, "registerSubscriber", "/echo", "/odom", "*", uri)
+    call(master.uri, "registerPublisher", "/sim", "/odom", "nav_msgs/Odometry", NODE)
+    until(lambda: heard)
+    assert heard[0] == ("/master", "/odom", [NODE])
+    node.close()
+
+
+def test_a_second_node_of_the_same_name_ends_the_first(master: Master, printed: list[str]) -> None:
+    ended: list[tuple[Any, ...]] = []
+
+    def shutdown(*arguments: Any) -> Answer:
+        ended.append(arguments)
+        return [1, "", 0]
+
+    node = XmlRpcServer("127.0.0.1", 0, {"shutdown": shutdown}, Log("test", printed.append), "node")
+    uri = f"http://127.0.0.1:{node.port}/"
+    call(master.uri, "registerPublisher", "/sim", "/a", "std_msgs/String", uri)
+    call(master.uri, "registerPublisher", "/sim", "/b", "std_msgs/String", NODE)
+    until(lambda: ended)
+    assert "/sim" in ended[0][1]
+    assert call(master.uri, "getPublishedTopics", "/x", "") == [["/b", "std_msgs/String"]]
+    node.close()
+
+
+def test_parameters_are_a_tree(master: Master) -> None:
+    uri = master.uri
+    call(uri, "setParam", "/sim", "/g500/num_actuators", 5)
+    call(uri, "setParam", "/g500/control", "dynamics", {"mass": 98.0})
+    call(uri, "setParam", "/sim", "~seed", 3)
+    assert call(uri, "getParam", "/x", "/g500") == {"num_actuators": 5, "dynamics": {"mass": 98.0}}
+    assert call(uri, "getParam", "/x", "/sim/seed") == 3
+    assert call(uri, "getParam", "/g500/control", "dynamics/mass") == 98.0
+    assert call(uri, "hasParam", "/x", "/g500/dynamics/mass") is True
+    assert call(uri, "searchParam", "/g500/control", "num_actuators") == "/g500/num_actuators"
+    assert call(uri, "getParamNames", "/x") == [
+        "/g500/dynamics/mass",
+        "/g500/num_actuators",
+        "/sim/seed",
+    ]
+    call(uri, "deleteParam", "/x", "/g500/dynamics")
+    assert call(uri, "hasParam", "/x", "/g500/dynamics") is False
+    with pytest.raises(Refused, match="is not set"):
+        call(uri, "getParam", "/x", "/g500/dynamics")
+    with pytest.raises(Refused, match="not set"):
+        call(uri, "deleteParam", "/x", "/nothing")
+    with pytest.raises(Refused, match="Cannot find"):
+        call(uri, "searchParam", "/x", "nothing")
+
+
+def test_a_subscriber_of_a_parameter_hears_of_its_change(
+    master: Master, printed: list[str]
+) -> None:
+    heard: list[tuple[Any, ...]] = []
+
+    def update(*arguments: Any) -> Answer:
+        heard.append(arguments)
+        return [1, "", 0]
+
+    node = XmlRpcServer(
+        "127.0.0.1", 0, {"paramUpdate": update}, Log("test", printed.append), "node"
+    )
+    uri = f"http://127.0.0.1:{node.port}/"
+    assert call(master.uri, "subscribeParam", "/x", uri, "/gain") == {}
+    call(master.uri, "setParam", "/x", "/gain", 0.5)
+    until(lambda: heard)
+    assert heard[0] == ("/master", "/gain/", 0.5)
+    assert call(master.uri, "unsubscribeParam", "/x", uri, "/gain") == 1
+    node.close()
+
+
+@pytest.mark.parametrize(
+    "sent",
+    [
+        b"\x00\xff" * 50,
+        b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\n<a><b",
+        b"POST / HTTP/1.1\r\nContent-Length: many\r\n\r\n",
+        b"POST / HTTP/1.1\r\nContent-Length: %d\r\n\r\n" % (MAX_REQUEST + 1),
+        b"POST / HTTP/1.1\r\nContent-Length: 100\r\n\r\nshort",
+        b"GET / HTTP/1.1\r\n\r\n",
+    ],
+)
+def test_garbage_does_not_end_it(master: Master, sent: bytes) -> None:
+    port = int(master.uri.rsplit(":", 1)[1].strip("/"))
+    with socket.create_connection(("127.0.0.1", port), 60.0) as peer:
+        peer.sendall(sent)
+        peer.shutdown(socket.SHUT_WR)
+        while peer.recv(4096):
+            pass
+    assert call(master.uri, "getUri", "/x") == master.uri
+
+
+def test_what_is_no_answer_of_ros_is_one_clean_error(printed: list[str]) -> None:
+    odd: dict[str, Any] = {"getUri": lambda caller: "hello", "getPid": lambda caller: 1 / 0}
+    server = XmlRpcServer("127.0.0.1", 0, odd, Log("test", printed.append), "node")
+    uri = f"http://127.0.0.1:{server.port}/"
+    for method in ("getUri", "getPid", "nothing"):
+        with pytest.raises(PeerError, match="gives no answer of ROS"):
+            call(uri, method, "/x")
+    server.close()
+    with pytest.raises(PeerError, match="does not answer"):
+        call(uri, "getUri", "/x")

@@ -1,0 +1,97 @@
+"""Frames and headers of TCPROS."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Iterator
+
+import pytest
+
+from uwsim.middleware.ros1.tcpros import (
+    MAX_MESSAGE,
+    PeerError,
+    decode_header,
+    encode_header,
+    framed,
+    has_left,
+    open_connection,
+    read_frame,
+    read_header,
+    write,
+)
+
+FIELDS = {"callerid": "/echo", "md5sum": "*", "topic": "/odom", "message_definition": "a=b\n=c"}
+
+
+@pytest.fixture
+def pair() -> Iterator[tuple[socket.socket, socket.socket]]:
+    here, there = socket.socketpair()
+    here.settimeout(60.0)
+    with here, there:
+        yield here, there
+
+
+def test_a_header_is_read_as_it_was_written(pair: tuple[socket.socket, socket.socket]) -> None:
+    here, there = pair
+    there.sendall(encode_header(FIELDS))
+    assert read_header(here) == FIELDS
+
+
+def test_a_header_of_rospy_is_read() -> None:
+    body = b"\x12\x00\x00\x00callerid=/listener" + b"\x0d\x00\x00\x00topic=/a=b/c "
+    assert decode_header(body) == {"callerid": "/listener", "topic": "/a=b/c "}
+
+
+@pytest.mark.parametrize(
+    ("sent", "error"),
+    [
+        (b"", "without a header"),
+        (b"\x01\x00", "in the middle of a length"),
+        (b"\x09\x00\x00\x00abc", "after 3 of 9 bytes"),
+        (b"\xff\xff\xff\xff", "announces 4294967295 bytes"),
+        (b"GET / HTTP/1.1\r\n\r\n", "announces 542393671 bytes"),
+        (framed(b"\x01\x00"), "cut off"),
+        (framed(b"\x03\x00\x00\x00abc"), "not made of fields"),
+        (framed(b"\xff\x00\x00\x00a=b"), "not made of fields"),
+        (encode_header({"error": "no such topic"}), "it refuses: no such topic"),
+    ],
+)
+def test_garbage_is_one_clean_error(
+    pair: tuple[socket.socket, socket.socket], sent: bytes, error: str
+) -> None:
+    here, there = pair
+    there.sendall(sent)
+    there.shutdown(socket.SHUT_WR)
+    with pytest.raises(PeerError, match=error):
+        read_header(here)
+
+
+def test_a_frame_is_read_and_the_end_is_none(pair: tuple[socket.socket, socket.socket]) -> None:
+    here, there = pair
+    there.sendall(framed(b"abc") + framed(b""))
+    there.shutdown(socket.SHUT_WR)
+    assert [read_frame(here), read_frame(here), read_frame(here)] == [b"abc", b"", None]
+    assert has_left(here)
+
+
+def test_a_long_frame_is_refused_before_it_is_read(
+    pair: tuple[socket.socket, socket.socket],
+) -> None:
+    here, there = pair
+    there.sendall((MAX_MESSAGE + 1).to_bytes(4, "little"))
+    with pytest.raises(PeerError, match="at most"):
+        read_frame(here)
+
+
+def test_a_peer_that_does_not_read_is_an_error(pair: tuple[socket.socket, socket.socket]) -> None:
+    here, _ = pair
+    here.settimeout(0.05)
+    with pytest.raises(PeerError, match="does not read"):
+        write(here, bytes(64 * 2**20))
+
+
+def test_nobody_there_is_one_clean_error() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+    with pytest.raises(PeerError, match="cannot be reached"):
+        open_connection("127.0.0.1", port, 60.0)
