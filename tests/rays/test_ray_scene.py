@@ -55,6 +55,19 @@ def test_rays_find_what_a_look_at_every_triangle_finds() -> None:
     assert set(hits.surface[~np.isfinite(expected)]) == {-1}
 
 
+def test_a_ray_finds_the_same_among_its_neighbours_and_far_from_them() -> None:
+    """Eight neighbours go down the tree together; rays that go apart each alone."""
+    scene = RayScene([[Surface(1, soup(300, seed=3))], [Surface(2, soup(300, seed=4), True)]])
+    angles = np.linspace(-math.pi, math.pi, 1001)
+    ways = np.stack([np.sin(angles), 0.1 * np.cos(7 * angles), np.cos(angles)], axis=1)
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    order = np.random.default_rng(5).permutation(len(ways))
+    together, apart = scene.cast(HERE, ways, 100.0), scene.cast(HERE, ways[order], 100.0)
+    assert 100 < np.isfinite(together.distance).sum()
+    for one, other in zip(together, apart, strict=True):
+        np.testing.assert_array_equal(one[order], other)
+
+
 def test_normals_are_those_of_the_face_and_point_back() -> None:
     pose = Pose(np.array([0.0, 0.0, 3.0]), np.eye(3))
     tilted = square(10.0) @ rotation_from_rpy(0.3, 0.2, 0.0).T

@@ -150,6 +150,8 @@ def received(
                 for k in range(n):
                     heard[k] += weight * power[bin, k + tap]
             for k in range(n):
+                heard[k] = math.sqrt(heard[k])
+            for k in range(n):
                 beam = phase + k * n_phases
-                amplitude[bin, beam] = math.sqrt(heard[k]) * speckle[random[bin, beam]]
+                amplitude[bin, beam] = heard[k] * speckle[random[bin, beam]]
     return amplitude
