@@ -35,6 +35,8 @@ TYPES = {
     "RangeCameraToPCL": ("sensor_msgs/msg/PointCloud2",),
     "CustomCommsDeviceROS": ("geometry_msgs/msg/Pose",),
     "AcousticCommsDeviceROS": ("geometry_msgs/msg/Pose",),
+    "batteryToROS": ("sensor_msgs/msg/BatteryState",),
+    "motorCurrentsToROS": ("sensor_msgs/msg/JointState",),
     "sonarToROS": ("marine_acoustic_msgs/msg/ProjectedSonarImage", "sensor_msgs/msg/Image"),
 }
 """Element -> the message types that it may publish."""

@@ -88,6 +88,13 @@ class MovingBody(Body, Protocol):
         In its axes, in the last step; 0 where the scene has no physics.
         """
 
+    def joint_wrench(self) -> npt.NDArray[np.float64]:
+        """Return what its link, and all beyond it, does to the joint that carries it, (6,).
+
+        Force [N] and torque about its origin [N m], in its axes, in the last step, with the water
+        on these links; 0 for a vehicle that is not simulated.
+        """
+
 
 class Camera(Protocol):
     """A virtual camera of a vehicle."""

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.simulation.small_robots import scene_of, shape, write_robot
+from tests.simulation.small_robots import joint, scene_of, shape, write_robot
 from uwsim.devices.force_sensor import ForceSensorSpec
 from uwsim.geometry import rotation_from_rpy
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
@@ -109,3 +109,91 @@ def test_two_runs_are_the_same_to_the_last_bit() -> None:
     first, second = measured(scene, 0.5), measured(scene, 0.5)
     assert first.any()
     assert first.tobytes() == second.tobytes()
+
+
+BODY = (
+    '<body link="{}"><volume>{}</volume><addedMass>{} {} {} 0.1 0.1 0.1</addedMass>'
+    "<quadraticDamping>{} {} {} 1 1 1</quadraticDamping></body>"
+)
+
+
+def with_a_wrist(
+    folder: Path,
+    *,
+    mass: float,
+    volume: float,
+    added: float = 0.0,
+    drag: float = 0.0,
+    tool: tuple[float, float, float] = (5.0, 0.001, 0.0),
+) -> SceneSpec:
+    """A base of ``mass`` and ``volume`` with a tool 0.5 m ahead of it, on a fixed wrist.
+
+    ``added`` and ``drag`` are those of the base; the ``tool`` has mass [kg], volume [m3] and added
+    mass [kg], its middle 0.1 m ahead of the wrist.
+    """
+    tool_mass, tool_volume, tool_added = tool
+    bodies = (
+        BODY.format("base_link", volume, added, added, added, drag, drag, drag),
+        BODY.format("tool", tool_volume, tool_added, tool_added, tool_added, 0, 0, 0).replace(
+            "</body>",
+            "<centreOfBuoyancy> <x>0.1</x> <y>0</y> <z>0</z> </centreOfBuoyancy>"
+            "<reference> <x>0.1</x> <y>0</y> <z>0</z> </reference></body>",
+        ),
+    )
+    (folder / "mine.xml").write_text(
+        f'<hydrodynamics name="mine"><source>A test.</source>{"".join(bodies)}</hydrodynamics>'
+    )
+    inertial = '<inertial><origin xyz="{} 0 0"/><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}"/></inertial>'  # fmt: skip  # noqa: E501
+    heavy = inertial.format(0.0, mass, mass, mass, mass)
+    light = inertial.format(0.1, tool_mass, 0.01, 0.01, 0.01)
+    robot = write_robot(
+        folder,
+        f'<link name="base_link">{heavy}</link><link name="tool">{light}</link>'
+        + joint("wrist", "base_link tool", xyz="0.5 0 0"),
+    )
+    wrist = ForceSensorSpec(name="force", target="tool", measures="joint")
+    vehicle = VehicleSpec(
+        name="rov", file=str(robot), dynamics="mine", position=(0.0, 0.0, -20.0), parts=(wrist,)
+    )
+    scene = scene_of(vehicle, ros_interfaces=(TOPIC,))
+    return replace(scene, path=str(folder / "scene.xml"))
+
+
+@pytest.mark.parametrize(("mass", "volume"), [(5.0, 0.001), (2.0, 0.003)])
+def test_a_wrist_weighs_what_hangs_on_it_in_water(
+    tmp_path: Path, mass: float, volume: float
+) -> None:
+    scene = with_a_wrist(tmp_path, mass=50000.0, volume=50.0, tool=(mass, volume, 0.0))
+    force = -9.81 * (mass - 1000.0 * volume)
+    wrench = measured(scene, 0.2)
+    assert wrench[2] == pytest.approx(force, rel=0.02)
+    assert wrench[4] == pytest.approx(-0.1 * force, rel=0.02)  # about y: ahead of it, it pulls down
+    assert wrench[[0, 1, 3, 5]] == pytest.approx(np.zeros(4), abs=0.01)
+
+
+def test_a_wrist_feels_inertia_and_added_mass(tmp_path: Path) -> None:
+    """As the vehicle begins to sink, the tool's added mass holds it back."""
+    mass, volume, added = 1000.0, 0.9, 20.0
+    scene = with_a_wrist(tmp_path, mass=mass, volume=volume, tool=(5.0, 0.005, added))
+    wrench = measured(scene, 0.02)
+    sinks = 9.81 * (mass - 1000.0 * volume) / (mass + 5.0 + added)
+    assert wrench[2] == pytest.approx((5.0 + added) * sinks, rel=0.02)
+
+
+def test_what_a_wrist_measures_does_not_depend_on_who_else_asks(tmp_path: Path) -> None:
+    scene = with_a_wrist(tmp_path, mass=1000.0, volume=0.9)
+    alone = measured(scene, 0.1)
+    with Simulation(scene, is_blind=True) as simulation:
+        simulation.latest("/force")
+        for _ in range(50):
+            simulation.advance()
+            simulation.world.body("rov/tool").world_from_body  # noqa: B018
+        simulation.advance()
+        force = simulation.latest("/force").wrench.force
+    assert [force.x, force.y, force.z] == alone[:3].tolist()
+
+
+def test_a_vehicle_that_is_not_simulated_has_no_forces_at_its_wrist(tmp_path: Path) -> None:
+    scene = with_a_wrist(tmp_path, mass=1000.0, volume=1.0)
+    vehicle = replace(scene.vehicles[0], dynamics=None)
+    assert not measured(replace(scene, vehicles=(vehicle,)), 0.1).any()

@@ -1,6 +1,7 @@
 """Devices of vehicles: lamps, faults, grippers, communication; one file each."""
 
 from ..schema import NAMESPACE
+from .battery import BatterySpec
 from .comms.acoustic_comms_device import AcousticCommsDeviceSpec
 from .comms.custom_comms_device import CustomCommsDeviceSpec
 from .dredge_tool import DredgeToolSpec
@@ -9,6 +10,7 @@ from .fault import FaultSpec
 from .force_sensor import ForceSensorSpec
 from .lamp import LampSpec
 from .led_array import LedArraySpec
+from .motor_currents import MotorCurrentsSpec
 from .object_picker import ObjectPickerSpec
 from .structured_light_projector import StructuredLightProjectorSpec
 from .sway import SwaySpec
@@ -25,6 +27,8 @@ DEVICES: dict[str, type] = {
     f"{{{NAMESPACE}}}lamp": LampSpec,
     f"{{{NAMESPACE}}}sway": SwaySpec,
     f"{{{NAMESPACE}}}fault": FaultSpec,
+    f"{{{NAMESPACE}}}battery": BatterySpec,
+    f"{{{NAMESPACE}}}motorCurrents": MotorCurrentsSpec,
 }
 """Element of a vehicle -> spec; ours last. One without ``bind`` is read and not simulated."""
 

@@ -1,4 +1,4 @@
-r"""The wrench of contacts on a link.
+r"""The wrench of contacts on a link, or that at its joint.
 
 .. code-block:: xml
 
@@ -11,12 +11,17 @@ r"""The wrench of contacts on a link.
 It measures what other bodies do to the link where they touch it: a box of mass m and volume V that
 rests on it weighs :math:`(m - \rho V) g`. The link's own weight, the water and its joints are not
 measured. Without physics nothing is touched, and all is 0.
+
+``<u:measures>joint</u:measures>`` makes it a force-torque sensor in the joint that carries the
+link, as in a wrist: it measures what the link, and all that is beyond it or held by it, does to
+that joint by weight, contacts and inertia, and by the water's buoyancy, drag and added mass. A
+weight that hangs on it pulls down. Only a vehicle with ``<u:dynamics>`` has such forces.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from ..messages import Vector3, Wrench, WrenchStamped, header
 from ..schema import REQUIRED, element
@@ -42,6 +47,9 @@ class ForceSensorSpec(DeviceSpec):
     """Of the sensor on the link [m]."""
     offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
     """Of the sensor on the link, about x, y, z: Rz Ry Rx [rad]."""
+    measures: Literal["contacts", "joint"] = element(namespaced=True, default="contacts")
+    """The wrench of the ``contacts`` on the link, or that of the link on the ``joint`` that carries
+    it."""
 
     @property
     def relative_to(self) -> str:
@@ -60,17 +68,19 @@ class ForceSensorSpec(DeviceSpec):
 
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> ForceSensor:
         """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        return ForceSensor(self.name, vehicle.moving_mount(self, visual=True))
+        return ForceSensor(self, vehicle.moving_mount(self, visual=True))
 
 
 class ForceSensor(Device):
-    """Force and torque of the contacts on a link."""
+    """Force and torque of the contacts on a link, or at its joint."""
 
-    def __init__(self, name: str, mount: MovingBody) -> None:
-        self._name, self._mount = name, mount
+    def __init__(self, spec: ForceSensorSpec, mount: MovingBody) -> None:
+        self._name = spec.name
+        at_joint = spec.measures == "joint"
+        self._wrench = mount.joint_wrench if at_joint else mount.contact_wrench
 
     def sample(self, time: float) -> WrenchStamped:
         """Measure now, at ``time`` [s]."""
-        x, y, z, roll, pitch, yaw = self._mount.contact_wrench().tolist()
+        x, y, z, roll, pitch, yaw = self._wrench().tolist()
         wrench = Wrench(force=Vector3(x=x, y=y, z=z), torque=Vector3(x=roll, y=pitch, z=yaw))
         return WrenchStamped(header=header(time, self._name), wrench=wrench)

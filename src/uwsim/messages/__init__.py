@@ -21,6 +21,7 @@ from .services import (
 )
 from .sonar import PingInfo, ProjectedSonarImage, SonarImageData
 from .types import (
+    BatteryState,
     Bool,
     CameraInfo,
     ColorRGBA,
@@ -68,6 +69,7 @@ from .underwater import DVL, LedLight, Pressure
 
 __all__ = [
     "DVL",
+    "BatteryState",
     "Bool",
     "CameraInfo",
     "ColorRGBA",

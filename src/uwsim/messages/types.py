@@ -288,6 +288,32 @@ class JointState(ros.sensor_msgs__msg__JointState):
 
 
 @dataclass
+class BatteryState(ros.sensor_msgs__msg__BatteryState):
+    """Voltage [V], current [A], below 0 while it is drained, charge [A h] and share left [0..1]."""
+
+    header: Header = field(default_factory=Header)
+    voltage: float = 0.0
+    temperature: float = 0.0
+    current: float = 0.0
+    charge: float = 0.0
+    capacity: float = 0.0
+    design_capacity: float = 0.0
+    percentage: float = 0.0
+    power_supply_status: int = 0
+    power_supply_health: int = 0
+    power_supply_technology: int = 0
+    present: bool = False
+    cell_voltage: np.ndarray[tuple[int, ...], np.dtype[np.float32]] = field(
+        default_factory=_FLOATS_0
+    )
+    cell_temperature: np.ndarray[tuple[int, ...], np.dtype[np.float32]] = field(
+        default_factory=_FLOATS_0
+    )
+    location: str = ""
+    serial_number: str = ""
+
+
+@dataclass
 class Range(ros.sensor_msgs__msg__Range):
     """The distance to what is nearest in a cone [m]."""
 

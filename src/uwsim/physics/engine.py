@@ -24,6 +24,7 @@ from .compile import compile_scene, vehicle_joint
 from .engine_warnings import StepCheck
 from .grips import Grips
 from .hydrodynamics import VehicleHydrodynamics
+from .joint_wrench import JointWrench
 from .link_motion import LinkMotion
 from .motion import Motion
 from .poses import Poses
@@ -86,6 +87,8 @@ class Engine:
             if i not in dynamics and vehicle.scale_factor != (1.0, 1.0, 1.0)
         }
         self._water: Hydrodynamics | None = _water_of(model) if dynamics else None
+        self.joint_wrench = JointWrench(model, data, self.poses, self._water)
+        """What links do to the joints that carry them."""
         self.actuation = actuation_of(scene, robots, dynamics, data, self._water, self.poses)
         """What moves each simulated vehicle, by its number."""
         self._set_first_joints(scene)

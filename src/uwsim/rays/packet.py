@@ -103,7 +103,7 @@ def find_nearest(
 @njit
 def _farthest(lanes: Array) -> float:
     """How far a triangle can be and yet be the nearest of one of the rays [m]."""
-    farthest = lanes[NEAR]
+    farthest: float = lanes[NEAR]
     for k in range(1, GROUP):
         farthest = max(farthest, lanes[NEAR + k])
     return farthest

@@ -10,8 +10,9 @@ import numpy.typing as npt
 
 from ..geometry import Array, Pose
 from ..numerics.linear import inverse, product
-from .kernel import Hits, Trees, cast_rays
+from .kernel import Hits, cast_rays
 from .tree import build_tree
+from .triangle import Trees
 
 
 @dataclass(frozen=True, eq=False)

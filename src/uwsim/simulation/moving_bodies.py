@@ -13,6 +13,9 @@ from ..numerics.linear import length, product, turned_back
 from ..world import BodyMotion
 from .bodies import SceneBody
 
+Wrench = Callable[[Array], Array]
+"""Point of W (3,) [m] -> force and torque about it, in W, (6,) [N, N m]."""
+
 
 class LinkBody(SceneBody):
     """A frame on a link.
@@ -20,20 +23,28 @@ class LinkBody(SceneBody):
     Args:
         name: of the link.
         pose: where the frame is.
-        wrench: force and torque of the contacts on the link about a point of W, in W.
+        contacts: force and torque of the contacts on the link about a point of W, in W.
+        joint: those of the link on its joint, about a point of W, in W.
     """
 
     def __init__(
-        self, name: str, pose: Callable[[], Pose], wrench: Callable[[Array], Array]
+        self, name: str, pose: Callable[[], Pose], contacts: Wrench, joint: Wrench
     ) -> None:
         super().__init__(name, pose, None)
-        self._wrench = wrench
+        self._contacts, self._joint = contacts, joint
 
     def contact_wrench(self) -> Array:
         """Return that of the contacts on the link, about its origin, in its axes, (6,)."""
+        return self._in_its_axes(self._contacts)
+
+    def joint_wrench(self) -> Array:
+        """Return that of the link on its joint, about its origin, in its axes, (6,)."""
+        return self._in_its_axes(self._joint)
+
+    def _in_its_axes(self, wrench: Wrench) -> Array:
         here = self.world_from_body
-        wrench = self._wrench(here.position).reshape(2, 3)
-        return np.concatenate([turned_back(here.rotation, each) for each in wrench])
+        parts = wrench(here.position).reshape(2, 3)
+        return np.concatenate([turned_back(here.rotation, each) for each in parts])
 
 
 class EngineBody(LinkBody):
@@ -42,7 +53,8 @@ class EngineBody(LinkBody):
     Args:
         name: of the link.
         pose: where the frame is.
-        wrench: of the contacts on the link.
+        contacts: on the link.
+        joint: what the link does to its joint.
         motion: how a point of W moves with the link.
     """
 
@@ -53,10 +65,11 @@ class EngineBody(LinkBody):
         self,
         name: str,
         pose: Callable[[], Pose],
-        wrench: Callable[[Array], Array],
+        contacts: Wrench,
+        joint: Wrench,
         motion: Callable[[Array], BodyMotion],
     ) -> None:
-        super().__init__(name, pose, wrench)
+        super().__init__(name, pose, contacts, joint)
         self._motion = motion
 
     def motion(self, time: float) -> BodyMotion:
@@ -71,9 +84,9 @@ class PlacedBody(LinkBody):
     """Attributes of its state, for snapshots."""
 
     def __init__(
-        self, name: str, pose: Callable[[], Pose], wrench: Callable[[Array], Array]
+        self, name: str, pose: Callable[[], Pose], contacts: Wrench, joint: Wrench
     ) -> None:
-        super().__init__(name, pose, wrench)
+        super().__init__(name, pose, contacts, joint)
         self._time: float | None = None
         self._place, self._rotation = np.zeros(3), np.eye(3)
         self._moved: Array | None = None  # the velocity before the present one

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 
+import numpy as np
+
 from ..devices.sway import displaced
 from ..errors import UnknownName
 from ..geometry import Array, Pose
@@ -144,10 +146,11 @@ class SceneVehicle:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
         link, state = (self.index, spec.relative_to), self._state
         name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual)
-        wrench = partial(state.contact_wrench, *link)
+        contacts = partial(state.contact_wrench, *link)
         if not state.is_simulated(self.index):
-            return PlacedBody(name, pose, wrench)
-        return EngineBody(name, pose, wrench, partial(state.link_motion.of, *link))
+            return PlacedBody(name, pose, contacts, lambda point: np.zeros(6))
+        joint = partial(state.joint_wrench.of, *link)
+        return EngineBody(name, pose, contacts, joint, partial(state.link_motion.of, *link))
 
     def _pose_of(self, spec: Mounted, visual: bool) -> Callable[[], Pose]:
         """Return what says where something on a link is."""

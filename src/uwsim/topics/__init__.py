@@ -47,11 +47,13 @@ from .ros_odom_to_pat import ROSOdomToPATSpec
 from .ros_pose_to_pat import ROSPoseToPATSpec
 from .ros_twist_to_pat import ROSTwistToPATSpec
 from .sensor_topic import (
+    BatteryToROSSpec,
     DVLSensorToROSSpec,
     EchoROSSpec,
     ForceSensorROSSpec,
     GPSSensorToROSSpec,
     ImuToROSImuSpec,
+    MotorCurrentsToROSSpec,
     MultibeamSensorToLaserScanSpec,
     PressureSensorToROSSpec,
     ProfilingSonarROSSpec,
@@ -94,6 +96,8 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     f"{{{NAMESPACE}}}ROSFinsToPAT": ROSFinsToPATSpec,
     f"{{{NAMESPACE}}}ROSWrenchToPAT": ROSWrenchToPATSpec,
     f"{{{NAMESPACE}}}sonarToROS": SonarToROSSpec,
+    f"{{{NAMESPACE}}}batteryToROS": BatteryToROSSpec,
+    f"{{{NAMESPACE}}}motorCurrentsToROS": MotorCurrentsToROSSpec,
 }
 """Element -> spec, in the order of the original grammar; ours last."""
 

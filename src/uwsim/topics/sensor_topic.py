@@ -126,3 +126,17 @@ class ForceSensorROSSpec(SensorTopicSpec):
     """Publishes a force sensor as geometry_msgs/WrenchStamped."""
 
     sources: ClassVar[tuple[str, ...]] = ("ForceSensor",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BatteryToROSSpec(SensorTopicSpec):
+    """Publishes a battery as sensor_msgs/BatteryState."""
+
+    sources: ClassVar[tuple[str, ...]] = ("u:battery",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotorCurrentsToROSSpec(SensorTopicSpec):
+    """Publishes the currents of motors as the efforts of sensor_msgs/JointState [A]."""
+
+    sources: ClassVar[tuple[str, ...]] = ("u:motorCurrents",)

@@ -1,0 +1,64 @@
+r"""The currents that the motors of a vehicle draw: its thrusters, then its joints.
+
+.. code-block:: xml
+
+    <u:motorCurrents> <name>currents</name> <voltage>24</voltage> <std>0.01</std> </u:motorCurrents>
+
+A motor that draws the power P from a supply of the voltage V draws :math:`I = P / V`. P is that of
+the measure ``<u:energy>``: of a thruster it follows from its thrust, of a joint from its torque,
+its speed, and the efficiency and copper loss of its drive in the vehicle's hydrodynamics file. Not
+modelled: currents of the windings, which differ where the electronics lower the voltage.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..messages import JointState, header
+from ..schema import element
+from ..world import Actuators, Stage
+from .device import Device, DeviceSpec, DeviceVehicle
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotorCurrentsSpec(DeviceSpec):
+    """A ``<u:motorCurrents>``; currents [A] are the ``effort`` of sensor_msgs/JointState."""
+
+    message_type: ClassVar[type] = JointState
+
+    name: str
+    """Its name."""
+    voltage: float = element(default=24.0, above=0.0, maximum=10000.0)
+    """Of the supply [V]."""
+    std: float = element(default=0.0, minimum=0.0, maximum=1e6)
+    """Noise of each current, standard deviation [A]."""
+
+    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> MotorCurrents:
+        """Find the motors; a vehicle that is not simulated has none."""
+        random = stage.stream(f"{vehicle.name}/{self.name}/noise")
+        return MotorCurrents(self, stage.actuators(vehicle.name), random)
+
+
+class MotorCurrents(Device):
+    """Currents of thrusters and joints."""
+
+    STATE = ("_random",)
+
+    def __init__(
+        self, spec: MotorCurrentsSpec, actuators: Actuators | None, random: np.random.Generator
+    ) -> None:
+        self._spec, self._actuators, self._random = spec, actuators, random
+
+    def sample(self, time: float) -> JointState:
+        """Measure now, at ``time`` [s]."""
+        stamp = header(time, self._spec.name)
+        if self._actuators is None:
+            return JointState(header=stamp)
+        currents = self._actuators.powers() / self._spec.voltage
+        if self._spec.std > 0.0:
+            currents += self._spec.std * self._random.standard_normal(len(currents))
+        names = [*self._actuators.thrusters, *self._actuators.joints]
+        return JointState(header=stamp, name=names, effort=currents)
