@@ -264,7 +264,7 @@ def test_a_changed_scene_is_refused_and_the_right_one_may_be_called_otherwise(
     assert said.startswith("uwsim: The scene is not the one that was run, tank.xml (sha256:")
     assert f"{scene} (sha256:" in said
     scene.rename(folder / "elsewhere.xml").write_text(scene_text)
-    for path in [folder / "out" / "result.json", *(folder / "out" / "units").iterdir()]:
+    for path in [folder / "out" / "result.json", *(folder / "out" / "units").glob("*.jsonl")]:
         path.write_text(re.sub(r'("renderer": ?")', r"\1NVIDIA ", path.read_text()))
     (folder / "out" / "provenance.json").write_text('{"cpu": "abacus"}')
     status, said = verify(capsys, "--scene", "elsewhere.xml", "--sample", "1")

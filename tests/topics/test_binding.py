@@ -43,7 +43,7 @@ def test_topics_are_fields_and_sources_are_elements(spec: type[InterfaceSpec]) -
 def test_sensors_on_one_interface_measure_the_same() -> None:
     for spec in INTERFACES.values():
         if issubclass(spec, SensorTopicSpec):
-            parts = {**SENSORS, **DEVICES}
+            parts = {local(tag): part for tag, part in {**SENSORS, **DEVICES}.items()}
             types = {measured_by(parts[source]) for source in spec.sources} - {None}
             assert len(types) <= 1
 

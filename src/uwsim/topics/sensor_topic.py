@@ -137,6 +137,6 @@ class BatteryToROSSpec(SensorTopicSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class MotorCurrentsToROSSpec(SensorTopicSpec):
-    """Publishes the currents of motors as the efforts of sensor_msgs/JointState [A]."""
+    """Publishes the currents of motors [A] as sensor_msgs/JointState: its efforts."""
 
     sources: ClassVar[tuple[str, ...]] = ("u:motorCurrents",)
