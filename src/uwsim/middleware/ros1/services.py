@@ -106,8 +106,9 @@ def call(uri: str, name: str, wanted: WireService, caller: str, request: object)
     connection = open_connection(place.hostname, place.port, CALL_TIMEOUT)
     try:
         fields = {"callerid": caller, "md5sum": wanted.md5, "service": name}
-        write(connection, encode_header(fields) + framed(to_ros1(request)))
-        read_header(connection)
+        write(connection, encode_header(fields))
+        read_header(connection)  # rospy loses what comes together with the header
+        write(connection, framed(to_ros1(request)))
         success = connection.recv(1)
         data = read_frame(connection)
     except OSError as error:

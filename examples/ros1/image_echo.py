@@ -1,0 +1,33 @@
+#!/usr/bin/env python3
+"""Print a line for each of the first N images of a camera.
+
+    image_echo.py TOPIC [N]
+
+With `uwsim run cirs --ros1`:  image_echo.py /uwsim/camera1 10
+"""
+
+import contextlib
+import sys
+
+import rospy
+from sensor_msgs.msg import Image
+
+
+def main() -> None:
+    if len(rospy.myargv()) not in (2, 3):
+        sys.exit(__doc__)
+    topic, *rest = rospy.myargv()[1:]
+    rospy.init_node("image_echo", anonymous=True)
+    for _ in range(int(rest[0]) if rest else 10):
+        image = rospy.wait_for_message(topic, Image)
+        mean = sum(image.data) / len(image.data)
+        print(
+            f"{image.header.stamp.to_sec():.3f} s: {image.width}x{image.height} {image.encoding}, "
+            f"mean {mean:.1f}",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(rospy.ROSInterruptException):
+        main()

@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""Hold the joints of an arm at positions, as the original's setJointPosition: 30 Hz.
+
+    set_joint_position.py TOPIC q1 q2 q3 q4 q5              rad
+
+With `uwsim run cirs --ros1`:  set_joint_position.py /uwsim/joint_state_command 0.3 0.5 1 0 0.2
+"""
+
+import contextlib
+import sys
+
+import rospy
+from sensor_msgs.msg import JointState
+
+NAMES = ["Slew", "Shoulder", "Elbow", "JawRotate", "JawOpening"]
+
+
+def main() -> None:
+    topic, *numbers = rospy.myargv()[1:]
+    if len(numbers) != len(NAMES):
+        sys.exit(__doc__)
+    rospy.init_node("set_joint_position", anonymous=True)
+    publisher = rospy.Publisher(topic, JointState, queue_size=1)
+    rate = rospy.Rate(30)
+    while not rospy.is_shutdown():
+        message = JointState(name=NAMES, position=[float(number) for number in numbers])
+        message.header.stamp = rospy.Time.now()
+        publisher.publish(message)
+        rate.sleep()
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(rospy.ROSInterruptException):
+        main()

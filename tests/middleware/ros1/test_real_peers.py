@@ -1,0 +1,206 @@
+"""Debian's ROS 1 against the scene cirs: tools see it, rospy programs drive it."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import uwsim
+from tests.ros1_peers import Peers, needs_ros1, peers
+from tests.waiting import LIMIT, until
+from uwsim.middleware.log import Log
+from uwsim.middleware.ros1 import Ros1Bridge
+from uwsim.middleware.types import wire_type
+from uwsim.simulation import Simulation
+
+pytestmark = [needs_ros1, pytest.mark.slow]
+
+
+class Sea:
+    """The scene cirs as a node of a real graph."""
+
+    def __init__(self, peers: Peers) -> None:
+        self.peers = peers
+        self.simulation: Simulation = uwsim.load("cirs")
+        self.printed: list[str] = []
+        self.bridge = Ros1Bridge(
+            self.simulation.bus,
+            lambda: self.simulation.time,
+            master=peers.uri,
+            log=Log("test", self.printed.append),
+        )
+        self.simulation.watch(self.bridge.step)
+        self.simulation.start()
+        self.bridge.step()
+        assert self.bridge.wait(LIMIT)
+
+    def advance(self) -> None:
+        """Let some time go by."""
+        self.simulation.advance(0.02)
+
+    def odometry(self) -> uwsim.messages.Odometry:
+        """The newest odometry."""
+        self.simulation.latest("/uwsim/girona500/odom")
+        self.simulation.advance(0.2)
+        found = self.simulation.latest("/uwsim/girona500/odom")
+        assert isinstance(found, uwsim.messages.Odometry)
+        return found
+
+    def output(self, program: subprocess.Popen[str]) -> str:
+        """Let time go by until a program has ended, and return what it printed."""
+        until(lambda: program.poll() is not None, self.advance)
+        printed, errors = program.communicate(timeout=LIMIT)
+        assert program.returncode == 0, errors
+        return printed
+
+    def close(self) -> None:
+        """End it."""
+        self.bridge.close()
+        self.simulation.close()
+
+
+@pytest.fixture(scope="module")
+def sea(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sea]:
+    with peers(tmp_path_factory.mktemp("ros")) as made:
+        found = Sea(made)
+        yield found
+        found.close()
+
+
+def test_the_tools_see_its_topics_and_services(sea: Sea) -> None:
+    topics = sea.output(sea.peers.start("rostopic", "list")).split()
+    assert {"/uwsim/girona500/odom", "/dataNavigator", "/uwsim/camera1", "/clock", "/tf"} <= set(
+        topics
+    )
+    assert "/SpawnMarker" in sea.output(sea.peers.start("rosservice", "list"))
+    about = sea.output(sea.peers.start("rosnode", "info", "/uwsim"))
+    assert " * /uwsim/girona500/odom [nav_msgs/Odometry]" in about
+    assert " * /dataNavigator" in about
+    assert sea.output(sea.peers.start("rosparam", "get", "/use_sim_time")).strip() == "true"
+
+
+def test_rostopic_echoes_a_message(sea: Sea) -> None:
+    echo = sea.peers.start("rostopic", "echo", "-n", "1", "/uwsim/girona500/odom")
+    printed = sea.output(echo)
+    assert "secs:" in printed
+    assert "orientation:" in printed
+
+
+def test_a_program_of_the_originals_kind_drives_the_vehicle(sea: Sea) -> None:
+    before = sea.odometry().pose.pose
+    program = sea.peers.start(
+        "set_vehicle_velocity.py", "/dataNavigator", *("0.2", "0", "0", "0", "0", "0")
+    )
+
+    def moved() -> float:
+        now = sea.odometry().pose.pose.position
+        return math.dist((now.x, now.y), (before.position.x, before.position.y))
+
+    until(lambda: moved() > 0.1, sea.advance)
+    assert program.poll() is None
+    program.kill()
+
+
+def test_a_program_of_the_originals_kind_moves_the_arm(sea: Sea) -> None:
+    program = sea.peers.start(
+        "set_joint_position.py", "/uwsim/joint_state_command", *("0.3", "0.5", "1", "0", "0.2")
+    )
+    sea.simulation.latest("/uwsim/joint_state")
+
+    def slew() -> float:
+        found = sea.simulation.latest("/uwsim/joint_state")
+        return math.nan if found is None else float(found.position[0])
+
+    until(lambda: math.isclose(slew(), 0.3, abs_tol=1e-6), sea.advance)
+    program.kill()
+
+
+def test_a_program_closes_a_loop_over_odometry_and_pose(sea: Sea) -> None:
+    goto = ("goto_position.py", "/uwsim/girona500/odom", "/g500/pose", "0.8", "0.4", "2.2")
+    assert sea.output(sea.peers.start(*goto)) == "there\n"
+    place = sea.odometry().pose.pose.position
+    assert math.dist((place.x, place.y, place.z), (0.8, 0.4, 2.2)) < 0.02
+
+
+def test_a_program_sees_the_images_of_a_camera_and_no_others_are_rendered(sea: Sea) -> None:
+    assert not sea.simulation.bus.has_readers("/uwsim/camera1")
+    echo = sea.peers.start("image_echo.py", "/uwsim/camera1", "2")
+    lines = sea.output(echo).splitlines()
+    assert len(lines) == 2
+    assert all("320x240 rgb8" in line for line in lines)
+    assert not sea.simulation.bus.has_readers("/uwsim/camera2")
+    until(lambda: not sea.simulation.bus.has_readers("/uwsim/camera1"), sea.advance)
+
+
+def test_the_sums_of_types_are_those_of_ros(sea: Sea) -> None:
+    kinds = {
+        found.ros1_name: found.md5
+        for each in vars(uwsim.messages).values()
+        if isinstance(each, type) and (found := wire_type(each)) is not None and found.md5
+    }
+    known = [
+        name for name in kinds if name.startswith(("std_msgs", "geometry_", "sensor_", "nav_"))
+    ]
+    assert len(known) > 30
+    for name, line in zip(
+        known,
+        sea.output(
+            sea.peers.start(
+                "/usr/bin/python3",
+                "-c",
+                "import sys, importlib\n"
+                "for name in sys.argv[1:]:\n"
+                "    package, kind = name.split('/')\n"
+                "    module = importlib.import_module(package + '.msg')\n"
+                "    print(getattr(getattr(module, kind, None), '_md5sum', ''))",
+                *known,
+            )
+        ).splitlines(),
+        strict=True,
+    ):
+        assert line in (kinds[name], ""), name
+
+
+def test_a_master_killed_and_started_again_has_the_topics_back(sea: Sea) -> None:
+    sea.peers.kill_master()
+    until(lambda: any("is tried again" in line for line in sea.printed), sea.advance)
+    sea.peers.start_master()
+    until(lambda: any("restarted" in line for line in sea.printed), sea.advance)
+    assert sea.bridge.wait(LIMIT)
+    listed = sea.output(sea.peers.start("rostopic", "list"))
+    assert "/uwsim/girona500/odom" in listed
+
+
+def test_a_rospy_node_calls_a_service(sea: Sea, tmp_path: Path) -> None:
+    from uwsim.messages import EmptyResponse
+    from uwsim.messages.services import Empty
+
+    calls: list[Empty] = []
+
+    def answer(request: Empty) -> EmptyResponse:
+        calls.append(request)
+        return EmptyResponse()
+
+    sea.simulation.bus.serve("dynamics/reset", Empty, answer)
+    sea.advance()
+    assert sea.bridge.wait(LIMIT)
+    sea.output(sea.peers.start("rosservice", "call", "/dynamics/reset"))
+    assert len(calls) == 1
+
+
+def test_a_service_of_a_rospy_node_is_called_from_the_bus(sea: Sea, tmp_path: Path) -> None:
+    from uwsim.messages import EmptyResponse
+    from uwsim.messages.services import Empty
+
+    (tmp_path / "server.py").write_text(
+        "import rospy\nfrom std_srvs.srv import Empty, EmptyResponse\n"
+        "rospy.init_node('server')\n"
+        "rospy.Service('/vision/reset', Empty, lambda r: EmptyResponse())\nrospy.spin()\n"
+    )
+    sea.peers.start("/usr/bin/python3", str(tmp_path / "server.py"))
+    until(lambda: sea.simulation.bus.serves("vision/reset"), sea.advance)
+    assert sea.simulation.call("vision/reset", Empty()) == EmptyResponse()
