@@ -11,6 +11,7 @@ from .control import PI, P
 from .direct import Esm, InverseCompositional, SsdEsm
 from .ecc import Ecc
 from .frozen import Frozen
+from .grasp import Grasp, GraspBlindClose, GraspNothing, GraspP, GraspTruth
 from .orb import Orb
 from .scripted import Scripted
 from .tracker_node import chosen
@@ -21,6 +22,11 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "ecc": Ecc,
     "esm": Esm,
     "frozen": Frozen,
+    "grasp": Grasp,
+    "grasp-blind-close": GraspBlindClose,
+    "grasp-nothing": GraspNothing,
+    "grasp-p": GraspP,
+    "grasp-truth": GraspTruth,
     "ic": InverseCompositional,
     "orb": Orb,
     "p": P,

@@ -1,0 +1,154 @@
+r"""Finding the outline of an orange box in an image: no weights, nothing learned.
+
+The colour score of a pixel is :math:`s = 2R - G - B`. Water takes contrast away but not the order:
+fog of transmission T leaves :math:`T s` of a score, plus the same offset everywhere. So the
+threshold is relative: half way between the median of the image (the bottom) and its brightest
+spot, provided that this stands out from the noise by `CONTRAST` deviations. The blobs above it are
+closed over bands, lettering and handle. What is returned is, for each, the support function of its
+convex hull: how far it reaches along `N_DIRECTIONS` directions. It is all that a convex outline
+has, and is not known where the blob ends at the rim of the image.
+
+Not modelled: other orange things of the size of the box.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from ...geometry import Array
+from ...numerics.linear import product
+from ...numerics.opencv import plain_opencv
+from .camera import View
+
+Pixels = npt.NDArray[np.uint8]
+N_DIRECTIONS = 32
+CONTRAST = 7.0
+"""Least height of a blob over the bottom, in deviations of the bottom."""
+LEAST = 6.0
+"""Least height of a blob over the bottom [grey levels of the score]."""
+SHARE = 0.17
+"""Where the threshold is between the bottom (0) and the brightest spot (1)."""
+RIM = 2
+"""Pixels at the rim of the image where an outline is not known [px]."""
+MAX_BLOBS = 3
+
+_angles = [2.0 * np.pi * k / N_DIRECTIONS for k in range(N_DIRECTIONS)]
+DIRECTIONS: Array = np.array([[np.cos(a), np.sin(a)] for a in _angles])
+"""Unit vectors in the image, (n, 2)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Outline:
+    """A convex outline in an image."""
+
+    support: Array
+    """How far it reaches along each of `DIRECTIONS` from the first pixel's centre, (n,) [px]."""
+    is_known: npt.NDArray[np.bool_]
+    """Where that is known, (n,)."""
+    middle: tuple[float, float]
+    """Of the blob [px]."""
+    angle: float
+    """Of its long axis, from u to v [rad]."""
+    area: float
+    """Of its hull [px^2]."""
+    contrast: float
+    """Its height over the bottom, in deviations of the bottom [1]."""
+
+
+class Detector(Protocol):
+    """Finds outlines of what may be the box; one of your own goes to `Grasp.detector`."""
+
+    def detect(self, image: Pixels, view: View) -> list[Outline]:
+        """Return outlines in an image (h, w, 3) RGB, the largest first; none if there is none."""
+
+
+class ColourDetector:
+    """Finds blobs that are more orange than the rest."""
+
+    def __init__(self, *, band: float = 0.03, least_size: float = 0.1) -> None:
+        """Set its sizes.
+
+        Args:
+            band: gaps as wide as this are closed [m].
+            least_size: what is smaller on the bottom is nothing [m].
+        """
+        self._band, self._least_size = band, least_size
+
+    @plain_opencv()
+    def detect(self, image: Pixels, view: View) -> list[Outline]:
+        """Return the outlines, the largest first."""
+        import cv2
+
+        height = view.bottom - float(view.navigation_from_camera.position[2])
+        if height <= 0.1:
+            return []
+        scale = view.pinhole.fx / height  # [px/m] on the bottom
+        score = colour_score(image)
+        score = cv2.blur(score, (3, 3)).astype(np.float32)
+        bottom, noise = _bottom(score)
+        top = float(cv2.blur(score, (3, 3)).max()) - bottom
+        if top < max(CONTRAST * noise, LEAST):
+            return []
+        mask = (score > bottom + max(SHARE * top, 2.5 * noise)).astype(np.uint8)
+        gap = max(int(self._band * scale) | 1, 3)
+        kernel = np.ones((gap, gap), np.uint8)
+        closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, kernel).astype(np.uint8)
+        return self._outlines(closed, scale, top / noise)
+
+    def _outlines(self, mask: Pixels, scale: float, contrast: float) -> list[Outline]:
+        import cv2
+
+        contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+        least = (self._least_size * scale) ** 2
+        hulls = [cv2.convexHull(contour) for contour in contours if len(contour) > 8]
+        sized = [(float(cv2.contourArea(hull)), hull) for hull in hulls]
+        sized = sorted((one for one in sized if one[0] > least), key=lambda one: -one[0])
+        return [
+            outline_of(hull[:, 0, :].astype(np.float64), mask.shape, area, contrast)
+            for area, hull in sized[:MAX_BLOBS]
+        ]
+
+
+def colour_score(image: Pixels) -> npt.NDArray[np.float32]:
+    """``2R - G - B`` of an RGB image (h, w, 3), (h, w)."""
+    wide = image.astype(np.float32)
+    score: npt.NDArray[np.float32] = 2.0 * wide[:, :, 0] - wide[:, :, 1] - wide[:, :, 2]
+    return score
+
+
+def outline_of(hull: Array, shape: tuple[int, ...], area: float, contrast: float) -> Outline:
+    """Return the outline of a hull (n, 2) [px] of pixel centres in an image of a shape (h, w)."""
+    reach = product(hull, DIRECTIONS.T)  # (n, directions)
+    ends = hull[reach.argmax(axis=0)]
+    height, width = shape[:2]
+    inside = (
+        (ends[:, 0] >= RIM)
+        & (ends[:, 1] >= RIM)
+        & (ends[:, 0] <= width - 1 - RIM)
+        & (ends[:, 1] <= height - 1 - RIM)
+    )
+    # a pixel reaches half a pixel beyond its centre, along the axes
+    support = reach.max(axis=0) + 0.25 * np.abs(DIRECTIONS).sum(axis=1)
+    widths = support + np.roll(support, N_DIRECTIONS // 2)
+    longest = int(widths[: N_DIRECTIONS // 2].argmax())
+    mean = hull.mean(axis=0)
+    return Outline(
+        support=support,
+        is_known=inside,
+        middle=(float(mean[0]), float(mean[1])),
+        angle=float(_angles[longest]),
+        area=area,
+        contrast=contrast,
+    )
+
+
+def _bottom(score: npt.NDArray[np.float32]) -> tuple[float, float]:
+    """Median of a score, and its deviation without what stands out, from every fourth pixel."""
+    sample = score[::2, ::2]
+    middle = float(np.median(sample))
+    spread = 1.4826 * float(np.median(np.abs(sample - middle)))
+    return middle, max(spread, 0.5)

@@ -1,0 +1,260 @@
+"""``grasp``: finds a box with a camera, takes it by its handle with the ARM5E, and brings it up.
+
+It uses what a real vehicle has: images, DVL, IMU, depth, joint states, forces on the fingers. It is
+made of parts, each of which a derived class can replace: `Grasp.navigation`, `Grasp.detector`,
+`Grasp.tracker`, `Grasp.controller`, `Grasp.kinematics`. `uwsim.algorithms.grasp.phases` says what
+it does when.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import ClassVar
+
+import numpy as np
+
+from ...bus import Node
+from ...errors import BadSetting, UnknownName
+from ...geometry import Array, Pose, rotation_from_rpy
+from ...messages import (
+    CameraInfo,
+    Empty,
+    Image,
+    JointState,
+    String,
+    TwistStamped,
+    WrenchStamped,
+    pixels_of,
+)
+from ...numerics.linear import product
+from ..direct_tracker import DirectTracker
+from ..esm.alignment import Method
+from ..esm.pyramid import Grey
+from ..navigation import NavigationSpec, Navigator
+from ..tracker import Tracker
+from ..tracker_node import chosen
+from .arm import Arm5e, Kinematics
+from .box import BoxSpec
+from .camera import Pinhole, View
+from .craft import Craft
+from .detector import ColourDetector, Detector
+from .perception import Perception
+from .phases import PHASES, Phase
+from .station import Station, StationLaw
+from .task import Task, square_spiral
+
+PERIOD = 0.05
+"""Of the control loop [s]."""
+OPENCV_FROM_OPENGL: Array = np.diag([1.0, -1.0, -1.0])
+OWN_CLEARANCE = 2.6
+"""Height of the base over the bottom while it searches: what hangs below it, and some more [m]."""
+
+
+class Grasp:
+    """Finds a box by camera, keeps station over it, takes it by its handle and lifts it."""
+
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {
+        "kp": 0.6,
+        "ki": 0.03,
+        "feed_forward": 1.0,
+        "limit": 0.3,
+        "search_spacing": 1.2,
+        "search_radius": 2.5,
+        "tolerance": 0.02,
+        "descent": 0.06,
+        "lift": 0.65,
+        "hold": 12.0,
+        "attempts": 4.0,
+        "camera_place": "0.22 0.12 0.98",
+        "camera_rpy": "2.5818 -0.1257 1.5708",
+        "dvl_place": "0.5 0 0.8",
+        "image_topic": "/girona500/camera",
+        "info_topic": "/girona500/camera_info",
+        "imu_topic": "/girona500/imu",
+        "dvl_topic": "/girona500/dvl",
+        "depth_topic": "/girona500/pressure",
+        "joint_topic": "/girona500/joint_state",
+        "force_topics": "/girona500/finger1 /girona500/finger2",
+        "twist_topic": "/girona500/twist",
+        "arm_topic": "/girona500/joint_command",
+    }
+
+    def __init__(self) -> None:
+        self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
+        self._info: CameraInfo | None = None
+        self._phase: Phase | None = None
+        self._last = 0.0
+        self._bottom: float | None = None
+
+    @property
+    def parameters(self) -> Mapping[str, float | str]:
+        """The parameters in force, after `start`."""
+        return dict(self._parameters)
+
+    @staticmethod
+    def check_parameters(parameters: Mapping[str, float | str]) -> None:
+        """Refuse places and angles that are no three numbers, with BadSetting."""
+        for name in ("camera_place", "camera_rpy", "dvl_place"):
+            if name in parameters:
+                triple(name, parameters[name])
+
+    # The parts; a derived class returns its own.
+
+    def navigation(self, node: Node) -> Navigator:
+        """Return what knows the pose, the velocity and the bottom."""
+        place = triple("dvl_place", self._parameters["dvl_place"])
+        topics = {name: self.text(name) for name in ("imu_topic", "dvl_topic", "depth_topic")}
+        return Navigator(node, topics, NavigationSpec(dvl_place=place))
+
+    def detector(self) -> Detector:
+        """Return what finds outlines of the box in an image."""
+        return ColourDetector()
+
+    def tracker(self, image: Grey, quad: Array) -> Tracker | str:
+        """Return a tracker of the top face, a quad (4, 2) [px], or why there is none."""
+        method = Method(blend="esm", photometric=True, max_iterations=10, precision=1e-3)
+        return DirectTracker.remember(image, quad, levels=2, method=method)
+
+    def controller(self) -> StationLaw:
+        """Return the law that keeps station."""
+        return Station(
+            kp=self.number("kp"),
+            ki=self.number("ki"),
+            feeds_forward=self.number("feed_forward") > 0.0,
+            limit=self.number("limit"),
+        )
+
+    def kinematics(self) -> Kinematics:
+        """Return the arm."""
+        return Arm5e()
+
+    def box(self) -> BoxSpec:
+        """Return the model of what is looked for."""
+        return BoxSpec()
+
+    def number(self, name: str) -> float:
+        """A parameter that is a number."""
+        return float(self._parameters[name])
+
+    def text(self, name: str) -> str:
+        """A parameter that is a text."""
+        return str(self._parameters[name])
+
+    def start(self, node: Node) -> None:
+        """Make the parts and connect to the bus."""
+        self._parameters = chosen(self.PARAMETERS, node.parameters)
+        self.check_parameters(self._parameters)
+        self._node = node
+        status = node.publisher("algorithmStatus", String)
+        self._say_phase = node.publisher("graspPhase", String)
+        self._say_twist = node.publisher(self.text("twist_topic"), TwistStamped)
+        self._say_joints = node.publisher(self.text("arm_topic"), JointState)
+        self.craft = Craft(self.controller(), self.kinematics())
+        self.task = Task(
+            self.craft,
+            Perception(self.detector(), self.tracker, self.box()),
+            self.box(),
+            self._parameters,
+            lambda text: status(String(data=text)),
+        )
+        mount = triple("camera_rpy", self._parameters["camera_rpy"])
+        self._base_from_camera = Pose(
+            np.array(triple("camera_place", self._parameters["camera_place"])),
+            product(rotation_from_rpy(*mount), OPENCV_FROM_OPENGL),
+        )
+        self._subscribe(node)
+        node.every(PERIOD, self._tick)
+
+    def _subscribe(self, node: Node) -> None:
+        self._navigator = self.navigation(node)
+        node.subscribe(self.text("joint_topic"), JointState, self.craft.on_joints)
+        for topic in self.text("force_topics").split():
+            node.subscribe(topic, WrenchStamped, self.craft.on_force(topic))
+        node.subscribe(self.text("info_topic"), CameraInfo, self._on_info)
+        node.subscribe(self.text("image_topic"), Image, self._on_image)
+
+    def _on_info(self, info: CameraInfo) -> None:
+        self._info = info
+
+    def _on_image(self, message: Image) -> None:
+        phase = self._phase
+        if self._info is None or phase is None or not phase.looks or self._bottom is None:
+            return
+        view = View(
+            pinhole=Pinhole.from_info(self._info),
+            navigation_from_camera=self._navigator.pose @ self._base_from_camera,
+            bottom=self._bottom,
+        )
+        self.task.perception.look(pixels_of(message), view, self.task.target, self._node.now)
+
+    def _tick(self) -> None:
+        """Run the state machine and the loops."""
+        navigator, craft, task = self._navigator, self.craft, self.task
+        self._follow_bottom()
+        if not navigator.is_ready or self._bottom is None:
+            return
+        craft.pose, craft.velocity = navigator.pose, navigator.velocity
+        task.now = now = self._node.now
+        if self._phase is None:
+            self._begin(now)
+        assert self._phase is not None
+        following = self._phase.step(task)
+        if following is None and task.elapsed > self._phase.limit:
+            following = self._phase.late
+            task.why = task.why or f"{self._phase.name} took longer than {self._phase.limit:g} s"
+        if following is not None:
+            self._enter(following)
+        self._say_twist(craft.twist(now, now - self._last))
+        self._last = now
+        if (command := craft.joint_command(now)) is not None:
+            self._say_joints(command)
+
+    def _follow_bottom(self) -> None:
+        """Low-pass the depth of the bottom."""
+        bottom = self._navigator.bottom
+        if bottom is not None:
+            old = bottom if self._bottom is None else self._bottom
+            self._bottom = old + 0.05 * (bottom - old)
+
+    def _begin(self, now: float) -> None:
+        """Lay out the search and begin it."""
+        craft, task = self.craft, self.task
+        assert self._bottom is not None
+        craft.heading, self._last = craft.own_heading, now
+        task.search_depth = self._bottom - OWN_CLEARANCE
+        task.pattern = square_spiral(
+            craft.pose.position,
+            craft.heading,
+            self.number("search_spacing"),
+            self.number("search_radius"),
+        )
+        with suppress(UnknownName):
+            self._node.call("startBench", Empty())
+        self._enter("search")
+
+    def _enter(self, name: str) -> None:
+        task = self.task
+        self._phase, task.since = PHASES[name](), task.now
+        self.craft.goal_velocity = np.zeros(3)
+        self._phase.enter(task)
+        text = f"{name}: {task.why}" if name in ("aborted", "retry") else name
+        self._say_phase(String(data=text))
+
+
+def triple(name: str, value: float | str) -> tuple[float, float, float]:
+    """Three numbers of a parameter.
+
+    Raises:
+        BadSetting: it is not three finite numbers.
+    """
+    try:
+        x, y, z = (float(word) for word in str(value).replace(",", " ").split())
+    except ValueError:
+        x = y = z = math.nan
+    if not all(map(math.isfinite, (x, y, z))):
+        raise BadSetting(
+            f"Parameter {name!r} of the algorithm is {value!r}; expected three numbers."
+        )
+    return x, y, z

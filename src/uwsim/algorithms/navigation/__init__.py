@@ -1,0 +1,8 @@
+"""Where a vehicle is, from its DVL, IMU and depth sensor."""
+
+from __future__ import annotations
+
+from .ekf import NavigationFilter, NavigationSpec
+from .navigator import Navigator
+
+__all__ = ["NavigationFilter", "NavigationSpec", "Navigator"]

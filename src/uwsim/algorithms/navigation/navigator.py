@@ -1,0 +1,93 @@
+"""The filter on the bus: topics of the sensors in, the state of the vehicle out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from ...bus import Node
+from ...geometry import Array, Pose
+from ...messages import DVL, Imu, Pressure, seconds
+from ...numerics.linear import turned
+from .ekf import NavigationFilter, NavigationSpec
+
+TOPICS: Mapping[str, str] = {
+    "imu_topic": "/girona500/imu",
+    "dvl_topic": "/girona500/dvl",
+    "depth_topic": "/girona500/pressure",
+}
+"""Parameters with the topics of the sensors, and their defaults."""
+
+
+class Navigator:
+    """Feeds a `NavigationFilter` from the topics of an IMU, a DVL and a depth sensor.
+
+    The IMU has the axes of the base; of the DVL the velocity in the axes of the ship is used. Any
+    algorithm can have one: ``Navigator(node)`` in its `start`.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        topics: Mapping[str, str] = TOPICS,
+        spec: NavigationSpec | None = None,
+    ) -> None:
+        """Subscribe to the topics (`TOPICS`)."""
+        self.filter = NavigationFilter(spec or NavigationSpec())
+        """The filter."""
+        self.altitude = math.nan
+        """Of the DVL above the bottom; NaN if not known [m]."""
+        node.subscribe(topics["imu_topic"], Imu, self._on_imu)
+        node.subscribe(topics["dvl_topic"], DVL, self._on_dvl)
+        node.subscribe(topics["depth_topic"], Pressure, self._on_depth)
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether there is an estimate."""
+        return self.filter.is_ready
+
+    @property
+    def pose(self) -> Pose:
+        """``navigation_from_base``: north, east, down from where it began; z is the depth."""
+        return Pose(self.filter.position.copy(), self.filter.rotation.copy())
+
+    @property
+    def velocity(self) -> Array:
+        """Over ground, navigation axes, (3,) [m/s]."""
+        return self.filter.velocity.copy()
+
+    @property
+    def heading(self) -> float:
+        """From north towards east [rad]."""
+        return self.filter.heading
+
+    @property
+    def bottom(self) -> float | None:
+        """Depth of the bottom below the vehicle [m]; None as long as the DVL has not seen it."""
+        if math.isnan(self.altitude):
+            return None
+        arm = turned(self.filter.rotation, np.array(self.filter.spec.dvl_place))
+        return float(self.filter.position[2] + arm[2]) + self.altitude
+
+    def _on_imu(self, message: Imu) -> None:
+        q, w, f = message.orientation, message.angular_velocity, message.linear_acceleration
+        self.filter.imu(
+            seconds(message.header.stamp),
+            np.array([q.w, q.x, q.y, q.z]),
+            np.array([w.x, w.y, w.z]),
+            np.array([f.x, f.y, f.z]),
+        )
+
+    def _on_dvl(self, message: DVL) -> None:
+        if message.bs_status != "A":
+            return
+        self.filter.dvl(
+            np.array([message.bs_longitudinal, message.bs_transverse, message.bs_normal])
+        )
+        if math.isfinite(message.bd_range):
+            self.altitude = message.bd_range
+
+    def _on_depth(self, message: Pressure) -> None:
+        self.filter.depth(message.pressure)
