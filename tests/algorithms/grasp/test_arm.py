@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from uwsim.scene.kinematics import link_poses
-from uwsim.scene.urdf_reader import read_urdf
 
 from uwsim.algorithms.grasp.arm import DOWN, JAW, JOINTS, LIMITS, REACH, Arm5e
+from uwsim.scene.urdf.kinematics import link_poses
+from uwsim.scene.urdf.reader import read_urdf
 
 URDF = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "g500ARM5.urdf"
 RANDOM = np.random.Generator(np.random.Philox(7))

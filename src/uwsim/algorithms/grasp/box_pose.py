@@ -112,13 +112,9 @@ def _fit(
 def _sighting(numbers: Array, normal: Array, residual: float, source: str) -> Sighting | None:
     if not np.isfinite(numbers).all() or not math.isfinite(residual):
         return None
-    try:
-        covariance = inverse(normal)
-    except np.linalg.LinAlgError:
-        return None
     return Sighting(
         pose=BoxPose.from_numbers(numbers),
-        covariance=covariance,
+        covariance=inverse(normal),  # the prior keeps it regular
         residual=residual,
         source=source,
     )

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...geometry import Array, Pose
 from ...messages import JointState, Twist, TwistStamped, Vector3, WrenchStamped, header
+from ...numerics.linear import turned
 from .arm import DOWN, FOLDED, JAW, JOINTS, OPEN, Kinematics
 from .station import Motion, StationLaw
 
@@ -65,7 +66,8 @@ class Craft:
     @property
     def grip(self) -> Array:
         """Where the grip is, navigation frame, (3,) [m]."""
-        place: Array = (self.pose @ self.kinematics.grip(self.joints)).position
+        in_base = self.kinematics.grip(self.joints).position
+        place: Array = self.pose.transform(in_base[None])[0]
         return place
 
     @property
@@ -75,8 +77,8 @@ class Craft:
 
     def base_for(self, grip: Array, posture: Array = DOWN) -> Array:
         """Return where the base should be for the grip of a posture to be at a place (3,) [m]."""
-        offset = self.pose.rotation, self.kinematics.grip(posture).position
-        place: Array = grip - (Pose(np.zeros(3), offset[0]) @ Pose(offset[1], np.eye(3))).position
+        offset = turned(self.pose.rotation, self.kinematics.grip(posture).position)
+        place: Array = grip - offset
         return place
 
     def wrist_for(self, closes: float) -> float:
