@@ -148,7 +148,7 @@ class Grasp:
         self.check_parameters(self._parameters)
         self._node = node
         status = node.publisher("algorithmStatus", String)
-        self._say_phase = node.publisher("graspPhase", String)
+        self._say_phase = node.publisher("phase", String)
         self._say_twist = node.publisher(self.text("twist_topic"), TwistStamped)
         self._say_joints = node.publisher(self.text("arm_topic"), JointState)
         self.craft = Craft(self.controller(), self.kinematics())

@@ -3,9 +3,10 @@
 ===========  ==================================================  =======================
 phase        what is done                                        then
 ===========  ==================================================  =======================
-`Search`     fly a square spiral until the box was seen          station
-`Station`    fly over it, look until its place is sure           approach
-`Approach`   arm down, jaw open and across the handle            align
+`Search`     fly a square spiral until the box was seen          detect
+`Detect`     stay, look again                                    station
+`Station`    fly over it, look until its place is sure           pregrasp
+`Pregrasp`   arm down, jaw open and across the handle            align
 `Align`      grip over the handle                                descend
 `Descend`    grip down to the handle                             close
 `Close`      close the jaw, feel whether something is in it      lift, or retry
@@ -77,7 +78,7 @@ class Search(Phase):
         """Fly to the next corner."""
         craft = task.craft
         if task.target.count >= 3:
-            return "station"
+            return "detect"
         if task.target.count and task.now - task.target.seen_at < 1.0:
             return None  # stay for a second look
         if not task.pattern:
@@ -86,6 +87,24 @@ class Search(Phase):
         if horizontal(craft.goal - craft.pose.position) < 0.15:
             task.pattern.pop(0)
         return None
+
+
+class Detect(Phase):
+    """Stays and looks again."""
+
+    name = "detect"
+    limit = 10.0
+    late = "search"
+
+    def enter(self, task: Task) -> None:
+        """Stay."""
+        task.go(task.craft.pose.position.copy())
+
+    def step(self, task: Task) -> str | None:
+        """Wait for some more sightings."""
+        if task.is_target_lost(3.0):
+            return "search"
+        return "station" if task.target.count >= 6 else None
 
 
 class Station(Phase):
@@ -105,13 +124,13 @@ class Station(Phase):
             return "search"
         off = task.station(ABOVE + 0.1)
         sure = task.target.count >= 8 and task.target.deviation < 0.02
-        return "approach" if sure and horizontal(off) < 0.3 else None
+        return "pregrasp" if sure and horizontal(off) < 0.3 else None
 
 
-class Approach(Phase):
+class Pregrasp(Phase):
     """Brings the arm down and the open jaw across the handle, above it."""
 
-    name = "approach"
+    name = "pregrasp"
     limit = 30.0
 
     def step(self, task: Task) -> str | None:
@@ -330,9 +349,18 @@ class Aborted(Phase):
 
 
 PHASES: dict[str, type[Phase]] = {
-    phase.name: phase
-    for phase in (
-        Search, Station, Approach, Align, Descend, Close, Lift, Hold, Retreat, Retry, Done, Aborted,
-    )
-}  # fmt: skip
-"""The phases by name."""
+    "search": Search,
+    "detect": Detect,
+    "station": Station,
+    "pregrasp": Pregrasp,
+    "align": Align,
+    "descend": Descend,
+    "close": Close,
+    "lift": Lift,
+    "hold": Hold,
+    "retreat": Retreat,
+    "retry": Retry,
+    "done": Done,
+    "aborted": Aborted,
+}
+"""The phases by name, in their usual order."""

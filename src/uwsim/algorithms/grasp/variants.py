@@ -130,7 +130,7 @@ class GraspNothing:
     def start(self, node: Node) -> None:
         """Say that it gives up searching at once."""
         self.parameters = chosen(self.PARAMETERS, node.parameters)
-        say = node.publisher("graspPhase", String)
+        say = node.publisher("phase", String)
         say(String(data="search"))
 
 
@@ -147,7 +147,7 @@ class GraspBlindClose:
         """Begin the rounds."""
         self._node = node
         self.parameters = chosen(self.PARAMETERS, node.parameters)
-        self._say_phase = node.publisher("graspPhase", String)
+        self._say_phase = node.publisher("phase", String)
         self._say_twist = node.publisher(str(self.parameters["twist_topic"]), TwistStamped)
         self._say_joints = node.publisher(str(self.parameters["arm_topic"]), JointState)
         self._say_phase(String(data="search"))
