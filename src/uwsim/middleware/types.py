@@ -22,8 +22,12 @@ from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typest
 
 from .. import messages
 from ..errors import UnknownName
-from ..messages.services import SERVICES, Service
+from ..messages.services import SERVICES as OWN_SERVICES
+from ..messages.services import Service
+from ..messages.simulation_control import MESSAGES, PACKAGE, SIMULATION_SERVICES
 
+SERVICES: dict[str, Service] = {**OWN_SERVICES, **SIMULATION_SERVICES}
+"""Service types by their names in ROS 2."""
 FOLDER = Path(messages.__file__).parent
 """Where ``msg/`` and ``srv/`` are."""
 EVENT_INFO = "service_msgs/msg/ServiceEventInfo"
@@ -185,6 +189,7 @@ def is_fieldless(name: str) -> bool:
 def _classes() -> dict[str, type]:
     """Full name -> class of the bus, of all messages and of both halves of the services."""
     public = [getattr(messages, name) for name in messages.__all__]
+    public += MESSAGES
     public += [half for each in SERVICES.values() for half in (each.request, each.response)]
     return {each.__msgtype__: each for each in public if hasattr(each, "__msgtype__")}
 
@@ -192,7 +197,7 @@ def _classes() -> dict[str, type]:
 def _register_ours(store: Any) -> None:
     """Register the types of ``messages/``, those that others need first."""
     texts = {
-        name: (FOLDER / "msg" / f"{name.rpartition('/')[2]}.msg").read_text(encoding="utf-8")
+        name: _text(name)
         for name in sorted(_classes())
         if "/msg/" in name and name not in get_typestore(Stores.ROS2_JAZZY).types
     }
@@ -207,9 +212,15 @@ def _register_ours(store: Any) -> None:
     store.register(found)
 
 
+def _text(name: str) -> str:
+    """The definition of a type of ours; packages that are not UWSim's have folders of their own."""
+    package, kind, base = name.split("/")
+    folder = FOLDER / package if package == PACKAGE else FOLDER
+    return (folder / kind / f"{base}.{kind}").read_text(encoding="utf-8")
+
+
 def _halves(name: str) -> tuple[str, str]:
-    path = FOLDER / "srv" / f"{name.rpartition('/')[2]}.srv"
-    lines = path.read_text(encoding="utf-8").splitlines()
+    lines = _text(name).splitlines()
     cut = lines.index("---")
     return "\n".join(lines[:cut]), "\n".join(lines[cut + 1 :])
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import importlib.util
 import os
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
@@ -106,16 +106,33 @@ class ConnectionOptions:
 
 @contextmanager
 def connected(simulation: Simulation, options: ConnectionOptions) -> Iterator[None]:
-    """Connect a simulation, and pace it, within the block."""
+    """Connect a simulation, and pace it, within the block; a program outside may end the block."""
+    from ...simulation.control import Quit
+
     with ExitStack() as stack:
-        for bridge in _bridges(simulation, options, stack):
-            bridge.step()
-            simulation.watch(bridge.step)
+        if bridges := list(_bridges(simulation, options, stack)):
+            _connect(simulation, bridges)
         if options.pace > 0:
             from ...middleware.pacing import Pace
 
             simulation.watch(Pace(lambda: simulation.time, options.pace).step)
-        yield
+        with suppress(Quit):
+            yield
+
+
+def _connect(simulation: Simulation, bridges: Sequence[Bridge]) -> None:
+    """Let transports exchange messages, and control the simulation, at the end of each step."""
+    from ...simulation.control import SimulationControl
+
+    def exchange() -> None:
+        for bridge in bridges:
+            bridge.step()
+
+    control = SimulationControl(simulation, exchange)
+    exchange()
+    control.begin()
+    simulation.watch(exchange)
+    simulation.watch(control.hold)
 
 
 def _bridges(

@@ -1,0 +1,7 @@
+"""Services by which programs outside pause, step, reset and rearrange a running simulation."""
+
+from __future__ import annotations
+
+from .control import Quit, SimulationControl
+
+__all__ = ["Quit", "SimulationControl"]

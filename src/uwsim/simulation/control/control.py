@@ -1,0 +1,158 @@
+"""Play, pause, step, reset and quit, as the services of ROS 2's simulation_interfaces.
+
+They are offered on the bus, so that every transport has them. What they are called there has no
+prefix: ``/get_simulation_state``, ``/step_simulation`` and so on.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from ...errors import UwsimError
+from ...messages.simulation_control import (
+    GetSimulationState,
+    GetSimulationStateResponse,
+    GetSimulatorFeatures,
+    GetSimulatorFeaturesResponse,
+    ResetSimulation,
+    ResetSimulationResponse,
+    Result,
+    SetSimulationState,
+    SetSimulationStateResponse,
+    SimulationState,
+    SimulatorFeatures,
+    StepSimulation,
+    StepSimulationResponse,
+)
+from ..simulation import Simulation
+from .entities import Entities
+
+FEATURES = (
+    SimulatorFeatures.SPAWNING,
+    SimulatorFeatures.DELETING,
+    SimulatorFeatures.ENTITY_STATE_GETTING,
+    SimulatorFeatures.ENTITY_STATE_SETTING,
+    SimulatorFeatures.SIMULATION_RESET,
+    SimulatorFeatures.SIMULATION_STATE_GETTING,
+    SimulatorFeatures.SIMULATION_STATE_SETTING,
+    SimulatorFeatures.SIMULATION_STATE_PAUSE,
+    SimulatorFeatures.STEP_SIMULATION_SINGLE,
+    SimulatorFeatures.STEP_SIMULATION_MULTIPLE,
+)
+INFO = (
+    "uwsim. Entities are vehicles and objects; poses are in the frame of the scene file. What is "
+    "spawned is a marker: it has no mass and no camera sees it. A reset is of everything."
+)
+GLANCE_S = 0.002
+"""How often a paused simulation looks for calls [s]."""
+MAX_STEPS = 10_000_000
+"""Most steps of one call."""
+
+
+class Quit(Exception):
+    """A program outside has asked the simulation to end."""
+
+
+class SimulationControl:
+    """The state of a simulation that programs outside control.
+
+    `hold` is called at the end of each step, after the transports; it comes back when the next step
+    may begin.
+
+    Args:
+        simulation: what is controlled.
+        exchange: lets the transports answer calls while the simulation is paused.
+    """
+
+    def __init__(self, simulation: Simulation, exchange: Callable[[], None]) -> None:
+        self._simulation, self._exchange = simulation, exchange
+        self._state = SimulationState.PLAYING
+        self._is_stepping = False
+        self._start: bytes | None = None
+        self._entities = Entities(simulation)
+        bus = simulation.bus
+        bus.serve("get_simulator_features", GetSimulatorFeatures, self._features)
+        bus.serve("get_simulation_state", GetSimulationState, self._get_state)
+        bus.serve("set_simulation_state", SetSimulationState, self._set_state)
+        bus.serve("step_simulation", StepSimulation, self._step)
+        bus.serve("reset_simulation", ResetSimulation, self._reset)
+        self._entities.serve(bus)
+
+    def begin(self) -> None:
+        """Remember the state to which a reset goes back; before the first step."""
+        try:
+            self._start = self._simulation.save()
+        except UwsimError:
+            self._start = None  # an algorithm is attached, whose state cannot be saved
+
+    def hold(self) -> None:
+        """Wait while the simulation is paused or stopped, and answer calls.
+
+        Raises:
+            Quit: somebody asked for it.
+        """
+        while not self._is_stepping and self._state != SimulationState.PLAYING:
+            if self._state == SimulationState.QUITTING:
+                raise Quit
+            time.sleep(GLANCE_S)
+            self._exchange()
+
+    def _features(self, _request: GetSimulatorFeatures) -> GetSimulatorFeaturesResponse:
+        return GetSimulatorFeaturesResponse(
+            SimulatorFeatures(
+                features=np.array(FEATURES, dtype=np.uint16),
+                spawn_formats=["obj", "stl", "dae"],
+                custom_info=INFO,
+            )
+        )
+
+    def _get_state(self, _request: GetSimulationState) -> GetSimulationStateResponse:
+        return GetSimulationStateResponse(state=SimulationState(self._state))
+
+    def _set_state(self, request: SetSimulationState) -> SetSimulationStateResponse:
+        wanted, states = request.state.state, SimulationState
+        if wanted not in (states.STOPPED, states.PLAYING, states.PAUSED, states.QUITTING):
+            return SetSimulationStateResponse(
+                Result(Result.OPERATION_FAILED, f"There is no state {wanted}.")
+            )
+        if wanted == self._state:
+            code = SetSimulationStateResponse.ALREADY_IN_TARGET_STATE
+            return SetSimulationStateResponse(Result(code, "It is in that state."))
+        if wanted == states.STOPPED:
+            failed = self._go_back()
+            if failed is not None:
+                return SetSimulationStateResponse(failed)
+        self._state = wanted
+        return SetSimulationStateResponse()
+
+    def _step(self, request: StepSimulation) -> StepSimulationResponse:
+        if self._state != SimulationState.PAUSED or self._is_stepping:
+            message = "Steps are taken while the simulation is paused."
+            return StepSimulationResponse(Result(Result.INCORRECT_STATE, message))
+        if request.steps > MAX_STEPS:
+            message = f"At most {MAX_STEPS} steps."
+            return StepSimulationResponse(Result(Result.OPERATION_FAILED, message))
+        self._is_stepping = True
+        try:
+            for _ in range(request.steps):
+                self._simulation.advance()
+        finally:
+            self._is_stepping = False
+        return StepSimulationResponse()
+
+    def _reset(self, request: ResetSimulation) -> ResetSimulationResponse:
+        if request.scope not in (ResetSimulation.SCOPE_DEFAULT, ResetSimulation.SCOPE_ALL):
+            message = "Everything is reset, or nothing: scope 0 or 255."
+            return ResetSimulationResponse(Result(Result.FEATURE_UNSUPPORTED, message))
+        return ResetSimulationResponse(self._go_back() or Result())
+
+    def _go_back(self) -> Result | None:
+        """Go back to the beginning; why not, where it cannot."""
+        if self._start is None:
+            message = "An algorithm is attached, whose state cannot be reset."
+            return Result(Result.FEATURE_UNSUPPORTED, message)
+        self._simulation.restore(self._start)
+        return None
