@@ -71,6 +71,11 @@ class MountedLamp(Device):
         self._mount = mount
 
     @property
+    def link(self) -> str:
+        """Name of the link that it rides on: ``vehicle/link``."""
+        return self._mount.name
+
+    @property
     def world_from_lamp(self) -> Pose:
         """The present pose of the lamp; it shines along -z."""
         return self._mount.world_from_body

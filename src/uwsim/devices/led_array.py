@@ -98,6 +98,11 @@ class Led:
         self._until = 0.0  # it shines before this time [s]
 
     @property
+    def link(self) -> str:
+        """Name of the link that it rides on: ``vehicle/link``."""
+        return self._mount.name
+
+    @property
     def world_from_lamp(self) -> Pose:
         """The present pose of the lamp."""
         return self._mount.world_from_body

@@ -65,6 +65,11 @@ class MountedProjector(Device):
         self._mount = mount
 
     @property
+    def link(self) -> str:
+        """Name of the link that it rides on: ``vehicle/link``."""
+        return self._mount.name
+
+    @property
     def world_from_projector(self) -> Pose:
         """The present pose of the projector; it shines along -z."""
         return self._mount.world_from_body

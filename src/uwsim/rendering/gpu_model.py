@@ -9,17 +9,8 @@ import moderngl
 import numpy as np
 import numpy.typing as npt
 
-from ..assets.mesh import Mesh, Model, Texture
-from .pieces import crosses, densities, flat_normal, pieces
-
-VERTEX = np.dtype(
-    [
-        ("vertex", np.float32, (3,)),
-        ("vertex_normal", np.float32, (3,)),
-        ("uv", np.float32, (2,)),
-        ("tint", np.float32, (3,)),
-    ]
-)
+from ..assets.mesh import Model, Texture
+from .merged import Merged, merged
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,12 +88,7 @@ class GpuModels:
         """The model's batches; the same object is uploaded only once."""
         known = self._models.get(id(model))
         if known is None:
-            groups: dict[tuple[int, bool, float], list[Mesh]] = {}
-            for mesh in model.meshes:
-                if len(mesh.triangles):
-                    look = id(mesh.texture), mesh.two_sided, mesh.opacity
-                    groups.setdefault(look, []).append(mesh)
-            several = [self._batches(meshes) for meshes in groups.values()]
+            several = [self._batches(each) for each in merged(model)]
             known = model, tuple(itertools.chain.from_iterable(several))
             self._models[id(model)] = known  # holds the model, so that its id stays its own
         return known[1]
@@ -117,52 +103,29 @@ class GpuModels:
         for buffer in buffers.values():
             buffer.release()
 
-    def _batches(self, meshes: list[Mesh]) -> list[Batch]:
-        """Merge meshes of one texture, and cut what is large."""
-        vertices = np.empty(sum(len(mesh.vertices) for mesh in meshes), dtype=VERTEX)
-        several, first = [], 0
-        for mesh in meshes:
-            part = vertices[first : first + len(mesh.vertices)]
-            part["vertex"], part["vertex_normal"] = mesh.vertices, mesh.normals
-            part["uv"], part["tint"] = mesh.uvs, mesh.colour
-            several.append(mesh.triangles.astype(np.uint32) + np.uint32(first))
-            first += len(mesh.vertices)
-        triangles = np.concatenate(several)
-        points = vertices["vertex"].astype(np.float64)
-        normals = crosses(points, triangles)
-        texture = meshes[0].texture
-        texels = np.zeros(len(triangles))
-        if texture is not None:
-            height, width = texture.pixels.shape[:2]
-            places = vertices["uv"].astype(np.float64) * [width, height]
-            texels = densities(points, triangles, places)
-        parts = pieces(points, triangles, normals)
-        ordered = triangles[np.concatenate(parts)]  # a piece is a run of triangles
-        buffers = self._context.buffer(vertices.tobytes()), self._context.buffer(ordered.tobytes())
+    def _batches(self, each: Merged) -> list[Batch]:
+        """Upload merged meshes; a batch for each piece of them."""
+        vertices = self._context.buffer(each.vertices.tobytes())
+        indices = self._context.buffer(each.triangles.tobytes())
         arrays: dict[int, moderngl.VertexArray] = {}
-        batches, first = [], 0
-        for piece in parts:
-            corners = points[triangles[piece]].reshape(-1, 3)
-            box = np.stack([corners.min(axis=0), corners.max(axis=0)])  # (2, 3) [m]
-            centre = box.mean(axis=0)
-            batch = Batch(
-                vertices=buffers[0],
-                indices=buffers[1],
-                first=first,
-                size=3 * len(piece),
-                texture=texture,
-                two_sided=meshes[0].two_sided,
-                opacity=meshes[0].opacity,
-                centre=centre,
-                radius=float(np.sqrt(((corners - centre) ** 2).sum(axis=1).max())),
-                corners=np.array(list(itertools.product(*box.T))),
-                normal=flat_normal(normals[piece]),
-                density=float(texels[piece].max()),
+        return [
+            Batch(
+                vertices=vertices,
+                indices=indices,
+                first=piece.first,
+                size=piece.size,
+                texture=each.texture,
+                two_sided=each.two_sided,
+                opacity=each.opacity,
+                centre=piece.centre,
+                radius=piece.radius,
+                corners=piece.corners,
+                normal=piece.normal,
+                density=piece.density,
                 arrays=arrays,
             )
-            batches.append(batch)
-            first += batch.size
-        return batches
+            for piece in each.pieces
+        ]
 
     def use(self, texture: Texture, unit: int, *, is_close: bool) -> None:
         """Bind a texture; that of a close surface is sampled without mipmaps."""

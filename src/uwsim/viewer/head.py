@@ -15,20 +15,27 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
     uwsim_head  1
     title       "currents, PI, seed 7"
     live        whether rows come over a WebSocket
-    meshes      [{positions: ref, box: [low, high], normals: ref, uvs: ref or null,
-                  triangles: ref}]    positions u2 over the box, normals i1 / 127, uvs f4
+    meshes      [{positions: ref, normals: ref, uvs: ref or null, tints: ref, triangles: ref,
+                  pieces}]    normals are i2 / 32767, tints (colours 0..1) u2 / 65535;
+                  pieces: [first index, count, centre 3, radius, low 3, high 3, normal 3, density],
+                  `uwsim.rendering.merged.Piece`
     textures    [{type: "image/webp", bytes: ref, width, height, repeats}]
-    bodies      [{name, kind: "link" | "object", vehicle: name or null, pose: [x y z w x y z],
-                  trail: bool, visuals: [{mesh, matrix: 16, colour: 3, texture or null,
-                  opacity, two_sided, hidden}]}]
+    bodies      [{name, vehicle: name or null, pose: [x y z w x y z],
+                  visuals: [{part: which model of the scene, mesh, matrix: 16 (body from mesh), texture or null, opacity,
+                  two_sided, hidden (a ghost, which cameras do not see)}]}]
     cameras     [{name, body, pose: 7 (body from camera), width, height, fx, fy, cx, cy, skew,
                   near, far, grey}]
     lamps       [{name, body, pose, half_angle, softness, colour, intensity, shadow, on}]
-    sensors     [{name, kind, body, pose, reach, width, height, beams}]  x ahead; angles of the fan
-    frames      [{name, body, pose}]
-    water       {fog, fog_colour, colour, attenuation, surface_height, fog_distance, light_rate,
-                 sun, shadows}
-    law         {sun_directions, sun_colours, ambient, specular, ...}  constants of the renderer
+    projector   null or {body, pose, fovy, laser, pattern: number of a texture, alpha: ref u1}
+    sensors     [{name, kind: "range" | "fan" | "sonar", body, pose, reach, from, to}]
+                  a beam along x; a fan in the y z plane from -z towards y, angles from, to; a
+                  sonar's in its x y plane from x towards y
+    frames      [{name, body or null (W), pose}]
+    vehicles    [{name, body (its base), thrusters: [names], joints: [names]}]
+    view        {pose, fovy, at: 3}   from where one looks at first, and at what
+    water       {fog, fog_colour, colour, attenuation, surface_height, clip, light_rate,
+                 sun, shadows}    clip: the fog of the original, by clip-space z
+    suns        {name: {direction, colour}}; ambient, specular: constants of the law
     localized   pose of the frame L in W
     estimates   [{camera, truth: signals, estimate: signals}] quadrangles in images [px]
     trials      replays only: [{title, motion: ref u1 or null, levels, curves}]
@@ -93,3 +100,255 @@ Keys are `KeyboardEvent.key` of letters in lower case; axes and buttons those of
 sticks those on the screen, -1..1, up and right positive. The page is served at ``/?token=T``; it
 opens ``ws[s]://HOST/socket?token=T``. The head is the first message.
 """
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from ..geometry import Pose
+from ..linear import product
+from ..rendering.water import AMBIENT, SPECULAR, SUN_COLOURS, SUN_DIRECTIONS
+from ..sensors.imaging_sonar import ImagingSonarSpec
+from ..sensors.multibeam_sensor import FanSpec
+from ..sensors.range_sensor import RangeSensorSpec
+from ..sensors.sensor import MountedSensor
+from ..sensors.virtual_camera import VirtualCameraSpec
+from ..simulation import Simulation
+from ..simulation.parts import Part
+from ..simulation.stage import SceneStage
+from ..simulation.views import FIELD, focus_of, orbit_view
+from .models import Models
+from .pack import Blob
+
+Json = dict[str, Any]
+VERSION = 1
+"""Of the format."""
+SIZE = (960, 720)
+"""Of the first view [px]; only its shape counts."""
+
+
+def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool = False) -> Json:
+    """Describe an opened scene as the page needs it.
+
+    Args:
+        simulation: at step 0.
+        title: of the page.
+        blob: where the numbers go.
+        is_live: whether rows come over a WebSocket.
+    """
+    world = simulation.world
+    models = Models(blob)
+    bodies = _Bodies(world)
+    for part in world.scenery.parts:
+        bodies.add(part, models)
+    for number, heap in enumerate(world.scenery.heaps):
+        bodies.add_fixed(f"sand/{heap.name}", models.looks(world.scenery.heaps[number].model()))
+    water, light = world.scenery.water, world.scenery.light
+    return {
+        "uwsim_head": VERSION,
+        "title": title,
+        "live": is_live,
+        "localized": _row(world.world_from_localized),
+        "cameras": list(_cameras(world, bodies)),
+        "lamps": list(_lamps(world, bodies)),
+        "projector": _projector(world, bodies, models),
+        "sensors": list(_sensors(world, bodies)),
+        "frames": list(_frames(world, bodies)),
+        "vehicles": list(_vehicles(world, bodies)),
+        "view": _first_view(simulation),
+        "water": {
+            "fog": water.fog,
+            "fog_colour": list(water.fog_colour),
+            "colour": list(water.colour),
+            "attenuation": list(water.attenuation),
+            "surface_height": water.surface_height,
+            "clip": water.fog_distance == "clip",
+            "light_rate": light.rate,
+            "sun": light.sun,
+            "shadows": light.shadows,
+        },
+        "suns": {
+            name: {"direction": list(SUN_DIRECTIONS[name]), "colour": list(SUN_COLOURS[name])}
+            for name in SUN_DIRECTIONS
+        },
+        "ambient": AMBIENT,
+        "specular": SPECULAR,
+        "bodies": bodies.rows,
+        "meshes": models.meshes,
+        "textures": models.textures,
+    }
+
+
+class _Bodies:
+    """The bodies that the page draws, or that something is mounted on.
+
+    Args:
+        world: the scene.
+    """
+
+    def __init__(self, world: SceneStage) -> None:
+        self._world = world
+        self.rows: list[Json] = []
+        """The bodies so far, as in the head."""
+        self._poses: dict[str, Pose] = {}
+        self._n_parts = 0
+
+    def link(self, index: int, link: str) -> str:
+        """Return the name of a link, which is among the bodies from now on."""
+        vehicle = self._world.scene.vehicles[index].name
+        return self._body(f"{vehicle}/{link}", self._world.state.poses.link(index, link), vehicle)
+
+    def link_called(self, vehicle: str, link: str) -> str:
+        """Return the name of a link of the first vehicle of that name."""
+        return self.link(self._world.vehicles.index(vehicle), link)
+
+    def pose(self, name: str) -> Pose:
+        """Return where a body is, by the name that `link` returned."""
+        return self._poses[name]
+
+    def add(self, part: Part, models: Models) -> None:
+        """Add a part of the scene."""
+        if part.vehicle is not None:
+            name = self.link(part.vehicle, part.link)
+        else:
+            assert part.object is not None
+            name = self._body(part.name, self._world.state.poses.object(part.object), None)
+        body_from_mesh = product(
+            self._poses[name].inverse().matrix, self._world.scenery.world_from_mesh(part)
+        )
+        matrix = [float(f"{value:.9g}") for value in body_from_mesh.ravel()]
+        row = next(row for row in self.rows if row["name"] == name)
+        self._n_parts += 1
+        row["visuals"] += [
+            {"part": self._n_parts, **look, "matrix": matrix, "hidden": part.is_hidden}
+            for look in models.looks(part.model)
+        ]
+
+    def add_fixed(self, name: str, looks: list[Json]) -> None:
+        """Add something whose vertices are in W."""
+        self._body(name, Pose.identity(), None)
+        matrix = np.eye(4).ravel().tolist()
+        self._n_parts += 1
+        about = {"part": self._n_parts, "matrix": matrix, "hidden": False}
+        self.rows[-1]["visuals"] = [{**about, **look} for look in looks]
+
+    def _body(self, name: str, pose: Pose, vehicle: str | None) -> str:
+        if name not in self._poses:
+            self._poses[name] = pose
+            self.rows.append({"name": name, "vehicle": vehicle, "pose": _row(pose), "visuals": []})
+        return name
+
+
+def _cameras(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
+    seen: set[str] = set()
+    for vehicle in world.scene.vehicles:
+        for spec in vehicle.parts_of(VirtualCameraSpec):
+            if spec.name in seen or spec.name not in world.cameras:
+                continue
+            seen.add(spec.name)
+            camera = world.camera(spec.name)
+            link = f"{vehicle.name}/{spec.relative_to}"
+            yield {
+                **_mounted(bodies, link, camera.world_from_camera),
+                "name": spec.name,
+                "grey": camera.is_grey,
+                **asdict(camera.intrinsics),
+            }
+
+
+def _lamps(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
+    for lamp in world.scenery.mounted_lamps:
+        spec = lamp.spec
+        yield {
+            **_mounted(bodies, lamp.link, lamp.world_from_lamp),
+            "name": spec.name,
+            "half_angle": math.radians(spec.fov / 2.0),
+            "softness": spec.softness,
+            "colour": list(spec.color),
+            "intensity": spec.intensity,
+            "shadow": spec.shadow,
+            "on": lamp.is_on,
+        }
+
+
+def _projector(world: SceneStage, bodies: _Bodies, models: Models) -> Json | None:
+    if world.scenery.mounted_projector is None:
+        return None
+    projector, pattern = world.scenery.mounted_projector
+    return {
+        **_mounted(bodies, projector.link, projector.world_from_projector),
+        "fovy": math.radians(projector.spec.fov),
+        "laser": projector.spec.laser,
+        "pattern": models.pattern(pattern),
+    }
+
+
+def _sensors(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
+    for name, spec in _mounted_parts(world):
+        place = world.vehicle(name).mount(spec)
+        about = {**_mounted(bodies, place.name, place.world_from_body), "name": spec.name}
+        if isinstance(spec, RangeSensorSpec):
+            yield {**about, "kind": "range", "reach": spec.range, "from": 0.0, "to": 0.0}
+        elif isinstance(spec, FanSpec):
+            ends = math.radians(spec.init_angle), math.radians(spec.final_angle)
+            yield {**about, "kind": "fan", "reach": spec.range, "from": ends[0], "to": ends[1]}
+        elif isinstance(spec, ImagingSonarSpec):
+            half = math.radians(spec.horizontal_aperture) / 2.0
+            yield {**about, "kind": "sonar", "reach": spec.range, "from": -half, "to": half}
+
+
+def _frames(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
+    yield {"name": "L", "body": None, "pose": _row(world.world_from_localized)}
+    for index, vehicle in enumerate(world.scene.vehicles):
+        for link in world.robots[index].links:
+            body = bodies.link(index, link.name)
+            yield {"name": body, "body": body, "pose": _row(Pose.identity())}
+        for part in (part for name, part in _mounted_parts(world) if name == vehicle.name):
+            place = world.vehicle(vehicle.name).mount(part)
+            yield {**_mounted(bodies, place.name, place.world_from_body), "name": part.name}
+
+
+def _mounted_parts(world: SceneStage) -> Iterator[tuple[str, MountedSensor]]:
+    """Name of the vehicle, and spec of each sensor on a link that is there."""
+    for index, vehicle in enumerate(world.scene.vehicles):
+        for _, part in vehicle.all_parts():
+            links = world.robots[index]
+            if isinstance(part, MountedSensor) and links.link(part.relative_to) is not None:
+                yield vehicle.name, part
+
+
+def _vehicles(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
+    for index, vehicle in enumerate(world.scene.vehicles):
+        live = world.vehicle(vehicle.name)
+        yield {
+            "name": vehicle.name,
+            "body": bodies.link(index, world.robots[index].root),
+            "thrusters": list(live.thrusters),
+            "joints": list(live.joint_names),
+        }
+
+
+def _first_view(simulation: Simulation) -> Json:
+    view = orbit_view(simulation, SIZE)
+    return {
+        "pose": _row(view.world_from_camera),
+        "fovy": FIELD,
+        "at": focus_of(simulation).middle.tolist(),
+    }
+
+
+def _mounted(bodies: _Bodies, name: str, world_from_part: Pose) -> Json:
+    """Name of the body, and where on it a part is."""
+    vehicle, _, link = name.partition("/")
+    body = bodies.link_called(vehicle, link)
+    return {"body": body, "pose": _row(bodies.pose(body).inverse() @ world_from_part)}
+
+
+def _row(pose: Pose) -> list[float]:
+    """Position and quaternion wxyz."""
+    return [float(f"{value:.9g}") for value in (*pose.position, *pose.quaternion)]

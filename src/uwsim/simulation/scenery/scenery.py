@@ -75,8 +75,10 @@ class Scenery:
         self.light = Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene))
         """The sun as it shines now; scene updaters change its rate."""
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
-        self._mounted_lamps: tuple[MountedLamp | Led, ...] = ()
-        self._mounted_projector: tuple[MountedProjector, npt.NDArray[np.uint8]] | None = None
+        self.mounted_lamps: tuple[MountedLamp | Led, ...] = ()
+        """The lamps and signal lamps of the scene."""
+        self.mounted_projector: tuple[MountedProjector, npt.NDArray[np.uint8]] | None = None
+        """The projector of the scene, and its pattern (h, w, 4)."""
         self._projector: Projector | None = None
         self.heaps = heaps_of(
             scene, [(p.object, self.corners(p)) for p in self.parts if p.object is not None]
@@ -91,13 +93,13 @@ class Scenery:
             UwsimError: there are too many lamps; of signal lamps those shine for which there is
                 room.
         """
-        self._mounted_lamps = (*lamps, *leds)
+        self.mounted_lamps = (*lamps, *leds)
         if (n_lamps := len(lamps)) > MAX_LAMPS:
             raise UwsimError(f"{n_lamps} lamps shine in the scene; at most {MAX_LAMPS} may.")
 
     def set_projector(self, projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> None:
         """Set the projector of the scene, and its pattern (h, w, 4)."""
-        self._mounted_projector = projector, pattern
+        self.mounted_projector = projector, pattern
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
         """The present pose of a part, with its scale, (4, 4) [m]."""
@@ -194,11 +196,11 @@ class Scenery:
         if self._drawn_version != self._state.poses.version:
             for part, handle in zip(self.parts, self._handles, strict=True):
                 renderer.place(handle, self.world_from_mesh(part))
-            if self._mounted_projector is not None:
-                self._projector = _projecting(*self._mounted_projector)
+            if self.mounted_projector is not None:
+                self._projector = _projecting(*self.mounted_projector)
             self._drawn_version = self._state.poses.version
         self._draw_heaps(renderer)
-        shining = [lamp for lamp in self._mounted_lamps if lamp.is_on]
+        shining = [lamp for lamp in self.mounted_lamps if lamp.is_on]
         return renderer.draw(
             world_from_camera,
             intrinsics,

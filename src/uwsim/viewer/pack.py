@@ -1,0 +1,76 @@
+"""Packs: JSON with the numbers that it refers to, as the page reads them (`head`)."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import struct
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Ref = tuple[int, int, str]
+"""Offset [byte], count of numbers, kind."""
+Json = Mapping[str, Any]
+
+KINDS = {
+    np.dtype(name): kind
+    for name, kind in (
+        ("<f4", "f4"),
+        ("<u4", "u4"),
+        ("<u2", "u2"),
+        ("<i2", "i2"),
+        ("i1", "i1"),
+        ("u1", "u1"),
+    )
+}
+
+
+class Blob:
+    """The numbers of a pack, one array after the other."""
+
+    def __init__(self) -> None:
+        self._parts: list[bytes] = []
+        self._length = 0
+
+    def add(self, array: npt.NDArray[Any]) -> Ref:
+        """Append an array, flat; returns what the JSON says of it."""
+        ref = self._length, array.size, KINDS[array.dtype]
+        data = np.ascontiguousarray(array).tobytes()
+        data += bytes(-len(data) % 4)
+        self._parts.append(data)
+        self._length += len(data)
+        return ref
+
+    def add_bytes(self, data: bytes) -> Ref:
+        """Append bytes."""
+        return self.add(np.frombuffer(data, np.uint8))
+
+    @property
+    def data(self) -> bytes:
+        """All of them."""
+        return b"".join(self._parts)
+
+
+def packed(head: Json, blob: Blob) -> bytes:
+    """Return a pack; the same bytes for the same content."""
+    text = json.dumps(head, separators=(",", ":"), allow_nan=False).encode()
+    text += b" " * (-(len(text) + 4) % 8)
+    content = struct.pack("<I", len(text)) + text + blob.data
+    return gzip.compress(content, compresslevel=9, mtime=0)
+
+
+def unpacked(pack: bytes) -> tuple[dict[str, Any], bytes]:
+    """Return the JSON of a pack, and the bytes that it refers to."""
+    content = gzip.decompress(pack)
+    (length,) = struct.unpack_from("<I", content)
+    return json.loads(content[4 : 4 + length]), content[4 + length :]
+
+
+def numbers(ref: Ref | list[Any], data: bytes) -> npt.NDArray[Any]:
+    """Return the array that a reference means, flat."""
+    offset, count, kind = ref
+    dtype = {kind: dtype for dtype, kind in KINDS.items()}[kind]
+    return np.frombuffer(data, dtype, count, offset)

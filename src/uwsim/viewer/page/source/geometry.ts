@@ -1,0 +1,137 @@
+// Poses and matrices as in uwsim.geometry: 4 x 4 matrices row by row, quaternions w x y z.
+
+export type Matrix = Float64Array;
+export type Vector = ArrayLike<number>;
+/** x y z w x y z */
+export type Pose = ArrayLike<number>;
+
+export interface Lens {
+  width: number;
+  height: number;
+  fx: number;
+  fy: number;
+  cx: number;
+  cy: number;
+  skew: number;
+  near: number;
+  far: number;
+}
+
+export function matrix(values: ArrayLike<number>): Matrix {
+  return Float64Array.from(values);
+}
+
+export function identity(): Matrix {
+  return matrix([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+}
+
+export function product(a: Matrix, b: Matrix): Matrix {
+  const out = new Float64Array(16);
+  for (let i = 0; i < 16; i += 4)
+    for (let j = 0; j < 4; ++j)
+      out[i + j] = a[i] * b[j] + a[i + 1] * b[4 + j] + a[i + 2] * b[8 + j] + a[i + 3] * b[12 + j];
+  return out;
+}
+
+export function fromPose(pose: Pose, at = 0): Matrix {
+  const [x, y, z] = [pose[at], pose[at + 1], pose[at + 2]];
+  const length = Math.hypot(pose[at + 3], pose[at + 4], pose[at + 5], pose[at + 6]) || 1;
+  const [w, i, j, k] = [3, 4, 5, 6].map((n) => pose[at + n] / length);
+  return matrix([
+    1 - 2 * (j * j + k * k), 2 * (i * j - w * k), 2 * (i * k + w * j), x,
+    2 * (i * j + w * k), 1 - 2 * (i * i + k * k), 2 * (j * k - w * i), y,
+    2 * (i * k - w * j), 2 * (j * k + w * i), 1 - 2 * (i * i + j * j), z,
+    0, 0, 0, 1,
+  ]);
+}
+
+/** The inverse of a rotation and a shift. */
+export function inverse(m: Matrix): Matrix {
+  const back = (i: number): number => -(m[i] * m[3] + m[4 + i] * m[7] + m[8 + i] * m[11]);
+  return matrix([
+    m[0], m[4], m[8], back(0), m[1], m[5], m[9], back(1), m[2], m[6], m[10], back(2), 0, 0, 0, 1,
+  ]);
+}
+
+export function determinant(m: Matrix): number {
+  return dot([m[0], m[1], m[2]], cross([m[4], m[5], m[6]], [m[8], m[9], m[10]]));
+}
+
+/** The inverse transpose of the upper left 3 x 3, in a 4 x 4. */
+export function ofNormals(m: Matrix): Matrix {
+  const rows = [0, 4, 8].map((i) => [m[i], m[i + 1], m[i + 2]]);
+  const d = 1 / determinant(m);
+  const [a, b, c] = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];
+  return matrix([...[a, b, c].flatMap((row) => [row[0] * d, row[1] * d, row[2] * d, 0]), 0, 0, 0, 1]);
+}
+
+export function transform(m: Matrix, p: Vector): [number, number, number] {
+  return [
+    m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3],
+    m[4] * p[0] + m[5] * p[1] + m[6] * p[2] + m[7],
+    m[8] * p[0] + m[9] * p[1] + m[10] * p[2] + m[11],
+  ];
+}
+
+/** A direction by the rotation of a matrix. */
+export function turned(m: Matrix, v: Vector): [number, number, number] {
+  return [dot([m[0], m[1], m[2]], v), dot([m[4], m[5], m[6]], v), dot([m[8], m[9], m[10]], v)];
+}
+
+/** A direction by the inverse of the rotation of a matrix. */
+export function turnedBack(m: Matrix, v: Vector): [number, number, number] {
+  return [dot([m[0], m[4], m[8]], v), dot([m[1], m[5], m[9]], v), dot([m[2], m[6], m[10]], v)];
+}
+
+export function origin(m: Matrix): [number, number, number] {
+  return [m[3], m[7], m[11]];
+}
+
+export function dot(a: Vector, b: Vector): number {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+export function cross(a: Vector, b: Vector): [number, number, number] {
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+export function plus(a: Vector, b: Vector, factor = 1): [number, number, number] {
+  return [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];
+}
+
+export function unit(a: Vector): [number, number, number] {
+  const length = Math.hypot(a[0], a[1], a[2]) || 1;
+  return [a[0] / length, a[1] / length, a[2] / length];
+}
+
+/** World from a camera (OpenGL axes) that looks from a point to another. */
+export function looking(eye: Vector, at: Vector, up: Vector = [0, 0, 1]): Matrix {
+  const back = unit(plus(eye, at, -1));
+  let right = cross(up, back);
+  if (Math.hypot(...right) < 1e-6) right = cross([1, 0, 0], back);
+  right = unit(right);
+  const above = cross(back, right);
+  return matrix([
+    right[0], above[0], back[0], eye[0], right[1], above[1], back[1], eye[1],
+    right[2], above[2], back[2], eye[2], 0, 0, 0, 1,
+  ]);
+}
+
+export function lensOf(width: number, height: number, fovy: number): Lens {
+  const focal = height / (2 * Math.tan(fovy / 2));
+  const centre = { cx: (width - 1) / 2, cy: (height - 1) / 2 };
+  return { width, height, fx: focal, fy: focal, ...centre, skew: 0, near: 0.05, far: 2000 };
+}
+
+/** Clip space from the camera; with `flipped` the first row of pixels is the top of the image. */
+export function clipFromCamera(lens: Lens, flipped: boolean): Matrix {
+  const { width: w, height: h, near, far } = lens;
+  const span = far - near;
+  const s = flipped ? 1 : -1;
+  return matrix([
+    (2 * lens.fx) / w, (2 * lens.skew) / w, 1 - (2 * lens.cx + 1) / w, 0,
+    0, (-2 * s * lens.fy) / h, s * (1 - (2 * lens.cy + 1) / h), 0,
+    0, 0, -(far + near) / span, (-2 * far * near) / span,
+    0, 0, -1, 0,
+  ]);
+}

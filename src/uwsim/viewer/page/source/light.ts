@@ -1,0 +1,194 @@
+// The maps of shadows: of the sun, of the lamps and of a projector, as in uwsim.rendering.
+import type { Lamp, Projector } from "./head";
+import {
+  clipFromCamera, inverse, origin, product, type Lens, type Matrix, matrix,
+} from "./geometry";
+import type { Piece } from "./models";
+import type { Slots } from "./renderer";
+import { Programs } from "./shaders";
+import { fit, inView, TO_TEXTURE } from "./visibility";
+
+const SMALL = 512;
+const LARGE = 1024;
+const FINE_TEXEL = 0.008;
+const TILE = 512;
+const MAX_HALF_ANGLE = (80 * Math.PI) / 180;
+const LAMP_MARGIN = 1.02;
+const LONGEST_SIDE = 1024;
+
+export interface ShiningLamp {
+  lamp: Lamp;
+  place: Matrix;
+}
+
+export class DepthMap {
+  readonly texture: WebGLTexture;
+  private readonly buffer: WebGLFramebuffer;
+
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    readonly width: number,
+    readonly height: number,
+  ) {
+    this.texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, this.texture);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, width, height);
+    for (const [name, value] of [
+      [gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE],
+      [gl.TEXTURE_COMPARE_FUNC, gl.LEQUAL],
+      [gl.TEXTURE_MIN_FILTER, gl.LINEAR],
+      [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
+      [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE],
+      [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE],
+    ])
+      gl.texParameteri(gl.TEXTURE_2D, name, value);
+    this.buffer = gl.createFramebuffer();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.buffer);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, this.texture, 0);
+    gl.drawBuffers([gl.NONE]);
+    this.begin(0, 0, width, height);
+  }
+
+  /** Clear a part of it, and draw there from now on. */
+  begin(x: number, y: number, width: number, height: number): void {
+    const gl = this.gl;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.buffer);
+    gl.viewport(x, y, width, height);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(x, y, width, height);
+    gl.depthMask(true);
+    gl.clearDepth(1);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.disable(gl.SCISSOR_TEST);
+  }
+}
+
+/** Draws the depth of casters, and keeps what the shaders need of the maps. */
+export class Shadows {
+  private readonly suns: Record<number, DepthMap>;
+  sunMap: DepthMap;
+  textureFromWorld = matrix([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+  lift = 0;
+  lampMaps: DepthMap | null = null;
+  projectorMap: DepthMap | null = null;
+  private sunKey = "";
+  private readonly lampKeys: string[] = [];
+
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    private readonly programs: Programs,
+    private readonly slots: Slots,
+  ) {
+    this.suns = { [SMALL]: new DepthMap(gl, SMALL, SMALL), [LARGE]: new DepthMap(gl, LARGE, LARGE) };
+    this.sunMap = this.suns[SMALL];
+  }
+
+  castSun(casters: Piece[], sun: number[], version: number): void {
+    const key = `${version} ${sun} ${casters.map((p) => `${p.instance.number}.${p.first}`)}`;
+    if (key === this.sunKey) return;
+    this.sunKey = key;
+    const [clip, edge] = fit(casters, sun);
+    const size = edge / SMALL <= FINE_TEXEL ? SMALL : LARGE;
+    this.sunMap = this.suns[size];
+    this.textureFromWorld = product(TO_TEXTURE, clip);
+    this.lift = (1.5 * edge) / size;
+    this.sunMap.begin(0, 0, size, size);
+    this.draw(casters, clip);
+  }
+
+  castLamps(lamps: ShiningLamp[], pieces: Piece[], version: number): void {
+    this.lampMaps ??= new DepthMap(this.gl, 2 * TILE, 2 * TILE);
+    lamps.forEach(({ lamp, place }, tile) => {
+      const key = lamp.shadow ? `${version} ${lamp.half_angle} ${place}` : "none";
+      if (key === this.lampKeys[tile]) return;
+      this.lampKeys[tile] = key;
+      this.lampMaps!.begin(TILE * (tile % 2), TILE * (tile >> 1), TILE, TILE);
+      if (lamp.shadow) this.castFrom(place, lampLens(lamp), pieces);
+    });
+  }
+
+  castProjector(place: Matrix, lens: Lens, pieces: Piece[]): void {
+    this.projectorMap ??= new DepthMap(this.gl, lens.width, lens.height);
+    this.projectorMap.begin(0, 0, lens.width, lens.height);
+    this.castFrom(place, lens, pieces);
+  }
+
+  private castFrom(place: Matrix, lens: Lens, pieces: Piece[]): void {
+    const clip = clipFromCamera(lens, true);
+    const casters = inView(pieces, { worldFromCamera: place, clip, lens });
+    this.draw(casters.filter(isOpaque), product(clip, inverse(place)), true);
+  }
+
+  private draw(casters: Piece[], clipFromWorld: Matrix, isFlipped = false): void {
+    const gl = this.gl;
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1.5, 2);
+    gl.useProgram(this.programs.get("shadow", {}));
+    this.slots.fill(clipFromWorld);
+    for (const piece of casters) this.slots.drawPiece(piece, isFlipped);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+  }
+}
+
+export function isOpaque(piece: Piece): boolean {
+  return piece.instance.visual.opacity >= 1;
+}
+
+function lampLens(lamp: Lamp): Lens {
+  const focal = TILE / 2 / (LAMP_MARGIN * Math.tan(Math.min(lamp.half_angle, MAX_HALF_ANGLE)));
+  const c = (TILE - 1) / 2;
+  return { width: TILE, height: TILE, fx: focal, fy: focal, cx: c, cy: c, skew: 0, near: 0.1, far: 20 };
+}
+
+export function projectorLens(projector: Projector, columns: number, rows: number): Lens {
+  const scale = LONGEST_SIDE / Math.max(rows, columns);
+  const width = Math.max(1, Math.round(scale * columns));
+  const height = Math.max(1, Math.round(scale * rows));
+  const half = Math.tan(projector.fovy / 2);
+  return {
+    width, height, fx: width / 2 / ((half * columns) / rows), fy: height / 2 / half,
+    cx: (width - 1) / 2, cy: (height - 1) / 2, skew: 0, near: 0.1, far: 20,
+  };
+}
+
+/** The block Lamps, for four lamps. */
+export function lampBlock(lamps: ShiningLamp[], worldFromCamera: Matrix): Float32Array<ArrayBuffer> {
+  const block = new Float32Array(4 * 16 + 3 * 16);
+  const cameraFromWorld = inverse(worldFromCamera);
+  lamps.forEach(({ lamp, place }, tile) => {
+    const [x, y] = [0.25 + 0.5 * (tile % 2), 0.25 + 0.5 * (tile >> 1)];
+    const tileFromClip = matrix([0.25, 0, 0, x, 0, 0.25, 0, y, 0, 0, 0.5, 0.5, 0, 0, 0, 1]);
+    const map = product(tileFromClip, clipFromCamera(lampLens(lamp), true));
+    block.set(columns(product(product(map, inverse(place)), worldFromCamera)), 16 * tile);
+    const cameraFromLamp = product(cameraFromWorld, place);
+    const outer = Math.cos(lamp.half_angle);
+    const inner = Math.cos((1 - lamp.softness) * lamp.half_angle);
+    const texel = (2 * LAMP_MARGIN * Math.tan(lamp.half_angle)) / TILE;
+    const m = cameraFromLamp;
+    block.set([...origin(m), outer], 64 + 4 * tile);
+    block.set([m[2], m[6], m[10], 1 / Math.max(inner - outer, 1e-5)], 80 + 4 * tile);
+    block.set([...lamp.colour.map((c) => c * lamp.intensity), 1.5 * texel], 96 + 4 * tile);
+  });
+  return block;
+}
+
+/** The block Projector. */
+export function projectorBlock(
+  projector: Projector, place: Matrix, lens: Lens, worldFromCamera: Matrix,
+): Float32Array<ArrayBuffer> {
+  const projectorFromCamera = product(inverse(place), worldFromCamera);
+  const map = product(TO_TEXTURE, clipFromCamera(lens, true));
+  const m = inverse(projectorFromCamera);
+  return Float32Array.from([
+    ...columns(product(map, projectorFromCamera)),
+    ...origin(m), projector.laser ? 1 : 0,
+    m[2], m[6], m[10], 1.5 / Math.min(lens.fx, lens.fy),
+  ]);
+}
+
+/** OpenGL counts columns first. */
+export function columns(m: Matrix): number[] {
+  return [0, 1, 2, 3].flatMap((i) => [m[i], m[4 + i], m[8 + i], m[12 + i]]);
+}

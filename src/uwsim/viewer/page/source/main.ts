@@ -1,0 +1,265 @@
+// Puts the page together: a replay that lies in it, or a live view.
+import { Curves, valueAt } from "./curves";
+import { Keyboard } from "./keys";
+import { connect, type Link } from "./live";
+import { fromBase64, unpack, type Pack } from "./pack";
+import { element, indexAt, LevelList, make, Thrusters, toggleHelp } from "./panels";
+import { graphics, Picture, type Switches } from "./picture";
+import { Replay, Stream, type Player } from "./player";
+import { MODES, Views, type Mode } from "./views";
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
+const NAMES: Record<Mode, string> = { orbit: "Orbit", chase: "Chase", camera: "Camera", map: "Map" };
+
+export class Page {
+  time = 0;
+  isPlaying = false;
+  speed = 1;
+  readonly switches: Switches = {
+    clear: true, pictures: true, frames: false, labels: false, trails: true, sonars: true, sun: "",
+    since: 0,
+  };
+  private readonly curves = new Curves(element("curves"), (time) => this.seek(time));
+  private readonly levels: LevelList;
+  private readonly thrusters: Thrusters;
+  private last = performance.now();
+  private drawn = "";
+
+  constructor(
+    readonly pack: Pack,
+    readonly player: Player,
+    readonly picture: Picture,
+    readonly views: Views,
+    readonly link: Link | null,
+  ) {
+    this.levels = new LevelList(player, (index) => void this.go(index));
+    this.thrusters = new Thrusters(pack.head);
+    this.build();
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  /** Go to the beginning of a level. */
+  async go(index: number): Promise<void> {
+    const chosen = this.player.levels[index];
+    if (!chosen || this.link) return;
+    await this.select(chosen.trial);
+    this.seek(chosen.level.start);
+  }
+
+  async select(trial: number): Promise<void> {
+    if (trial === this.player.trial) return;
+    await this.player.select(trial);
+    this.switches.since = 0;
+    this.curves.set(this.player.curves);
+    const { start, end } = this.player;
+    this.levels.mark(start, end);
+    Object.assign(element<HTMLInputElement>("time"), { min: String(start), max: String(end) });
+  }
+
+  seek(time: number): void {
+    if (this.link) return;
+    this.time = Math.min(this.player.end, Math.max(this.player.start, time));
+    this.draw();
+  }
+
+  play(on = !this.isPlaying): void {
+    this.isPlaying = on;
+    if (on && !this.link && this.time >= this.player.end - 1e-6) this.time = this.player.start;
+    this.link?.control(on ? "play" : "pause");
+    element("play").textContent = on ? "Pause" : "Play";
+  }
+
+  step(direction: number): void {
+    this.play(false);
+    if (this.link) this.link.control("step");
+    else this.seek(this.time + direction / 30);
+  }
+
+  setSpeed(speed: number): void {
+    this.speed = speed;
+    element<HTMLSelectElement>("speed").value = String(speed);
+    this.link?.control("speed", speed);
+  }
+
+  faster(direction: number): void {
+    const next = SPEEDS.indexOf(this.speed) + direction;
+    if (SPEEDS[next] !== undefined) this.setSpeed(SPEEDS[next]);
+  }
+
+  show(mode: Mode): void {
+    if (mode === "camera" && !this.pack.head.cameras.length) return;
+    if (mode === "camera" && this.views.mode === "camera")
+      this.views.camera = (this.views.camera + 1) % this.pack.head.cameras.length;
+    this.views.mode = mode;
+    this.refresh();
+  }
+
+  toggle(name: "clear" | "pictures" | "frames" | "labels" | "trails" | "sonars"): void {
+    this.switches[name] = !this.switches[name];
+    this.refresh();
+  }
+
+  /** The point from which trails are drawn on. */
+  clearTrails(): void {
+    const body = this.pack.head.vehicles[0]?.body ?? "";
+    this.switches.since = this.player.trail(body, this.time).length;
+  }
+
+  theme(): void {
+    const root = document.documentElement;
+    root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
+    this.draw();
+  }
+
+  draw(): void {
+    if (this.player.isLive) this.time = this.player.end;
+    const moment = this.player.moment(this.time);
+    this.picture.draw(this.player, moment, this.views, this.switches);
+    this.levels.show(this.time);
+    this.curves.show(this.time, this.player.curves);
+    this.thrusters.show(moment);
+    element<HTMLInputElement>("time").value = String(this.time);
+    element("clock").textContent = this.player.isLive
+      ? `${this.time.toFixed(2)} s`
+      : `${this.time.toFixed(2)} / ${this.player.end.toFixed(2)} s`;
+  }
+
+  private tick(now: number): void {
+    const passed = Math.min(0.25, (now - this.last) / 1000);
+    this.last = now;
+    if (this.isPlaying && !this.link) {
+      this.time = Math.min(this.player.end, this.time + passed * this.speed);
+      if (this.time >= this.player.end) this.play(false);
+    }
+    // a page that nothing happens on costs nothing
+    const { clientWidth, clientHeight } = this.picture.canvas;
+    const state = [this.time, this.player.end, clientWidth, clientHeight, this.views.version];
+    const key = state.join() + JSON.stringify(this.switches);
+    if (key !== this.drawn && !document.hidden) {
+      this.drawn = key;
+      this.draw();
+    }
+    requestAnimationFrame((next) => this.tick(next));
+  }
+
+  private refresh(): void {
+    const { mode, camera } = this.views;
+    element("modes").querySelectorAll("button").forEach((button) => {
+      button.setAttribute("aria-checked", String(button.dataset.mode === mode));
+    });
+    element("switches").querySelectorAll("button").forEach((button) => {
+      const name = button.dataset.switch as keyof Switches;
+      button.setAttribute("aria-pressed", String(this.switches[name]));
+    });
+    const choice = element<HTMLSelectElement>("camera");
+    choice.hidden = mode !== "camera" || this.pack.head.cameras.length < 2;
+    choice.value = String(camera);
+    this.draw();
+  }
+
+  private build(): void {
+    for (const mode of MODES) {
+      if (mode === "camera" && !this.pack.head.cameras.length) continue;
+      const button = make("button", NAMES[mode]);
+      button.dataset.mode = mode;
+      button.setAttribute("role", "radio");
+      button.addEventListener("click", () => this.show(mode));
+      element("modes").append(button);
+    }
+    const switches = [
+      ["clear", "Clear water", "Without fog, as an observer would like it (x)"],
+      ["pictures", "Cameras", "Images of the cameras (c)"],
+      ["frames", "Frames", "Coordinate frames with their names (f)"],
+      ["trails", "Trails", "Where bodies have been (t)"],
+      ["sonars", "Sonars", "Beams and fans (s)"],
+    ] as const;
+    for (const [name, text, title] of switches) {
+      if (name === "sonars" && !this.pack.head.sensors.length) continue;
+      if (name === "pictures" && !this.pack.head.cameras.length) continue;
+      const button = make("button", text);
+      button.dataset.switch = name;
+      button.title = title;
+      button.addEventListener("click", () => {
+        if (name === "frames") this.switches.labels = !this.switches.frames;
+        this.toggle(name);
+      });
+      element("switches").append(button);
+    }
+    const cameras = element<HTMLSelectElement>("camera");
+    this.pack.head.cameras.forEach(({ name }, i) => cameras.append(new Option(name, String(i))));
+    cameras.addEventListener("change", () => {
+      this.views.camera = Number(cameras.value);
+      this.refresh();
+    });
+    const speeds = element<HTMLSelectElement>("speed");
+    for (const speed of SPEEDS) speeds.append(new Option(`${speed}×`, String(speed)));
+    speeds.addEventListener("change", () => this.setSpeed(Number(speeds.value)));
+    this.setSpeed(1);
+    const line = element<HTMLInputElement>("time");
+    line.addEventListener("input", () => this.seek(Number(line.value)));
+    element("play").addEventListener("click", () => this.play());
+    element("step").addEventListener("click", () => this.step(1));
+    element("back").addEventListener("click", () => this.step(-1));
+    element("back").hidden = element("line").hidden = this.player.isLive;
+    element("help-button").addEventListener("click", toggleHelp);
+    new Keyboard(this);
+    this.refresh();
+  }
+}
+
+/** What tests and the curious read. */
+function expose(page: Page): void {
+  const { player, picture } = page;
+  Object.assign(window, {
+    uwsim: {
+      page,
+      seek: (time: number) => page.seek(time),
+      go: (index: number) => page.go(index),
+      time: () => page.time,
+      level: () => indexAt(player, page.time),
+      curves: () => Object.fromEntries(player.curves.map((c) => [c.name, valueAt(c, page.time)])),
+      body: (name: string) => Array.from(picture.models.body(name)),
+      image: (name: string, water = {}) => {
+        const camera = page.pack.head.cameras.find((each) => each.name === name)!;
+        const moment = player.moment(page.time);
+        picture.models.place(moment.poses);
+        const place = picture.models.mounted(camera);
+        const pixels = picture.image(camera, place, player, moment, page.switches, water);
+        let text = "";
+        for (let i = 0; i < pixels.length; i += 8192)
+          text += String.fromCharCode(...pixels.subarray(i, i + 8192));
+        return btoa(text);
+      },
+    },
+  });
+}
+
+async function begin(): Promise<void> {
+  const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  const message = element("message");
+  message.textContent = "Loading…";
+  try {
+    const data = document.getElementById("pack");
+    const link = data ? null : await connect();
+    const pack = link ? link.pack : await unpack(fromBase64(data!.textContent ?? ""));
+    const gl = graphics(element<HTMLCanvasElement>("image"));
+    if (!gl) throw new Error("This browser has no WebGL 2.");
+    const picture = await Picture.make(gl, pack);
+    const player: Player = link ? new Stream(pack.head) : new Replay(pack);
+    const page = new Page(pack, player, picture, new Views(pack.head, picture.models), link);
+    link?.begin(page, player as Stream);
+    const wanted = Number(new URLSearchParams(location.hash.slice(1)).get("level") ?? 0);
+    if (!link) {
+      await page.select(player.levels[wanted]?.trial ?? 0);
+      page.seek(player.levels[wanted] ? player.levels[wanted].level.start : player.start);
+    }
+    message.textContent = "";
+    expose(page);
+  } catch (error) {
+    message.textContent = error instanceof Error ? error.message : String(error);
+    throw error;
+  }
+}
+
+void begin();

@@ -1,0 +1,198 @@
+// Meshes and textures on the GPU, and the instances of them in the scene, piece by piece.
+import type { Head, Visual } from "./head";
+import {
+  determinant, dot, fromPose, matrix, ofNormals, product, transform, turned, unit,
+  type Matrix,
+} from "./geometry";
+import type { Pack } from "./pack";
+import { ATTRIBUTES } from "./shaders";
+
+/** A run of triangles, where it is now in W; uwsim.rendering.gpu_model has the same. */
+export interface Piece {
+  instance: Instance;
+  first: number;
+  count: number;
+  centre: [number, number, number];
+  radius: number;
+  corners: [number, number, number][];
+  normal: [number, number, number];
+  density: number;
+}
+
+export class Instance {
+  readonly pieces: Piece[];
+  worldFromMesh: Matrix = matrix(new Array(16).fill(0));
+  normals: Matrix = this.worldFromMesh;
+  isMirrored = false;
+  private readonly bodyFromMesh: Matrix;
+
+  constructor(
+    readonly number: number,
+    readonly visual: Visual,
+    readonly body: string,
+    readonly array: WebGLVertexArrayObject,
+    readonly texture: WebGLTexture | null,
+    readonly repeats: boolean,
+    readonly wide: boolean,
+    private readonly own: number[][],
+  ) {
+    this.bodyFromMesh = matrix(visual.matrix);
+    this.pieces = own.map(([first, count]) => ({
+      instance: this, first, count, centre: [0, 0, 0], radius: 0, corners: [], normal: [0, 0, 0],
+      density: 0,
+    }));
+  }
+
+  /** Set the pose of its body; returns whether that moved it. */
+  place(worldFromBody: Matrix): boolean {
+    const placed = product(worldFromBody, this.bodyFromMesh);
+    if (placed.every((value, i) => value === this.worldFromMesh[i])) return false;
+    this.worldFromMesh = placed;
+    this.normals = ofNormals(placed);
+    this.isMirrored = determinant(placed) < 0;
+    const [stretch, crowding] = [rowSum(placed), rowSum(this.normals)];
+    this.own.forEach((own, i) => {
+      const piece = this.pieces[i];
+      piece.centre = transform(placed, own.slice(2, 5));
+      piece.radius = own[5] * stretch;
+      const box = [own.slice(6, 9), own.slice(9, 12)];
+      piece.corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) =>
+        transform(placed, [box[k >> 2][0], box[(k >> 1) & 1][1], box[k & 1][2]]),
+      );
+      const normal = own.slice(12, 15);
+      piece.normal = dot(normal, normal) > 0 ? unit(turned(this.normals, normal)) : [0, 0, 0];
+      piece.density = own[15] * crowding;
+    });
+    return true;
+  }
+}
+
+/** Square root of the largest row sum of A'A: a bound of the largest stretch. */
+function rowSum(m: Matrix): number {
+  const columns = [0, 1, 2].map((i) => [m[i], m[4 + i], m[8 + i]]);
+  const sums = columns.map((a) => columns.reduce((sum, b) => sum + Math.abs(dot(a, b)), 0));
+  return Math.sqrt(Math.max(...sums));
+}
+
+export class Models {
+  readonly instances: Instance[] = [];
+  /** Grows whenever something moved. */
+  version = 0;
+  readonly patterns: WebGLTexture[] = [];
+  private readonly bodies = new Map<string, Matrix>();
+  private readonly radii = new Map<number, number>();
+
+  private constructor(private readonly head: Head) {}
+
+  static async load(gl: WebGL2RenderingContext, pack: Pack): Promise<Models> {
+    const models = new Models(pack.head);
+    const { meshes, textures, bodies, projector } = pack.head;
+    const images = await Promise.all(
+      textures.map((each, i) => loadTexture(gl, pack, i, i !== projector?.pattern && each.repeats)),
+    );
+    if (projector) models.patterns.push(images[projector.pattern]);
+    const arrays = meshes.map((_, i) => upload(gl, pack, i));
+    for (const body of bodies)
+      for (const visual of body.visuals) {
+        const { texture, mesh } = visual;
+        const image = texture === null ? null : images[texture];
+        const repeats = texture !== null && textures[texture].repeats;
+        const wide = meshes[mesh].triangles[2] === "u4";
+        const [n, pieces] = [models.instances.length, meshes[mesh].pieces];
+        models.instances.push(
+          new Instance(n, visual, body.name, arrays[mesh], image, repeats, wide, pieces),
+        );
+      }
+    models.place(new Map());
+    return models;
+  }
+
+  /** World from body, for all bodies; those that are not given are where they were at first. */
+  place(poses: Map<string, Matrix>): void {
+    for (const body of this.head.bodies)
+      this.bodies.set(body.name, poses.get(body.name) ?? fromPose(body.pose));
+    let moved = false;
+    for (const each of this.instances) moved = each.place(this.body(each.body)) || moved;
+    if (!moved) return;
+    this.version += 1;
+    this.measure();
+  }
+
+  body(name: string): Matrix {
+    return this.bodies.get(name) ?? fromPose([0, 0, 0, 1, 0, 0, 0]);
+  }
+
+  /** World from what is mounted on a body. */
+  mounted(each: { body: string | null; pose: number[] }): Matrix {
+    const own = fromPose(each.pose);
+    return each.body === null ? own : product(this.body(each.body), own);
+  }
+
+  /** Half the longest side of the box around all pieces of a model of the scene [m]. */
+  radius(instance: Instance): number {
+    return this.radii.get(instance.visual.part) ?? 0;
+  }
+
+  private measure(): void {
+    const boxes = new Map<number, number[]>();
+    for (const { visual, pieces } of this.instances) {
+      const box = boxes.get(visual.part) ?? [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
+      for (const { centre, radius } of pieces)
+        for (let i = 0; i < 3; ++i) {
+          box[i] = Math.min(box[i], centre[i] - radius);
+          box[3 + i] = Math.max(box[3 + i], centre[i] + radius);
+        }
+      boxes.set(visual.part, box);
+    }
+    for (const [part, b] of boxes)
+      this.radii.set(part, Math.max(b[3] - b[0], b[4] - b[1], b[5] - b[2]) / 2);
+  }
+}
+
+function upload(gl: WebGL2RenderingContext, pack: Pack, number: number): WebGLVertexArrayObject {
+  const mesh = pack.head.meshes[number];
+  const array = gl.createVertexArray();
+  gl.bindVertexArray(array);
+  const attribute = (name: string, size: number, kind: number, data: ArrayBufferView<ArrayBuffer>): void => {
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(ATTRIBUTES[name]);
+    gl.vertexAttribPointer(ATTRIBUTES[name], size, kind, kind !== gl.FLOAT, 0, 0);
+  };
+  const numbers = (ref: typeof mesh.positions) => pack.numbers(ref) as ArrayBufferView<ArrayBuffer>;
+  attribute("vertex", 3, gl.FLOAT, numbers(mesh.positions));
+  attribute("vertex_normal", 3, gl.SHORT, numbers(mesh.normals));
+  attribute("tint", 3, gl.UNSIGNED_SHORT, numbers(mesh.tints));
+  if (mesh.uvs) attribute("uv", 2, gl.FLOAT, numbers(mesh.uvs));
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, numbers(mesh.triangles), gl.STATIC_DRAW);
+  gl.bindVertexArray(null);
+  return array;
+}
+
+async function loadTexture(
+  gl: WebGL2RenderingContext, pack: Pack, number: number, repeats: boolean,
+): Promise<WebGLTexture> {
+  const { type, bytes } = pack.head.textures[number];
+  const isPattern = number === pack.head.projector?.pattern;
+  const image = await createImageBitmap(
+    new Blob([pack.numbers(bytes) as Uint8Array<ArrayBuffer>], { type }),
+    {
+      imageOrientation: isPattern ? "from-image" : "flipY", // OpenGL's first row is v = 0
+      premultiplyAlpha: "none",
+      colorSpaceConversion: "none",
+    },
+  );
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, image);
+  const wrap = repeats ? gl.REPEAT : gl.CLAMP_TO_EDGE;
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, wrap);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, wrap);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, isPattern ? gl.LINEAR : gl.LINEAR_MIPMAP_LINEAR);
+  if (!isPattern) gl.generateMipmap(gl.TEXTURE_2D);
+  image.close();
+  return texture;
+}
+

@@ -1,0 +1,101 @@
+// Packs and motion: what viewer/head.py and viewer/tracks.py write.
+import type { Head, MotionHead } from "./head";
+
+export type Ref = [number, number, string];
+
+export class Pack {
+  constructor(
+    readonly head: Head,
+    private readonly data: ArrayBuffer,
+  ) {}
+
+  numbers(ref: Ref): Float32Array | Uint32Array | Uint16Array | Int16Array | Int8Array | Uint8Array {
+    const [offset, count, kind] = ref;
+    switch (kind) {
+      case "f4":
+        return new Float32Array(this.data, offset, count);
+      case "u4":
+        return new Uint32Array(this.data, offset, count);
+      case "u2":
+        return new Uint16Array(this.data, offset, count);
+      case "i2":
+        return new Int16Array(this.data, offset, count);
+      case "i1":
+        return new Int8Array(this.data, offset, count);
+      default:
+        return new Uint8Array(this.data, offset, count);
+    }
+  }
+}
+
+export async function gunzip(data: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer> {
+  const stream = new Blob([data]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).arrayBuffer();
+}
+
+export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
+  const binary = atob(text.trim());
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+export async function unpack(data: Uint8Array<ArrayBuffer>): Promise<Pack> {
+  const content = await gunzip(data);
+  const length = new DataView(content).getUint32(0, true);
+  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(content, 4, length))) as Head;
+  return new Pack(head, content.slice(4 + length));
+}
+
+/** Rows of poses and signals at a constant rate. */
+export class Motion {
+  constructor(
+    readonly head: MotionHead,
+    /** Columns of each row, n_rows x n_columns. */
+    readonly rows: Float64Array,
+  ) {}
+
+  get columns(): number {
+    return 7 * this.head.bodies.length + this.head.signals.length;
+  }
+
+  get end(): number {
+    return this.head.start + Math.max(0, this.head.n - 1) / this.head.rate;
+  }
+
+  /** The row at a time [s], poses between two rows interpolated. */
+  at(time: number): Float64Array {
+    const m = this.columns;
+    const place = Math.min(Math.max((time - this.head.start) * this.head.rate, 0), this.head.n - 1);
+    const first = Math.floor(place + 1e-6);
+    const out = this.rows.slice(first * m, (first + 1) * m);
+    const share = place - first;
+    if (share < 1e-6 || first + 1 >= this.head.n) return out;
+    const next = (first + 1) * m;
+    for (let i = 0; i < 7 * this.head.bodies.length; ++i)
+      out[i] += share * (this.rows[next + i] - out[i]);
+    return out;
+  }
+}
+
+export async function readMotion(data: Uint8Array<ArrayBuffer>): Promise<Motion> {
+  const bytes = new Uint8Array(await gunzip(data));
+  const line = bytes.indexOf(10);
+  const head = JSON.parse(new TextDecoder().decode(bytes.subarray(0, line))) as MotionHead;
+  const n = head.n;
+  const m = 7 * head.bodies.length + head.signals.length;
+  const planes = bytes.subarray(line + 1);
+  const rows = new Float64Array(n * m);
+  for (let column = 0; column < m; ++column) {
+    const body = column < 7 * head.bodies.length;
+    const pose = column % 7 < 3 ? head.length : head.quaternion;
+    const step = body ? pose : head.signals[column - 7 * head.bodies.length].step;
+    let sum = 0;
+    for (let row = 0, k = column * n; row < n; ++row, ++k) {
+      const low = planes[k] | (planes[n * m + k] << 8) | (planes[2 * n * m + k] << 16);
+      sum = (sum + (low | (planes[3 * n * m + k] << 24))) | 0;
+      rows[row * m + column] = sum === -0x80000000 ? NaN : sum * step;
+    }
+  }
+  return new Motion(head, rows);
+}

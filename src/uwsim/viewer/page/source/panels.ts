@@ -1,0 +1,147 @@
+// The parts of the page around the image: levels, timeline, thrusters, keys.
+import type { Head } from "./head";
+import type { Moment, Player } from "./player";
+
+export function element<T extends HTMLElement = HTMLElement>(id: string): T {
+  const found = document.getElementById(id);
+  if (!found) throw new Error(`the page has no element ${id}`);
+  return found as T;
+}
+
+export function make<K extends keyof HTMLElementTagNameMap>(
+  tag: K, text = "", className = "",
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  made.textContent = text;
+  made.className = className;
+  return made;
+}
+
+function classOf(status: string): string {
+  if (status === "ok") return "ok";
+  return status === "lost" || status.includes("error") ? "bad" : "other";
+}
+
+/** Mark the level that a time lies in. */
+export function indexAt(player: Player, time: number): number {
+  let found = -1;
+  player.levels.forEach(({ trial, level }, i) => {
+    if (trial === player.trial && level.start <= time + 1e-6) found = i;
+  });
+  return found;
+}
+
+export class LevelList {
+  private readonly list = element("levels");
+  private current = -2;
+  private n = -1;
+
+  constructor(
+    private readonly player: Player,
+    private readonly choose: (index: number) => void,
+  ) {}
+
+  show(time: number): void {
+    if (this.n !== this.player.levels.length) this.fill();
+    const index = indexAt(this.player, time);
+    if (index === this.current) return;
+    this.current = index;
+    this.list.querySelectorAll("button").forEach((button, i) => {
+      button.setAttribute("aria-current", String(i === index));
+      if (i !== index || this.list.contains(document.activeElement)) return;
+      const top = button.offsetTop - this.list.offsetTop;
+      if (top < this.list.scrollTop || top > this.list.scrollTop + this.list.clientHeight - 24)
+        this.list.scrollTop = top - this.list.clientHeight / 2;
+    });
+    const level = this.player.levels[index]?.level;
+    const badge = element("now");
+    badge.textContent = level ? `${level.label} · ${level.status}` : "";
+    badge.className = `badge ${level ? classOf(level.status) : ""}`;
+    element("why").textContent = level?.why ?? "";
+    element("why").title = level?.why ?? "";
+  }
+
+  /** Parts of the timeline, coloured by status. */
+  mark(start: number, end: number): void {
+    const marks = element("marks");
+    marks.replaceChildren();
+    const share = (time: number): string => `${(100 * (time - start)) / Math.max(end - start, 1e-9)}%`;
+    for (const { trial, level } of this.player.levels) {
+      if (trial !== this.player.trial) continue;
+      const part = make("i", "", classOf(level.status));
+      part.style.left = share(level.start);
+      part.style.width = share(start + level.end - level.start);
+      part.title = `${level.label}: ${level.status}`;
+      marks.append(part);
+    }
+  }
+
+  private fill(): void {
+    this.n = this.player.levels.length;
+    this.current = -2;
+    element("levels-box").hidden = this.n === 0;
+    this.list.replaceChildren(
+      ...this.player.levels.map(({ level }, i) => {
+        const button = make("button");
+        button.append(make("span", level.label), make("span", level.status, classOf(level.status)));
+        button.title = level.why ?? "";
+        button.addEventListener("click", () => this.choose(i));
+        const item = make("li");
+        item.append(button);
+        return item;
+      }),
+    );
+  }
+}
+
+export class Thrusters {
+  private readonly bars: { signal: string; bar: HTMLElement; value: HTMLElement }[] = [];
+
+  constructor(head: Head) {
+    const place = element("thrusters");
+    for (const vehicle of head.vehicles)
+      for (const name of vehicle.thrusters) {
+        const row = make("div");
+        const [track, bar, value] = [make("span", "", "bar"), make("i"), make("output")];
+        track.append(bar);
+        const label = head.vehicles.length > 1 ? `${vehicle.name} ${name}` : name;
+        row.append(make("span", label.replaceAll("_", " ")), track, value);
+        place.append(row);
+        this.bars.push({ signal: `thrust/${vehicle.name}/${name}`, bar, value });
+      }
+  }
+
+  show(moment: Moment): void {
+    let any = false;
+    for (const { signal, bar, value } of this.bars) {
+      const now = moment.signal(signal);
+      if (now === undefined) continue;
+      any = true;
+      const share = 50 * Math.min(1, Math.abs(now));
+      bar.style.left = `${now < 0 ? 50 - share : 50}%`;
+      bar.style.width = `${share}%`;
+      value.textContent = `${(100 * now).toFixed(0)} %`;
+    }
+    element("thrusters-box").hidden = !any;
+  }
+}
+
+export type Keys = { keys: string; does: string }[];
+
+export function fillHelp(groups: Record<string, Keys>): void {
+  const dialog = element<HTMLDialogElement>("help");
+  for (const [title, keys] of Object.entries(groups)) {
+    const list = make("dl");
+    for (const each of keys) list.append(make("dt", each.keys), make("dd", each.does));
+    dialog.append(make("h2", title), list);
+  }
+  const close = make("button", "Close");
+  close.addEventListener("click", () => dialog.close());
+  dialog.append(close);
+}
+
+export function toggleHelp(): void {
+  const dialog = element<HTMLDialogElement>("help");
+  if (dialog.open) dialog.close();
+  else dialog.showModal();
+}

@@ -1,0 +1,176 @@
+// The image: the scene from where one looks, the cameras' images in it, lines over it.
+import type { Camera, Head, Water } from "./head";
+import type { ShiningLamp } from "./light";
+import { Models } from "./models";
+import { drawOverlay, drawQuads, type Shown } from "./overlay";
+import type { Pack } from "./pack";
+import { element, indexAt, make } from "./panels";
+import type { Moment, Player } from "./player";
+import { Renderer } from "./renderer";
+import { inside, type Views } from "./views";
+import type { Lens } from "./geometry";
+
+const PICTURE_HEIGHT = 132;
+
+export interface Switches extends Shown {
+  clear: boolean;
+  pictures: boolean;
+  sun: string;
+  /** Trails begin at this point. */
+  since: number;
+}
+
+export function isSoftware(gl: WebGL2RenderingContext): boolean {
+  const name = gl.getExtension("WEBGL_debug_renderer_info");
+  const renderer = name ? String(gl.getParameter(name.UNMASKED_RENDERER_WEBGL)) : "";
+  return /swiftshader|llvmpipe|software|softpipe/i.test(renderer);
+}
+
+/** A WebGL2 context of the canvas, antialiased where a GPU does it; null without WebGL. */
+export function graphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | null {
+  const probe = document.createElement("canvas").getContext("webgl2");
+  if (!probe) return null;
+  const antialias = !isSoftware(probe);
+  probe.getExtension("WEBGL_lose_context")?.loseContext();
+  return canvas.getContext("webgl2", { alpha: false, antialias, powerPreference: "high-performance" });
+}
+
+export class Picture {
+  readonly canvas = element<HTMLCanvasElement>("image");
+  private readonly overlay = element<HTMLCanvasElement>("overlay");
+  private readonly renderer: Renderer;
+  private readonly frames: HTMLElement[] = [];
+
+  private constructor(
+    private readonly gl: WebGL2RenderingContext,
+    private readonly head: Head,
+    readonly models: Models,
+  ) {
+    this.renderer = new Renderer(gl, head, models);
+    for (const camera of head.cameras) {
+      const frame = make("figure");
+      frame.append(make("figcaption", `${camera.name} · redrawn, without noise`));
+      frame.style.height = `${PICTURE_HEIGHT}px`;
+      frame.style.width = `${(PICTURE_HEIGHT * camera.width) / camera.height}px`;
+      element("pictures").append(frame);
+      this.frames.push(frame);
+    }
+  }
+
+  static async make(gl: WebGL2RenderingContext, pack: Pack): Promise<Picture> {
+    return new Picture(gl, pack.head, await Models.load(gl, pack));
+  }
+
+  draw(player: Player, moment: Moment, views: Views, switches: Switches): void {
+    const { canvas, head, models } = this;
+    const ratio = isSoftware(this.gl) ? 1 : Math.min(devicePixelRatio, 2);
+    const [w, h] = [canvas.clientWidth, canvas.clientHeight];
+    if (w === 0 || h === 0) return;
+    for (const each of [canvas, this.overlay]) {
+      const [wide, high] = [Math.round(w * ratio), Math.round(h * ratio)];
+      if (each.width !== wide || each.height !== high) [each.width, each.height] = [wide, high];
+    }
+    models.place(moment.poses);
+    const sight = views.sight(w, h);
+    const water = this.water(player, moment, switches);
+    const clear = switches.clear ? { ...water, fog: 0 } : water;
+    const lamps = this.lamps(moment);
+    const { worldFromCamera, observer } = sight;
+    this.renderer.draw(
+      { worldFromCamera, lens: scaled(sight.lens, ratio), water: clear, lamps, observer }, null, [0, 0],
+    );
+    const context = this.overlay.getContext("2d")!;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, w, h);
+    const since = switches.since;
+    drawOverlay(context, worldFromCamera, sight.lens, head, models, player, moment, switches, since);
+    if (sight.camera) drawQuads(context, sight.camera, sight.lens, 0, 0, moment);
+    this.drawPictures(context, water, lamps, moment, switches, ratio, h);
+  }
+
+  /** A camera's image in its own size, row 0 at the top, RGBA. */
+  image(lens: Lens, worldFromCamera: Float64Array, player: Player, moment: Moment,
+        switches: Switches, water: Partial<Water> = {}, observer = false): Uint8Array {
+    const { gl, models } = this;
+    models.place(moment.poses);
+    const buffer = gl.createFramebuffer();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, buffer);
+    const stores = [gl.createRenderbuffer(), gl.createRenderbuffer()];
+    [gl.RGBA8, gl.DEPTH_COMPONENT24].forEach((format, i) => {
+      gl.bindRenderbuffer(gl.RENDERBUFFER, stores[i]);
+      gl.renderbufferStorage(gl.RENDERBUFFER, format, lens.width, lens.height);
+      const place = i ? gl.DEPTH_ATTACHMENT : gl.COLOR_ATTACHMENT0;
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, stores[i]);
+    });
+    const look = {
+      worldFromCamera, lens, lamps: this.lamps(moment), observer,
+      water: { ...this.water(player, moment, switches), ...water },
+    };
+    this.renderer.draw(look, buffer, [0, 0], true);
+    const pixels = new Uint8Array(4 * lens.width * lens.height);
+    gl.readPixels(0, 0, lens.width, lens.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    for (const store of stores) gl.deleteRenderbuffer(store);
+    gl.deleteFramebuffer(buffer);
+    return pixels;
+  }
+
+  /** Where in the page a camera's image lies. */
+  frame(camera: number): HTMLElement {
+    return this.frames[camera];
+  }
+
+  private drawPictures(
+    context: CanvasRenderingContext2D, water: Water, lamps: ShiningLamp[], moment: Moment,
+    switches: Switches, ratio: number, height: number,
+  ): void {
+    element("pictures").hidden = !switches.pictures;
+    if (!switches.pictures) return;
+    const origin = this.canvas.getBoundingClientRect();
+    this.head.cameras.forEach((camera: Camera, i) => {
+      const place = this.frames[i].getBoundingClientRect();
+      const [x, y] = [place.left - origin.left + 1, place.top - origin.top + 1];
+      const lens = inside(camera, place.width - 2, place.height - 2);
+      if (!this.frames[i].querySelector("img")) {
+        const worldFromCamera = this.models.mounted(camera);
+        const corner: [number, number] = [
+          Math.round(x * ratio), Math.round((height - y - place.height + 2) * ratio),
+        ];
+        const look = { worldFromCamera, lens: scaled(lens, ratio), water, lamps, observer: false };
+        this.renderer.draw(look, null, corner);
+      }
+      drawQuads(context, camera, lens, x, y, moment);
+    });
+  }
+
+  private water(player: Player, moment: Moment, switches: Switches): Water {
+    const values = player.levels[indexAt(player, moment.time)]?.level.values ?? {};
+    const { fog, light_rate } = this.head.water;
+    return {
+      ...this.head.water,
+      fog: moment.signal("fog") ?? values.fog ?? fog,
+      light_rate: moment.signal("light_rate") ?? values.light ?? light_rate,
+      sun: switches.sun || this.head.water.sun,
+    };
+  }
+
+  private lamps(moment: Moment): ShiningLamp[] {
+    return this.head.lamps
+      .filter((lamp) => (moment.signal(`lamp/${lamp.name}`) ?? Number(lamp.on)) > 0.5)
+      .map((lamp) => ({ lamp, place: this.models.mounted(lamp) }));
+  }
+}
+
+/** The pinhole on as many times the pixels, whole ones. */
+function scaled(lens: Lens, ratio: number): Lens {
+  const [width, height] = [Math.round(lens.width * ratio), Math.round(lens.height * ratio)];
+  return {
+    ...lens,
+    width,
+    height,
+    fx: lens.fx * ratio,
+    fy: lens.fy * ratio,
+    cx: (lens.cx + 0.5) * ratio - 0.5,
+    cy: (lens.cy + 0.5) * ratio - 0.5,
+    skew: lens.skew * ratio,
+  };
+}

@@ -1,0 +1,109 @@
+// A human pilot: keys, the first gamepad, and sticks on the screen.
+import { element, make } from "./panels";
+
+const REPEAT = 100; // [ms] between messages while anything is held
+const POLL = 33; // [ms] between looks at the gamepad
+
+interface Input {
+  keys: string[];
+  axes: number[];
+  buttons: number[];
+  sticks: number[];
+}
+
+export class Pilot {
+  private isOn = false;
+  private mapping: Record<string, string> = {};
+  private readonly held = new Set<string>();
+  private readonly sticks = [0, 0, 0, 0];
+  private last = "";
+  private sent = 0;
+
+  constructor(private readonly send: (message: object) => void) {
+    document.addEventListener("keyup", (event) => {
+      this.held.delete(event.key.toLowerCase());
+      this.look();
+    });
+    window.addEventListener("blur", () => {
+      this.held.clear();
+      this.look();
+    });
+    setInterval(() => this.look(), POLL);
+  }
+
+  enable(on: boolean, mapping: Record<string, string>): void {
+    this.mapping = mapping;
+    if (on === this.isOn) return;
+    this.isOn = on;
+    element("pilot").hidden = !on;
+    if (on && !element("pilot").children.length) {
+      element("pilot").append(this.stick(0, "Turn and heave"), this.stick(2, "Surge and sway"));
+    }
+  }
+
+  takes(event: KeyboardEvent): boolean {
+    const key = event.key.toLowerCase();
+    if (!this.isOn || !(key in this.mapping)) return false;
+    event.preventDefault();
+    this.held.add(key);
+    this.look();
+    return true;
+  }
+
+  help(): { keys: string; does: string }[] {
+    const keys = Object.entries(this.mapping).map(([keys, does]) => ({ keys, does }));
+    return keys.length ? keys : [{ keys: "w a s d …", does: "drive, where a pilot is asked for" }];
+  }
+
+  private input(): Input {
+    const pad = navigator.getGamepads?.().find((each) => each !== null);
+    return {
+      keys: [...this.held].sort(),
+      axes: pad ? pad.axes.map(rounded) : [],
+      buttons: pad ? pad.buttons.map(({ value }) => rounded(value)) : [],
+      sticks: this.sticks.map(rounded),
+    };
+  }
+
+  private look(): void {
+    if (!this.isOn) return;
+    const input = this.input();
+    const text = JSON.stringify(input);
+    const now = performance.now();
+    const rests = !input.keys.length && ![...input.axes, ...input.buttons, ...input.sticks].some(Boolean);
+    if (text === this.last && (rests || now - this.sent < REPEAT)) return;
+    this.last = text;
+    this.sent = now;
+    this.send({ type: "input", ...input });
+  }
+
+  private stick(first: number, label: string): HTMLElement {
+    const [pad, knob] = [make("div", "", "stick"), make("i")];
+    pad.title = label;
+    pad.append(knob);
+    const set = (x: number, y: number): void => {
+      const length = Math.max(1, Math.hypot(x, y));
+      this.sticks[first] = x / length;
+      this.sticks[first + 1] = y / length;
+      knob.style.transform = `translate(${(35 * x) / length}px, ${(-35 * y) / length}px)`;
+      this.look();
+    };
+    const move = (event: PointerEvent): void => {
+      if (!pad.hasPointerCapture(event.pointerId)) return;
+      const box = pad.getBoundingClientRect();
+      const half = box.width / 2;
+      set((event.clientX - box.left - half) / half, -(event.clientY - box.top - half) / half);
+    };
+    pad.addEventListener("pointerdown", (event) => {
+      pad.setPointerCapture(event.pointerId);
+      move(event);
+    });
+    pad.addEventListener("pointermove", move);
+    for (const name of ["pointerup", "pointercancel"]) pad.addEventListener(name, () => set(0, 0));
+    return pad;
+  }
+}
+
+function rounded(value: number): number {
+  return Math.round(value * 1000) / 1000;
+}

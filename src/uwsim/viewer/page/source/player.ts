@@ -1,0 +1,172 @@
+// What is shown when: the trials of a replay, or what a running simulation sends.
+import type { Head, Level, MotionHead } from "./head";
+import { fromPose, type Matrix } from "./geometry";
+import { readMotion, type Motion, type Pack } from "./pack";
+
+export interface Samples {
+  name: string;
+  unit: string;
+  times: number[];
+  values: (number | null)[];
+}
+
+/** Poses and signals at one time. */
+export class Moment {
+  readonly poses = new Map<string, Matrix>();
+  private readonly signals = new Map<string, number>();
+
+  constructor(
+    readonly time: number,
+    head: MotionHead | null,
+    row: ArrayLike<number> | null,
+  ) {
+    if (!head || !row) return;
+    head.bodies.forEach((name, i) => this.poses.set(name, fromPose(row, 7 * i)));
+    const first = 7 * head.bodies.length;
+    head.signals.forEach((signal, i) => this.signals.set(signal.name, row[first + i]));
+  }
+
+  /** A signal's value; undefined where there is none, or nothing was measured. */
+  signal(name: string): number | undefined {
+    const value = this.signals.get(name);
+    return value === undefined || Number.isNaN(value) ? undefined : value;
+  }
+
+  /** Points named prefix/0/x, prefix/0/y, ...: those that are there. */
+  points(prefix: string, parts: string[]): number[][] {
+    const found: number[][] = [];
+    for (let k = 0; ; ++k) {
+      if (!this.signals.has(`${prefix}/${k}/${parts[0]}`)) return found;
+      const point = parts.map((part) => this.signal(`${prefix}/${k}/${part}`));
+      if (point.every((value) => value !== undefined)) found.push(point as number[]);
+    }
+  }
+}
+
+export interface Player {
+  readonly isLive: boolean;
+  readonly start: number;
+  readonly end: number;
+  readonly curves: Samples[];
+  readonly levels: { trial: number; level: Level }[];
+  readonly trial: number;
+  title: string;
+  moment(time: number): Moment;
+  /** Where a body was, from the beginning until a time, a few times a second. */
+  trail(body: string, until: number): number[][];
+  select(trial: number): Promise<void>;
+}
+
+const TRAIL_RATE = 6; // [Hz]
+
+export class Replay implements Player {
+  readonly isLive = false;
+  readonly levels: { trial: number; level: Level }[];
+  curves: Samples[] = [];
+  trial = -1;
+  title = "";
+  private motion: Motion | null = null;
+
+  constructor(private readonly pack: Pack) {
+    const trials = pack.head.trials ?? [];
+    this.levels = trials.flatMap(({ levels }, trial) => levels.map((level) => ({ trial, level })));
+  }
+
+  get start(): number {
+    const own = this.levels.filter(({ trial }) => trial === this.trial);
+    return Math.min(this.motion?.head.start ?? Infinity, own[0]?.level.start ?? 0);
+  }
+
+  get end(): number {
+    const own = this.levels.filter(({ trial }) => trial === this.trial);
+    return Math.max(this.motion?.end ?? 0, ...own.map(({ level }) => level.end));
+  }
+
+  async select(trial: number): Promise<void> {
+    if (trial === this.trial) return;
+    const chosen = this.pack.head.trials?.[trial];
+    this.trial = trial;
+    this.motion = null;
+    this.curves = [];
+    if (!chosen) return;
+    this.title = chosen.title;
+    this.curves = chosen.curves.map(({ name, unit, times, values }) => ({
+      name,
+      unit,
+      times: Array.from(this.pack.numbers(times)),
+      values: Array.from(this.pack.numbers(values), (v) => (Number.isNaN(v) ? null : v)),
+    }));
+    if (chosen.motion)
+      this.motion = await readMotion(this.pack.numbers(chosen.motion) as Uint8Array<ArrayBuffer>);
+  }
+
+  moment(time: number): Moment {
+    return new Moment(time, this.motion?.head ?? null, this.motion?.at(time) ?? null);
+  }
+
+  trail(body: string, until: number): number[][] {
+    const motion = this.motion;
+    const index = motion?.head.bodies.indexOf(body) ?? -1;
+    if (!motion || index < 0) return [];
+    const { rate, start, n } = motion.head;
+    const last = Math.min(n - 1, Math.floor((until - start) * rate));
+    const points: number[][] = [];
+    for (let row = 0; row <= last; row += Math.max(1, Math.round(rate / TRAIL_RATE))) {
+      const at = row * motion.columns + 7 * index;
+      points.push(Array.from(motion.rows.subarray(at, at + 3)));
+    }
+    return points;
+  }
+}
+
+/** Places and curves while a simulation runs; `live.ts` fills it. */
+export class Stream implements Player {
+  readonly isLive = true;
+  readonly start = 0;
+  readonly curves: Samples[] = [];
+  readonly levels: { trial: number; level: Level }[] = [];
+  readonly trial = 0;
+  end = 0;
+  title: string;
+  private row: ArrayLike<number> | null = null;
+  private readonly trails: { time: number; row: ArrayLike<number> }[] = [];
+
+  constructor(private readonly head: Head) {
+    this.title = head.title;
+  }
+
+  push(time: number, row: ArrayLike<number>): void {
+    const last = this.trails.at(-1);
+    if (time < this.end) this.trails.length = 0;
+    if (!last || time - last.time >= 1 / TRAIL_RATE) this.trails.push({ time, row });
+    if (this.trails.length > 20000) this.trails.splice(0, 10000);
+    this.row = row;
+    this.end = time;
+  }
+
+  sample(name: string, unit: string, time: number, value: number | null): void {
+    let curve = this.curves.find((each) => each.name === name);
+    if (!curve) {
+      curve = { name, unit, times: [], values: [] };
+      this.curves.push(curve);
+    }
+    curve.times.push(time);
+    curve.values.push(value);
+  }
+
+  setLevels(levels: Level[]): void {
+    this.levels.splice(0, this.levels.length, ...levels.map((level) => ({ trial: 0, level })));
+  }
+
+  async select(): Promise<void> {}
+
+  moment(): Moment {
+    return new Moment(this.end, this.head.motion ?? null, this.row);
+  }
+
+  trail(body: string): number[][] {
+    const index = this.head.motion?.bodies.indexOf(body) ?? -1;
+    if (index < 0) return [];
+    return this.trails.map(({ row }) => [0, 1, 2].map((i) => row[7 * index + i]));
+  }
+}

@@ -1,0 +1,218 @@
+// Draws a scene through its water as uwsim.rendering.renderer does, with the same shaders.
+import type { Head, Water } from "./head";
+import {
+  clipFromCamera, inverse, matrix, origin, product, turnedBack, unit, type Lens, type Matrix,
+} from "./geometry";
+import {
+  columns, isOpaque, lampBlock, projectorBlock, projectorLens, Shadows, type ShiningLamp,
+} from "./light";
+import type { Models, Piece } from "./models";
+import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
+import { inView, needsNoCopies, reaching, type Eye } from "./visibility";
+
+const MAX_CASTER_RADIUS = 5;
+const MAX_LAMPS = 4;
+const STRIDE = 256;
+
+/** What an image depends on besides the poses. */
+export interface Look {
+  worldFromCamera: Matrix;
+  lens: Lens;
+  water: Water;
+  lamps: ShiningLamp[];
+  /** Above the water there is air, and ghosts are seen: the view of an observer. */
+  observer: boolean;
+}
+
+/** The uniform blocks of all instances, for one camera at a time. */
+export class Slots {
+  private readonly values: Float32Array<ArrayBuffer>;
+  private readonly buffer: WebGLBuffer;
+
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    private readonly models: Models,
+  ) {
+    this.values = new Float32Array((STRIDE / 4) * Math.max(1, models.instances.length));
+    this.buffer = gl.createBuffer();
+  }
+
+  fill(cameraFromWorld: Matrix, rotation?: Matrix): void {
+    this.models.instances.forEach((each, i) => {
+      const at = (STRIDE / 4) * i;
+      this.values.set(columns(product(cameraFromWorld, each.worldFromMesh)), at);
+      if (rotation) this.values.set(columns(product(rotation, each.normals)), at + 16);
+    });
+    this.gl.bindBuffer(this.gl.UNIFORM_BUFFER, this.buffer);
+    this.gl.bufferData(this.gl.UNIFORM_BUFFER, this.values, this.gl.STREAM_DRAW);
+  }
+
+  drawPiece({ instance, first, count }: Piece, isFlipped: boolean): void {
+    const gl = this.gl;
+    if (instance.visual.two_sided) gl.disable(gl.CULL_FACE);
+    else gl.enable(gl.CULL_FACE);
+    gl.frontFace(instance.isMirrored !== isFlipped ? gl.CW : gl.CCW);
+    gl.bindBufferRange(gl.UNIFORM_BUFFER, BLOCKS.Instance, this.buffer, STRIDE * instance.number, 160);
+    gl.bindVertexArray(instance.array);
+    const [kind, size] = instance.wide ? [gl.UNSIGNED_INT, 4] : [gl.UNSIGNED_SHORT, 2];
+    gl.drawElements(gl.TRIANGLES, count, kind, size * first);
+  }
+}
+
+export class Renderer {
+  private readonly programs: Programs;
+  private readonly slots: Slots;
+  private readonly shadows: Shadows;
+  private readonly blocks: Record<string, WebGLBuffer> = {};
+  private readonly close: WebGLSampler[];
+
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    private readonly head: Head,
+    private readonly models: Models,
+  ) {
+    this.programs = new Programs(gl);
+    this.slots = new Slots(gl, models);
+    this.shadows = new Shadows(gl, this.programs, this.slots);
+    this.close = [gl.CLAMP_TO_EDGE, gl.REPEAT].map((wrap) => {
+      const sampler = gl.createSampler();
+      gl.samplerParameteri(sampler, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+      gl.samplerParameteri(sampler, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
+      gl.samplerParameteri(sampler, gl.TEXTURE_WRAP_S, wrap);
+      gl.samplerParameteri(sampler, gl.TEXTURE_WRAP_T, wrap);
+      return sampler;
+    });
+  }
+
+  /** Draw into a part of a framebuffer (null: the canvas), x and y from its lower left [px]. */
+  draw(look: Look, target: WebGLFramebuffer | null, place: [number, number], isFlipped = false): void {
+    const { gl, models } = this;
+    const { worldFromCamera, lens, water } = look;
+    const clip = clipFromCamera(lens, isFlipped);
+    const eye: Eye = { worldFromCamera, clip, lens };
+    const pieces = models.instances
+      .filter((each) => look.observer || !each.visual.hidden)
+      .flatMap((each) => each.pieces);
+    const seen = inView(pieces, eye);
+    const switches: Switches = { COLOUR: 0 };
+    if (water.fog === 0) switches.NO_FOG = 1;
+    else if (water.clip && !look.observer) switches.FOG_CLIP = 1;
+    if (look.observer) switches.AIR = 1;
+    const sun = unit(this.head.suns[water.sun].direction);
+    const shaded = water.shadows && this.castSun(pieces, seen, sun, eye);
+    if (shaded) switches.SHADOWS = 1;
+    this.shine(look, pieces, switches);
+    this.fillFrame(look, clip, sun);
+    this.slots.fill(inverse(worldFromCamera), rotationOf(worldFromCamera));
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+    gl.viewport(place[0], place[1], lens.width, lens.height);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(place[0], place[1], lens.width, lens.height);
+    gl.depthMask(true);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    gl.disable(gl.BLEND);
+    for (const piece of seen.filter(isOpaque)) this.drawPiece(piece, eye, switches, isFlipped);
+    this.drawBackground();
+    gl.enable(gl.BLEND);
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
+    gl.depthMask(false);
+    for (const piece of seen.filter((each) => !isOpaque(each)).reverse()) {
+      const opacity = Math.round(255 * piece.instance.visual.opacity);
+      if (opacity > 0) this.drawPiece(piece, eye, { ...switches, OPACITY: opacity }, isFlipped);
+    }
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
+    gl.disable(gl.SCISSOR_TEST);
+    gl.bindVertexArray(null);
+  }
+
+  private castSun(pieces: Piece[], seen: Piece[], sun: number[], eye: Eye): boolean {
+    const possible = pieces.filter(
+      (each) => isOpaque(each) && this.models.radius(each.instance) <= MAX_CASTER_RADIUS,
+    );
+    const casters = reaching(possible, seen, sun, eye);
+    if (casters.length) this.shadows.castSun(casters, sun, this.models.version);
+    this.bind(UNITS.shadow_map, this.shadows.sunMap.texture);
+    return casters.length > 0;
+  }
+
+  private shine(look: Look, pieces: Piece[], switches: Switches): void {
+    const lamps = look.lamps.slice(0, MAX_LAMPS);
+    if (lamps.length) {
+      switches.LAMPS = lamps.length;
+      this.shadows.castLamps(lamps, pieces, this.models.version);
+      this.bind(UNITS.lamp_maps, this.shadows.lampMaps!.texture);
+      this.fill("Lamps", lampBlock(lamps, look.worldFromCamera));
+    }
+    const { projector } = this.head;
+    if (!projector) return;
+    switches.PROJECTOR = 1;
+    const { width, height } = this.head.textures[projector.pattern];
+    const [place, lens] = [this.models.mounted(projector), projectorLens(projector, width, height)];
+    this.shadows.castProjector(place, lens, pieces);
+    this.bind(UNITS.projector_map, this.shadows.projectorMap!.texture);
+    this.bind(UNITS.projector_pattern, this.models.patterns[0]);
+    this.fill("Projector", projectorBlock(projector, place, lens, look.worldFromCamera));
+  }
+
+  private drawPiece(piece: Piece, eye: Eye, switches: Switches, isFlipped: boolean): void {
+    const { gl } = this;
+    const { texture, repeats } = piece.instance;
+    if (texture) {
+      this.bind(UNITS.base_map, texture);
+      gl.bindSampler(UNITS.base_map, needsNoCopies(piece, eye) ? this.close[Number(repeats)] : null);
+    }
+    gl.useProgram(this.programs.get("surface", texture ? { ...switches, TEXTURED: 1 } : switches));
+    this.slots.drawPiece(piece, isFlipped);
+  }
+
+  private drawBackground(): void {
+    const { gl } = this;
+    gl.bindSampler(UNITS.base_map, null);
+    gl.disable(gl.CULL_FACE);
+    gl.bindVertexArray(null);
+    gl.useProgram(this.programs.get("background", { COLOUR: 0 }));
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  private fillFrame({ worldFromCamera: m, lens, water }: Look, clip: Matrix, sun: number[]): void {
+    const { near, far } = lens;
+    const { ambient, specular, suns } = this.head;
+    const rate = water.light_rate;
+    const far_colour = water.fog > 0 ? water.fog_colour : water.colour;
+    this.fill("Frame", Float32Array.from([
+      ...columns(clip),
+      ...columns(product(this.shadows.textureFromWorld, m)),
+      m[8], m[9], m[10], origin(m)[2] - water.surface_height,
+      ...turnedBack(m, sun), this.shadows.lift,
+      ...suns[water.sun].colour.map((c) => rate * c), 0,
+      rate * ambient, rate * specular, 0, 0,
+      ...water.colour, 0,
+      ...water.attenuation, 0,
+      ...water.fog_colour, water.fog ** 2,
+      (far + near) / (far - near), (-2 * far * near) / (far - near), 0, 0,
+      ...far_colour, 0,
+    ]));
+  }
+
+  private fill(name: string, values: Float32Array<ArrayBuffer>): void {
+    const { gl } = this;
+    this.blocks[name] ??= gl.createBuffer();
+    gl.bindBuffer(gl.UNIFORM_BUFFER, this.blocks[name]);
+    gl.bufferData(gl.UNIFORM_BUFFER, values, gl.STREAM_DRAW);
+    gl.bindBufferBase(gl.UNIFORM_BUFFER, BLOCKS[name], this.blocks[name]);
+  }
+
+  private bind(unit: number, texture: WebGLTexture): void {
+    this.gl.activeTexture(this.gl.TEXTURE0 + unit);
+    this.gl.bindTexture(this.gl.TEXTURE_2D, texture);
+    this.gl.activeTexture(this.gl.TEXTURE0);
+  }
+}
+
+function rotationOf(worldFromCamera: Matrix): Matrix {
+  const m = worldFromCamera;
+  return matrix([m[0], m[4], m[8], 0, m[1], m[5], m[9], 0, m[2], m[6], m[10], 0, 0, 0, 0, 1]);
+}

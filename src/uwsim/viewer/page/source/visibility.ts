@@ -1,0 +1,132 @@
+// What a camera sees and what casts a shadow on it, as uwsim.rendering.instance, sun_shadow and
+// minification decide: the same pieces, the same maps.
+import {
+  cross, dot, matrix, origin, plus, transform, turnedBack, unit, inverse, type Lens, type Matrix,
+} from "./geometry";
+import type { Piece } from "./models";
+
+export interface Eye {
+  worldFromCamera: Matrix;
+  clip: Matrix;
+  lens: Lens;
+}
+
+const LOW_SUN = 0.3;
+const MARGIN = 0.05;
+const MAX_TEXELS = Math.SQRT2;
+const TO_TEXTURE = matrix([0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1]);
+export { TO_TEXTURE };
+
+/** The six planes of the visible volume in the camera's frame, n . p + d >= 0 inside. */
+function frustum(clip: Matrix): number[][] {
+  const rows = [0, 4, 8, 12].map((i) => [clip[i], clip[i + 1], clip[i + 2], clip[i + 3]]);
+  const planes = [1, -1].flatMap((sign) =>
+    [0, 1, 2].map((i) => rows[3].map((value, k) => value + sign * rows[i][k])),
+  );
+  return planes.map((plane) => {
+    const length = Math.hypot(plane[0], plane[1], plane[2]);
+    return plane.map((value) => value / length);
+  });
+}
+
+/** Pieces whose bounds reach into the frustum, near ones first. */
+export function inView(pieces: Piece[], eye: Eye): Piece[] {
+  const planes = frustum(eye.clip);
+  const cameraFromWorld = inverse(eye.worldFromCamera);
+  const seen: [number, Piece][] = [];
+  for (const piece of pieces) {
+    const centre = transform(cameraFromWorld, piece.centre);
+    if (!planes.every((p) => dot(p, centre) + p[3] + piece.radius > 0)) continue;
+    const corners = piece.corners.map((corner) => transform(cameraFromWorld, corner));
+    if (!planes.every((p) => corners.some((corner) => dot(p, corner) + p[3] > 0))) continue;
+    seen.push([Math.hypot(...centre) + piece.radius, piece]);
+  }
+  return seen.sort((a, b) => a[0] - b[0]).map(([, piece]) => piece);
+}
+
+/** Which of the casters may cast a shadow on any of the pieces that are seen. */
+export function reaching(casters: Piece[], seen: Piece[], sun: number[], eye: Eye): Piece[] {
+  const frame = along(sun);
+  const place = origin(eye.worldFromCamera);
+  const back = [eye.worldFromCamera[2], eye.worldFromCamera[6], eye.worldFromCamera[10]];
+  const rays = cornerRays(eye);
+  const lit = seen.map((piece) => {
+    const depths = piece.corners.map((corner) => dot(plus(place, corner, -1), back));
+    const ends = [Math.max(0, Math.min(...depths)), Math.max(0, Math.max(...depths))];
+    const slice = ends.flatMap((end) => rays.map((ray) => plus(place, ray, end)));
+    const [box, cut] = [bounds(piece.corners, frame), bounds(slice, frame)];
+    return box.map(([low, high], i) => [Math.max(low, cut[i][0]), Math.min(high, cut[i][1])]);
+  });
+  return casters.filter((caster) => {
+    const own = bounds(caster.corners, frame);
+    return lit.some(
+      (box) =>
+        [0, 1].every((i) => own[i][0] <= box[i][1] + MARGIN && own[i][1] >= box[i][0] - MARGIN) &&
+        own[2][1] >= box[2][0] - MARGIN,
+    );
+  });
+}
+
+function along(sun: number[]): number[][] {
+  if (sun[2] < LOW_SUN) return [...axesOf(sun), sun];
+  return [[1, 0, -sun[0] / sun[2]], [0, 1, -sun[1] / sun[2]], sun];
+}
+
+function bounds(points: number[][], frame: number[][]): [number, number][] {
+  return frame.map((axis) => {
+    const values = points.map((point) => dot(axis, point));
+    return [Math.min(...values), Math.max(...values)];
+  });
+}
+
+/** Towards the corners of the image, 1 m deep, in W. */
+function cornerRays({ clip, worldFromCamera: m }: Eye): number[][] {
+  const corners = [[-1, -1], [-1, 1], [1, -1], [1, 1]];
+  return corners.map(([u, v]) => {
+    const y = (v + clip[6]) / clip[5];
+    const x = (u + clip[2] - clip[1] * y) / clip[0];
+    return [m[0] * x + m[1] * y - m[2], m[4] * x + m[5] * y - m[6], m[8] * x + m[9] * y - m[10]];
+  });
+}
+
+function axesOf(sun: number[]): [number[], number[]] {
+  const down = [-sun[0], -sun[1], -sun[2]];
+  const aside = unit(cross(down, Math.abs(sun[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
+  return [aside, cross(aside, down)];
+}
+
+/** The sun's orthographic camera round all casters, and the edge of its view [m]. */
+export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
+  const axes = [...axesOf(sun), [-sun[0], -sun[1], -sun[2]]];
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (const { centre, radius } of casters)
+    axes.forEach((axis, i) => {
+      low[i] = Math.min(low[i], dot(axis, centre) - radius);
+      high[i] = Math.max(high[i], dot(axis, centre) + radius);
+    });
+  const half = Math.max(high[0] - low[0], high[1] - low[1]) / 2;
+  const reach = 20; // [m] below the casters where shadows still fall
+  const scale = [1 / half, 1 / half, 2 / (high[2] + reach - low[2])];
+  const middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (high[2] + reach + low[2]) / 2];
+  const rows = axes.flatMap((axis, i) => [
+    axis[0] * scale[i], axis[1] * scale[i], axis[2] * scale[i], -scale[i] * middle[i],
+  ]);
+  return [matrix([...rows, 0, 0, 0, 1]), 2 * half];
+}
+
+/** Whether a piece looks right without the smaller copies of its texture. */
+export function needsNoCopies(piece: Piece, eye: Eye): boolean {
+  if (!(piece.density > 0) || dot(piece.normal, piece.normal) === 0) return false;
+  const cameraFromWorld = inverse(eye.worldFromCamera);
+  const points = piece.corners.map((corner) => transform(cameraFromWorld, corner));
+  const facing = turnedBack(eye.worldFromCamera, piece.normal);
+  const depths = points.map((point) => -point[2]);
+  if (Math.min(...depths) <= 0) return false;
+  const away = Math.min(...points.map((point) => Math.abs(dot(facing, point))));
+  const farthest = Math.max(...points.map((point) => Math.hypot(...point)));
+  const leaning = Math.hypot(facing[0], facing[1]);
+  const focal = Math.min(eye.lens.fx, eye.lens.fy);
+  const footprint = (Math.max(...depths) / focal) * (1 + (leaning * farthest) / away);
+  return piece.density * footprint <= MAX_TEXELS;
+}
