@@ -21,8 +21,9 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
                   `uwsim.rendering.merged.Piece`
     textures    [{type: "image/webp", bytes: ref, width, height, repeats}]
     bodies      [{name, vehicle: name or null, pose: [x y z w x y z],
-                  visuals: [{part: which model of the scene, mesh, matrix: 16 (body from mesh), texture or null, opacity,
-                  two_sided, hidden (a ghost, which cameras do not see)}]}]
+                  visuals: [{part: which model of the scene, mesh, matrix: 16 (body from mesh),
+                  texture or null, opacity, two_sided,
+                  hidden (a ghost, which cameras do not see)}]}]
     cameras     [{name, body, pose: 7 (body from camera), width, height, fx, fy, cx, cy, skew,
                   near, far, grey}]
     lamps       [{name, body, pose, half_angle, softness, colour, intensity, shadow, on}]
@@ -41,12 +42,12 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
     trials      replays only: [{title, motion: ref u1 or null, levels, curves}]
 
     levels      [{label, status, why, start, end, values: {fog: ...}}]  [s of simulation time]
-    curves      [{name, unit, times: ref f4, values: ref f4}]  NaN: nothing was measured
+    curves      [{name, unit, times: ref u4 [0.1 ms], values: ref f4}]  NaN: nothing was measured
 
 ``pose`` of a body is where it is at step 0; a body that is not in a track stays there.
 
-**Motion of a trial** (``units/NNNNN.motion``, `tracks`): gzip (mtime 0) of a line of JSON that ends
-with a line feed, then bytes::
+**Motion of a trial** (``units/NNNNN.motion``, `uwsim.tracks`): gzip (mtime 0) of a line of JSON
+that ends with a line feed, then bytes::
 
     {"uwsim_motion": 1, "rate": 30.0, "n": 3600, "start": 0.0,
      "bodies": ["girona500/base_link", "blackbox"], "length": 1e-4, "quaternion": 1e-4,
@@ -59,8 +60,9 @@ bytes are shuffled: all lowest bytes first, all highest last, 4 m n bytes. Quate
 sign from row to row. int32 minimum is "nothing" (NaN) in a signal, taken as a difference, too
 (sums wrap round).
 
-Names of bodies: ``vehicle/link`` for every link with visuals, sensors, cameras or lamps, and the
-base link; the object's name for objects that may move. Names of signals, all optional::
+Names of bodies: ``vehicle/link``, of links that fixed joints hold together the one nearest to the
+root (`uwsim.simulation.tracked_bodies`); the object's name for objects. Names of signals, all
+optional::
 
     fog, light_rate            as they are [1/m], [1]
     lamp/NAME                  0 off, 1 on
@@ -111,16 +113,17 @@ from typing import Any
 import numpy as np
 
 from ..geometry import Pose
-from ..linear import product
+from ..numerics.linear import product
 from ..rendering.water import AMBIENT, SPECULAR, SUN_COLOURS, SUN_DIRECTIONS
-from ..sensors.imaging_sonar import ImagingSonarSpec
-from ..sensors.multibeam_sensor import FanSpec
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import MountedSensor
+from ..sensors.sonar.imaging_sonar import ImagingSonarSpec
+from ..sensors.sonar.multibeam_sensor import FanSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
 from ..simulation.parts import Part
 from ..simulation.stage import SceneStage
+from ..simulation.tracked_bodies import leaders
 from ..simulation.views import FIELD, focus_of, orbit_view
 from .models import Models
 from .pack import Blob
@@ -193,15 +196,17 @@ class _Bodies:
 
     def __init__(self, world: SceneStage) -> None:
         self._world = world
+        self._leaders = {i: leaders(robot) for i, robot in world.robots.items()}
         self.rows: list[Json] = []
         """The bodies so far, as in the head."""
         self._poses: dict[str, Pose] = {}
         self._n_parts = 0
 
     def link(self, index: int, link: str) -> str:
-        """Return the name of a link, which is among the bodies from now on."""
-        vehicle = self._world.scene.vehicles[index].name
-        return self._body(f"{vehicle}/{link}", self._world.state.poses.link(index, link), vehicle)
+        """Return the body of a link, which is among the bodies from now on."""
+        vehicle, leader = self._world.scene.vehicles[index].name, self._leaders[index][link]
+        pose = self._world.state.poses.link(index, leader)
+        return self._body(f"{vehicle}/{leader}", pose, vehicle)
 
     def link_called(self, vehicle: str, link: str) -> str:
         """Return the name of a link of the first vehicle of that name."""
@@ -306,8 +311,9 @@ def _frames(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
     yield {"name": "L", "body": None, "pose": _row(world.world_from_localized)}
     for index, vehicle in enumerate(world.scene.vehicles):
         for link in world.robots[index].links:
-            body = bodies.link(index, link.name)
-            yield {"name": body, "body": body, "pose": _row(Pose.identity())}
+            name = f"{vehicle.name}/{link.name}"
+            world_from_link = world.state.poses.link(index, link.name)
+            yield {**_mounted(bodies, name, world_from_link), "name": name}
         for part in (part for name, part in _mounted_parts(world) if name == vehicle.name):
             place = world.vehicle(vehicle.name).mount(part)
             yield {**_mounted(bodies, place.name, place.world_from_body), "name": part.name}

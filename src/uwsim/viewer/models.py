@@ -13,8 +13,12 @@ from ..assets.mesh import Model, Texture
 from ..rendering.merged import Merged, Piece, merged
 from .pack import Blob
 
-QUALITY = 90
-"""Of textures as WebP, 0..100."""
+QUALITY = 95
+"""Of textures as WebP with losses, 0..100."""
+MAX_LOSS = 12.0
+"""A texture of which one value in 100 loses more is kept exactly, [grey levels] ..."""
+MAX_EXACT = 70_000
+"""... if that takes no more bytes."""
 
 
 class Models:
@@ -50,7 +54,7 @@ class Models:
 
     def pattern(self, pixels: npt.NDArray[np.uint8]) -> int:
         """Return the number of the texture of a projector's pattern (h, w, 4), exact."""
-        return self._add(pixels, "pattern", repeats=False, options={"format": "PNG"})
+        return self._add("pattern", pixels, _encoded(pixels, lossless=True), repeats=False)
 
     def _mesh(self, each: Merged) -> int:
         vertices, add = each.vertices, self._blob.add
@@ -69,27 +73,40 @@ class Models:
         return len(self.meshes) - 1
 
     def _texture(self, texture: Texture) -> int:
-        options = {"format": "WEBP", "quality": QUALITY, "method": 4}
-        return self._add(texture.pixels, texture.name, repeats=texture.repeats, options=options)
+        if texture.name in self._images:
+            return self._images[texture.name]
+        data = _encoded(texture.pixels, quality=QUALITY, method=4)
+        if _loss(texture.pixels, data) > MAX_LOSS:
+            exact = _encoded(texture.pixels, lossless=True, quality=60, method=4)
+            data = exact if len(exact) <= MAX_EXACT else data
+        return self._add(texture.name, texture.pixels, data, repeats=texture.repeats)
 
-    def _add(
-        self, pixels: npt.NDArray[np.uint8], name: str, *, repeats: bool, options: dict[str, Any]
-    ) -> int:
-        if name not in self._images:
-            height, width = pixels.shape[:2]
-            stream = io.BytesIO()
-            Image.fromarray(pixels).save(stream, **options)
-            self._images[name] = len(self.textures)
-            self.textures.append(
-                {
-                    "type": f"image/{options['format'].lower()}",
-                    "bytes": self._blob.add_bytes(stream.getvalue()),
-                    "width": width,
-                    "height": height,
-                    "repeats": repeats,
-                }
-            )
+    def _add(self, name: str, pixels: npt.NDArray[np.uint8], data: bytes, *, repeats: bool) -> int:
+        height, width = pixels.shape[:2]
+        self._images[name] = len(self.textures)
+        self.textures.append(
+            {
+                "type": "image/webp",
+                "bytes": self._blob.add_bytes(data),
+                "width": width,
+                "height": height,
+                "repeats": repeats,
+            }
+        )
         return self._images[name]
+
+
+def _encoded(pixels: npt.NDArray[np.uint8], **options: Any) -> bytes:
+    """Return an image (h, w, 3 or 4) as WebP."""
+    stream = io.BytesIO()
+    Image.fromarray(pixels).save(stream, "WEBP", exact=True, **options)
+    return stream.getvalue()
+
+
+def _loss(pixels: npt.NDArray[np.uint8], data: bytes) -> float:
+    """Return what 99 of 100 values of an image lose at most [grey levels]."""
+    found = np.asarray(Image.open(io.BytesIO(data)).convert("RGB"), dtype=np.int16)
+    return float(np.percentile(np.abs(found - pixels), 99.0))
 
 
 def _piece(piece: Piece) -> list[float]:

@@ -58,6 +58,7 @@ export interface Player {
 }
 
 const TRAIL_RATE = 6; // [Hz]
+const TICKS = 1e4; // of the times of curves, in a second
 
 export class Replay implements Player {
   readonly isLive = false;
@@ -93,7 +94,7 @@ export class Replay implements Player {
     this.curves = chosen.curves.map(({ name, unit, times, values }) => ({
       name,
       unit,
-      times: Array.from(this.pack.numbers(times)),
+      times: Array.from(this.pack.numbers(times), (tick) => tick / TICKS),
       values: Array.from(this.pack.numbers(values), (v) => (Number.isNaN(v) ? null : v)),
     }));
     if (chosen.motion)

@@ -1,0 +1,138 @@
+"""A stored result as a page: one HTML file with its scene, its motion and its curves."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import ResultError
+from ..results import journal
+from ..results.atomic_file import write_text
+from ..simulation import Simulation
+from ..verify.recorded_plan import FileOverrides
+from .document import document
+from .head import scene_head
+from .pack import Blob, packed
+from .recorded import RecordedLevel, RecordedTrial, trials_of
+
+Json = dict[str, Any]
+SUFFIXES = (".html", ".htm")
+"""Of the files that `Replay.save` writes."""
+TICKS = 1e4
+"""Of the times of curves, in a second."""
+HEIGHT = 720
+"""Of the page in a notebook [px]."""
+
+
+class Replay:
+    """Some trials of a result, to be seen again.
+
+    Nothing is run again: the motion of every trial is in the result, and the page draws the scene
+    from it with the shaders of the renderer. In a notebook it shows itself.
+
+    Args:
+        directory: of the result.
+        trials: their numbers; without them all whose motion is there.
+        overrides: where the files of the scene are, if not where they were.
+
+    Raises:
+        ResultError: a trial's motion is not there.
+        AssetNotFound: the scene is nowhere.
+    """
+
+    def __init__(
+        self,
+        directory: str | Path,
+        trials: Sequence[int] | None = None,
+        overrides: FileOverrides | None = None,
+    ) -> None:
+        directory = Path(directory)
+        numbers = (trials_of(directory) or (0,)) if trials is None else tuple(trials)
+        self._trials = [RecordedTrial.open(directory, number, overrides) for number in numbers]
+        if not self._trials:
+            raise ResultError(f"{directory}: no trial was chosen.")
+        self.title = self._trials[0].title
+        """Benchmark, algorithm and seed of the first trial."""
+
+    def pack(self) -> bytes:
+        """Return what the page shows (`head`)."""
+        blob, first = Blob(), self._trials[0]
+        with Simulation(
+            first.scene,
+            seed=first.seed,
+            timestep=first.timestep,
+            data_path=first.data_path,
+            compatibility=first.compatibility,
+            runs_code=False,
+        ) as simulation:
+            head = scene_head(simulation, self.title, blob)
+        head["trials"] = [_trial(trial, blob) for trial in self._trials]
+        return packed(head, blob)
+
+    def html(self) -> str:
+        """Return the page, which needs nothing else."""
+        return document(self.title, self.pack())
+
+    def save(self, path: str | Path) -> Path:
+        """Write the page, whole or not at all; the same result gives the same bytes.
+
+        Raises:
+            ResultError: the name does not end in .html.
+        """
+        path = Path(path)
+        if path.suffix.lower() not in SUFFIXES:
+            raise ResultError(f"{path}: a replay is an .html file; films are `uwsim replay -o`.")
+        write_text(path, self.html())
+        return path
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.html(), quote=True)
+        style = f"width: 100%; height: {HEIGHT}px; border: 0"
+        return (
+            f'<iframe srcdoc="{page}" style="{style}" title="{html.escape(self.title)}"></iframe>'
+        )
+
+
+def _trial(trial: RecordedTrial, blob: Blob) -> Json:
+    """Describe a trial as `head` says."""
+    motion = journal.track_path(trial.directory, trial.index).read_bytes()
+    return {
+        "title": trial.title,
+        "motion": blob.add_bytes(motion),
+        "levels": [_level(level, trial) for level in trial.levels],
+        "curves": [_curve(name, trial, blob) for name in _measures(trial)],
+    }
+
+
+def _level(level: RecordedLevel, trial: RecordedTrial) -> Json:
+    number = trial.levels.index(level)
+    return {
+        "label": level.label or f"level {number + 1}",
+        "status": level.status,
+        "why": level.why or None,
+        "start": level.began,
+        "end": level.ended,
+        "values": dict(trial.track.levels[number].values),
+    }
+
+
+def _measures(trial: RecordedTrial) -> list[str]:
+    """Names of the measures with a log, in their order."""
+    return list(dict.fromkeys(c.measure for level in trial.levels for c in level.curves))
+
+
+def _curve(name: str, trial: RecordedTrial, blob: Blob) -> Json:
+    """The samples of a measure through all levels, with a gap between one and the next."""
+    found = [c for level in trial.levels for c in level.curves if c.measure == name]
+    times = [np.append(curve.times, curve.times[-1] + 1e-3) * TICKS for curve in found]
+    values = [np.append(curve.values, np.nan) for curve in found]
+    return {
+        "name": name,
+        "unit": found[0].unit,
+        "times": blob.add(np.rint(np.concatenate(times))[:-1].astype("<u4")),
+        "values": blob.add(np.concatenate(values)[:-1].astype("<f4")),
+    }

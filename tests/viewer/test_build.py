@@ -1,0 +1,31 @@
+"""The page's script is what its sources give."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent.parent
+PAGE = ROOT / "src" / "uwsim" / "viewer" / "page"
+
+
+@pytest.mark.slow
+def test_page_js_is_what_its_sources_give(tmp_path: Path) -> None:
+    if shutil.which("npm") is None:
+        pytest.skip("npm is not installed")
+    command = [str(ROOT / "scripts" / "page"), "--check", str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=280)
+    if done.returncode and "npm error" in done.stderr:
+        pytest.skip(f"npm cannot install: {done.stderr.strip().splitlines()[0]}")
+    assert done.returncode == 0, done.stdout + done.stderr
+    for name in ("page.js", "uplot.css"):
+        assert (tmp_path / name).read_bytes() == (PAGE / name).read_bytes(), "run scripts/page"
+
+
+def test_sources_are_of_readable_size() -> None:
+    sizes = {path.name: len(path.read_text().splitlines()) for path in PAGE.glob("source/*.ts")}
+    assert {name: size for name, size in sizes.items() if size > 270} == {}
+    assert len(sizes) <= 20

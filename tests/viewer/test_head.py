@@ -1,0 +1,79 @@
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import uwsim
+from uwsim.geometry import Pose
+from uwsim.simulation.tracked_bodies import TrackedBodies
+from uwsim.viewer.head import scene_head
+from uwsim.viewer.pack import Blob, numbers
+
+Json = dict[str, Any]
+
+
+@pytest.fixture(scope="module")
+def described() -> tuple[Json, bytes, uwsim.Simulation]:
+    blob = Blob()
+    with uwsim.load("currents-scene") as simulation:
+        return scene_head(simulation, "a title", blob), blob.data, simulation
+
+
+def pose(row: list[float]) -> Pose:
+    return Pose.from_quaternion(np.array(row[:3]), np.array(row[3:]))
+
+
+def test_every_body_of_a_motion_track_is_among_the_bodies(described: Any) -> None:
+    head, _, simulation = described
+    names = {body["name"] for body in head["bodies"]}
+    assert set(TrackedBodies(simulation.world).names) <= names
+
+
+def test_visuals_are_where_the_renderer_has_them(described: Any) -> None:
+    head, _, simulation = described
+    scenery = simulation.world.scenery
+    found = [
+        pose(body["pose"]).matrix @ np.array(visual["matrix"]).reshape(4, 4)
+        for body in head["bodies"]
+        for visual in body["visuals"]
+    ]
+    for part in scenery.parts:
+        wanted = scenery.world_from_mesh(part)
+        assert min(np.abs(matrix - wanted).max() for matrix in found) < 1e-6
+
+
+def test_meshes_have_all_triangles_of_the_models(described: Any) -> None:
+    head, data, simulation = described
+    models = {id(part.model): part.model for part in simulation.world.scenery.parts}
+    wanted = sum(model.n_triangles for model in models.values())
+    assert sum(mesh["triangles"][1] for mesh in head["meshes"]) == 3 * wanted
+    for mesh in head["meshes"]:
+        n_vertices = mesh["positions"][1] // 3
+        assert numbers(mesh["triangles"], data).max() < n_vertices
+        assert sum(piece[1] for piece in mesh["pieces"]) == mesh["triangles"][1]
+
+
+def test_a_camera_is_where_the_simulation_has_it(described: Any) -> None:
+    head, _, simulation = described
+    (camera,) = head["cameras"]
+    body = next(body for body in head["bodies"] if body["name"] == camera["body"])
+    found = pose(body["pose"]) @ pose(camera["pose"])
+    wanted = simulation.world.camera(camera["name"]).world_from_camera
+    assert np.abs(found.matrix - wanted.matrix).max() < 1e-6
+    assert (camera["width"], camera["height"]) == (640, 480)
+
+
+@pytest.mark.parametrize(
+    ("scene", "key", "n"),
+    [
+        ("shipwreck-scene", "lamps", 1),
+        ("structured-light-scene", "projector", 4),
+        ("currents-scene", "vehicles", 1),
+    ],
+)
+def test_lamps_projectors_and_vehicles_are_described(scene: str, key: str, n: int) -> None:
+    with uwsim.load(scene) as simulation:
+        head = scene_head(simulation, scene, Blob())
+    assert len(head[key]) >= n

@@ -1,0 +1,44 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from uwsim.viewer.pack import Blob, numbers, packed, unpacked
+
+
+def test_what_was_packed_comes_back() -> None:
+    blob = Blob()
+    arrays = [
+        np.arange(6, dtype="<f4").reshape(2, 3),
+        np.array([-3, 4], "<i2"),
+        np.arange(5, dtype="u1"),
+        np.array([2**32 - 1], "<u4"),
+    ]
+    refs = [blob.add(array) for array in arrays]
+    head, data = unpacked(packed({"refs": refs, "name": "é"}, blob))
+    assert head["name"] == "é"
+    for array, ref in zip(arrays, head["refs"], strict=True):
+        assert ref[0] % 4 == 0
+        assert numbers(ref, data).tolist() == array.ravel().tolist()
+
+
+def test_the_same_content_gives_the_same_bytes() -> None:
+    def once() -> bytes:
+        blob = Blob()
+        blob.add_bytes(b"abc")
+        return packed({"a": [1, 2.5]}, blob)
+
+    assert once() == once()
+
+
+def test_the_numbers_begin_at_a_multiple_of_eight() -> None:
+    import gzip
+
+    for text in ("", "x", "xx", "xxx"):
+        content = gzip.decompress(packed({"a": text}, Blob()))
+        assert len(content) % 8 == 0
+
+
+def test_a_number_that_is_none_is_refused() -> None:
+    with pytest.raises(ValueError, match="JSON"):
+        packed({"a": float("nan")}, Blob())

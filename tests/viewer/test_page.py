@@ -1,0 +1,130 @@
+"""The page in a browser without a network."""
+
+from __future__ import annotations
+
+import base64
+import random
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+import uwsim
+from uwsim.results import journal
+from uwsim.tracks import load_track
+from uwsim.viewer.document import document
+from uwsim.viewer.head import scene_head
+from uwsim.viewer.pack import Blob, packed
+from uwsim.viewer.replay import Replay
+
+pytestmark = pytest.mark.slow
+SCENES = ("currents-scene", "shipwreck-scene", "structured-light-scene", "two-vehicles-scene")
+EVERY = "window.uwsim !== undefined"
+
+
+@pytest.fixture
+def replayed(tab: Any, stored: Path, tmp_path: Path) -> Any:
+    """The page with the replay of the result."""
+    tab.goto(Replay(stored).save(tmp_path / "replay.html").as_uri())
+    tab.wait_for_function(EVERY)
+    return tab
+
+
+def image(tab: Any, camera: dict[str, Any], water: dict[str, float]) -> npt.NDArray[np.int16]:
+    text = tab.evaluate("([name, water]) => uwsim.image(name, water)", [camera["name"], water])
+    pixels = np.frombuffer(base64.b64decode(text), np.uint8)
+    return pixels.reshape(camera["height"], camera["width"], 4)[..., :3].astype(np.int16)
+
+
+def test_curves_at_the_cursor_are_the_rows_of_the_log(replayed: Any, stored: Path) -> None:
+    _, trial = journal.read_any(journal.path_of(stored, 0))
+    samples = [
+        (row["ended_at"] - row["duration"] + sample[0], sample[1])
+        for row in trial.rows
+        for sample in row["logs"]["corners"]
+    ]
+    chosen = random.Random(1).choices(samples, k=100)
+    script = "times => times.map(t => { uwsim.seek(t); return uwsim.curves().corners })"
+    found = replayed.evaluate(script, [time for time, _ in chosen])
+    assert found == pytest.approx([value for _, value in chosen], rel=1e-6)
+
+
+def test_bodies_are_where_the_track_has_them(replayed: Any, stored: Path) -> None:
+    track = load_track(stored / "units" / "00000.motion")
+    for row in (0, 7, track.n_frames - 1):
+        replayed.evaluate("t => uwsim.seek(t)", row / track.rate)
+        for number, name in enumerate(track.bodies):
+            matrix = replayed.evaluate("name => uwsim.body(name)", name)
+            assert [matrix[3], matrix[7], matrix[11]] == pytest.approx(
+                track.poses[row, number, :3], abs=1e-9
+            )
+
+
+def test_a_level_is_chosen_by_a_click_and_by_keys(replayed: Any, stored: Path) -> None:
+    levels = load_track(stored / "units" / "00000.motion").levels
+    replayed.get_by_role("button", name="fog 0.8").click()
+    assert replayed.evaluate("uwsim.time()") == pytest.approx(levels[2].began)
+    replayed.keyboard.press("[")
+    assert replayed.evaluate("uwsim.level()") == 1
+    replayed.keyboard.press("Home")
+    assert replayed.evaluate("uwsim.time()") == 0.0
+    replayed.keyboard.press(".")
+    assert replayed.evaluate("uwsim.time()") == pytest.approx(1 / 30)
+
+
+def test_a_link_to_a_level_opens_it(tab: Any, stored: Path, tmp_path: Path) -> None:
+    levels = load_track(stored / "units" / "00000.motion").levels
+    tab.goto(Replay(stored).save(tmp_path / "replay.html").as_uri() + "#level=2")
+    tab.wait_for_function(EVERY)
+    assert tab.evaluate("uwsim.time()") == pytest.approx(levels[2].began)
+
+
+def test_it_plays(replayed: Any) -> None:
+    replayed.keyboard.press(" ")
+    replayed.wait_for_function("uwsim.time() > 0.2")
+    replayed.keyboard.press(" ")
+    stopped = replayed.evaluate("uwsim.time()")
+    replayed.evaluate("() => new Promise(requestAnimationFrame)")
+    assert replayed.evaluate("uwsim.time()") == stopped
+
+
+def test_views_and_switches_are_there_by_key(replayed: Any) -> None:
+    def images() -> bytes:
+        screenshot: bytes = replayed.locator("#view").screenshot()
+        return screenshot
+
+    seen = {images()}
+    for n, key in enumerate("bvmofx", start=2):
+        replayed.keyboard.press(key)
+        seen.add(images())
+        assert len(seen) == n
+    replayed.keyboard.press("?")
+    assert replayed.get_by_role("dialog").get_by_text("play, pause").is_visible()
+    replayed.keyboard.press("Escape")
+    before = replayed.evaluate("document.documentElement.dataset.theme")
+    replayed.keyboard.press("n")
+    assert replayed.evaluate("document.documentElement.dataset.theme") != before
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_cameras_see_what_the_renderer_draws(tab: Any, scene: str, tmp_path: Path) -> None:
+    blob = Blob()
+    with uwsim.load(scene) as simulation:
+        head = scene_head(simulation, scene, blob)
+        path = tmp_path / "page.html"
+        path.write_text(document(scene, packed(head, blob)), encoding="utf-8")
+        tab.goto(path.as_uri())
+        tab.wait_for_function(EVERY)
+        for camera in head["cameras"]:
+            view = simulation.world.camera(camera["name"])
+            for fog in (0.0, 0.4):
+                drawn = simulation.world.scenery.render_clean(
+                    view.world_from_camera, view.intrinsics, fog=fog
+                ).colour
+                assert drawn is not None
+                off = np.abs(image(tab, camera, {"fog": fog}) - drawn)
+                assert off.mean() <= 1.0
+                assert np.percentile(off, 99) <= 4.0
+                assert (off.max(axis=2) > 8).mean() <= 0.005

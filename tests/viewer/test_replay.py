@@ -1,0 +1,71 @@
+from __future__ import annotations
+
+import base64
+import re
+from pathlib import Path
+
+import pytest
+
+from uwsim.errors import ResultError
+from uwsim.results.log import load_log
+from uwsim.viewer.document import FOLDER, document
+from uwsim.viewer.pack import numbers, unpacked
+from uwsim.viewer.replay import Replay
+
+
+def test_the_same_result_gives_the_same_bytes(stored: Path, tmp_path: Path) -> None:
+    first, second = (Replay(stored).save(tmp_path / name) for name in ("a.html", "b.html"))
+    assert first.read_bytes() == second.read_bytes()
+    assert first.stat().st_size < 2_000_000
+
+
+def test_levels_and_curves_are_those_of_the_result(stored: Path) -> None:
+    head, data = unpacked(Replay(stored).pack())
+    (trial,) = head["trials"]
+    assert [level["values"] for level in trial["levels"]] == [{"fog": f} for f in (0.0, 0.4, 0.8)]
+    assert trial["levels"][0]["status"] == "ok"
+    (curve,) = trial["curves"]
+    assert (curve["name"], curve["unit"]) == ("corners", "px")
+    values = numbers(curve["values"], data)
+    logged = [sample[2] for sample in load_log(stored / "measure-corners.csv").samples]
+    found = values[~(values != values)].tolist()
+    assert found == pytest.approx([v for v in logged if v is not None], rel=1e-6)
+
+
+def test_the_page_loads_nothing_and_may_not(stored: Path) -> None:
+    page = Replay(stored).html()
+    assert "connect-src 'none'" in page
+    assert not re.search(r"""(src|href)=["'](?!data:)""", page.split('id="pack"')[0])
+    assert page.count("</script>") == 2
+
+
+def test_a_title_is_text(tmp_path: Path) -> None:
+    page = document('</title><script>alert("{script}")</script>', None)
+    assert "<script>alert" not in page
+    assert "{script}" in page
+    assert "connect-src 'self'" in page
+
+
+def test_a_notebook_shows_it_in_a_frame(stored: Path) -> None:
+    shown = Replay(stored)._repr_html_()
+    assert shown.startswith('<iframe srcdoc="&lt;!doctype html&gt;')
+    pack = re.search(r"id=&quot;pack&quot;&gt;([A-Za-z0-9+/=]+)&lt;", shown)
+    assert pack is not None
+    assert unpacked(base64.b64decode(pack[1]))[0]["uwsim_head"] == 1
+
+
+def test_another_suffix_is_refused(stored: Path, tmp_path: Path) -> None:
+    with pytest.raises(ResultError, match=r"\.html"):
+        Replay(stored).save(tmp_path / "x.pdf")
+
+
+def test_a_result_without_motion_says_so(stored: Path, tmp_path: Path) -> None:
+    (tmp_path / "result.json").write_bytes((stored / "result.json").read_bytes())
+    with pytest.raises(ResultError, match="motion"):
+        Replay(tmp_path)
+
+
+def test_the_script_is_small_and_names_its_licences() -> None:
+    script = FOLDER / "page.js"
+    assert script.stat().st_size < 700_000
+    assert "The MIT License" in script.read_text(encoding="utf-8")
