@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .rendering.renderer import RenderedImage
     from .results.result import Result
     from .simulation import Simulation
+    from .viewer.replay import Replay
 
 __version__ = "0.2.0.dev0"
 
@@ -32,6 +33,7 @@ __all__ = [
     "Node",
     "Pose",
     "RenderedImage",
+    "Replay",
     "Result",
     "Simulation",
     "UwsimError",
@@ -49,6 +51,7 @@ _HOMES = {
     "Node": "bus",
     "RenderedImage": "rendering.renderer",
     "Pose": "geometry",
+    "Replay": "viewer.replay",
     "Result": "results.result",
     "Simulation": "simulation",
     "UwsimError": "errors",

@@ -1,4 +1,4 @@
-"""``uwsim replay``: a recorded trial as a film."""
+"""``uwsim replay``: a result as a page, or as a film."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from .views import size_of
 if TYPE_CHECKING:
     from ..viewer.film.film import FilmSpec
     from ..viewer.recorded import RecordedTrial
+    from ..viewer.replay import Replay
 
 MAX_RATE = 120.0
 """Most images a second of a film [Hz]."""
@@ -170,15 +171,27 @@ def replay(
     part: TrialOptions,
     look: FilmOptions,
     out: Annotated[
-        Path,
+        Path | None,
         in_group(
             OUTPUT,
             "--out",
             "-o",
             metavar="FILE",
-            help="A film: .mp4, .webm (both by ffmpeg, extra 'film') or .webp.",
+            help="A page for any browser, .html; or a film: .mp4, .webm (both by ffmpeg, extra "
+            "'film') or .webp. Without it the page is served until Ctrl-C.",
         ),
-    ],
+    ] = None,
+    port: Annotated[
+        int,
+        in_group(
+            OUTPUT,
+            "--port",
+            metavar="N",
+            min=0,
+            max=65535,
+            help="Of the page; 0: any that is free.",
+        ),
+    ] = 0,
     overwrite: Annotated[
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier file.")
     ] = False,
@@ -190,18 +203,56 @@ def replay(
     ] = None,
     data_path: DataPathOption = None,
 ) -> None:
-    """See a trial of a result again: a film with a view from outside, a camera, and curves.
+    """See a result again: as a page for the browser, or as a film.
 
     Nothing is run again: every bench keeps where everything was (units/N.motion), and the images
-    are drawn from that, with the fog and the light of the moment, without noise. Levels are
-    chapters. The same result and options give the same bytes.
+    are drawn from that, with the fog and the light of the moment, without noise. The page has all
+    levels, every view and the curves of all measures, in one file that needs no network; the
+    options from --view to --speed are those of films. Levels are chapters. The same result and
+    options give the same bytes. RESULT/replay.html is linked from the rows of report.html.
     """
     from ..viewer.film.encoder import check_film_path
+    from ..viewer.replay import SUFFIXES
 
+    folders = tuple(data_path or ())
+    if out is None or out.suffix.lower() in SUFFIXES:
+        show_page(opened(result, part.trial, scene, folders), out, overwrite=overwrite, port=port)
+        return
     check_film_path(out, overwrite=overwrite)
     spec = look.spec(part, out)
-    trials = recorded(result, part.trial, scene, tuple(data_path or ()))
+    trials = recorded(result, part.trial, scene, folders)
     typer.echo(write_film(trials, spec, out))
+
+
+def opened(
+    result: Path, index: int | None, scene: Path | None, folders: tuple[Path, ...]
+) -> Replay:
+    """Open a result for the page; with all trials, or the one chosen."""
+    from ..verify.recorded_plan import FileOverrides
+    from ..viewer.replay import Replay
+
+    directory = result.parent if result.name == "result.json" else result
+    overrides = FileOverrides(scene=scene, data_path=folders)
+    return Replay(directory, None if index is None else (index,), overrides)
+
+
+def show_page(replay: Replay, out: Path | None, *, overwrite: bool, port: int) -> None:
+    """Write the page, or serve it until Ctrl-C; draws the report again that links to it."""
+    from ..analysis.report import write_report
+    from ..results.directory import REPLAY
+    from ..viewer.serve import serve
+
+    if out is None:
+        page = serve(replay.html(), port=port)
+        typer.echo(f"{replay.title}: {page.url} (Ctrl-C ends)")
+        page.wait()
+        return
+    if out.exists() and not overwrite:
+        raise BadSetting(f"--out {out}: exists. Use --overwrite to replace it.")
+    replay.save(out)
+    typer.echo(f"{replay.title}: written: {out}")
+    if out.resolve() == (replay.directory / REPLAY).resolve():
+        typer.echo(f"its rows link to it: {write_report(replay.directory)}")
 
 
 def recorded(

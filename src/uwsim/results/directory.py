@@ -19,9 +19,11 @@ CONTROL = "control"
 """Folder of the control's own result."""
 REPORT = "report.html"
 """What a reader opens first."""
+REPLAY = "replay.html"
+"""The page in which the trials are seen again; made on request (``uwsim replay``)."""
 OURS = re.compile(
     r"""(?x) ((?!units/|plots/|pictures/)[^/]+/)? (control/)? (
-        result\.json | result\.dat | summary\.csv | provenance\.json | report\.html
+        result\.json | result\.dat | summary\.csv | provenance\.json | report\.html | replay\.html
       | measure-[^/]+\.csv | benchmark-[^/]+\.data
       | units/\d+\.(jsonl|motion|part)
       | plots/[^/]+\.(png|pdf)

@@ -66,6 +66,8 @@ class LevelLine:
     """Whether every repeat ended ``ok``."""
     why: str
     """The reasons, each once; over repeats: how many ended how."""
+    rows: tuple[int, ...] = ()
+    """Numbers of its rows, one a repeat."""
 
     @property
     def status_text(self) -> str:
@@ -99,6 +101,7 @@ def lines(result: Result) -> tuple[LevelLine, ...]:
             rate=_rate(result, rows),
             ok=all(status == "ok" for status in _statuses(result, rows)),
             why=_why(result, rows),
+            rows=tuple(rows),
         )
         for n, (level, rows) in enumerate(levels.items())
     )

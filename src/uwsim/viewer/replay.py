@@ -22,6 +22,8 @@ from .recorded import RecordedLevel, RecordedTrial, trials_of
 Json = dict[str, Any]
 SUFFIXES = (".html", ".htm")
 """Of the files that `Replay.save` writes."""
+GAP = 1e-3
+"""After the last sample of a level nothing was measured [s]."""
 TICKS = 1e4
 """Of the times of curves, in a second."""
 HEIGHT = 720
@@ -50,7 +52,8 @@ class Replay:
         trials: Sequence[int] | None = None,
         overrides: FileOverrides | None = None,
     ) -> None:
-        directory = Path(directory)
+        self.directory = directory = Path(directory)
+        """Of the result."""
         numbers = (trials_of(directory) or (0,)) if trials is None else tuple(trials)
         self._trials = [RecordedTrial.open(directory, number, overrides) for number in numbers]
         if not self._trials:
@@ -126,13 +129,19 @@ def _measures(trial: RecordedTrial) -> list[str]:
 
 
 def _curve(name: str, trial: RecordedTrial, blob: Blob) -> Json:
-    """The samples of a measure through all levels, with a gap between one and the next."""
+    """The samples of a measure through all levels, with a gap where time passes between two."""
     found = [c for level in trial.levels for c in level.curves if c.measure == name]
-    times = [np.append(curve.times, curve.times[-1] + 1e-3) * TICKS for curve in found]
-    values = [np.append(curve.values, np.nan) for curve in found]
+    times, values = [found[0].times], [found[0].values]
+    for curve in found[1:]:
+        gap = times[-1][-1] + GAP
+        if curve.times[0] > gap:
+            times.append(np.array([gap]))
+            values.append(np.array([np.nan]))
+        times.append(curve.times)
+        values.append(curve.values)
     return {
         "name": name,
         "unit": found[0].unit,
-        "times": blob.add(np.rint(np.concatenate(times))[:-1].astype("<u4")),
-        "values": blob.add(np.concatenate(values)[:-1].astype("<f4")),
+        "times": blob.add(np.rint(np.concatenate(times) * TICKS).astype("<u4")),
+        "values": blob.add(np.concatenate(values).astype("<f4")),
     }

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ...errors import ResultError
 from ...results.atomic_file import write_text
-from ...results.directory import CONTROL, REPORT
+from ...results.directory import CONTROL, REPLAY, REPORT
 from ...results.journal_check import check_rows
 from ...results.log import logs_of
 from ...results.per_level import LevelInterval, per_level, rows_by_level
@@ -117,6 +117,7 @@ def render(
         values=_values(result),
         repeats=n_repeats,
         full=all_cells(result),
+        replay=REPLAY if (directory / REPLAY).is_file() else None,
         n_rows=len(result.rows),
         plots=[
             (caption(result, column), data_url(plot.read_bytes(), "png"))

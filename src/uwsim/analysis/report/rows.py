@@ -37,6 +37,8 @@ class TableRow:
     """The reason, ``as above``, or over repeats how many ended how."""
     begins: bool
     """Whether an outer level begins here."""
+    rows: tuple[int, ...]
+    """Numbers of its rows in the result, one a repeat."""
 
 
 def heads(result: Result) -> list[Head]:
@@ -58,6 +60,7 @@ def level_rows(result: Result) -> list[TableRow]:
                 ok=line.ok,
                 why=_told_once(line.why, above),
                 begins=outer is not None and line.level[:-1] != outer,
+                rows=line.rows,
             )
         )
         above, outer = line.why, line.level[:-1]

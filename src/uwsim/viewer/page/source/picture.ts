@@ -10,7 +10,7 @@ import { Renderer } from "./renderer";
 import { inside, type Views } from "./views";
 import type { Lens } from "./geometry";
 
-const PICTURE_HEIGHT = 132;
+const PICTURE_HEIGHT = 150;
 
 export interface Switches extends Shown {
   clear: boolean;
@@ -49,7 +49,7 @@ export class Picture {
     this.renderer = new Renderer(gl, head, models);
     for (const camera of head.cameras) {
       const frame = make("figure");
-      frame.append(make("figcaption", `${camera.name} · redrawn, without noise`));
+      frame.append(make("figcaption", `${camera.name} · redrawn, no noise`));
       frame.style.height = `${PICTURE_HEIGHT}px`;
       frame.style.width = `${(PICTURE_HEIGHT * camera.width) / camera.height}px`;
       element("pictures").append(frame);
@@ -85,6 +85,7 @@ export class Picture {
     const since = switches.since;
     drawOverlay(context, worldFromCamera, sight.lens, head, models, player, moment, switches, since);
     if (sight.camera) drawQuads(context, sight.camera, sight.lens, 0, 0, moment);
+    this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === sight.camera));
     this.drawPictures(context, water, lamps, moment, switches, ratio, h);
   }
 
@@ -127,6 +128,7 @@ export class Picture {
     if (!switches.pictures) return;
     const origin = this.canvas.getBoundingClientRect();
     this.head.cameras.forEach((camera: Camera, i) => {
+      if (this.frames[i].hidden) return;
       const place = this.frames[i].getBoundingClientRect();
       const [x, y] = [place.left - origin.left + 1, place.top - origin.top + 1];
       const lens = inside(camera, place.width - 2, place.height - 2);
