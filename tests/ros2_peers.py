@@ -42,20 +42,24 @@ def free_domain() -> Iterator[int]:
     raise RuntimeError("no free DDS domain")
 
 
+def environment(domain: int, log_folder: str) -> dict[str, str]:
+    """Variables of a node in a domain, on this computer only, with large receive buffers."""
+    variables = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "ROS_"))}
+    return variables | {
+        "ROS_DOMAIN_ID": str(domain),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "ROS_LOG_DIR": log_folder,
+        "FASTRTPS_DEFAULT_PROFILES_FILE": str(ROOT / "examples" / "ros2" / "fastdds.xml"),
+    }
+
+
 class Peer:
     """A node in a process of its own; it prints JSON, one object a line."""
 
     def __init__(self, source: str, domain: int, log_folder: str) -> None:
-        variables = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "ROS_"))}
-        variables |= {
-            "ROS_DOMAIN_ID": str(domain),
-            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-            "ROS_LOG_DIR": log_folder,
-            "FASTRTPS_DEFAULT_PROFILES_FILE": str(ROOT / "examples" / "ros2" / "fastdds.xml"),
-        }
         self.process = subprocess.Popen(
             [PYTHON, "-c", PRELUDE + source],
-            env=variables,
+            env=environment(domain, log_folder),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

@@ -8,48 +8,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.ros2_peers import free_domain, needs_rclpy, peer, until
-from uwsim.bus import Bus
+from tests.ros2_peers import needs_rclpy, peer, until
 from uwsim.messages import Image, Odometry, String, TwistStamped
 from uwsim.messages.build import image
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
-from uwsim.middleware.log import Log
-from uwsim.middleware.ros2.adapter import Ros2
-from uwsim.middleware.ros2.settings import Ros2Settings
+from tests.middleware.ros2.simulator import Simulator, running
 from uwsim.middleware.types import wire_type
 
 pytestmark = needs_rclpy
 RECEIVE_BUFFER = Path("/proc/sys/net/core/rmem_max")
 
 
-class Simulator:
-    """A bus, its bridge, and a clock that a test turns."""
-
-    def __init__(self, domain: int) -> None:
-        self.bus, self.time, self.domain = Bus(), 0.0, domain
-        self.lines: list[str] = []
-        self.bridge = Ros2(
-            self.bus, lambda: self.time, Ros2Settings(domain=domain), log=Log("", self.lines.append)
-        )
-
-    def step(self) -> None:
-        """Pass one step boundary."""
-        self.time += 0.002
-        self.bus.step += 1
-        self.bus.deliver()
-        self.bridge.step()
-
-
 @pytest.fixture
 def simulator() -> Iterator[Simulator]:
-    with free_domain() as domain:
-        found = Simulator(domain)
-        try:
-            yield found
-        finally:
-            found.bridge.close()
+    with running() as found:
+        yield found
 
 
 def test_a_node_reads_the_odometry_with_its_stamp_on_the_clock_of_ros(simulator: Simulator) -> None:

@@ -19,7 +19,7 @@ from ...messages.services import Service
 from ..bridge import Bridge
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
-from ..queues import LatestQueue
+from ..queues import MAX_ITEMS, LatestQueue
 from ..stamps import clock_time, inward, outward
 from ..types import message_class, ros2_store, wire_service, wire_type
 from .names import topic_name, type_hash_data
@@ -156,7 +156,7 @@ class Ros2(Bridge):
         reader = self._participant.reader(
             topic_name(name),
             self._raw(type),
-            Quality(is_latched=name in LATCHED, ignores_own=True),
+            Quality(depth=MAX_ITEMS, is_latched=name in LATCHED, ignores_own=True),
             partial(self._receive, name, type),
             user_data=type_hash_data(wire.type_hash),
             events={WRITER_REFUSED: partial(self._refuse, name)},

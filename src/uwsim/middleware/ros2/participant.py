@@ -63,12 +63,16 @@ class Writer:
         self.n_dropped = 0
 
     def write(self, data: bytes) -> bool:
-        """Write a sample, its CDR header included; whether it was accepted."""
+        """Write a sample, its CDR header included; whether it was accepted.
+
+        Raises:
+            UwsimError: it is none of the type.
+        """
         try:
             self.entity.write(self._type(data))
         except DDSException as error:
             if error.code != DDSException.DDS_RETCODE_TIMEOUT:
-                raise
+                raise UwsimError(f"Cyclone DDS refuses a sample: {error}") from error
             self.n_dropped += 1
             return False
         return True

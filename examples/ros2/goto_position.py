@@ -1,0 +1,73 @@
+"""Drive a vehicle to a position: a node of ROS 2 that reads odometry and publishes velocities.
+
+    uwsim run cirs --ros2
+    python examples/ros2/goto_position.py --goal 2 1 3
+
+It knows nothing of uwsim, and needs rclpy, nav_msgs and geometry_msgs.
+"""
+
+import argparse
+
+import rclpy
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+
+
+class GotoPosition(Node):
+    """Answers each odometry message with a velocity towards the goal."""
+
+    def __init__(self, goal: list[float], options: argparse.Namespace) -> None:
+        super().__init__("goto_position")
+        self.goal, self.near, self.speed = goal, options.near, options.speed
+        self.distance = float("inf")
+        self.out = self.create_publisher(TwistStamped, options.command, 10)
+        self.create_subscription(Odometry, options.odometry, self.steer, 10)
+
+    def steer(self, odometry: Odometry) -> None:
+        """Publish the velocity, in the axes of the vehicle."""
+        here, turn = odometry.pose.pose.position, odometry.pose.pose.orientation
+        away = [self.goal[0] - here.x, self.goal[1] - here.y, self.goal[2] - here.z]
+        self.distance = sum(each**2 for each in away) ** 0.5
+        factor = min(1.0, self.speed / max(self.distance, 1e-9))
+        ahead = into_vehicle(away, turn)
+        command = TwistStamped()
+        command.header.stamp = odometry.header.stamp
+        command.twist.linear.x = factor * ahead[0]
+        command.twist.linear.y = factor * ahead[1]
+        command.twist.linear.z = factor * ahead[2]
+        self.out.publish(command)
+
+
+def into_vehicle(vector: list[float], turn) -> list[float]:
+    """Turn a vector by the inverse of a quaternion."""
+    w, x, y, z = turn.w, -turn.x, -turn.y, -turn.z
+    a, b, c = vector
+    # t = 2 q x v; v' = v + w t + q x t
+    t = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)]
+    return [
+        a + w * t[0] + y * t[2] - z * t[1],
+        b + w * t[1] + z * t[0] - x * t[2],
+        c + w * t[2] + x * t[1] - y * t[0],
+    ]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--goal", type=float, nargs=3, default=[2.0, 1.0, 3.0], metavar="X")
+    parser.add_argument("--near", type=float, default=0.1, help="close enough [m]")
+    parser.add_argument("--speed", type=float, default=0.5, help="highest speed [m/s]")
+    parser.add_argument("--odometry", default="/uwsim/girona500/odom")
+    parser.add_argument("--command", default="/g500/twist")
+    options = parser.parse_args()
+    rclpy.init()
+    node = GotoPosition(options.goal, options)
+    while node.distance > options.near:
+        rclpy.spin_once(node, timeout_sec=0.1)
+    node.out.publish(TwistStamped())  # stay
+    print(f"reached {options.goal}: {node.distance:.2f} m away")
+    rclpy.shutdown()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,41 @@
+"""A bus that is a node of ROS 2, and a clock that a test turns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from tests.ros2_peers import free_domain
+from uwsim.bus import Bus
+from uwsim.middleware.log import Log
+from uwsim.middleware.ros2.adapter import Ros2
+from uwsim.middleware.ros2.settings import Ros2Settings
+
+
+class Simulator:
+    """A bus, its bridge, and its time."""
+
+    def __init__(self, domain: int) -> None:
+        self.bus, self.time, self.domain = Bus(), 0.0, domain
+        self.lines: list[str] = []
+        self.bridge = Ros2(
+            self.bus, lambda: self.time, Ros2Settings(domain=domain), log=Log("", self.lines.append)
+        )
+
+    def step(self) -> None:
+        """Pass one step boundary."""
+        self.time += 0.002
+        self.bus.step += 1
+        self.bus.deliver()
+        self.bridge.step()
+
+
+@contextmanager
+def running() -> Iterator[Simulator]:
+    """Give one in a domain of its own."""
+    with free_domain() as domain:
+        found = Simulator(domain)
+        try:
+            yield found
+        finally:
+            found.bridge.close()

@@ -1,0 +1,131 @@
+"""Peers that send garbage, flood or die: the simulation goes on and the log says it."""
+
+from __future__ import annotations
+
+import random
+import socket
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+import pytest
+
+from tests.ros2_peers import needs_rclpy, peer, until
+from uwsim.messages import Image, String
+from uwsim.messages.build import image
+
+pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
+
+from tests.middleware.ros2.simulator import Simulator, running
+from uwsim.middleware.encodings import to_cdr
+from uwsim.middleware.ros2.participant import Participant, Writer
+from uwsim.middleware.ros2.quality import Quality
+from uwsim.middleware.ros2.raw_types import RawSample, raw_type
+from uwsim.middleware.ros2.settings import Ros2Settings
+from uwsim.middleware.types import ros2_store
+
+N_FLOOD = 100_000
+MAX_KEPT = 1000
+"""Messages of a topic that wait for the simulation."""
+
+
+@pytest.fixture
+def simulator() -> Iterator[Simulator]:
+    with running() as found:
+        yield found
+
+
+@pytest.fixture
+def other(simulator: Simulator) -> Iterator[Participant]:
+    settings = Ros2Settings(domain=simulator.domain)
+    found = Participant(simulator.domain, settings.configuration())
+    yield found
+    found.close()
+
+
+def writer_to(simulator: Simulator, other: Participant, topic: str) -> Writer:
+    """A writer of texts that the simulator reads."""
+    type = raw_type(ros2_store(), "std_msgs/msg/String")
+    writer = other.writer(f"rt/{topic}", type, Quality())
+    until(lambda: writer.n_readers == 1, simulator.step)
+    return writer
+
+
+def text(data: str) -> bytes:
+    return bytes(to_cdr(String(data=data)))
+
+
+def test_garbage_on_its_ports_does_not_disturb_it(simulator: Simulator, other: Participant) -> None:
+    inbox = simulator.bus.inbox("text", String)
+    writer = writer_to(simulator, other, "text")
+    chance = random.Random(1)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        for port in range(7400 + 250 * simulator.domain, 7400 + 250 * simulator.domain + 40):
+            for length in (0, 1, 19, 20, 21, 64, 1400, 60000):
+                data = chance.randbytes(length)
+                for start in (b"", b"RTPS", b"RTPS\x02\x01\x01\x10" + bytes(12)):
+                    sender.sendto(start + data, ("127.0.0.1", port))
+    writer.write(text("still here"))
+    until(lambda: inbox.last is not None, simulator.step)
+    assert inbox.last is not None
+    assert inbox.last.data == "still here"
+
+
+def test_a_sample_that_is_no_message_is_refused_and_reported(simulator: Simulator) -> None:
+    inbox = simulator.bus.inbox("text", String)
+    receive = partial(simulator.bridge._receive, "text", String)
+    for garbage in (b"", b"\x00\x01\x00\x00", b"\x00\x01\x00\x00" + b"\xff" * 40):
+        receive(RawSample(garbage))
+    receive(RawSample(text("good")))
+    simulator.step()
+    assert [each.data for each in inbox.take()] == ["good"]
+    assert sum("/text: a message was refused" in line for line in simulator.lines) == 3
+
+
+def test_of_a_flood_the_newest_are_kept_and_it_is_reported(
+    simulator: Simulator, other: Participant
+) -> None:
+    inbox = simulator.bus.inbox("text", String)
+    writer = writer_to(simulator, other, "text")
+    for n in range(N_FLOOD):
+        writer.write(text(str(n)))
+    got: list[str] = []
+
+    def is_told() -> bool:
+        return any("faster than the simulation" in line for line in simulator.lines)
+
+    until(is_told, lambda: [writer.write(text("more")) for _ in range(1000)])
+    writer.write(text("end"))
+
+    def step() -> None:
+        simulator.step()
+        new = [each.data for each in inbox.take()]
+        assert len(new) <= MAX_KEPT
+        got.extend(new)
+
+    until(lambda: got and got[-1] == "end", step)
+
+
+@needs_rclpy
+def test_a_reader_that_is_killed_while_images_come_holds_nobody_up(simulator: Simulator) -> None:
+    publish = simulator.bus.publisher("camera", Image)
+    source = """
+from sensor_msgs.msg import Image
+node.create_subscription(Image, "/camera", lambda image: say(n=image.header.stamp.sec), 10)
+spin_until(lambda: False)
+"""
+    pixels = np.zeros((240, 320, 3), dtype=np.uint8)
+    got: list[int] = []
+
+    def step() -> None:
+        publish(image(pixels.copy(), time=simulator.time))
+        simulator.step()
+
+    with peer(source, simulator.domain) as first:
+        until(first.answers, step)
+        first.kill()
+        with peer(source, simulator.domain) as second:
+            until(second.answers, step)
+            began = simulator.bus.step
+            until(lambda: got, lambda: (step(), got.extend(a["n"] for a in second.answers())))
+    assert simulator.bus.step > began
