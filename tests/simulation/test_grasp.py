@@ -11,11 +11,13 @@ from uwsim.messages import JointState, Point, Quaternion, header
 from uwsim.messages import Pose as PoseMessage
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
+from uwsim.scene.sim_params import ContactMode
 from uwsim.scene.urdf.kinematics import link_poses
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.simulation import Simulation
 from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 from uwsim.topics.ros_pose_to_pat import ROSPoseToPATSpec
+from uwsim.world import GRAVITY
 
 ARM = [0.0, 0.48, 0.563, 0.0]  # the jaw points down
 OPEN, CLOSED = 0.3, -0.05
@@ -27,7 +29,14 @@ VOLUME = 0.0067  # of a box of 0.15 x 0.32 x 0.14 m, m3
 class Grasp:
     """A vehicle that stays in its place, its open jaw around the handle of a box on a stand."""
 
-    def __init__(self, mass: float = 12.0, timestep: float = 0.002) -> None:
+    def __init__(
+        self,
+        mass: float = 12.0,
+        timestep: float = 0.002,
+        *,
+        friction: float | None = None,
+        contacts: ContactMode = "default",
+    ) -> None:
         scene = read_scene(SCENE).nominal
         vehicle = replace(scene.vehicles[0], parts=(), joint_values=(*ARM, OPEN))
         self.place = vehicle.localized_from_base
@@ -39,7 +48,9 @@ class Grasp:
             file="objects/blackbox_standard.osg",
             position=tuple(middle),
             orientation=(0.0, np.pi, np.pi / 2),
-            physics=PhysicsSpec(mass=mass, collision_shape_type="compound box", volume=VOLUME),
+            physics=PhysicsSpec(
+                mass=mass, collision_shape_type="compound box", volume=VOLUME, friction=friction
+            ),
         )
         stand = ObjectSpec(
             name="stand",
@@ -52,7 +63,13 @@ class Grasp:
             ROSJointStateToArmSpec(topic="/arm", vehicle_name="girona500"),
         )
         self.simulation = Simulation(
-            replace(scene, vehicles=(vehicle,), objects=(box, stand), ros_interfaces=interfaces),
+            replace(
+                scene,
+                vehicles=(vehicle,),
+                objects=(box, stand),
+                ros_interfaces=interfaces,
+                sim_params=replace(scene.sim_params, contacts=contacts),
+            ),
             timestep=timestep,
         )
         self.simulation.start()
@@ -143,6 +160,41 @@ def test_a_box_heavier_than_friction_can_bear_slips_out() -> None:
     grasp.lift()
     run(grasp.simulation, 5.0)
     assert "girona500" not in grasp.touches
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("friction", "contacts", "most"), [(0.5, "default", 0.003), (0.5, "precise", 0.0003)]
+)
+def test_a_box_of_52_newton_creeps_by_so_little_in_ten_seconds(
+    friction: float, contacts: ContactMode, most: float
+) -> None:
+    grasp = Grasp(friction=friction, contacts=contacts)
+    grasp.lift()
+    start = grasp.box_in_jaw()
+    run(grasp.simulation, 10.0)
+    assert grasp.touches == {"girona500"}
+    assert slip(start, grasp.box_in_jaw()) < most  # 0.83 and 0.04 mm
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.2])
+def test_with_less_friction_than_statics_asks_for_the_box_is_not_lifted(friction: float) -> None:
+    """The two fingers press with 10 N m at 0.09 m each: friction below 52 N / 222 N, 0.23."""
+    grasp = Grasp(friction=friction)
+    grasp.lift()
+    assert grasp.touches == {"stand"}
+
+
+def test_the_weight_of_a_held_box_is_what_the_fingers_feel_to_two_percent() -> None:
+    grasp = Grasp()
+    grasp.lift()
+    run(grasp.simulation, 5.0)
+    total = 0.0
+    for _ in range(100):
+        run(grasp.simulation, 0.02)
+        total += grasp.simulation.world.contact_forces("blackbox")["girona500"][2]
+    weight = (12.0 - 1000.0 * VOLUME) * GRAVITY
+    assert total / 100 == pytest.approx(weight, rel=0.02)
 
 
 def test_the_fingers_stay_mirror_images_of_each_other() -> None:

@@ -158,7 +158,9 @@ class _Reader:
         function = None if spec is None else spec.function
         if function is not None:
             check_function(root, function, found, self.diagnostics)
-        for node, message in too_short(self.diagnostics, found, updater, function, self.timestep):
+        given_step = None if spec is None else spec.timestep
+        timestep = self.timestep if given_step is None else given_step
+        for node, message in too_short(self.diagnostics, found, updater, function, timestep):
             self.diagnostics.error(node, message)
         if spec is not None and updater is not None:
             warn_endless(root, spec, self.diagnostics)

@@ -54,6 +54,10 @@ class BenchmarkSpec:
     blanks; ``uwsim`` is all of them but ``visual-frames``."""
     patience: float | None = element(default=None, attribute=True, namespaced=True, above=0.0)
     """Longest wait for the start trigger, in simulation time [s]; None: 10 s."""
+    timestep: float | None = element(
+        default=None, attribute=True, namespaced=True, above=0.0, maximum=0.02
+    )
+    """Length of a physics step [s]; None: 0.002 s."""
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
     """Values of its scene updaters that are drawn anew for each seed: ``u:path`` begins with the
     name of the updater, ``currentForceUpdater.timeOffset``."""

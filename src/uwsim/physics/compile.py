@@ -57,6 +57,8 @@ SOFTNESS = (0.95, 0.99, 0.001, 0.5, 2.0)
 """MuJoCo's solimp: half the creep of its default in a grasp."""
 IMPRATIO = 10.0
 """How much stiffer friction is than the normal force: less creep of what is held."""
+NOSLIP = 5
+"""Iterations against the creep of friction, where contacts are precise."""
 BOUNCE_TIME = 0.01
 """Of the spring of a contact that bounces: inverse of its frequency [s]."""
 OBJECTS = 1
@@ -142,6 +144,8 @@ def compile_scene(
     spec.compiler.degree = False
     spec.option.timestep = timestep
     spec.option.integrator = INTEGRATORS[scene.sim_params.integrator]
+    if scene.sim_params.contacts == "precise":
+        spec.option.noslip_iterations = NOSLIP
     spec.option.gravity = [0.0, 0.0, -GRAVITY if dynamics else 0.0]
     if scene.has_uwsim_physics:
         spec.option.gravity = list(scene.sim_params.original_gravity)

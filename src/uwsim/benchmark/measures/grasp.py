@@ -154,13 +154,15 @@ class Grasp(Measure):
         time = self._world.time - self._began
         self._phases.update()
         by = self._world.contact_forces(self._spec.target)
-        height = float(self._thing.world_from_body.position[2]) - self._lay
         is_held = self._spec.vehicle in by
         self._feel(time, by)
         if is_held:
             self._mark("touched", time)
             self._let_go = time
-        is_carried = is_held and self._spec.ground not in by and height > RAISED
+        height = 0.0  # nothing else asks for it
+        if is_held and self._spec.ground not in by:
+            height = float(self._thing.world_from_body.position[2]) - self._lay
+        is_carried = height > RAISED
         if is_carried:
             self._mark("raised", time)
             self._height = max(self._height, height)
@@ -286,6 +288,21 @@ class Grasp(Measure):
         return {
             name: why[name] for name, value in self.details.items() if value is None and name in why
         }
+
+    @property
+    def log_header(self) -> tuple[str, ...]:
+        """Success, height above where it lay, the two forces, slip so far, number of the phase."""
+        forces = ("force_on_object [N]", "force_on_ground [N]")
+        return ("value", "height [m]", *forces, "slip [m]", "phase [1]")
+
+    @property
+    def log_values(self) -> tuple[float | None, ...]:
+        """As of now."""
+        if self._began is None:
+            return (None,) * len(self.log_header)
+        height = float(self._thing.world_from_body.position[2]) - self._lay
+        forces = (self._on_object.now, self._on_ground.now)
+        return (self.value, height, *forces, self._slip, float(self._phases.number))
 
     @property
     def ends_level(self) -> str | None:

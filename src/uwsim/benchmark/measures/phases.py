@@ -54,6 +54,11 @@ class Phases:
         self._since = time
 
     @property
+    def number(self) -> int:
+        """Number of the present phase, 1 the first; 0 before any."""
+        return 0 if self._now is None else self._names.index(self._now) + 1
+
+    @property
     def is_at_first(self) -> bool:
         """Whether nothing but the first phase was ever reached."""
         return self._farthest == 1

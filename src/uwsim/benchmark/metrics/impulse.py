@@ -28,9 +28,12 @@ class Impulse:
         self._n_idle = 0
         self.largest = 0.0
         """[N s]"""
+        self.now = 0.0
+        """Size of the force in the last step [N]."""
 
     def add(self, force: Array | None) -> None:
         """Take the force of one more step, (3,) [N]; None: none."""
+        self.now = 0.0 if force is None else length(force)
         if force is None:
             self._n_idle += 1
             if self._n_idle >= (self._forces.maxlen or 1):

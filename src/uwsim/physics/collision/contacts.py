@@ -18,6 +18,9 @@ from ...numerics.linear import dot, turned_back
 from ...scene.spec import SceneSpec
 from ...world import Contact
 
+_NORMAL_AND_TANGENTS = np.arange(3)
+"""Places of a contact's force in ``efc_force``, of an elliptic cone."""
+
 
 class EngineContacts:
     """Contacts that MuJoCo found in the last step.
@@ -44,6 +47,7 @@ class EngineContacts:
         self._owners = np.array(owners)
         self._names = [name_of(scene, owner) for owner in owners]
         self._touchable = frozenset(owner_of(name) for name in shapes)
+        self._masks: dict[str, npt.NDArray[np.bool_]] = {}
         self.hold = False
         """Whether the engine's contacts are those of its state."""
 
@@ -61,17 +65,24 @@ class EngineContacts:
         found: dict[str, Array] = {}
         if not self.hold or self._data.ncon == 0:
             return found
-        contacts, own = self._data.contact, np.zeros(6)
+        contacts, owner = self._data.contact, f"{kind}/{index}"
+        if owner not in self._masks:
+            self._masks[owner] = self._owners == owner
         geoms = contacts.geom  # (n, 2)
-        is_own = (self._owners == f"{kind}/{index}")[geoms]  # (n, 2)
-        for i in np.flatnonzero(is_own[:, 0] != is_own[:, 1]).tolist():
-            mujoco.mj_contactForce(self._model, self._data, i, own)
-            force = turned_back(
-                contacts.frame[i].reshape(3, 3), own[:3]
-            )  # the first's on the second
-            second = int(is_own[i, 1])
-            other = self._names[geoms[i, 1 - second]]
-            found[other] = found.get(other, 0.0) + (force if second else -force)
+        is_own = self._masks[owner][geoms]  # (n, 2)
+        address = np.asarray(contacts.efc_address)
+        chosen = np.flatnonzero((is_own[:, 0] != is_own[:, 1]) & (address >= 0))
+        if len(chosen) == 0:
+            return found
+        own = self._data.efc_force[address[chosen, None] + _NORMAL_AND_TANGENTS]  # (k, 3)
+        frames = contacts.frame[chosen].reshape(-1, 3, 3)  # rows, in W
+        forces = own[:, :1] * frames[:, 0] + own[:, 1:2] * frames[:, 1] + own[:, 2:] * frames[:, 2]
+        seconds = is_own[chosen, 1]  # the force is the first's on the second
+        forces = np.where(seconds[:, None], forces, -forces)
+        others = geoms[chosen, np.where(seconds, 0, 1)]
+        for other, force in zip(others.tolist(), forces, strict=True):
+            name = self._names[other]
+            found[name] = found[name] + force if name in found else force
         return found
 
     def wrench(self, body: int, point: Array) -> Array:

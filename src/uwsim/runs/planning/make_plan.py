@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ...assets.bundled import benchmark_file, scene_file
 from ...errors import AllErrors, AssetNotFound, BadSetting
 from ...terminal import print_warnings
+from ...world import TIMESTEP
 from ..foreign_code import announce, refuse_code, refused
 from ..program import load_program
 from ..stand_ins import warn_of_stand_ins
@@ -92,6 +93,7 @@ def make_plan(request: PlanRequest) -> Plan:
         seed=request.seed,
         repeats=request.repeat,
         chosen=chosen,
+        timestep=TIMESTEP if spec.timestep is None else spec.timestep,
         compatibility=quirks,
         data_path=tuple(request.data_path),
         plugins=read.plugins,

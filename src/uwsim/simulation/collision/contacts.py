@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from ...errors import UwsimError
 from ...geometry import Array, Pose
@@ -49,6 +49,7 @@ class Contacts:
         self._scene, self._robots, self._state = scene, robots, state
         self._data_path, self._timestep = data_path, timestep
         self._touching: KinematicContacts | None = None
+        self._found: dict[str, tuple[Literal["vehicle", "object"], int]] = {}
         self._step = 0
 
     def is_possible(self, name: str) -> bool:
@@ -109,8 +110,9 @@ class Contacts:
         Raises:
             UnknownName: there is none.
         """
-        kind, index = touchable(name, self._scene)
-        return self._state.contact_forces(kind, index)
+        if name not in self._found:
+            self._found[name] = touchable(name, self._scene)
+        return self._state.contact_forces(*self._found[name])
 
     def _lay(self) -> KinematicContacts:
         scene, state = self._scene, self._state
