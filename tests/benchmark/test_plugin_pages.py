@@ -61,4 +61,5 @@ def test_the_algorithm_of_its_page_is_a_plugin(
     (tmp_path / "brightest.py").write_text(blocks("your-own-algorithm.md", "python")[0])
     monkeypatch.chdir(tmp_path)
     assert main(["list", "algorithms", "--plugin", "brightest.py"]) == 0
-    assert "brightest  Moves the quad of autoInit" in capsys.readouterr().out
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "brightest Moves the quad of autoInit" in shown
