@@ -14,8 +14,8 @@ from rosbags.typesys import Stores, get_typestore
 from uwsim import messages
 from uwsim.bus import Bus
 from uwsim.messages import Float64, Image, PingInfo, ProjectedSonarImage, String, image
+from uwsim.middleware.types import wire_type
 from uwsim.recording import ImageStorage, Recorder, TopicRates
-from uwsim.recording.definitions import message_type_name
 
 PIXELS = (np.arange(4 * 5 * 3) * 13 % 256).astype(np.uint8).reshape(4, 5, 3)
 
@@ -113,7 +113,7 @@ def test_every_message_class_of_uwsim_has_a_definition() -> None:
     kinds = [getattr(messages, name) for name in messages.__all__]
     types = [kind for kind in kinds if "/msg/" in getattr(kind, "__msgtype__", "")]
     assert len(types) > 30
-    assert [kind for kind in types if message_type_name(kind) is None] == []
+    assert [kind for kind in types if wire_type(kind) is None] == []
 
 
 def test_rates_count_the_messages_of_every_topic() -> None:

@@ -86,6 +86,15 @@ COMMANDS: dict[str, Command] = {
         summary="List the scenes, benchmarks, algorithms and parts that have names.",
         examples=("uwsim list", "uwsim list benchmarks"),
     ),
+    "play": Command(
+        module="play",
+        function="play",
+        summary="Play a recording: to your program, to ROS, with ghosts in a scene.",
+        examples=(
+            "uwsim play dive.mcap --record dive.bag",
+            "uwsim play dive.bag cirs --ros1",
+        ),
+    ),
     "render": Command(
         module="render",
         function="render",

@@ -203,3 +203,29 @@ def _reader(name: str) -> Callable[[Any], Any]:
         return cls(**values)
 
     return read_message
+
+
+def of_class(kind: type[M], found: Any) -> M:
+    """Return a message of another type store, as of a file, as one of a class of the bus.
+
+    Fields are found by their names, whatever their case; one that it lacks has its default.
+
+    Raises:
+        BadMessage: it lacks a field that has no default.
+    """
+    values: dict[str, Any] = {}
+    theirs = {name.lower(): name for name in vars(found)}
+    for field, description in ros2_store().fielddefs[_name_of(kind)][1]:
+        if field.lower() not in theirs:
+            continue
+        value = getattr(found, theirs[field.lower()])
+        form, inner = inner_type(description)
+        if form == "one":
+            value = of_class(ros2_store().types[inner], value)
+        elif form == "list":
+            value = [of_class(ros2_store().types[inner], each) for each in value]
+        values[field] = value
+    try:
+        return kind(**values)
+    except TypeError as error:
+        raise BadMessage(f"A message is no {_name_of(kind)}: {error}.") from error

@@ -12,7 +12,7 @@ import functools
 from typing import Any, TypeVar, cast
 
 from ..messages import Time
-from ..messages.build import time_from_seconds
+from ..messages.build import NANOSECONDS, time_from_seconds
 from .encodings import HEADER, inner_type
 from .types import ros2_store
 
@@ -29,12 +29,12 @@ def clock_time(time: float) -> Time:
 
 def outward(message: M) -> M:
     """Return a message with its stamps on the clock of ROS; the message itself stays as it is."""
-    return _moved(message, CLOCK_START)
+    return moved(message, CLOCK_START * NANOSECONDS)
 
 
 def inward(message: M) -> M:
     """Return a message with its stamps in simulation time; at least 0, and 0 stays."""
-    return _moved(message, -CLOCK_START)
+    return moved(message, -CLOCK_START * NANOSECONDS)
 
 
 @functools.cache
@@ -50,26 +50,35 @@ def _stamped(name: str) -> tuple[tuple[str, str, str], ...]:
     return tuple(found)
 
 
-def _moved(message: M, seconds: int) -> M:
+def moved(message: M, nanoseconds: int) -> M:
+    """Return a message with the stamps of its headers moved; at least 0.
+
+    On the way back a stamp of 0 stays.
+    """
     name = str(getattr(message, "__msgtype__", ""))
     if name == HEADER:
-        return cast(M, _header_moved(message, seconds))
+        return cast(M, _header_moved(message, nanoseconds))
     fields = _stamped(name)
     if not fields:
         return message
-    moved = copy.copy(message)
+    copied = copy.copy(message)
     for field, kind, _ in fields:
         value: Any = getattr(message, field)
-        new = _moved(value, seconds) if kind == "one" else [_moved(x, seconds) for x in value]
-        object.__setattr__(moved, field, new)  # of a frozen one, too
-    return moved
+        new = (
+            moved(value, nanoseconds)
+            if kind == "one"
+            else [moved(each, nanoseconds) for each in value]
+        )
+        object.__setattr__(copied, field, new)  # of a frozen one, too
+    return copied
 
 
-def _header_moved(header: Any, seconds: int) -> Any:
+def _header_moved(header: Any, nanoseconds: int) -> Any:
     stamp = header.stamp
-    if seconds < 0 and stamp.sec == 0 and stamp.nanosec == 0:
+    before = stamp.sec * NANOSECONDS + stamp.nanosec
+    if nanoseconds < 0 and before == 0:
         return header
-    sec = stamp.sec + seconds
-    moved = copy.copy(header)
-    moved.stamp = Time(sec=sec, nanosec=stamp.nanosec) if sec >= 0 else Time()
-    return moved
+    after = max(0, before + nanoseconds)
+    copied = copy.copy(header)
+    copied.stamp = Time(sec=after // NANOSECONDS, nanosec=after % NANOSECONDS)
+    return copied

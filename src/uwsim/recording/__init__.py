@@ -9,12 +9,15 @@
 
 from __future__ import annotations
 
-from .mcap_file import check_path
-from .recorder import ImageStorage, Recorder, image_storage
+from .bag_reader import BagReader
+from .player import Player
+from .recorder import ImageStorage, Recorder, check_path, image_storage
 from .topic_rates import TopicRate, TopicRates
 
 __all__ = [
+    "BagReader",
     "ImageStorage",
+    "Player",
     "Recorder",
     "TopicRate",
     "TopicRates",

@@ -13,23 +13,13 @@ from typing import Any
 
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
-from ..errors import BadSetting
 from ..interrupts import ignoring_interrupts
-from .definitions import definitions
+from ..middleware.encodings import to_cdr
+from ..middleware.types import WireType, ros2_store
 
 SUFFIX = ".mcap"
 BAG = "recording"
 """Name of the rosbag2 inside; the same for every file, so that equal runs give equal bytes."""
-
-
-def check_path(path: Path, *, overwrite: bool) -> None:
-    """Refuse a path to which nothing can be recorded; raises BadSetting."""
-    if path.suffix.lower() != SUFFIX:
-        raise BadSetting(f"--record {path}: only {SUFFIX} files are written.")
-    if path.is_dir():
-        raise BadSetting(f"--record {path}: is a folder.")
-    if path.exists() and not overwrite:
-        raise BadSetting(f"--record {path}: exists; --overwrite replaces it.")
 
 
 class McapFile:
@@ -53,21 +43,25 @@ class McapFile:
         self._writer.open()
         self._channels: dict[str, Any] = {}
 
-    def write(self, topic: str, type_name: str, time: int, message: object) -> None:
+    @staticmethod
+    def has(kind: WireType) -> bool:
+        """Whether ROS 2 has such a type."""
+        return bool(kind.type_hash)
+
+    def write(self, topic: str, kind: WireType, time: int, message: object) -> None:
         """Append a message.
 
         Args:
             topic: its topic.
-            type_name: ``package/msg/Name``, one of `definitions`.
+            kind: its type.
             time: when it was delivered, since the simulation began [ns].
-            message: an object with the fields of the type.
+            message: of that type.
         """
-        store = definitions()
-        data = store.serialize_cdr(message, type_name)
+        data = to_cdr(message)
         with ignoring_interrupts():
             if topic not in self._channels:
                 self._channels[topic] = self._writer.add_connection(
-                    topic, type_name, typestore=store
+                    topic, kind.ros2_name, typestore=ros2_store()
                 )
             self._writer.write(self._channels[topic], time, data)
 

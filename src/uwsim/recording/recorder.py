@@ -1,4 +1,4 @@
-"""Recording of all topics of a bus into an MCAP file."""
+"""Recording of all topics of a bus into a file."""
 
 from __future__ import annotations
 
@@ -14,9 +14,12 @@ from ..bus import OBSERVER, Bus
 from ..errors import BadSetting, did_you_mean
 from ..messages import CompressedImage, Image, pixels_of
 from ..messages.build import NANOSECONDS
-from .definitions import message_type_name
+from ..middleware.types import WireType, wire_type
+from .bag_file import BagFile
 from .mcap_file import McapFile
 
+FILES: dict[str, type[McapFile] | type[BagFile]] = {".mcap": McapFile, ".bag": BagFile}
+"""Ending of a recording's name -> what writes it: ROS 2 in MCAP, a bag of ROS 1."""
 ImageStorage = Literal["raw", "png", "none"]
 """How images are kept: as they are, as ``TOPIC/compressed`` without loss, or not at all."""
 PNG_ENCODINGS = ("rgb8", "mono8")
@@ -33,12 +36,22 @@ def image_storage(text: str) -> ImageStorage:
     raise BadSetting(f"--images {text!r}: expected one of {', '.join(known)}.{near}")
 
 
+def check_path(path: Path, *, overwrite: bool) -> None:
+    """Refuse a path to which nothing can be recorded; raises BadSetting."""
+    if path.suffix.lower() not in FILES:
+        raise BadSetting(f"--record {path}: only {' and '.join(FILES)} files are written.")
+    if path.is_dir():
+        raise BadSetting(f"--record {path}: is a folder.")
+    if path.exists() and not overwrite:
+        raise BadSetting(f"--record {path}: exists; --overwrite replaces it.")
+
+
 class Recorder:
     """Writes every message that a bus delivers, from `start` on.
 
     Args:
         bus: what is recorded, topics that come later included.
-        path: the ``.mcap`` file.
+        path: the ``.mcap`` or ``.bag`` file.
         images: how images are kept.
     """
 
@@ -46,7 +59,7 @@ class Recorder:
         self._bus = bus
         self._images = images
         self._stops: list[Callable[[], None]] = []
-        self._file = McapFile(path)
+        self._file = FILES[path.suffix.lower()](path)
         self.n_messages = 0
         """Messages recorded so far."""
         self.left_out: dict[str, str] = {}
@@ -58,13 +71,13 @@ class Recorder:
         def appeared(topic: str, type: type) -> None:
             if not self.reads(type):
                 return
-            name = message_type_name(type)
-            if name is None:
+            kind = wire_type(type)
+            if kind is None or not self._file.has(kind):
                 self.left_out[topic] = getattr(type, "__name__", str(type))
                 return
 
             def receive(message: object) -> None:
-                self._keep(f"/{topic}", name, round(clock() * NANOSECONDS), message)
+                self._keep(f"/{topic}", kind, round(clock() * NANOSECONDS), message)
 
             self._stops.append(self._bus.subscribe(topic, type, receive, owner=OBSERVER))
 
@@ -74,15 +87,17 @@ class Recorder:
         """Whether topics of that message type are recorded, if it has a definition."""
         return type is not Image or self._images != "none"
 
-    def _keep(self, topic: str, name: str, time: int, message: object) -> None:
+    def _keep(self, topic: str, kind: WireType, time: int, message: object) -> None:
         if (
             self._images == "png"
             and isinstance(message, Image)
             and message.encoding in PNG_ENCODINGS
         ):
             topic, message = f"{topic}/compressed", as_png(message)
-            name = CompressedImage.__msgtype__
-        self._file.write(topic, name, time, message)
+            packed = wire_type(CompressedImage)
+            assert packed is not None
+            kind = packed
+        self._file.write(topic, kind, time, message)
         self.n_messages += 1
 
     def close(self) -> None:

@@ -37,15 +37,24 @@ class PoseCommand(Interface):
 
     def obey(self, pose: PoseMessage) -> None:
         """Take a pose in L; an invalid quaternion counts as no rotation."""
-        p, q = pose.position, pose.orientation
-        wxyz = np.array([q.w, q.x, q.y, q.z])
-        largest = float(np.abs(wxyz).max())
-        if not 0.0 < largest < np.inf:
-            wxyz, largest = np.array([1.0, 0.0, 0.0, 0.0]), 1.0
-        position = np.array([p.x, p.y, p.z])
-        if not np.isfinite(position).all():
-            return
-        localized_from_base = Pose(
-            np.clip(position, -MAX_COMMAND, MAX_COMMAND), rotation_from_quaternion(wxyz / largest)
-        )
-        go_or_place(self._vehicle, self._world_from_localized @ localized_from_base)
+        localized_from_base = pose_in_localized(pose)
+        if localized_from_base is not None:
+            go_or_place(self._vehicle, self._world_from_localized @ localized_from_base)
+
+
+def pose_in_localized(pose: PoseMessage) -> Pose | None:
+    """Return a message's pose, in L; None if its position is no place.
+
+    An invalid quaternion counts as no rotation.
+    """
+    p, q = pose.position, pose.orientation
+    wxyz = np.array([q.w, q.x, q.y, q.z])
+    largest = float(np.abs(wxyz).max())
+    if not 0.0 < largest < np.inf:
+        wxyz, largest = np.array([1.0, 0.0, 0.0, 0.0]), 1.0
+    position = np.array([p.x, p.y, p.z])
+    if not np.isfinite(position).all():
+        return None
+    return Pose(
+        np.clip(position, -MAX_COMMAND, MAX_COMMAND), rotation_from_quaternion(wxyz / largest)
+    )

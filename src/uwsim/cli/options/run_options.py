@@ -66,8 +66,9 @@ class RecordOptions:
         in_group(
             OUTPUT,
             "--record",
-            metavar="FILE.mcap",
-            help="Record every topic as ROS 2 messages; read by ros2 bag, Foxglove, rosbags.",
+            metavar="FILE.mcap|.bag",
+            help="Record every topic: .mcap of ROS 2 (read by ros2 bag, Foxglove, rosbags), "
+            ".bag of ROS 1 (rosbag).",
         ),
     ] = None
     images: Annotated[

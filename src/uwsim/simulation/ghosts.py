@@ -1,0 +1,92 @@
+"""Ghosts: vehicles that follow recorded odometry and joint states, whatever their dynamics say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from ..geometry import Pose
+from ..messages import JointState, Odometry
+from ..topics.arm_to_ros_joint_state import ArmToROSJointStateSpec
+from ..topics.pat_to_ros_odom import PATToROSOdomSpec
+from ..topics.ros_pose_to_pat import pose_in_localized
+from .simulation import Simulation
+from .vehicles import SceneVehicle
+
+
+class Ghost:
+    """A vehicle that is where a recording says."""
+
+    def __init__(self, vehicle: SceneVehicle, world_from_localized: Pose) -> None:
+        self._vehicle, self._world_from_localized = vehicle, world_from_localized
+        self._pose: Pose | None = None
+        self._joints: JointState | None = None
+
+    def see_odometry(self, message: Odometry) -> None:
+        """Take a pose in L."""
+        pose = pose_in_localized(message.pose.pose)
+        if pose is not None:
+            self._pose = self._world_from_localized @ pose
+
+    def see_joints(self, message: JointState) -> None:
+        """Take positions of joints."""
+        self._joints = message
+
+    def place(self) -> None:
+        """Put the vehicle there; called in every step."""
+        if self._pose is not None:
+            self._vehicle.place(self._pose)
+        if self._joints is not None:
+            known = dict(zip(self._joints.name, self._joints.position.tolist(), strict=False))
+            now = zip(self._vehicle.joint_names, self._vehicle.joints.tolist(), strict=True)
+            self._vehicle.set_joints(np.array([known.get(name, value) for name, value in now]))
+
+
+def follow_recorded(simulation: Simulation, recorded: Mapping[str, str]) -> tuple[str, ...]:
+    """Have the vehicles follow what was recorded of them.
+
+    Args:
+        simulation: whose scene publishes odometry (``PATToROSOdom``).
+        recorded: topic, with a leading slash -> topic on the bus with what was recorded of it.
+
+    Returns:
+        Names of the vehicles that follow.
+    """
+    world, ghosts = simulation.world, dict[str, Ghost]()
+    for spec in world.scene.ros_interfaces:
+        if isinstance(spec, PATToROSOdomSpec) and (topic := _of(spec.topic, recorded)):
+            ghost = Ghost(world.vehicle(spec.vehicle_name), world.world_from_localized)
+            ghosts[spec.vehicle_name] = ghost
+            world.bus.subscribe(topic, Odometry, ghost.see_odometry)
+    for spec in world.scene.ros_interfaces:
+        if isinstance(spec, ArmToROSJointStateSpec) and spec.vehicle_name in ghosts:
+            see: Callable[[JointState], None] = ghosts[spec.vehicle_name].see_joints
+            if topic := _of(spec.topic, recorded):
+                world.bus.subscribe(topic, JointState, see)
+    for ghost in ghosts.values():
+        simulation.watch(ghost.place)
+    return tuple(ghosts)
+
+
+def commanded_topics(simulation: Simulation, vehicles: tuple[str, ...]) -> frozenset[str]:
+    """Topics, with a leading slash, by which these vehicles take commands."""
+    return frozenset(
+        f"/{getattr(spec, field).strip('/')}"
+        for spec in simulation.world.scene.ros_interfaces
+        if spec.subscribes and getattr(spec, "vehicle_name", None) in vehicles
+        for field in spec.carries()
+    )
+
+
+def odometry_vehicles(simulation: Simulation, recorded: frozenset[str]) -> tuple[str, ...]:
+    """Vehicles whose odometry is among recorded topics (with a leading slash)."""
+    return tuple(
+        spec.vehicle_name
+        for spec in simulation.world.scene.ros_interfaces
+        if isinstance(spec, PATToROSOdomSpec) and f"/{spec.topic.strip('/')}" in recorded
+    )
+
+
+def _of(topic: str, recorded: Mapping[str, str]) -> str | None:
+    return recorded.get(f"/{topic.strip('/')}")
