@@ -71,6 +71,7 @@ COMMANDS: dict[str, Command] = {
         summary="Find the level at which a benchmark fails, with its bound.",
         examples=(
             'uwsim envelope visibility --over fog --until "corners > 5" --to 2 --repeat 20',
+            "uwsim envelope grasp --over current --level fog=0",
             'uwsim envelope visibility-moving --over fog --until "status == lost" --algorithm orb',
         ),
     ),

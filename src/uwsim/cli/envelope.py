@@ -52,9 +52,10 @@ class SearchOptions:
             SEARCH,
             "--until",
             metavar="CRITERION",
-            help="When a run counts as broken, in the language of scores: corners > 5.",
+            help="When a run counts as broken, in the language of scores: corners > 5 "
+            "[status != ok].",
         ),
-    ]
+    ] = "status != ok"
     start: Annotated[
         float | None,
         in_group(

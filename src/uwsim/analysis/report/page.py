@@ -49,6 +49,7 @@ from .configuration import (
 from .images import data_url, images_text, shown_images
 from .outcomes import Ending, breaks, endings, named_level
 from .rows import all_cells, heads, level_rows
+from .task_section import task_section
 
 MAX_CARDS = 12
 SHORT_LIST = 6
@@ -108,6 +109,7 @@ def render(
         title=result.inputs.title,
         algorithm=algorithm_of(result) or "no algorithm",
         lead=_lead(result),
+        task=task_section(result, directory / "plots"),
         remarks=remarks(result, unchecked),
         command=command(result, provenance),
         cards=_cards(result, found),

@@ -1,0 +1,65 @@
+"""The levels of a task's result: success rate, how the others ended, what the successes took."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from statistics import median
+
+from ...results.per_level import rows_by_level
+from ...results.result import Column, Result
+from ...statistics import Rate, rate
+
+JUDGED_BY = "time_done"
+"""The detail by which the measure that judges a task is known."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaskCell:
+    """One level, over its seeds."""
+
+    level: tuple[float, ...]
+    """The swept parameters, outermost first."""
+    success: Rate
+    """Episodes that ended ``ok``, with exact 95 % limits."""
+    failures: Mapping[str, int]
+    """Status -> episodes that ended so, the most frequent first."""
+    rows: tuple[int, ...]
+    """Numbers of its rows in the result."""
+
+    def median(self, result: Result, column: str) -> float | None:
+        """Median of a column over the successes of the level; None if there are none."""
+        status = result.values(result.of_kind("status")[0].name)
+        values = result.numbers(column)
+        found = [values[row] for row in self.rows if status[row] == "ok"]
+        present = [value for value in found if value is not None]
+        return median(present) if present else None
+
+
+def task_measure(result: Result) -> Column | None:
+    """Return the column of the measure that judges the task; None: it is no task."""
+    suffix = f".{JUDGED_BY}"
+    names = [column.name for column in result.of_kind("detail") if column.name.endswith(suffix)]
+    if not names or not result.of_kind("status"):
+        return None
+    return result.columns[result.index(names[0].removesuffix(suffix))]
+
+
+def of_task(result: Result) -> bool:
+    """Whether a result is that of a task that succeeds or fails."""
+    return task_measure(result) is not None
+
+
+def task_cells(result: Result) -> list[TaskCell]:
+    """Return the levels in the order of execution."""
+    status = [str(cell) for cell in result.values(result.of_kind("status")[0].name)]
+    found = []
+    for level, rows in rows_by_level(result).items():
+        counts = Counter(status[row] for row in rows)
+        n_ok = counts.pop("ok", 0)
+        success = rate(n_ok, len(rows))
+        assert success is not None
+        failures = dict(sorted(counts.items(), key=lambda item: (-item[1], item[0])))
+        found.append(TaskCell(level=level, success=success, failures=failures, rows=tuple(rows)))
+    return found
