@@ -57,7 +57,7 @@ def load(
 
     folders = tuple(Path(folder) for folder in data_path)
     if isinstance(scene, str | Path):
-        scene = read_scene(scene_file(str(scene), folders))
+        scene = read_scene(scene_file(str(scene), folders), data_path=folders)
     for path, value in (settings or {}).items():
         scene = apply_setting(scene, path, str(value))
     return Simulation(

@@ -230,3 +230,20 @@ def test_json_says_the_same_to_programs(tmp_path: Path, capsys: pytest.CaptureFi
         f"{file}:{first['diagnostics'][0]['line']}: {first['diagnostics'][0]['message']}"
         in lines[0]
     )
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ('<UWSimScene xmlns:u="urn:uwsim:2"><u:vary/></UWSimScene>', "xmlns:u='urn:uwsim:1'"),
+        ("<UWSimScene><u:vary/></UWSimScene>", 'write <UWSimScene xmlns:u="urn:uwsim:1">'),
+        ('<UWSimScene xmlns="urn:uwsim:1"/>', "write xmlns:u="),
+    ],
+)
+def test_a_wrong_namespace_names_the_right_one(
+    text: str, expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "scene.xml"
+    file.write_text(text)
+    assert status(str(file)) == 2
+    assert expected in capsys.readouterr().out

@@ -119,6 +119,21 @@ def test_two_runs_have_the_same_bytes(scene: Path) -> None:
     assert scene.with_name("one.mcap").read_bytes() == scene.with_name("other.mcap").read_bytes()
 
 
+def test_a_recording_needs_its_folder(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = scene.parent / "nowhere"
+    assert main(["run", str(scene), "--for", "1s", "--record", str(folder / "run.mcap")]) == 2
+    assert f"there is no folder {folder}." in capsys.readouterr().err
+    assert not folder.exists()
+
+
+def test_a_run_says_what_is_left_out(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    lost = "<imu> <name>lost</name> <relativeTo>nowhere</relativeTo> </imu></vehicle>"
+    path = scene.with_name("lost.xml")
+    path.write_text(scene.read_text().replace("</vehicle>", lost, 1))
+    assert main(["run", str(path), "--for", "10ms"]) == 0
+    assert "warning: <imu>: 'nowhere' is no link of" in capsys.readouterr().err
+
+
 def test_a_program_that_raises_fails_the_run_and_the_recording_is_kept(
     scene: Path, capsys: pytest.CaptureFixture
 ) -> None:

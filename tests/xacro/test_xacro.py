@@ -233,6 +233,19 @@ def test_a_scene_includes_a_vehicle_a_library_and_another_scene(folder: Path) ->
     assert [each.topic for each in scene.ros_interfaces] == ["/one", "/two"]  # type: ignore[attr-defined]
 
 
+def test_what_is_included_may_be_in_a_folder_of_the_data_path(folder: Path) -> None:
+    elsewhere = folder / "elsewhere"
+    elsewhere.mkdir()
+    (folder / "topics.xml").rename(elsewhere / "topics.xml")
+    (folder / "library.xacro").rename(elsewhere / "library.xacro")
+    scene = read_scene(folder / "scene.xml", data_path=(elsewhere,))
+    assert [each.topic for each in scene.ros_interfaces] == ["/one", "/two"]  # type: ignore[attr-defined]
+    found = [each.message for each in check_scene(folder / "scene.xml", data_path=(elsewhere,))]
+    assert [message for message in found if "nowhere" in message] == []
+    with pytest.raises(SceneError, match=r"'library.xacro' is nowhere; searched: "):
+        read_scene(folder / "scene.xml")
+
+
 def test_errors_are_at_lines_of_the_file_that_was_written(folder: Path) -> None:
     path = folder / "scene.xml"
     path.write_text(SCENE.replace("<r>0</r>", "<r>x</r>").replace('x="${2*3}"', 'x="far"'))

@@ -53,7 +53,7 @@ def info(
     folders = tuple(data_path or ())
     path = scene_file(scene, folders)
     wrong = AllErrors()
-    spec = read_scene(path)
+    spec = read_scene(path, data_path=folders)
     for name, value in pairs_of(settings or [], wrong):
         with wrong.kept():
             spec = apply_setting(spec, name, value)

@@ -157,7 +157,7 @@ def scene_of(
 
     spec = None
     with wrong.kept():
-        spec = read_scene(scene_file(scene, folders))
+        spec = read_scene(scene_file(scene, folders), data_path=folders)
     for name, value in pairs_of(settings, wrong):
         with wrong.kept():
             spec = None if spec is None else apply_setting(spec, name, value)

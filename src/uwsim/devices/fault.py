@@ -34,6 +34,8 @@ Kind = Literal["loss", "dropout", "freeze", "bias", "latency", "outliers"]
 """What fails."""
 OF_THRUSTERS = ("loss", "dropout")
 OF_SENSORS = ("dropout", "freeze", "bias", "latency", "outliers")
+OF_NUMBERS = ("bias", "outliers")
+"""Kinds that change the numbers of messages."""
 IDLE = Device()
 """What a fault of a sensor does in a step: nothing; it acts on messages."""
 
@@ -80,6 +82,10 @@ class FaultSpec(DeviceSpec):
         if self.kind not in kinds:
             what = "sensor" if self.thruster is None else "thruster"
             found.append(f"<u:kind> of a {what} is {self.kind!r}; expected {', '.join(kinds)}")
+        if self.sensor is not None and self.kind == "latency" and not self.delay:
+            found.append("<u:kind> latency without <u:delay>; expected how long messages take [s]")
+        if self.sensor is not None and self.kind in OF_NUMBERS and not self.size:
+            found.append(f"<u:kind> {self.kind} without <u:size>; expected a number that is not 0")
         if self.end is not None and self.end <= self.start:
             found.append(
                 f"<u:fault> ends at {self.end:g} s and begins at {self.start:g} s; "

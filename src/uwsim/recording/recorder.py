@@ -42,6 +42,8 @@ def check_path(path: Path, *, overwrite: bool) -> None:
         raise BadSetting(f"--record {path}: only {' and '.join(FILES)} files are written.")
     if path.is_dir():
         raise BadSetting(f"--record {path}: is a folder.")
+    if not path.parent.is_dir():
+        raise BadSetting(f"--record {path}: there is no folder {path.parent}.")
     if path.exists() and not overwrite:
         raise BadSetting(f"--record {path}: exists; --overwrite replaces it.")
 

@@ -43,7 +43,7 @@ def diagnostics_of(
     root = str(node.tag)
     library = _Folders(data_path)
     if root == "robot":
-        return check_robot(file, library=library)
+        return check_robot(file, library=library, data_path=data_path)
     if root == "benchmark":
         plugins, tables = own or read_plugins(())
         return _of_benchmark(file, strict, scene, data_path, plugins, tables)
@@ -54,6 +54,7 @@ def diagnostics_of(
             library=library,
             further=partial(_of_simulated, data_path=data_path),
             settled=partial(_settled, data_path=data_path),
+            data_path=data_path,
         )
     if root == "hydrodynamics":
         return _of_hydrodynamics_file(file)
@@ -61,6 +62,8 @@ def diagnostics_of(
         f"the root element is {shown_tag(root)}; expected <{ROOT}>, <benchmark>, <robot> or "
         "<hydrodynamics>"
     )
+    if root.startswith("{") and node.prefix is None:
+        message += "; xmlns=... puts all elements in a namespace: write xmlns:u=..."
     return [Diagnostic(file=str(file), line=int(str(node.sourceline)), message=message)]
 
 
@@ -161,7 +164,7 @@ def _unknown_names(
     try:
         named_by = file if scene is None else None
         path = scene_file(str(wanted), (file.parent, *data_path), named_by=named_by)
-        spec = read_scene(path)
+        spec = read_scene(path, data_path=data_path)
         simulation = Simulation(spec, data_path=data_path, is_blind=True, runs_code=False)
     except FileError:
         if scene is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -14,7 +14,7 @@ from ..xacro import parse_expanded
 from .checks.angles import check_angles, remember_twins
 from .checks.comms import comms_devices
 from .checks.looks import check_looks
-from .checks.names import check_names
+from .checks.names import check_left_out, check_names
 from .checks.sizes import check_sizes
 from .legacy import upgrade
 from .spec import SceneSpec
@@ -48,15 +48,15 @@ class Library(Protocol):
         """The folders that were searched."""
 
 
-def read_scene(path: Path | str) -> SceneSpec:
-    """Read a scene file.
+def read_scene(path: Path | str, *, data_path: tuple[Path, ...] = ()) -> SceneSpec:
+    """Read a scene file; what it includes is looked for in the folders of ``data_path``, too.
 
     Raises:
         SceneError: with every error of the file.
     """
     path = Path(path)
     diagnostics = Diagnostics(path)
-    scene = read_document(parse_expanded(path, error=SceneError), diagnostics)
+    scene = read_document(parse_expanded(path, error=SceneError, data_path=data_path), diagnostics)
     diagnostics.check(SceneError)
     assert scene is not None
     return scene
@@ -90,6 +90,7 @@ def check_scene(
     library: Library | None = None,
     further: Callable[[SceneSpec], list[Diagnostic]] | None = None,
     settled: Callable[[SceneSpec], SceneSpec] | None = None,
+    data_path: tuple[Path, ...] = (),
 ) -> list[Diagnostic]:
     """Return the errors and warnings of a scene file and the robots it names.
 
@@ -99,16 +100,17 @@ def check_scene(
         library: finds robots and models; without it they are not looked at.
         further: finds what only other rooms can know, in a scene without errors.
         settled: puts what stands on the floor there, as far as that can be done.
+        data_path: further folders in which included files are looked for.
     """
     diagnostics = Diagnostics(path, strict=strict)
     try:
-        document = parse_expanded(path, error=SceneError)
+        document = parse_expanded(path, error=SceneError, data_path=data_path)
     except SceneError as error:
         return list(error.diagnostics)
     scene = read_document(document, diagnostics)
     others: list[Diagnostic] = []
     if scene is not None:
-        robots, others = _robots(scene, document, library, diagnostics)
+        robots, others = _robots(scene, document, library, diagnostics, data_path)
         stand_ins = [
             index
             for index in robots
@@ -125,23 +127,35 @@ def check_scene(
     return [*diagnostics.all(), *others]
 
 
-def angle_warnings(scene: SceneSpec) -> list[Diagnostic]:
-    """Warn of the angles of a scene with its settings, at the lines of its file."""
+def scene_warnings(
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...] = ()
+) -> list[Diagnostic]:
+    """Warn of what is left out of a scene with its settings and of its angles.
+
+    Args:
+        scene: the scene, perhaps changed since its file was read; lines are those of the file.
+        robots: the robot of each vehicle, by its number.
+        data_path: further folders in which included files are looked for.
+    """
     diagnostics = Diagnostics(scene.path or "the scene")
     if scene.path:
         with suppress(SceneError):
             lines = Diagnostics(scene.path)
-            written = read_document(parse_expanded(Path(scene.path), error=SceneError), lines)
+            document = parse_expanded(Path(scene.path), error=SceneError, data_path=data_path)
+            written = read_document(document, lines)
             remember_twins(scene, written, lines, diagnostics)
+    check_left_out(scene, robots, diagnostics)
     check_angles(scene, diagnostics)
-    return diagnostics.all()
+    return [each for each in diagnostics.all() if each.severity == "warning"]
 
 
-def check_robot(path: Path, *, library: Library | None = None) -> list[Diagnostic]:
+def check_robot(
+    path: Path, *, library: Library | None = None, data_path: tuple[Path, ...] = ()
+) -> list[Diagnostic]:
     """Return the errors and warnings of a robot file."""
     diagnostics = Diagnostics(path)
     try:
-        robot = read_robot(path, diagnostics)
+        robot = read_robot(path, diagnostics, data_path)
     except SceneError as error:
         return list(error.diagnostics)
     if robot is not None and library is not None:
@@ -156,7 +170,11 @@ def check_robot(path: Path, *, library: Library | None = None) -> list[Diagnosti
 
 
 def _robots(
-    scene: SceneSpec, document: Document, library: Library | None, diagnostics: Diagnostics
+    scene: SceneSpec,
+    document: Document,
+    library: Library | None,
+    diagnostics: Diagnostics,
+    data_path: tuple[Path, ...],
 ) -> tuple[dict[int, RobotSpec], list[Diagnostic]]:
     """The robot of each vehicle by its number, and the diagnostics of their files."""
     robots: dict[int, RobotSpec] = {}
@@ -183,9 +201,9 @@ def _robots(
             if library.find(vehicle.file, document.path) is None:
                 what = f"robot file {vehicle.file!r} is nowhere; the bundled {path.name} is used"
                 diagnostics.warning(diagnostics.node_of(vehicle), what)
-            found += check_robot(path, library=library)
+            found += check_robot(path, library=library, data_path=data_path)
             with suppress(SceneError):
-                by_file[vehicle.file] = read_urdf(path)
+                by_file[vehicle.file] = read_urdf(path, data_path=data_path)
         if (robot := by_file.get(vehicle.file)) is not None:
             robots[index] = robot
     return robots, found

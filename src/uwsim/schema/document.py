@@ -94,6 +94,8 @@ def _message(entry: etree._LogEntry, data: bytes) -> str:
     for found, meant in STRAY.items():
         if found in entry.message:
             return meant
+    if entry.message.startswith("Namespace prefix u on "):
+        return f'{entry.message}; write <UWSimScene xmlns:u="{NAMESPACE}">, or so in another root'
     message = re.sub(r",? (use|try) XML_PARSE_HUGE( option)?", "", entry.message)
     return textwrap.shorten(message, 200, placeholder=" ...")
 

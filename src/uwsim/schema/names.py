@@ -37,7 +37,12 @@ FOREIGN = {
 
 def advice(tag: str) -> str:
     """Advice about an element of another namespace; empty when there is none."""
-    return FOREIGN.get(tag[1:].partition("}")[0], "") if tag.startswith("{") else ""
+    if not tag.startswith("{"):
+        return ""
+    space = tag[1:].partition("}")[0]
+    if space.startswith("urn:uwsim") and space != NAMESPACE:
+        return f"; the namespace of extensions is xmlns:u={NAMESPACE!r}"
+    return FOREIGN.get(space, "")
 
 
 def shown_attribute(name: str) -> str:

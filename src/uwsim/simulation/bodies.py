@@ -89,7 +89,7 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
         SceneError: a file is wrong.
     """
     return {
-        index: read_urdf(find_robot(vehicle.file, scene.path, data_path))
+        index: read_urdf(find_robot(vehicle.file, scene.path, data_path), data_path=data_path)
         for index, vehicle in enumerate(scene.vehicles)
     }
 

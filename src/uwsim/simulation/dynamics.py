@@ -13,6 +13,7 @@ from typing import Literal
 
 from ..currents import Place, PythonFunctionSpec
 from ..devices.fault import FaultSpec
+from ..devices.fault_fields import number_fields
 from ..errors import Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import MIN_MASS
 from ..physics.hydrodynamics.file.spec import VehicleHydrodynamics
@@ -23,6 +24,7 @@ from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..schema import NAMESPACE, Diagnostics
+from ..sensors.sensor import measured_by
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
@@ -77,7 +79,7 @@ class Search:
         self.found: list[Diagnostic] = []
         """All that is wrong or worth knowing."""
         self._scene, self._data_path = scene, data_path
-        self._lines = SceneLines(scene)
+        self._lines = SceneLines(scene, data_path)
         for index, vehicle in enumerate(scene.vehicles):
             if vehicle.dynamics is not None and index in robots:
                 self._read(index, vehicle.dynamics, robots[index])
@@ -213,6 +215,8 @@ class Search:
             for error in fault.errors(vehicle.sensor_names):
                 self._say(error, *place)
             if fault.thruster is None:
+                if said := self._no_field(fault, vehicle):
+                    self._say(said, *place)
                 continue
             if vehicle.dynamics is None:
                 self._say(
@@ -223,6 +227,18 @@ class Search:
                 names = [thruster.name for thruster in self.dynamics[index].thrusters]
                 if fault.thruster not in names:
                     self._say(str(UnknownName("thruster", fault.thruster, names)), *place)
+
+    def _no_field(self, fault: FaultSpec, vehicle: VehicleSpec) -> str | None:
+        """Report a field that no message of the sensor of a fault has."""
+        named = [part for _, part in vehicle.all_parts() if _name(part) == fault.sensor]
+        types = {measured_by(type(part)) for part in named} - {None}
+        for interface in self._scene.ros_interfaces:
+            if fault.sensor in (_name(interface), getattr(interface, "camera_name", None)):
+                types |= set(interface.carries().values())
+        known = [path for each in types if each is not None for path in number_fields(each())]
+        if fault.field is None or not named or fault.field in known:
+            return None
+        return str(UnknownName("field of numbers", fault.field, sorted(known)))
 
     def _no_autopilot(
         self, interface: AutopilotTopicSpec, vehicles: Mapping[str, VehicleSpec]
@@ -298,6 +314,10 @@ class Search:
         """Keep an error of the ``number``th ``child`` of the ``index``th ``parent``."""
         found = self._lines.diagnostic(message, parent, index, child, number, severity=severity)
         self.found.append(found)
+
+
+def _name(part: object) -> str | None:
+    return getattr(part, "name", None)
 
 
 def _type_name(message: type) -> str:

@@ -5,20 +5,18 @@ from __future__ import annotations
 import copy
 import dataclasses
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
 
 from ..devices.fault import FaultSpec
+from ..devices.fault_fields import measured_fields
 from ..devices.fault_times import EARLY, FaultTimes
-from ..errors import UnknownName
 from ..messages import time_from_seconds
 from ..scene.spec import SceneSpec
 
 Publish = Callable[[Any], None]
-NOT_MEASURED = ("header", "status", "covariance")
-"""Fields with these words are spared where a fault names none."""
 
 
 class SensorFault:
@@ -42,7 +40,7 @@ class SensorFault:
         """When it is present."""
         self._last: Any = None
         self._waiting: deque[tuple[float, Any]] = deque()
-        self._fields = tuple(_fields(type_(), spec.field)) if _changes(spec) else ()
+        self._fields = tuple(measured_fields(type_(), spec.field)) if _changes(spec) else ()
 
     def passed(self, message: Any, time: float) -> list[Any]:
         """Return the messages that come in the place of one at ``time`` [s]."""
@@ -134,27 +132,3 @@ def _stamped(message: Any, time: float) -> Any:
     again = copy.copy(message)
     again.header = dataclasses.replace(message.header, stamp=time_from_seconds(time))
     return again
-
-
-def _fields(message: Any, wanted: str | None) -> Iterator[str]:
-    """The paths of the numbers of a message that a fault changes; raises UnknownName."""
-    known = list(_numbers(message))
-    if wanted is None:
-        yield from (path for path in known if not any(word in path for word in NOT_MEASURED))
-    elif wanted in known:
-        yield wanted
-    else:
-        raise UnknownName("field of numbers", wanted, known)
-
-
-def _numbers(message: Any, before: str = "") -> Iterator[str]:
-    """The paths of floating-point numbers and arrays of them."""
-    for field in dataclasses.fields(message):
-        value = getattr(message, field.name)
-        path = f"{before}{field.name}"
-        if dataclasses.is_dataclass(value):
-            yield from _numbers(value, f"{path}.")
-        elif isinstance(value, float) or (
-            isinstance(value, np.ndarray) and value.dtype.kind == "f"
-        ):
-            yield path

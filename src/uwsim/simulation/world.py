@@ -18,7 +18,7 @@ from ..geodesy import Geodetic
 from ..geometry import Intrinsics, Pose
 from ..physics.engine import Engine
 from ..rng import stream
-from ..scene.reader import angle_warnings
+from ..scene.reader import scene_warnings
 from ..scene.sim_params import Integrator
 from ..scene.spec import SceneSpec, with_integrator
 from ..scene.variation import varied
@@ -139,7 +139,7 @@ class SceneWorld:
         """Warnings about the scene, with the lines of the file."""
         scene = self._as_written
         implausible = plausibility_warnings(scene, self.robots, self.dynamics, self._data_path)
-        return (*angle_warnings(scene), *implausible)
+        return (*scene_warnings(scene, self.robots, self._data_path), *implausible)
 
     @property
     def bus(self) -> Bus:

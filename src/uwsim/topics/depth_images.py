@@ -15,7 +15,7 @@ from ..errors import UnknownName
 from ..geometry import Array, Intrinsics
 from ..messages import CameraInfo, Image, PointCloud2, depth_image, point_cloud
 from ..schema import element
-from .interface import Interface, InterfaceSpec, TopicWorld
+from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
 
 CAMERAS = ("virtualRangeImage", "virtualCamera")
 """Elements whose depth may be published."""
@@ -53,7 +53,7 @@ class RangeImageSensorToROSImageSpec(InterfaceSpec):
     """Topic of the images."""
     info_topic: str
     """Topic of the camera's description."""
-    rate: int = element(default=10, minimum=1)
+    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
     """How often [Hz]."""
 
     def bind(self, world: TopicWorld) -> DepthImagePublisher:
@@ -94,7 +94,7 @@ class RangeCameraToPCLSpec(InterfaceSpec):
     """Name of the depth camera."""
     topic: str
     """Name of the topic."""
-    rate: int = element(default=10, minimum=1)
+    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
     """How often [Hz]."""
 
     def bind(self, world: TopicWorld) -> PointCloudPublisher:

@@ -14,6 +14,8 @@ from ..world import World
 from .frames import Frame
 
 M = TypeVar("M")
+MAX_RATE = 10_000
+"""Nothing is published more often [Hz]."""
 
 
 class TopicWorld(World, Protocol):
@@ -104,5 +106,5 @@ class VehicleTopicSpec(InterfaceSpec):
 class VehiclePublisherSpec(VehicleTopicSpec):
     """An interface that publishes a quantity of a vehicle."""
 
-    rate: int = element(default=10, minimum=1)
+    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
     """How often [Hz]."""

@@ -15,7 +15,7 @@ from ..schema import element
 from ..schema.names import local
 from ..sensors import SENSORS
 from ..sensors.sensor import Sensor, measured_by
-from .interface import Interface, InterfaceSpec, TopicWorld
+from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +26,7 @@ class SensorTopicSpec(InterfaceSpec):
     """Name of the sensor or device."""
     topic: str
     """Name of the topic."""
-    rate: int = element(default=10, minimum=1)
+    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
     """How often [Hz]."""
 
     @classmethod

@@ -9,7 +9,7 @@ from typing import ClassVar, Protocol, cast
 from ..messages import Image, ProjectedSonarImage
 from ..schema import element
 from ..sensors.sensor import Sensor
-from .interface import Interface, InterfaceSpec, TopicWorld
+from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +25,7 @@ class SonarToROSSpec(InterfaceSpec):
     """Topic of the echoes."""
     image_topic: str
     """Topic of the images: a fan seen from above, or the waterfall of a side-scan."""
-    rate: int = element(default=10, minimum=1)
+    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
     """How often it pings [Hz]."""
 
     def bind(self, world: TopicWorld) -> SonarPublisher:

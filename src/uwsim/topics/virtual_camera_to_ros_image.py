@@ -15,7 +15,7 @@ from ..sampling import SampleTimer
 from ..schema import element
 from ..sensors.virtual_camera import VirtualCamera
 from .depth_images import DepthImagePublisher, publish_depth
-from .interface import Interface, InterfaceSpec, TopicWorld
+from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +31,7 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
     """Topic of the images."""
     info_topic: str
     """Topic of the camera's description."""
-    rate: int = element(default=10, minimum=1)
+    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
     """How often [Hz]."""
     depth: bool = False
     """Whether depth is published instead of colour (range cameras only)."""

@@ -24,7 +24,7 @@ from typing import ClassVar
 from ..messages import TFMessage
 from ..schema import element
 from .frames import TF, Frame, transform
-from .interface import Interface, InterfaceSpec, TopicWorld
+from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +38,7 @@ class WorldToROSTFSpec(InterfaceSpec):
     """Name of the frame of the file."""
     enable_objects: bool = False
     """Whether objects are published too."""
-    rate: int = element(default=10, minimum=1)
+    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
     """How often [Hz]."""
 
     def bind(self, world: TopicWorld) -> FramePublisher:

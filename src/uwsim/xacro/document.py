@@ -14,7 +14,9 @@ from .expression import ExpressionError
 SUFFIX = ".xacro"
 
 
-def parse_expanded(path: Path, *, error: type[FileError] = FileError) -> Document:
+def parse_expanded(
+    path: Path, *, error: type[FileError] = FileError, data_path: tuple[Path, ...] = ()
+) -> Document:
     """Read a file as XML, with its xacro and includes expanded.
 
     What is included is looked for as every file that a scene names, and under the same folders.
@@ -26,14 +28,17 @@ def parse_expanded(path: Path, *, error: type[FileError] = FileError) -> Documen
     if not _is_to_expand(document):
         return document
 
-    def include(name: str, file: Path) -> tuple[Path, etree._Element] | None:
-        from ..assets.find import find
+    def include(name: str, file: Path) -> tuple[Path, etree._Element] | str:
+        from ..assets.find import find, folders_searched
 
         try:
-            found = find(name, named_by=file)
+            found = find(name, named_by=file, data_path=data_path)
         except AssetError as outside:
             raise ExpressionError(str(outside)) from None
-        return None if found is None else (found, parse(found, error=error).root)
+        if found is None:
+            folders = folders_searched(named_by=file, data_path=data_path)
+            return ", ".join(str(folder) for folder in folders if folder.is_dir())
+        return found, parse(found, error=error).root
 
     expander = Expander(path, include)
     try:

@@ -31,8 +31,8 @@ MAX_DEPTH = 60
 """Deepest nesting of calls and includes."""
 MAX_FILES = 100
 """Most files that are included."""
-Include = Callable[[str, Path], tuple[Path, etree._Element] | None]
-"""Name and naming file -> the included file and its root; None if it is nowhere."""
+Include = Callable[[str, Path], tuple[Path, etree._Element] | str]
+"""Name and naming file -> the included file and its root; the folders searched if it is nowhere."""
 
 
 def namespace_of(node: etree._Element) -> str:
@@ -230,10 +230,10 @@ class Expander:
         if self._n_files > MAX_FILES:
             raise ExpressionError(f"includes more than {MAX_FILES} files")
         found = self._include(name, self._file)
-        if found is None:
+        if isinstance(found, str):
             if str(node.get("optional", "false")).lower() in ("1", "true"):
                 return
-            raise ExpressionError(f"the file {name[:200]!r} is nowhere")
+            raise ExpressionError(f"the file {name[:200]!r} is nowhere; searched: {found}")
         path, root = found
         with self._nested(path, self._line_of(node)):
             is_whole = etree.QName(root).localname in ("UWSimScene", "robot", "fragment")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.scene.reader import angle_warnings, check_robot, check_scene, read_scene
+from uwsim.scene.reader import check_robot, check_scene, read_scene, scene_warnings
 from uwsim.scene.settings import apply_setting
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
@@ -61,7 +61,9 @@ def test_angles_of_a_scene_that_was_set_are_asked_about_at_the_lines_of_its_file
     path = tmp_path / "scene.xml"
     path.write_text(SCENE)
     scene = apply_setting(read_scene(path), "vehicle[rov].orientation", "0 0 1.57")
-    assert [(diagnostic.line, diagnostic.message[:30]) for diagnostic in angle_warnings(scene)] == [
+    assert [
+        (diagnostic.line, diagnostic.message[:30]) for diagnostic in scene_warnings(scene, {})
+    ] == [
         (2, "<offsetr> is 180 0 -90 in radi"),
         (6, "<orientation> is 0 180 1.5708 "),
     ]

@@ -203,7 +203,8 @@ def scene_of(
         )
     folders = data_path if benchmark is None else (benchmark.parent, *data_path)
     try:
-        return read_scene(scene_file(named, folders, named_by=None if scene else benchmark))
+        path = scene_file(named, folders, named_by=None if scene else benchmark)
+        return read_scene(path, data_path=folders)
     except AssetNotFound:
         if benchmark is None:
             return None  # it may be next to the benchmark, which was not found

@@ -14,7 +14,6 @@ from ...devices.force_sensor import ForceSensorSpec
 from ...devices.lamp import MAX_LAMPS, LampSpec
 from ...schema import Diagnostics
 from ...topics import InterfaceSpec, element_of
-from ...topics.interface import VehiclePublisherSpec
 from ...topics.simulated_device_ros import SimulatedDeviceROSSpec
 from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from ..object import ObjectSpec
@@ -23,6 +22,7 @@ from ..urdf.robot import RobotSpec
 from ..vehicle import VehicleSpec
 from .angles import MORE_THAN_A_TURN
 from .comms import check_comms
+from .shared_names import check_shared_names
 
 SOLVERS = ("dantzig", "solveprojectedgauss", "sequentialimpulse")
 SHAPES = ("box", "sphere", "compound box", "compound cylinder", "trimesh", "compound trimesh")
@@ -46,15 +46,9 @@ def check_names(
         stand_ins: numbers of the vehicles whose robot stands for another: what theirs has is not
             known.
     """
-    for index, vehicle in enumerate(scene.vehicles):
-        if index in robots:
-            is_its_own = index not in stand_ins
-            _check_links(vehicle, robots[index], scene, diagnostics, is_its_own=is_its_own)
-            _check_joints(vehicle, robots[index], diagnostics)
-    known = _names(scene)
-    for interface in _interfaces(scene):
-        _check_interface(interface, known, diagnostics)
-    _check_sources(scene, diagnostics)
+    check_left_out(scene, robots, diagnostics, stand_ins)
+    for index in robots:
+        _check_joints(scene.vehicles[index], robots[index], diagnostics)
     check_comms(scene, diagnostics)
     drawn = [vehicle for vehicle in scene.vehicles if not vehicle.vr]
     lamps = [lamp for vehicle in drawn for lamp in vehicle.parts_of(LampSpec)]
@@ -72,6 +66,24 @@ def check_names(
             diagnostics.node_of(scene.sim_params),
             f"<physicsSolver> is {scene.sim_params.physics_solver!r}; read as Dantzig",
         )
+
+
+def check_left_out(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    diagnostics: Diagnostics,
+    stand_ins: Collection[int] = (),
+) -> None:
+    """Report what is left out of a scene, or hidden by another of the same name."""
+    for index in robots:
+        is_its_own = index not in stand_ins
+        vehicle = scene.vehicles[index]
+        _check_links(vehicle, robots[index], scene, diagnostics, is_its_own=is_its_own)
+    known = _names(scene)
+    for interface in _interfaces(scene):
+        _check_interface(interface, known, diagnostics)
+    _check_sources(scene, diagnostics)
+    check_shared_names(scene, diagnostics)
 
 
 def _check_links(
@@ -197,34 +209,6 @@ def _check_sources(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         )
     for name in _repeated(vehicle.name for vehicle in scene.vehicles):
         diagnostics.warning(None, f"several vehicles are called {name!r}; searches find the first")
-    _check_shared_names(scene, diagnostics)
-
-
-def _check_shared_names(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Report objects hidden by another of the same name, and topics with two publishers."""
-    first: dict[str, str] = {vehicle.name: "a vehicle" for vehicle in scene.vehicles}
-    shared: set[str] = set()
-    for thing in scene.objects:
-        if thing.name in first and thing.name not in shared:
-            shared.add(thing.name)
-            diagnostics.warning(
-                diagnostics.node_of(thing),
-                f"the object {thing.name!r} is called as {first[thing.name]} before it; searches "
-                "find the first",
-            )
-        first.setdefault(thing.name, "an object")
-    writers: dict[str, str] = {}
-    for interface in scene.ros_interfaces:
-        if not isinstance(interface, VehiclePublisherSpec):
-            continue
-        topic = interface.topic.strip("/")
-        if topic in writers:
-            diagnostics.warning(
-                diagnostics.node_of(interface),
-                f"the topic {interface.topic!r} carries {interface.vehicle_name!r} and "
-                f"{writers[topic]!r}: who reads it gets both",
-            )
-        writers.setdefault(topic, interface.vehicle_name)
 
 
 def _check_physics(thing: ObjectSpec, diagnostics: Diagnostics) -> None:

@@ -29,7 +29,7 @@ MAX_CHAIN = 256
 """Most joints between the root and a link."""
 
 
-def read_urdf(path: Path | str) -> RobotSpec:
+def read_urdf(path: Path | str, *, data_path: tuple[Path, ...] = ()) -> RobotSpec:
     """Read a robot file.
 
     Raises:
@@ -37,15 +37,17 @@ def read_urdf(path: Path | str) -> RobotSpec:
     """
     path = Path(path)
     diagnostics = Diagnostics(path)
-    robot = read_robot(path, diagnostics)
+    robot = read_robot(path, diagnostics, data_path)
     diagnostics.check(SceneError)
     assert robot is not None
     return robot
 
 
-def read_robot(path: Path, diagnostics: Diagnostics) -> RobotSpec | None:
+def read_robot(
+    path: Path, diagnostics: Diagnostics, data_path: tuple[Path, ...] = ()
+) -> RobotSpec | None:
     """Read a robot file into ``diagnostics``; None when there is no tree to build."""
-    root = parse_expanded(path, error=SceneError).root
+    root = parse_expanded(path, error=SceneError, data_path=data_path).root
     if root.tag != "robot":
         diagnostics.error(root, f"the root element is <{str(root.tag)[:60]}>; expected <robot>")
         return None

@@ -14,7 +14,7 @@ from typing import Literal
 from ...errors import Diagnostic, UwsimError
 from ...physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ...scene.checks.plausibility import VehicleWarning, unless_meant
-from ...scene.reader import angle_warnings
+from ...scene.reader import scene_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ..bodies import read_robots
@@ -45,7 +45,7 @@ def plausibility_warnings(
         dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
         data_path: folders in which files are looked for.
     """
-    lines = SceneLines(scene)
+    lines = SceneLines(scene, data_path)
     vehicles = sorted(robots)[:MAX_VEHICLES]
     found = []
     for index in vehicles:
@@ -63,10 +63,11 @@ def plausibility_warnings(
 
 
 def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnostic]:
-    """Report every likely mistake of a scene that is not open, those of its angles included."""
+    """Report every likely mistake of a scene that is not open, and what is left out of it."""
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(scene, robots, data_path)
-    return [*angle_warnings(scene), *plausibility_warnings(scene, robots, dynamics, data_path)]
+    implausible = plausibility_warnings(scene, robots, dynamics, data_path)
+    return [*scene_warnings(scene, robots, data_path), *implausible]
 
 
 def _of_vehicle(

@@ -28,7 +28,9 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
     robots: dict[int, RobotSpec] = {}
     for index, vehicle in enumerate(scene.vehicles):
         with suppress(UwsimError):  # reported where robots are checked
-            robots[index] = read_urdf(find_robot(vehicle.file, scene.path, data_path))
+            robots[index] = read_urdf(
+                find_robot(vehicle.file, scene.path, data_path), data_path=data_path
+            )
     search = Search(scene, robots, data_path, is_thorough=True)
     found = search.found
     if not any(diagnostic.severity == "error" for diagnostic in found):
@@ -46,7 +48,7 @@ def _untouchable(
     scene: SceneSpec, dynamics: Collection[int], data_path: tuple[Path, ...]
 ) -> list[Diagnostic]:
     """Report the objects of which the engine can make no collision shape."""
-    lines, found = SceneLines(scene), []
+    lines, found = SceneLines(scene, data_path), []
     for index, physics in simulated_solids(scene, dynamics).items():
         try:
             collision_shapes(scene, {}, (), {index: physics}, data_path)

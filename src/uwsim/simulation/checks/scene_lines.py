@@ -18,8 +18,8 @@ from ...xacro import parse_expanded
 class SceneLines:
     """Finds the line of an element; reads the file again at the first look-up."""
 
-    def __init__(self, scene: SceneSpec) -> None:
-        self._path = scene.path
+    def __init__(self, scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> None:
+        self._path, self._data_path = scene.path, data_path
         self._root: etree._Element | None = None
 
     def diagnostic(
@@ -51,7 +51,7 @@ class SceneLines:
         """
         if self._root is None and self._path:
             with suppress(FileError):
-                document = parse_expanded(Path(self._path))
+                document = parse_expanded(Path(self._path), data_path=self._data_path)
                 upgrade(document.root, Diagnostics(document.path))
                 self._root = document.root
         if self._root is None:

@@ -95,7 +95,7 @@ class Floor:
         self, scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
     ) -> None:
         self._scene, self._robots, self._data_path = scene, robots, data_path
-        self._lines = SceneLines(scene)
+        self._lines = SceneLines(scene, data_path)
         self.faces = ground_faces(scene, data_path)
         self.ground = Ground(np.concatenate([np.zeros((0, 3, 3)), *self.faces.values()]))
 

@@ -1,0 +1,91 @@
+"""Warnings about names and topics that several parts of a scene share."""
+
+from __future__ import annotations
+
+from ...schema import Diagnostics
+from ...sensors.virtual_camera import VirtualCameraSpec
+from ...topics import InterfaceSpec, element_of
+from ...topics.interface import VehiclePublisherSpec
+from ..spec import SceneSpec
+
+
+def check_shared_names(scene: SceneSpec, diagnostics: Diagnostics) -> None:
+    """Report what is hidden by another of the same name, and topics with two publishers.
+
+    Args:
+        scene: the scene.
+        diagnostics: receives the warnings; has the elements of the specs.
+    """
+    _check_objects(scene, diagnostics)
+    _check_parts(scene, diagnostics)
+    _check_topics(scene, diagnostics)
+
+
+def _check_objects(scene: SceneSpec, diagnostics: Diagnostics) -> None:
+    first: dict[str, str] = {vehicle.name: "a vehicle" for vehicle in scene.vehicles}
+    shared: set[str] = set()
+    for thing in scene.objects:
+        if thing.name in first and thing.name not in shared:
+            shared.add(thing.name)
+            diagnostics.warning(
+                diagnostics.node_of(thing),
+                f"the object {thing.name!r} is called as {first[thing.name]} before it; searches "
+                "find the first",
+            )
+        first.setdefault(thing.name, "an object")
+
+
+def _check_parts(scene: SceneSpec, diagnostics: Diagnostics) -> None:
+    """Of one kind the first of a name is found; parts of one vehicle share noise and faults."""
+    of_kind: set[tuple[str, str]] = set()
+    for vehicle in scene.vehicles:
+        of_vehicle: dict[str, str] = {}
+        for element, part in vehicle.all_parts():
+            name = getattr(part, "name", None)
+            if name is None:
+                continue
+            if (element, name) in of_kind and not isinstance(part, VirtualCameraSpec):
+                why = f"several are called {name!r}; interfaces find the first"
+            elif name in of_vehicle and of_vehicle[name] != element:
+                why = (
+                    f"{name!r} is the name of a <{of_vehicle[name]}> of the vehicle, too; they "
+                    "share random streams and faults"
+                )
+            else:
+                why = ""
+            if why:
+                diagnostics.warning(diagnostics.node_of(part), f"<{element}>: {why}")
+            of_kind.add((element, name))
+            of_vehicle.setdefault(name, element)
+
+
+def _check_topics(scene: SceneSpec, diagnostics: Diagnostics) -> None:
+    writers: dict[str, tuple[str, str]] = {}
+    for interface in scene.ros_interfaces:
+        if interface.subscribes:
+            continue
+        element, own = element_of(interface), _source(interface)
+        for field in interface.carries():
+            topic = str(getattr(interface, field))
+            key = topic.strip("/")
+            if not key:
+                continue
+            other = writers.get(key)
+            if other is not None and isinstance(interface, VehiclePublisherSpec):
+                diagnostics.warning(
+                    diagnostics.node_of(interface),
+                    f"the topic {topic!r} carries {own!r} and {other[1]!r}: who reads it gets both",
+                )
+            elif other is not None:
+                diagnostics.warning(
+                    diagnostics.node_of(interface),
+                    f"<{element}>: the topic {topic!r} of {own!r} carries {other[1]!r} of "
+                    f"<{other[0]}>, too: who reads it gets both",
+                )
+            writers.setdefault(key, (element, own))
+
+
+def _source(interface: InterfaceSpec) -> str:
+    """The vehicle, camera or sensor that an interface publishes."""
+    named = (getattr(interface, each, None) for each in ("vehicle_name", "camera_name", "name"))
+    return str(next((each for each in named if each is not None), ""))
