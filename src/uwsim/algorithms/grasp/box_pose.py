@@ -25,7 +25,7 @@ from .camera import View
 from .detector import DIRECTIONS, Outline
 from .normal_equations import cholesky_solve
 
-LEAN = 0.04
+LEAN = 0.03
 """Deviation of the lean that is expected [rad]."""
 BOTTOM = 0.018
 """Deviation of the depth of the box from that of the bottom [m]."""
@@ -123,9 +123,19 @@ def _sighting(numbers: Array, normal: Array, residual: float, source: str) -> Si
 def _prior(start: Array, view: View, box: BoxSpec) -> Array:
     """Expected numbers and their weights, (2, 6)."""
     expected = start.copy()
-    expected[2], expected[4:] = view.bottom - box.size[2] / 2.0, 0.0
+    expected[2] = view.bottom - box.size[2] / 2.0
+    expected[4:] = lean_on(view.slopes, float(start[3]))
     deviations = np.array([ANYWHERE, ANYWHERE, BOTTOM, ANYWHERE, LEAN, LEAN])
     return np.stack([expected, 1.0 / deviations**2])
+
+
+def lean_on(slopes: tuple[float, float], heading: float) -> tuple[float, float]:
+    """Lean [rad] of a box that lies with a heading [rad] on a bottom with two slopes [1]."""
+    north, east = slopes
+    c, s = math.cos(heading), math.sin(heading)
+    size = math.sqrt(1.0 + north * north + east * east)
+    x, y, z = (c * north + s * east) / size, (s * north - c * east) / size, 1.0 / size
+    return math.atan2(-y, z), math.asin(x)
 
 
 def _camera(view: View) -> Array:

@@ -49,7 +49,9 @@ class View:
     navigation_from_camera: Pose
     """OpenCV's axes in the navigation frame."""
     bottom: float
-    """Depth of the sea floor below the vehicle [m]."""
+    """Depth of the sea floor where the box is, or may be [m]."""
+    slopes: tuple[float, float] = (0.0, 0.0)
+    """Growth of that depth to the north and to the east [1]."""
 
     def project(self, points: Array) -> Array:
         """Image coordinates (n, 2) [px] of points of the navigation frame (n, 3) [m].

@@ -80,43 +80,76 @@ class ColourDetector:
 
     @plain_opencv()
     def detect(self, image: Pixels, view: View) -> list[Outline]:
-        """Return the outlines, the largest first."""
+        """Return the outlines, the largest first.
+
+        Blobs are looked for in every second pixel, and outlined in all pixels around each.
+        """
         import cv2
 
         height = view.bottom - float(view.navigation_from_camera.position[2])
         if height <= 0.1:
             return []
         scale = view.pinhole.fx / height  # [px/m] on the bottom
-        score = colour_score(image)
-        score = cv2.blur(score, (3, 3)).astype(np.float32)
+        score = cv2.blur(colour_score(image[::2, ::2]), (3, 3)).astype(np.float32)
         bottom, noise = _bottom(score)
-        top = float(cv2.blur(score, (3, 3)).max()) - bottom
+        top = float(score.max()) - bottom
         if top < max(CONTRAST * noise, LEAST):
             return []
-        mask = (score > bottom + max(SHARE * top, 2.5 * noise)).astype(np.uint8)
-        gap = max(int(self._band * scale) | 1, 3)
-        kernel = np.ones((gap, gap), np.uint8)
-        closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, kernel).astype(np.uint8)
-        return self._outlines(closed, scale, top / noise)
+        level = bottom + max(SHARE * top, 2.5 * noise)
+        found: list[tuple[float, Array]] = []
+        for left, above, right, below in self._blobs(score > level, scale / 2.0):
+            hull = self._hull(image[above:below, left:right], level, scale)
+            if hull is not None:
+                found.append((hull[0], hull[1] + np.array([left, above])))
+        found.sort(key=lambda one: -one[0])
+        return [outline_of(hull, image.shape, area, top / noise) for area, hull in found]
 
-    def _outlines(self, mask: Pixels, scale: float, contrast: float) -> list[Outline]:
+    def _blobs(self, mask: npt.NDArray[np.bool_], scale: float) -> list[tuple[int, int, int, int]]:
+        """Left, top, right, bottom of where to look closer, in the whole image [px]."""
         import cv2
 
+        _, _, stats, _ = cv2.connectedComponentsWithStats(self._closed(mask, scale))
+        found = []
+        margin = round(self._band * scale) + 3
+        for left, above, width, height, area in np.asarray(stats)[1:].tolist():
+            if area > 0.25 * (self._least_size * scale) ** 2:
+                corner = max(left - margin, 0), max(above - margin, 0)
+                far = left + width + margin, above + height + margin
+                found.append((area, (2 * corner[0], 2 * corner[1], 2 * far[0], 2 * far[1])))
+        found.sort(key=lambda one: -one[0])
+        return [place for _, place in found[:MAX_BLOBS]]
+
+    def _hull(self, part: Pixels, level: float, scale: float) -> tuple[float, Array] | None:
+        """Area [px^2] and corners (n, 2) [px] of the largest hull in a part of the image."""
+        import cv2
+
+        score = cv2.blur(colour_score(part), (3, 3))
+        mask = self._closed(score > level, scale)
         contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
-        least = (self._least_size * scale) ** 2
         hulls = [cv2.convexHull(contour) for contour in contours if len(contour) > 8]
         sized = [(float(cv2.contourArea(hull)), hull) for hull in hulls]
-        sized = sorted((one for one in sized if one[0] > least), key=lambda one: -one[0])
-        return [
-            outline_of(hull[:, 0, :].astype(np.float64), mask.shape, area, contrast)
-            for area, hull in sized[:MAX_BLOBS]
-        ]
+        if not sized:
+            return None
+        area, hull = max(sized, key=lambda one: one[0])
+        if area < (self._least_size * scale) ** 2:
+            return None
+        return area, hull[:, 0, :].astype(np.float64)
+
+    def _closed(self, mask: npt.NDArray[np.bool_], scale: float) -> Pixels:
+        """The mask without gaps as wide as the band."""
+        import cv2
+
+        gap = max(int(self._band * scale) | 1, 3)
+        kernel = np.ones((gap, gap), np.uint8)
+        return cv2.morphologyEx(mask.astype(np.uint8), cv2.MORPH_CLOSE, kernel).astype(np.uint8)
 
 
 def colour_score(image: Pixels) -> npt.NDArray[np.float32]:
     """``2R - G - B`` of an RGB image (h, w, 3), (h, w)."""
-    wide = image.astype(np.float32)
-    score: npt.NDArray[np.float32] = 2.0 * wide[:, :, 0] - wide[:, :, 1] - wide[:, :, 2]
+    wide = image.astype(np.int16)
+    score: npt.NDArray[np.float32] = (2 * wide[:, :, 0] - wide[:, :, 1] - wide[:, :, 2]).astype(
+        np.float32
+    )
     return score
 
 
@@ -147,8 +180,8 @@ def outline_of(hull: Array, shape: tuple[int, ...], area: float, contrast: float
 
 
 def _bottom(score: npt.NDArray[np.float32]) -> tuple[float, float]:
-    """Median of a score, and its deviation without what stands out, from every fourth pixel."""
-    sample = score[::2, ::2]
+    """Median of a score, and its deviation without what stands out, from some of its pixels."""
+    sample = score[::3, ::3]
     middle = float(np.median(sample))
     spread = 1.4826 * float(np.median(np.abs(sample - middle)))
     return middle, max(spread, 0.5)

@@ -45,7 +45,7 @@ from .phases import PHASES, Phase
 from .station import Station, StationLaw
 from .task import Task, square_spiral
 
-PERIOD = 0.05
+PERIOD = 0.1
 """Of the control loop [s]."""
 OPENCV_FROM_OPENGL: Array = np.diag([1.0, -1.0, -1.0])
 OWN_CLEARANCE = 2.6
@@ -65,7 +65,8 @@ class Grasp:
         "tolerance": 0.02,
         "descent": 0.06,
         "lift": 0.65,
-        "hold": 12.0,
+        "settle": 6.0,
+        "hold": 11.0,
         "attempts": 4.0,
         "camera_place": "0.22 0.12 0.98",
         "camera_rpy": "2.5818 -0.1257 1.5708",
@@ -86,7 +87,6 @@ class Grasp:
         self._info: CameraInfo | None = None
         self._phase: Phase | None = None
         self._last = 0.0
-        self._bottom: float | None = None
 
     @property
     def parameters(self) -> Mapping[str, float | str]:
@@ -180,20 +180,32 @@ class Grasp:
 
     def _on_image(self, message: Image) -> None:
         phase = self._phase
-        if self._info is None or phase is None or not phase.looks or self._bottom is None:
+        if self._info is None or phase is None or not phase.looks:
             return
-        view = View(
-            pinhole=Pinhole.from_info(self._info),
-            navigation_from_camera=self._navigator.pose @ self._base_from_camera,
-            bottom=self._bottom,
-        )
+        view = self._view(Pinhole.from_info(self._info))
         self.task.perception.look(pixels_of(message), view, self.task.target, self._node.now)
+
+    def _view(self, pinhole: Pinhole) -> View:
+        """The camera now, over the bottom where the box is, or else where the camera looks."""
+        bottom, base = self._navigator.bottom, self._navigator.pose
+        camera = base @ self._base_from_camera
+        if self.task.target.pose is not None:
+            place = self.task.target.pose.place
+        else:
+            ahead = camera.rotation[:, 2]
+            height = bottom.depth_at(camera.position) - float(camera.position[2])
+            place = camera.position + ahead * (height / max(float(ahead[2]), 0.2))
+        return View(
+            pinhole=pinhole,
+            navigation_from_camera=camera,
+            bottom=bottom.depth_at(place),
+            slopes=bottom.slopes,
+        )
 
     def _tick(self) -> None:
         """Run the state machine and the loops."""
         navigator, craft, task = self._navigator, self.craft, self.task
-        self._follow_bottom()
-        if not navigator.is_ready or self._bottom is None:
+        if not navigator.is_ready or not navigator.bottom.is_known:
             return
         craft.pose, craft.velocity = navigator.pose, navigator.velocity
         task.now = now = self._node.now
@@ -211,19 +223,12 @@ class Grasp:
         if (command := craft.joint_command(now)) is not None:
             self._say_joints(command)
 
-    def _follow_bottom(self) -> None:
-        """Low-pass the depth of the bottom."""
-        bottom = self._navigator.bottom
-        if bottom is not None:
-            old = bottom if self._bottom is None else self._bottom
-            self._bottom = old + 0.05 * (bottom - old)
-
     def _begin(self, now: float) -> None:
         """Lay out the search and begin it."""
         craft, task = self.craft, self.task
-        assert self._bottom is not None
         craft.heading, self._last = craft.own_heading, now
-        task.search_depth = self._bottom - OWN_CLEARANCE
+        bottom = self._navigator.bottom.depth_at(craft.pose.position)
+        task.search_depth = bottom - OWN_CLEARANCE
         task.pattern = square_spiral(
             craft.pose.position,
             craft.heading,

@@ -38,6 +38,10 @@ ABOVE = 0.30
 """Height of the grip over the handle from which it begins to descend [m]."""
 
 
+RISE = 0.1
+"""Speed of the lift [m/s]."""
+SETTLING = 0.25
+"""Height at which the lift waits for the box to hang still [m]."""
 HIDDEN = 0.2
 """Height of the grip over the handle below which the jaw hides the box from the camera [m]."""
 
@@ -229,14 +233,26 @@ class Lift(Phase):
 
     def step(self, task: Task) -> str | None:
         """Raise the goal; the box must not fall."""
-        risen = min(0.1 * (task.now - self._began), task.lift)
-        speed = -0.1 if risen < task.lift else 0.0
+        risen, speed = self._risen(task.now - self._began, task)
         task.go(self._start - np.array([0.0, 0.0, risen]), np.array([0.0, 0.0, speed]))
         if not task.holds_something:
             task.why = "dropped: the jaw closed while the box was lifted"
             return "retry"
         above = float(self._start[2] - task.craft.pose.position[2])
         return "hold" if above > task.lift - 0.05 else None
+
+    def _risen(self, time: float, task: Task) -> tuple[float, float]:
+        """How far the goal has risen [m] at a time [s], and its velocity (down) [m/s].
+
+        It waits at `SETTLING`, so that the box finds its place in the jaw.
+        """
+        up = SETTLING / RISE
+        if time < up:
+            return RISE * time, -RISE
+        if time < up + task.settle:
+            return SETTLING, 0.0
+        risen = RISE * (time - task.settle)
+        return (risen, -RISE) if risen < task.lift else (task.lift, 0.0)
 
 
 class Hold(Phase):

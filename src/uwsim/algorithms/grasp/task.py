@@ -49,7 +49,7 @@ class Task:
         """Of the base while it searches [m]."""
         number = {name: float(value) for name, value in parameters.items() if _is_number(value)}
         self.attempts = int(number["attempts"])
-        self.lift, self.hold = number["lift"], number["hold"]
+        self.lift, self.settle, self.hold = number["lift"], number["settle"], number["hold"]
         self.descent = number["descent"]
         self._tolerance = number["tolerance"]
 

@@ -27,7 +27,7 @@ from ...messages import (
     header,
 )
 from ...numerics.linear import turned
-from ..navigation import Navigator
+from ..navigation import BottomPlane, Navigator
 from ..tracker_node import chosen
 from .arm import CLOSED, DOWN, JAW, JOINTS, OPEN
 from .box import BoxPose
@@ -76,13 +76,11 @@ class GraspTruth(Grasp):
             t, q = one.transform.translation, one.transform.rotation
             pose = Pose.from_quaternion(np.array([t.x, t.y, t.z]), np.array([q.w, q.x, q.y, q.z]))
             true = BoxPose.from_pose(pose)
-            self._bottom = float(true.place[2]) + self.box().size[2] / 2.0
+            depth = float(true.place[2]) + self.box().size[2] / 2.0
+            self._navigator.bottom.put(depth)
             if self._phase is not None and self._phase.looks:
                 found = Sighting(pose=true, covariance=SURE, residual=0.0, source="truth")
                 self.task.target.take(found, self._node.now)
-
-    def _follow_bottom(self) -> None:
-        """Know it from where the box is."""
 
 
 class TrueNavigator(Navigator):
@@ -90,7 +88,7 @@ class TrueNavigator(Navigator):
 
     def __init__(self, node: Node, topic: str) -> None:
         """Subscribe to the odometry."""
-        self._is_ready = False
+        self._is_ready, self.bottom = False, BottomPlane()
         self._pose, self._velocity = Pose.identity(), np.zeros(3)
         node.subscribe(topic, Odometry, self._on_odometry)
 
@@ -108,11 +106,6 @@ class TrueNavigator(Navigator):
     def velocity(self) -> Array:
         """Over ground, in L, (3,) [m/s]."""
         return self._velocity
-
-    @property
-    def bottom(self) -> float | None:
-        """Not known."""
-        return None
 
     def _on_odometry(self, message: Odometry) -> None:
         p, q = message.pose.pose.position, message.pose.pose.orientation

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
+from .bottom import BottomPlane
 from .ekf import NavigationFilter, NavigationSpec
 from .navigator import Navigator
 
-__all__ = ["NavigationFilter", "NavigationSpec", "Navigator"]
+__all__ = ["BottomPlane", "NavigationFilter", "NavigationSpec", "Navigator"]

@@ -26,9 +26,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...geometry import Array, rotation_about, rotation_from_quaternion
-from ...numerics.linear import length, product, turned, turned_back
-from .kernel import corrected, distance, propagated
+from ...geometry import Array, rotation_from_quaternion
+from ...numerics.linear import product, turned, turned_back
+from .kernel import corrected, distance, propagated, turn_between, turned_by
 
 POSITION, VELOCITY, ATTITUDE = slice(0, 3), slice(3, 6), slice(6, 9)
 GYRO_BIAS, ACCELEROMETER_BIAS = slice(9, 12), slice(12, 15)
@@ -39,6 +39,8 @@ GATE = 25.0
 """Largest squared Mahalanobis distance of a measurement that is used."""
 MAX_REJECTED = 10
 """So many measurements of a sensor in a row are ignored; the next is used anyway."""
+IMU_SEES: Array = np.eye(3, SIZE, 6)
+"""Jacobian of the attitude, (3, 15)."""
 MAX_GAP = 0.5
 """The IMU is not integrated over a longer silence [s]."""
 
@@ -125,10 +127,8 @@ class NavigationFilter:
         step, self._time = time - self._time, time
         if 0.0 < step <= MAX_GAP:
             self._predict(step, rate - self.gyro_bias, force - self.accelerometer_bias)
-        jacobian = np.zeros((3, SIZE))
-        jacobian[:, ATTITUDE] = np.eye(3)
-        turn = _rotation_vector(product(measured, self.rotation.T))
-        self._correct("imu", turn, jacobian, self.spec.attitude)
+        turn = turn_between(self.rotation, measured)
+        self._correct("imu", turn, IMU_SEES, self.spec.attitude)
 
     def dvl(self, velocity: Array) -> None:
         """Take a velocity over ground in the axes of the base, (3,) [m/s]; NaN if not known."""
@@ -152,15 +152,15 @@ class NavigationFilter:
     def _predict(self, step: float, rate: Array, force: Array) -> None:
         spec = self.spec
         # the IMU's place moves with the base: its centripetal force is not the base's own
-        force = force - np.cross(rate, np.cross(rate, np.array(spec.imu_place)))
+        if any(spec.imu_place):
+            force = force - np.cross(rate, np.cross(rate, np.array(spec.imu_place)))
         acceleration = turned(self.rotation, force) + GRAVITY
         self.covariance = propagated(
             self.covariance, self.rotation, acceleration - GRAVITY, step, self._noise
         )
         self.position = self.position + step * self.velocity + 0.5 * step**2 * acceleration
         self.velocity = self.velocity + step * acceleration
-        if (angle := length(rate) * step) > 1e-12:
-            self.rotation = product(self.rotation, rotation_about(rate, angle))
+        self.rotation = turned_by(self.rotation, step * rate, in_base=True)
         self.rate = rate
 
     def _correct(self, sensor: str, error: Array, jacobian: Array, deviation: float) -> None:
@@ -184,27 +184,10 @@ class NavigationFilter:
         self.velocity = self.velocity + by[VELOCITY]
         self.gyro_bias = self.gyro_bias + by[GYRO_BIAS]
         self.accelerometer_bias = self.accelerometer_bias + by[ACCELEROMETER_BIAS]
-        if (angle := length(by[ATTITUDE])) > 1e-12:
-            self.rotation = product(rotation_about(by[ATTITUDE], angle), self.rotation)
+        self.rotation = turned_by(self.rotation, by[ATTITUDE], in_base=False)
 
 
 def _cross(vector: Array) -> Array:
     """Return the matrix of ``vector x``, (3, 3)."""
     x, y, z = vector.tolist()
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-
-
-def _rotation_vector(rotation: Array) -> Array:
-    """Axis times angle of a rotation (3, 3) by less than half a turn, (3,) [rad]."""
-    axis = 0.5 * np.array(
-        [
-            rotation[2, 1] - rotation[1, 2],
-            rotation[0, 2] - rotation[2, 0],
-            rotation[1, 0] - rotation[0, 1],
-        ]
-    )
-    sine, cosine = length(axis), 0.5 * (float(np.trace(rotation)) - 1.0)
-    if sine < 1e-12:
-        return axis
-    vector: Array = axis * (math.atan2(sine, cosine) / sine)
-    return vector

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ...geometry import Array
@@ -34,6 +36,46 @@ def propagated(covariance: Array, rotation: Array, pull: Array, step: float, noi
     for i in range(15):
         found[i, i] += step * noise[i]
     return found
+
+
+@njit
+def turned_by(rotation: Array, vector: Array, *, in_base: bool) -> Array:
+    """Turn a rotation (3, 3) by a rotation vector (3,) [rad] of the base's axes, or the others."""
+    x, y, z = vector
+    angle = math.sqrt(x * x + y * y + z * z)
+    if angle < 1e-12:
+        return rotation.copy()
+    x, y, z = x / angle, y / angle, z / angle
+    s, c = math.sin(angle), 1.0 - math.cos(angle)
+    turn = np.empty((3, 3))
+    turn[0, 0], turn[0, 1], turn[0, 2] = (
+        1.0 - c * (y * y + z * z),
+        c * x * y - s * z,
+        c * x * z + s * y,
+    )
+    turn[1, 0], turn[1, 1], turn[1, 2] = (
+        c * x * y + s * z,
+        1.0 - c * (x * x + z * z),
+        c * y * z - s * x,
+    )
+    turn[2, 0], turn[2, 1], turn[2, 2] = (
+        c * x * z - s * y,
+        c * y * z + s * x,
+        1.0 - c * (x * x + y * y),
+    )
+    return _product(rotation, turn) if in_base else _product(turn, rotation)
+
+
+@njit
+def turn_between(rotation: Array, other: Array) -> Array:
+    """Rotation vector (3,) [rad] of ``other @ rotation.T``, by less than half a turn."""
+    turn = _times_transposed(other, rotation)
+    axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    axis *= 0.5
+    sine = math.sqrt(axis[0] ** 2 + axis[1] ** 2 + axis[2] ** 2)
+    if sine < 1e-12:
+        return axis
+    return axis * (math.atan2(sine, 0.5 * (turn[0, 0] + turn[1, 1] + turn[2, 2] - 1.0)) / sine)
 
 
 @njit

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from ...bus import Node
 from ...geometry import Array, Pose
 from ...messages import DVL, Imu, Pressure, seconds
-from ...numerics.linear import turned
+from .bottom import BottomPlane, ranges_of
 from .ekf import NavigationFilter, NavigationSpec
 
 TOPICS: Mapping[str, str] = {
@@ -37,8 +36,8 @@ class Navigator:
         """Subscribe to the topics (`TOPICS`)."""
         self.filter = NavigationFilter(spec or NavigationSpec())
         """The filter."""
-        self.altitude = math.nan
-        """Of the DVL above the bottom; NaN if not known [m]."""
+        self.bottom = BottomPlane()
+        """The bottom below it, in the navigation frame."""
         node.subscribe(topics["imu_topic"], Imu, self._on_imu)
         node.subscribe(topics["dvl_topic"], DVL, self._on_dvl)
         node.subscribe(topics["depth_topic"], Pressure, self._on_depth)
@@ -63,14 +62,6 @@ class Navigator:
         """From north towards east [rad]."""
         return self.filter.heading
 
-    @property
-    def bottom(self) -> float | None:
-        """Depth of the bottom below the vehicle [m]; None as long as the DVL has not seen it."""
-        if math.isnan(self.altitude):
-            return None
-        arm = turned(self.filter.rotation, np.array(self.filter.spec.dvl_place))
-        return float(self.filter.position[2] + arm[2]) + self.altitude
-
     def _on_imu(self, message: Imu) -> None:
         q, w, f = message.orientation, message.angular_velocity, message.linear_acceleration
         self.filter.imu(
@@ -86,8 +77,9 @@ class Navigator:
         self.filter.dvl(
             np.array([message.bs_longitudinal, message.bs_transverse, message.bs_normal])
         )
-        if math.isfinite(message.bd_range):
-            self.altitude = message.bd_range
+        here = self.pose
+        place = here.transform(np.array([self.filter.spec.dvl_place]))[0]
+        self.bottom.take(ranges_of(message), Pose(place, here.rotation))
 
     def _on_depth(self, message: Pressure) -> None:
         self.filter.depth(message.pressure)
