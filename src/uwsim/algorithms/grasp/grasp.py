@@ -187,8 +187,8 @@ class Grasp:
 
     def _view(self, pinhole: Pinhole) -> View:
         """The camera now, over the bottom where the box is, or else where the camera looks."""
-        bottom, base = self._navigator.bottom, self._navigator.pose
-        camera = base @ self._base_from_camera
+        bottom = self._navigator.bottom
+        camera = self._navigator.pose @ self._base_from_camera
         if self.task.target.pose is not None:
             place = self.task.target.pose.place
         else:
