@@ -13,6 +13,7 @@ from .ecc import Ecc
 from .frozen import Frozen
 from .grasp import Grasp, GraspBlindClose, GraspNothing, GraspP, GraspTruth
 from .orb import Orb
+from .pilot import Pilot
 from .scripted import Scripted
 from .tracker_node import chosen
 
@@ -31,6 +32,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "orb": Orb,
     "p": P,
     "pi": PI,
+    "pilot": Pilot,
     "scripted": Scripted,
     "ssd-esm": SsdEsm,
 }

@@ -12,7 +12,7 @@ from ..results.directory import alone_in, check_begun, check_room, discard_draft
 
 OURS = re.compile(
     r"""(?x)
-    envelope\.(json|png) | provenance\.json | units/\d+\.(jsonl|motion|part)
+    envelope\.(json|png) | provenance\.json | units/\d+\.(jsonl|motion|inputs|part)
   | pictures/\d+-[^/]+\.png(\.part)?
     """
 )

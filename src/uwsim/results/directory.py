@@ -25,7 +25,7 @@ OURS = re.compile(
     r"""(?x) ((?!units/|plots/|pictures/)[^/]+/)? (control/)? (
         result\.json | result\.dat | summary\.csv | provenance\.json | report\.html | replay\.html
       | measure-[^/]+\.csv | benchmark-[^/]+\.data
-      | units/\d+\.(jsonl|motion|part)
+      | units/\d+\.(jsonl|motion|inputs|part)
       | plots/[^/]+\.(png|pdf)
       | pictures/\d+-[^/]+\.png(\.part)?
     )"""

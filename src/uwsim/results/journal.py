@@ -22,6 +22,8 @@ from .stored.stored_shapes import END, HEAD, ROW
 FOLDER = "units"
 TRACK = ".motion"
 """Suffix of the motion track of a trial, beside its journal."""
+INPUTS = ".inputs"
+"""Suffix of what a pilot did in a trial, beside its journal."""
 KINDS = {"unit": HEAD, "row": ROW, "end": END}
 """Key of a line -> shape of its value."""
 MAX_LINE_LENGTH = 200

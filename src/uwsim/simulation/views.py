@@ -90,6 +90,11 @@ def view_from(simulation: Simulation, eye: Array, at: Array, size: Size) -> View
     return View(_looking(points[0], points[1] - points[0], "--from"), _lens(size, FIELD))
 
 
+def view_from_pose(world_from_camera: Pose, size: Size) -> View:
+    """From a pose of a camera in W (OpenGL axes), through clear water."""
+    return View(world_from_camera, _lens(size, FIELD), is_clear=True)
+
+
 def top_view(simulation: Simulation, size: Size) -> View:
     """From above; L's x axis is up in the image, if it lies level."""
     focus, lens = focus_of(simulation), _lens(size, FIELD)

@@ -14,6 +14,7 @@ from ..results.inputs import Inputs, differing
 from ..runs.own_process.program import IN_PROCESS
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.plan_request import PlanRequest
+from ..runs.planning.stored_pilot import PILOT, PREFIX
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -66,7 +67,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
     request = PlanRequest(
         benchmark=str(benchmark),
         scene=str(scene),
-        algorithm=_needed(run, "algorithm"),
+        algorithm=f"{PREFIX}{directory}" if run.algorithm == PILOT else _needed(run, "algorithm"),
         seed=_needed(run, "seed"),
         repeat=_needed(run, "repeats"),
         mode=_needed(run, "mode"),

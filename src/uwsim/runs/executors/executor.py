@@ -167,7 +167,14 @@ def found_by_running(error: Exception) -> Exception:
 
 
 class SerialExecutor:
-    """This process, one trial after the other."""
+    """This process, one trial after the other.
+
+    Args:
+        onlooker: looks on at each trial.
+    """
+
+    def __init__(self, onlooker: Onlooker | None = None) -> None:
+        self._onlooker = onlooker
 
     def execute(self, queue: JobQueue) -> None:
         """Execute all jobs."""
@@ -175,7 +182,7 @@ class SerialExecutor:
         try:
             while (job := queue.take()) is not None:
                 try:
-                    for _ in run_and_record(job, pool, Calls()):
+                    for _ in run_and_record(job, pool, Calls(), self._onlooker):
                         queue.level(job)
                 except Exception as error:
                     raise_if_interrupted()
@@ -190,12 +197,14 @@ class SerialExecutor:
             pool.close()
 
 
-def run_and_record(job: Job, pool: RendererPool, calls: Calls) -> Iterator[Event]:
+def run_and_record(
+    job: Job, pool: RendererPool, calls: Calls, onlooker: Onlooker | None = None
+) -> Iterator[Event]:
     """Run a trial and write its journal; yields the levels that were not on disk before."""
     writer = JournalWriter(job.run, job.trial)
     here = Path.cwd()  # an algorithm may go elsewhere
     try:
-        for event in run_trial(job.run.plan, job.trial, pool, calls):
+        for event in run_trial(job.run.plan, job.trial, pool, calls, onlooker):
             raise_if_interrupted()
             with chdir(here):
                 is_new = writer.keep(event)

@@ -24,6 +24,7 @@ from ..input_watch import Watch
 from ..planning.plan import Plan, Trial
 from ..run import Run
 from ..trial.level_row import LevelRow, TrialEnd
+from ..trial.onlooker import Onlooker
 from ..trial.trial import execute
 
 IMAGES = "pictures"
@@ -47,6 +48,8 @@ class TrialEnded:
     """The record of its end."""
     motion: bytes = b""
     """The file of its motion track."""
+    inputs: bytes = b""
+    """What a pilot did; empty where nobody pilots."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +64,11 @@ Event = LevelEnded | TrialEnded
 
 
 def run_trial(
-    plan: Plan, trial: Trial, pool: RendererPool, calls: Calls | None = None
+    plan: Plan,
+    trial: Trial,
+    pool: RendererPool,
+    calls: Calls | None = None,
+    onlooker: Onlooker | None = None,
 ) -> Iterator[Event]:
     """Run a trial; yields each level as it ends, and finally the end of the trial.
 
@@ -70,13 +77,14 @@ def run_trial(
         trial: one of its trials.
         pool: lends the renderer.
         calls: counts those into the algorithm.
+        onlooker: looks on between the steps.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    for n, outcome in enumerate(execute(plan, trial, pool=pool, calls=calls)):
+    for n, outcome in enumerate(execute(plan, trial, pool=pool, calls=calls, onlooker=onlooker)):
         if isinstance(outcome, TrialEnd):
-            yield TrialEnded(record=_end(outcome), motion=outcome.motion)
+            yield TrialEnded(record=_end(outcome), motion=outcome.motion, inputs=outcome.inputs)
         else:
             row = trial.index * len(trial.levels) + n
             files = file_names(snapshot.camera for snapshot in outcome.snapshots)
@@ -110,6 +118,9 @@ class JournalWriter:
         if isinstance(event, TrialEnded):
             with atomic_write(self._track) as draft:
                 draft.write_bytes(event.motion)
+            if event.inputs:
+                with atomic_write(self._track.with_suffix(journal.INPUTS)) as draft:
+                    draft.write_bytes(event.inputs)
             self._file.finish(event.record)
             return False
         for name, png in event.images:

@@ -17,6 +17,7 @@ from ..stand_ins import warn_of_stand_ins
 from ..tables import read_plugins
 from .option_values import compatibility_of, levels_of, mode_of, number_or_text, pairs_of
 from .plan_request import PlanRequest
+from .stored_pilot import with_stored_pilot
 
 if TYPE_CHECKING:
     from ...benchmark.plugin import Plugin
@@ -54,6 +55,9 @@ def make_plan(request: PlanRequest) -> Plan:
     from .plan import Plan
 
     wrong = AllErrors()
+    inputs: dict[int, bytes] = {}
+    with wrong.kept():
+        request, inputs = with_stored_pilot(request)
     read = _read_files(request, wrong)
     pairs = pairs_of(request.settings, wrong)
     parameters = {

@@ -83,6 +83,8 @@ class Plan:
     """Folders in which files are looked for."""
     is_blind: bool = False
     """Whether images are black: for a control that does not look at them."""
+    inputs: Mapping[int, bytes] = field(default_factory=dict)
+    """Number of a trial -> a pilot's inputs in an earlier run, which are sent again."""
     plugins: tuple[Plugin, ...] = ()
     """What was read with ``--plugin``."""
     own_process: bool = False

@@ -57,6 +57,8 @@ class TrialEnd:
     """Fingerprints on the way."""
     motion: bytes
     """The motion track (`uwsim.tracks`)."""
+    inputs: bytes = b""
+    """What a pilot did (`pilot_inputs`); empty where nobody pilots."""
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,9 @@ import numpy as np
 
 from ...benchmark.ground_truth import CornersFromCameraSpec
 from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, MeasureSpec
-from ...devices.lamp import MountedLamp
 from ...geometry import Array
 from ...simulation import Simulation
-from ...simulation.tracked_bodies import TrackedBodies
+from ...simulation.tracked_state import TrackedState
 from ...tracks import RATE, Signal, TrackLevel, track_bytes
 from ...tracks.motion_track import quantised, steps_of
 from ...tracks.packing import Table
@@ -33,15 +32,13 @@ class MotionRecorder:
     """
 
     def __init__(self, simulation: Simulation, measures: Sequence[MeasureSpec]) -> None:
-        self._simulation, self._world = simulation, simulation.world
-        self._bodies = TrackedBodies(simulation.world)
+        self._simulation = simulation
+        self._state = TrackedState(simulation.world)
         self._seen = _compared(measures)
         self._compared: dict[str, EuclideanNorm] = {}  # camera -> the measure of this level
-        self._lamps = [one for one in self._world.devices if isinstance(one, MountedLamp)]
-        self._signals = (*self._scene_signals(), *_corner_signals(self._seen))
-        self._steps = steps_of(len(self._bodies.names), self._signals)
+        self._signals = (*self._state.signals, *_corner_signals(self._seen))
+        self._steps = steps_of(len(self._state.bodies), self._signals)
         self._rows: list[Table] = []  # quantised
-        self._before: Array | None = None  # quaternions of the last frame
         self._levels: list[TrackLevel] = []
         self._due = 0
         simulation.watch(self._look)
@@ -72,7 +69,7 @@ class MotionRecorder:
     def track(self) -> bytes:
         """Return the file of the track up to now."""
         table = np.array(self._rows, dtype=np.int32).reshape(-1, len(self._steps))
-        return track_bytes(self._bodies.names, self._signals, table, self._levels)
+        return track_bytes(self._state.bodies, self._signals, table, self._levels)
 
     def _look(self) -> None:
         while self._simulation.step >= self._due:
@@ -80,39 +77,8 @@ class MotionRecorder:
             self._due = round(len(self._rows) / (RATE * self._simulation.timestep))
 
     def _row(self) -> Array:
-        rows = self._bodies.rows()
-        if self._before is not None:  # of the two quaternions of a rotation the nearer one
-            rows[(rows[:, 3:] * self._before).sum(axis=1) < 0.0, 3:] *= -1.0
-        self._before = rows[:, 3:].copy()
-        scenery, state = self._world.scenery, self._world.state
-        signals = [scenery.water.fog, scenery.light.rate]
-        for index, vehicle in enumerate(self._world.vehicles):
-            signals += self._water_at(state.poses.vehicle(index).position, vehicle).tolist()
-            if index in state.actuation:
-                signals += state.actuation[index].commands().tolist()
-        signals += [float(lamp.is_on) for lamp in self._lamps]
-        for camera in self._seen:
-            signals += self._corners(self._compared.get(camera))
-        return np.array([*rows.reshape(-1), *signals])
-
-    def _water_at(self, place: Array, vehicle: str) -> Array:
-        """Velocity of the water at a vehicle in W, (3,) [m/s]."""
-        if self._world.water.is_still:
-            return np.zeros(3)
-        velocity: Array = self._world.water_velocity(place[None], self._world.time, vehicle)[0]
-        return velocity
-
-    def _scene_signals(self) -> Iterable[Signal]:
-        yield Signal(name="fog", unit="1/m")
-        yield Signal(name="light_rate")
-        for index, vehicle in enumerate(self._world.vehicles):
-            for axis in "xyz":
-                yield Signal(name=f"water/{vehicle}/{axis}", unit="m/s", step=1e-3)
-            if index in self._world.state.actuation:
-                for thruster in self._world.state.actuation[index].thrusters:
-                    yield Signal(name=f"thrust/{vehicle}/{thruster}", step=0.01)
-        for lamp in self._lamps:
-            yield Signal(name=f"lamp/{lamp.spec.name}", step=1.0)
+        corners = [self._corners(self._compared.get(camera)) for camera in self._seen]
+        return np.concatenate([self._state.row(), *corners])
 
     @staticmethod
     def _corners(measure: EuclideanNorm | None) -> list[float]:

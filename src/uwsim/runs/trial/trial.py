@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import closing
+from pathlib import Path
 
 from ...benchmark.plugin import attribute_errors_to
 from ...benchmark.plugin_checks import check_values, parameters_of
@@ -42,6 +43,9 @@ from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
 from .motion_recorder import MotionRecorder
+from .onlooker import Onlooker
+from .pilot_inputs import PilotInputs, read_inputs
+from .pilot_topics import pilot_topics
 from .snapshots import capture
 from .status import StatusMonitor, legible
 from .triggered_measure import TriggeredMeasure, finite
@@ -55,7 +59,12 @@ RAMP = 1.0
 
 
 def execute(
-    plan: Plan, trial: Trial, *, pool: RendererPool | None = None, calls: Calls | None = None
+    plan: Plan,
+    trial: Trial,
+    *,
+    pool: RendererPool | None = None,
+    calls: Calls | None = None,
+    onlooker: Onlooker | None = None,
 ) -> Iterator[LevelRow | TrialEnd]:
     """Run a trial; yields a LevelRow as each level ends, and at last the TrialEnd.
 
@@ -124,7 +133,10 @@ class _Execution:
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
         self._calls = calls
-        self._parameters = {**known_corners(plan), **plan.parameters}
+        self._onlooker = onlooker
+        self._inputs = _inputs_of(plan, trial, simulation, onlooker)
+        found = {} if self._inputs is None else pilot_topics(simulation)
+        self._parameters = {**found, **known_corners(plan), **plan.parameters}
         self._algorithm = _make(plan, program, self._parameters, calls)
         self._node = simulation.attach(
             self._algorithm,
@@ -142,6 +154,8 @@ class _Execution:
         plan, simulation = self._plan, self._simulation
         simulation.start()
         self._motion.start()
+        if self._onlooker is not None:
+            self._onlooker.open(simulation, self._title())
         facts: dict[str, Fact] = {}
         target_motion: TargetMotion | None = None
         floor: Floor | None = None
@@ -164,6 +178,8 @@ class _Execution:
                 floor.begin()
             row = self._run_level(level)
             self._motion.end_level(row)
+            if self._onlooker is not None:
+                self._onlooker.end_level(row)
             if floor is not None:
                 floor.end()
             yield row
@@ -177,7 +193,13 @@ class _Execution:
             notes=tuple(self._notes),
             checkpoints=self._fingerprinter.checkpoints(),
             motion=self._motion.track(),
+            inputs=b"" if self._inputs is None else self._inputs.data(),
         )
+
+    def _title(self) -> str:
+        """``currents, pi, seed 7``."""
+        name = Path(self._plan.benchmark.path).stem
+        return f"{name}, {self._plan.algorithm_name}, seed {self._trial.seed}"
 
     def _parameters_said(self) -> dict[str, float | int | str]:
         """Return the parameters that the algorithm reports.
@@ -202,7 +224,9 @@ class _Execution:
             ) from error
 
     def close(self) -> None:
-        """Close what updaters hold open."""
+        """Close what updaters hold open, and let nobody look any more."""
+        if self._onlooker is not None:
+            self._onlooker.close()
         for updater in self._updaters:
             updater.close()
 
@@ -299,6 +323,8 @@ class _Execution:
         monitor.begin_level()
         measures = self._bind_measures()
         self._motion.begin_level(measures)
+        if self._onlooker is not None:
+            self._onlooker.begin_level(level, measures)
         length = interval(self._updater)
         n_steps = round((MAX_TASK_DURATION if length is None else length) / plan.timestep)
         stopped, ended = False, None
@@ -376,6 +402,20 @@ def _make(
             f"Algorithm {plan.algorithm_name!r} cannot be made: "
             f"{legible(what_broke(error, plan.algorithm))}"
         ) from error
+
+
+def _inputs_of(
+    plan: Plan, trial: Trial, simulation: Simulation, onlooker: Onlooker | None
+) -> PilotInputs | None:
+    """A pilot's inputs, live or stored; None where the algorithm takes none."""
+    if not getattr(plan.algorithm, "IS_PILOTED", False):
+        return None
+    stored = plan.inputs.get(trial.index)
+    if stored is not None:
+        return PilotInputs(simulation, lambda: None, read_inputs(stored))
+    if onlooker is None:
+        raise RunFailed(f"{plan.algorithm_name} needs somebody who pilots: --view.")
+    return PilotInputs(simulation, onlooker.pilot)
 
 
 def _tick(measures: list[TriggeredMeasure]) -> None:

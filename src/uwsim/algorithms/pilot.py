@@ -1,0 +1,136 @@
+"""``pilot``: a human at the live view, who is scored like an algorithm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import ClassVar
+
+import numpy as np
+
+from ..bus import Node
+from ..errors import UnknownName
+from ..messages import (
+    Empty,
+    Float64MultiArray,
+    JointState,
+    Odometry,
+    TwistStamped,
+    header,
+)
+from .scripted import odometry, twist_of
+from .tracker_node import chosen
+
+TOPIC = "pilotInputs"
+"""Topic on which a pilot's inputs come, one number an axis, -1..1."""
+N_JOINTS = 6
+"""Joints that have an axis, beside the jaw."""
+AXES = (
+    *("surge", "sway", "heave", "roll", "pitch", "yaw"),
+    "jaw",
+    *(f"joint{k}" for k in range(1, N_JOINTS + 1)),
+)
+"""What the numbers are: ahead, to starboard, up; starboard down, bow up, to starboard; open; on."""
+PERIOD = 0.05
+"""Between two commands [s]."""
+
+
+class Pilot:
+    """A human pilot: inputs of the live view become twists of the vehicle and speeds of its joints.
+
+    An input within the dead zone counts as none; what is commanded follows the input at a limited
+    rate. Before the first input nothing is commanded. Services and topics are named with blanks
+    between them; those of the scene are found without being given.
+    """
+
+    IS_PILOTED: ClassVar[bool] = True
+    """Inputs come from outside, and are kept with the result."""
+    PARAMETERS: ClassVar[Mapping[str, float | str]] = {
+        "start": "startBench",
+        "twist_topic": "",
+        "odom_topic": "",
+        "joints_topic": "",
+        "joints": "",
+        "jaw": "",
+        "z_is_down": 1.0,
+        "speed": 0.4,
+        "turn": 0.3,
+        "joint_speed": 0.3,
+        "rate": 2.0,
+        "dead_zone": 0.05,
+    }
+
+    def start(self, node: Node) -> None:
+        """Listen to the inputs, and command from then on."""
+        self._node = node
+        self.parameters = chosen(self.PARAMETERS, node.parameters)
+        self._wanted = np.zeros(len(AXES))
+        self._given = np.zeros(len(AXES))
+        self._has_begun = self._was_moving_joints = False
+        twist, odom = (str(self.parameters[name]) for name in ("twist_topic", "odom_topic"))
+        joints = str(self.parameters["joints_topic"])
+        self._say_twist = node.publisher(twist, TwistStamped) if twist else None
+        self._say_odom = None if twist or not odom else node.publisher(odom, Odometry)
+        self._say_joints = node.publisher(joints, JointState) if joints else None
+        names = str(self.parameters["joints"]).split()[:N_JOINTS]
+        jaw = str(self.parameters["jaw"]).split()
+        self._joints = [(f"joint{k}", name) for k, name in enumerate(names, start=1)]
+        self._joints += [("jaw", name) for name in jaw]
+        node.subscribe(TOPIC, Float64MultiArray, self._on_input)
+        node.every(PERIOD, self._command)
+
+    def _on_input(self, message: Float64MultiArray) -> None:
+        values = np.asarray(message.data, dtype=np.float64)
+        if values.shape != (len(AXES),) or not np.isfinite(values).all():
+            return
+        dead = float(self.parameters["dead_zone"])
+        values = np.clip(values, -1.0, 1.0)
+        self._wanted = np.where(np.abs(values) <= dead, 0.0, values)
+        self._has_begun = True
+
+    def _command(self) -> None:
+        for service in str(self.parameters["start"]).split():
+            with suppress(UnknownName):  # nobody waits for it just now
+                self._node.call(service, Empty())
+        if not self._has_begun:
+            return
+        step = float(self.parameters["rate"]) * PERIOD
+        self._given += np.clip(self._wanted - self._given, -step, step)
+        given = dict(zip(AXES, self._given.tolist(), strict=True))
+        self._drive(given)
+        self._move_joints(given)
+
+    def _drive(self, given: Mapping[str, float]) -> None:
+        speed, turn = float(self.parameters["speed"]), float(self.parameters["turn"])
+        down = 1.0 if float(self.parameters["z_is_down"]) > 0.0 else -1.0
+        numbers = (
+            speed * given["surge"],
+            speed * down * given["sway"],
+            -speed * down * given["heave"],
+            turn * given["roll"],
+            turn * down * given["pitch"],
+            turn * down * given["yaw"],
+        )
+        twist = twist_of(" ".join(f"{number:.9g}" for number in numbers))
+        now = self._node.now
+        if self._say_twist is not None:
+            self._say_twist(TwistStamped(header=header(now), twist=twist))
+        if self._say_odom is not None:
+            self._say_odom(odometry(now, twist))
+
+    def _move_joints(self, given: Mapping[str, float]) -> None:
+        """Command speeds of the joints while one is moved, and once more when they stop."""
+        speeds = np.array([given[axis] for axis, _ in self._joints])
+        moves = bool(speeds.any())
+        if self._say_joints is None or not (moves or self._was_moving_joints):
+            return
+        self._was_moving_joints = moves
+        self._say_joints(
+            JointState(
+                header=header(self._node.now),
+                name=[name for _, name in self._joints],
+                position=np.zeros(0),
+                velocity=float(self.parameters["joint_speed"]) * speeds,
+                effort=np.zeros(0),
+            )
+        )

@@ -1,0 +1,41 @@
+"""``--algorithm scripted:RESULT``: the pilot of an earlier result, whose inputs are sent again."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from ...errors import BadSetting
+from ...results import journal
+from ...results.result_file import load
+from .plan_request import PlanRequest
+
+PREFIX = "scripted:"
+PILOT = "pilot"
+OF_ALGORITHM = "algorithm."
+
+
+def with_stored_pilot(request: PlanRequest) -> tuple[PlanRequest, dict[int, bytes]]:
+    """Return the request with the algorithm `pilot`, and its inputs by the number of the trial.
+
+    Other algorithms stay as they are. Parameters are those of the earlier run, unless some are given.
+
+    Raises:
+        BadSetting: the result holds no inputs of a pilot.
+        ResultError: there is no such result.
+    """
+    name = request.algorithm or ""
+    if not name.startswith(PREFIX):
+        return request, {}
+    given = Path(name.removeprefix(PREFIX))
+    directory = given.parent if given.name == "result.json" else given
+    run = load(directory).run
+    files = sorted((directory / journal.FOLDER).glob(f"*{journal.INPUTS}"))
+    if run.algorithm != PILOT or not files:
+        raise BadSetting(f"--algorithm {name}: holds no inputs of a pilot (--algorithm {PILOT}).")
+    settings = list(request.settings)
+    if not any(setting.startswith(OF_ALGORITHM) for setting in settings):
+        own = [pair for pair in run.pairs_of_settings() if pair.startswith(OF_ALGORITHM)]
+        settings += own
+    changed = replace(request, algorithm=PILOT, settings=settings)
+    return changed, {int(file.stem): file.read_bytes() for file in files}

@@ -1,0 +1,30 @@
+"""Somebody who looks on while a trial runs, and may hand in what a pilot does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from ...benchmark.updaters import Level
+from ...simulation import Simulation
+from .level_row import LevelRow
+from .triggered_measure import TriggeredMeasure
+
+
+class Onlooker(Protocol):
+    """What looks at a trial between its steps; it changes nothing but by the pilot's inputs."""
+
+    def open(self, simulation: Simulation, title: str) -> None:
+        """A trial begins; its simulation is at step 0."""
+
+    def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
+        """A level is measured from now on."""
+
+    def end_level(self, row: LevelRow) -> None:
+        """A level is over."""
+
+    def pilot(self) -> Sequence[float] | None:
+        """Return what a pilot does now (`uwsim.algorithms.pilot.AXES`); None: nobody pilots."""
+
+    def close(self) -> None:
+        """The trial is over; its simulation is about to be closed."""

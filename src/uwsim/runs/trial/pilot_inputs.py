@@ -1,0 +1,91 @@
+"""Inputs of a pilot: published at the ends of steps, kept, and published again.
+
+.. code-block:: text
+
+    {"uwsim_inputs": 1, "axes": ["surge", ...]}
+    {"step": 1503, "values": [0.5, 0.0, ...]}
+
+They lie beside the journal of the trial. An input is published at the end of its step and
+delivered at the end of the next, so that a run with stored inputs is the run in which they were made.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ...algorithms.pilot import AXES, TOPIC
+from ...errors import ResultError
+from ...messages import Float64MultiArray, MultiArrayLayout
+from ...simulation import Simulation
+
+VERSION = 1
+RATE = 30.0
+"""Most inputs a second of simulation time [Hz]."""
+Input = tuple[int, tuple[float, ...]]
+"""Step, and a value of each axis."""
+
+
+class PilotInputs:
+    """Publishes inputs while a simulation runs.
+
+    Args:
+        simulation: the one.
+        live: returns what the pilot does now, a number of each axis; None: nobody pilots.
+        stored: inputs of an earlier run instead.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        live: Callable[[], Sequence[float] | None],
+        stored: Sequence[Input] | None = None,
+    ) -> None:
+        self._simulation, self._live = simulation, live
+        self._stored = None if stored is None else dict(stored)
+        self._every = max(1, round(1.0 / (RATE * simulation.timestep)))
+        self._publish = simulation.bus.publisher(TOPIC, Float64MultiArray)
+        self._kept: list[Input] = []
+        simulation.watch(self._look)
+
+    def data(self) -> bytes:
+        """Return the file of the inputs so far."""
+        head = {"uwsim_inputs": VERSION, "axes": AXES}
+        lines = [{"step": step, "values": values} for step, values in self._kept]
+        return "".join(json.dumps(line) + "\n" for line in (head, *lines)).encode()
+
+    def _look(self) -> None:
+        step = self._simulation.step
+        values = self._now(step)
+        if values is None or (self._stored is None and not self._is_news(values)):
+            return
+        self._kept.append((step, values))
+        layout = MultiArrayLayout(dim=[], data_offset=0)
+        self._publish(Float64MultiArray(layout=layout, data=np.array(values)))
+
+    def _now(self, step: int) -> tuple[float, ...] | None:
+        if self._stored is not None:
+            return self._stored.get(step)
+        if step % self._every:
+            return None
+        values = self._live()
+        return None if values is None else tuple(round(float(value), 4) for value in values)
+
+    def _is_news(self, values: tuple[float, ...]) -> bool:
+        return not self._kept or self._kept[-1][1] != values
+
+
+def read_inputs(data: bytes) -> tuple[Input, ...]:
+    """Read a file of inputs; raises ResultError where it is none."""
+    try:
+        head, *lines = [json.loads(line) for line in data.splitlines()]
+        if head["uwsim_inputs"] != VERSION or tuple(head["axes"]) != AXES:
+            raise ValueError("made by another version")
+        found = [(int(each["step"]), tuple(map(float, each["values"]))) for each in lines]
+        if any(len(v) != len(AXES) or not np.isfinite(v).all() for _, v in found):
+            raise ValueError("a line has not a number for each axis")
+    except (ValueError, KeyError, TypeError) as error:
+        raise ResultError(f"is no file of a pilot's inputs: {error}") from None
+    return tuple(found)

@@ -1,0 +1,38 @@
+"""Topics of a scene by which a pilot drives its first vehicle, as parameters of `pilot`."""
+
+from __future__ import annotations
+
+from ...simulation import Simulation
+from ...topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
+from ...topics.ros_odom_to_pat import ROSOdomToPATSpec
+from ...topics.ros_twist_to_pat import ROSTwistToPATSpec
+
+JAW = ("jaw", "grip", "hand", "finger")
+"""What the name of a joint says that opens a hand."""
+
+
+def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
+    """Return the parameters of `uwsim.algorithms.pilot.Pilot` that the scene gives.
+
+    They are empty where the scene has no vehicle.
+    """
+    world = simulation.world
+    if not world.vehicles:
+        return {}
+    name = world.vehicles[0]
+    found: dict[str, float | str] = {}
+    for spec in world.scene.ros_interfaces:
+        if getattr(spec, "vehicle_name", name) != name:
+            continue
+        if isinstance(spec, ROSTwistToPATSpec):
+            found.setdefault("twist_topic", spec.topic)
+        elif isinstance(spec, ROSOdomToPATSpec):
+            found.setdefault("odom_topic", spec.topic)
+        elif isinstance(spec, ROSJointStateToArmSpec):
+            found.setdefault("joints_topic", spec.topic)
+    joints = list(world.vehicle(name).joint_names)
+    jaw = ""
+    if joints and any(word in joints[-1].lower() for word in JAW):
+        jaw = joints.pop()
+    down = -float(simulation.pose(name, "W").rotation[2, 2])
+    return {**found, "joints": " ".join(joints), "jaw": jaw, "z_is_down": 1.0 if down > 0 else -1.0}

@@ -1,0 +1,35 @@
+"""The first message of a live view: the scene, and what the rows mean."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+
+from ...simulation import Simulation
+from ...simulation.tracked_state import TrackedState
+from ...tracks import RATE
+from ...tracks.motion_track import LENGTH, TURN
+from ..head import scene_head
+from ..pack import Blob, packed
+
+
+def head_of(simulation: Simulation, title: str, state: TrackedState) -> bytes:
+    """Return the pack of a live view (`uwsim.viewer.head`).
+
+    Args:
+        simulation: at step 0.
+        title: of the page.
+        state: whose rows follow.
+    """
+    blob = Blob()
+    head = scene_head(simulation, title, blob, is_live=True)
+    head["motion"] = {
+        "uwsim_motion": 1,
+        "rate": RATE,
+        "n": 0,
+        "start": 0.0,
+        "bodies": list(state.bodies),
+        "length": LENGTH,
+        "quaternion": TURN,
+        "signals": [asdict(signal) for signal in state.signals],
+    }
+    return packed(head, blob)

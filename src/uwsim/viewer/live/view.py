@@ -1,0 +1,265 @@
+"""A live view of a simulation: it looks between steps, and hands copies to the server.
+
+What it shows depends on the wall clock; the simulation does not: nothing is written to it but a
+pilot's inputs, which go over the bus like those of any program.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import struct
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from ...benchmark.updaters import Level
+from ...errors import BadSetting
+from ...geometry import Pose, rotation_from_quaternion
+from ...runs.trial.level_row import LevelRow
+from ...runs.trial.triggered_measure import TriggeredMeasure
+from ...simulation import Simulation
+from ...simulation.tracked_state import TrackedState
+from ...simulation.views import view_from_pose
+from .clock import Clock
+from .head import head_of
+from .server import LiveServer, Message
+
+RATE = 30.0
+"""Rows a second of the wall clock [Hz]."""
+IMAGE_RATE = 10.0
+"""Images a second of the wall clock [Hz]."""
+SAMPLE_RATE = 2.0
+"""Batches of samples a second of the wall clock [Hz]."""
+N_BATCHES = 600
+"""Batches of samples that are kept for whoever comes later."""
+QUALITY = 85
+"""Of JPEG images, 0..100."""
+MAX_SIDE = 1280
+"""Of a view that is drawn for a page without WebGL [px]."""
+HEADER = struct.Struct("<BBHId")
+ROW, IMAGE, VIEW = 1, 2, 3
+"""Kinds of binary messages (`uwsim.viewer.head`)."""
+
+
+class LiveView:
+    """What viewers see of one simulation after another, and what they make of it.
+
+    Args:
+        server: to whom it is handed.
+        speed: simulation time a second of the wall clock; 0: as fast as it can.
+        wall: returns the wall time [s].
+    """
+
+    def __init__(
+        self,
+        server: LiveServer,
+        *,
+        speed: float = 1.0,
+        wall: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._server, self._wall = server, wall
+        self._clock = Clock(speed, wall)
+        self._simulation: Simulation | None = None
+        self._state: TrackedState | None = None
+        self._measures: Sequence[TriggeredMeasure] = ()
+        self._taken: dict[str, int] = {}
+        self._levels: list[dict[str, Any]] = []
+        self._n_batches = 0
+        self._due = {"row": 0.0, "images": 0.0, "samples": 0.0}
+        self._views: dict[int, Message] = {}
+        self.on_input: Callable[[int, Message], None] = lambda viewer, message: None
+        """Called with what a pilot does, and by whom."""
+        self.mapping: dict[str, str] = {}
+        """Key -> what it does, where there is a pilot."""
+
+    def open(self, simulation: Simulation, title: str) -> None:
+        """Show a simulation from now on; it is at step 0."""
+        self._simulation, self._state = simulation, TrackedState(simulation.world)
+        self._clock.begin(simulation.time)
+        self._levels, self._measures = [], ()
+        self._due = dict.fromkeys(self._due, 0.0)
+        self._server.forget(lambda channel: channel != "state")
+        head = head_of(simulation, title, self._state)
+        self._server.publish("head", HEADER.pack(0, 0, 0, 0, 0.0) + head)
+        self._say_state()
+        self._look()
+        simulation.watch(self._look)
+
+    def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
+        """A level is measured from now on."""
+        assert self._simulation is not None
+        self._measures, self._taken = measures, {}
+        values = dict(level.values)
+        label = ", ".join(f"{name} {value:g}" for name, value in values.items())
+        now = self._simulation.time
+        self._levels.append(
+            {"label": label, "status": "running", "why": "", "start": now, "end": now}
+            | {"values": values}
+        )
+        self._server.publish("levels", json.dumps({"type": "levels", "levels": self._levels}))
+
+    def end_level(self, row: LevelRow) -> None:
+        """A level is over."""
+        self._send_samples()
+        self._measures = ()
+        why = row.missing.get("total", "")
+        self._levels[-1] |= {"status": row.status, "why": why, "end": row.ended_at}
+        self._server.publish("levels", json.dumps({"type": "levels", "levels": self._levels}))
+
+    def close(self) -> None:
+        """The simulation is about to be closed."""
+        self._simulation, self._state, self._measures = None, None, ()
+
+    def end(self, why: str) -> None:
+        """Tell everybody that nothing more comes."""
+        self._server.publish("end", json.dumps({"type": "end", "why": why}))
+
+    def _look(self) -> None:
+        """Hand over what is due, and wait where the view is paused or ahead of its time."""
+        simulation = self._simulation
+        if simulation is None:
+            return
+        self._hear()
+        self._hand_over()
+        while self._clock.waits(simulation.time):
+            self._clock.sleep(simulation.time)
+            self._hear()
+            self._hand_over()
+        self._clock.stepped()
+
+    def _hand_over(self) -> None:
+        assert self._simulation is not None
+        assert self._state is not None
+        now = self._wall()
+        if self._is_due("row", now, RATE):
+            row = self._state.row().astype("<f4").tobytes()
+            self._server.publish("row", self._header(ROW, 0) + row)
+        if self._is_due("samples", now, SAMPLE_RATE):
+            self._send_samples()
+        if self._is_due("images", now, IMAGE_RATE):
+            self._send_images()
+            self._send_views()
+
+    def _is_due(self, what: str, now: float, rate: float) -> bool:
+        if now < self._due[what]:
+            return False
+        self._due[what] = max(self._due[what] + 1.0 / rate, now)
+        return True
+
+    def _header(self, kind: int, index: int) -> bytes:
+        assert self._simulation is not None
+        return HEADER.pack(
+            kind, index, 0, self._simulation.step & 0xFFFFFFFF, self._simulation.time
+        )
+
+    def _send_samples(self) -> None:
+        """Send the samples of all logs since the last time."""
+        if not self._measures:
+            return
+        began = self._levels[-1]["start"]
+        samples: list[tuple[str, str, float, float | None]] = []
+        for gated in self._measures:
+            name, unit = gated.spec.name, gated.measure.unit
+            first = self._taken.get(name, 0)
+            samples += [(name, unit, began + each[0] or 0.0, each[1]) for each in gated.log[first:]]
+            self._taken[name] = len(gated.log)
+        if samples:
+            text = json.dumps({"type": "samples", "samples": samples})
+            self._server.publish(f"samples/{self._n_batches}", text)
+            gone = f"samples/{self._n_batches - N_BATCHES}"
+            self._server.forget(lambda channel: channel == gone)
+            self._n_batches += 1
+
+    def _send_images(self) -> None:
+        """Send what cameras have published; of those that nobody reads what they would see."""
+        assert self._simulation is not None
+        wanted = self._server.wanted()
+        world = self._simulation.world
+        for index, name in enumerate(world.cameras):
+            if (channel := f"?image/{name}") in wanted:
+                self._server.publish(channel, self._header(IMAGE, index) + jpeg(self._image(name)))
+
+    def _image(self, camera: str) -> npt.NDArray[np.uint8]:
+        assert self._simulation is not None
+        for images in self._simulation.images.values():
+            if images.camera.name == camera and images.last is not None:
+                return images.last
+        colour = self._simulation.image(camera).colour
+        assert colour is not None
+        return colour.view(np.uint8)
+
+    def _send_views(self) -> None:
+        """Draw the newest view that a page without WebGL asks for."""
+        assert self._simulation is not None
+        if not self._views:
+            return
+        asked = next(reversed(self._views.values()))
+        camera = asked.get("camera")
+        if isinstance(camera, str) and camera in self._simulation.world.cameras:
+            image = self._image(camera)
+        else:
+            try:
+                pose, size = _asked_for(asked)
+            except BadSetting:
+                return
+            view = view_from_pose(pose, size)
+            scenery = self._simulation.world.scenery
+            colour = scenery.render_view(
+                view.world_from_camera, view.intrinsics, targets={"colour"}, fog=0.0
+            ).colour
+            assert colour is not None
+            image = colour.view(np.uint8)
+        self._server.publish("view", self._header(VIEW, 0) + jpeg(image))
+
+    def _say_state(self) -> None:
+        state = {
+            "type": "state",
+            "paused": self._clock.is_paused,
+            "speed": self._clock.speed,
+            "pilot": bool(self.mapping),
+            "mapping": self.mapping,
+        }
+        self._server.publish("state", json.dumps(state))
+
+    def _hear(self) -> None:
+        """Do what viewers have asked for."""
+        for viewer, message in self._server.messages():
+            kind = message["type"]
+            if kind == "control" and self._clock.control(message):
+                self._say_state()
+            elif kind == "view":
+                self._views.pop(viewer, None)
+                self._views[viewer] = message
+            elif kind in ("input", "left"):
+                self._views.pop(viewer if kind == "left" else 0, None)
+                self.on_input(viewer, message)
+
+
+def jpeg(image: npt.NDArray[np.uint8]) -> bytes:
+    """Return an image, (h, w, 3) or (h, w), as JPEG."""
+    ordered = image if image.ndim == 2 else image[..., ::-1]
+    _, packed = cv2.imencode(
+        ".jpg", np.ascontiguousarray(ordered), [cv2.IMWRITE_JPEG_QUALITY, QUALITY]
+    )
+    return bytes(packed.tobytes())
+
+
+def _asked_for(message: Message) -> tuple[Pose, tuple[int, int]]:
+    """Read the pose and the size of a view; raises BadSetting where they are none."""
+    pose, size = message.get("pose"), (message.get("width"), message.get("height"))
+    numbers = [*pose, *size] if isinstance(pose, list) and len(pose) == 7 else []
+    is_right = numbers and all(
+        isinstance(n, int | float) and not isinstance(n, bool) and math.isfinite(n) for n in numbers
+    )
+    if not is_right or not all(16 <= float(n or 0) <= MAX_SIDE for n in size):
+        raise BadSetting("no such view")
+    rows = np.clip(np.array(numbers[:7], dtype=np.float64), -1e6, 1e6)
+    if np.linalg.norm(rows[3:]) < 1e-3:
+        raise BadSetting("no such view")
+    where = Pose(rows[:3], rotation_from_quaternion(rows[3:]))
+    return where, (int(numbers[7]), int(numbers[8]))
