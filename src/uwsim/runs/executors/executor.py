@@ -23,6 +23,7 @@ from ...simulation import Calls, Cut, RendererPool
 from ..own_process.process import PROCESS_ENDED
 from ..planning.plan import Plan, Trial
 from ..run import Run
+from ..trial.onlooker import Onlooker
 from .worker import Event, JournalWriter, picklable, run_trial
 
 OnLevel = Callable[[], None]

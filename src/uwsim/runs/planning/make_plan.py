@@ -100,6 +100,7 @@ def make_plan(request: PlanRequest) -> Plan:
         timestep=TIMESTEP if spec.timestep is None else spec.timestep,
         compatibility=quirks,
         data_path=tuple(request.data_path),
+        inputs=inputs,
         plugins=read.plugins,
         own_process=not request.in_process
         and kind not in _bundled_algorithms(_wanted(request, spec)),

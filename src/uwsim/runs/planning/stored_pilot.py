@@ -18,7 +18,8 @@ OF_ALGORITHM = "algorithm."
 def with_stored_pilot(request: PlanRequest) -> tuple[PlanRequest, dict[int, bytes]]:
     """Return the request with the algorithm `pilot`, and its inputs by the number of the trial.
 
-    Other algorithms stay as they are. Parameters are those of the earlier run, unless some are given.
+    Other algorithms stay as they are. Parameters are those of the earlier run, unless some are
+    given.
 
     Raises:
         BadSetting: the result holds no inputs of a pilot.
@@ -35,7 +36,7 @@ def with_stored_pilot(request: PlanRequest) -> tuple[PlanRequest, dict[int, byte
         raise BadSetting(f"--algorithm {name}: holds no inputs of a pilot (--algorithm {PILOT}).")
     settings = list(request.settings)
     if not any(setting.startswith(OF_ALGORITHM) for setting in settings):
-        own = [pair for pair in run.pairs_of_settings() if pair.startswith(OF_ALGORITHM)]
+        own = [pair for pair in run.pairs_of_settings if pair.startswith(OF_ALGORITHM)]
         settings += own
     changed = replace(request, algorithm=PILOT, settings=settings)
     return changed, {int(file.stem): file.read_bytes() for file in files}

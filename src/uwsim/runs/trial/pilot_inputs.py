@@ -6,7 +6,7 @@
     {"step": 1503, "values": [0.5, 0.0, ...]}
 
 They lie beside the journal of the trial. An input is published at the end of its step and
-delivered at the end of the next, so that a run with stored inputs is the run in which they were made.
+delivered at the end of the next, so a run with stored inputs is the one in which they were made.
 """
 
 from __future__ import annotations

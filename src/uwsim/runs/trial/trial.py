@@ -73,6 +73,7 @@ def execute(
         trial: one of its trials.
         pool: lends the renderer; without one the trial has a renderer of its own.
         calls: counts those into the algorithm.
+        onlooker: looks on between the steps.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
@@ -91,7 +92,9 @@ def execute(
         try:
             with (
                 attribute_errors_to(plan.plugins, is_running=True),
-                closing(_Execution(plan, trial, simulation, program, calls or Calls())) as running,
+                closing(
+                    _Execution(plan, trial, simulation, program, calls or Calls(), onlooker)
+                ) as running,
             ):
                 yield from running.rows()
         finally:
@@ -115,7 +118,13 @@ class _Execution:
     """A trial during its execution."""
 
     def __init__(
-        self, plan: Plan, trial: Trial, simulation: Simulation, program: Program, calls: Calls
+        self,
+        plan: Plan,
+        trial: Trial,
+        simulation: Simulation,
+        program: Program,
+        calls: Calls,
+        onlooker: Onlooker | None,
     ) -> None:
         self._plan, self._trial, self._simulation = plan, trial, simulation
         benchmark = benchmark_of_seed(plan.benchmark, trial.seed)

@@ -17,6 +17,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from ...algorithms.pilot import AXES
 from ...benchmark.updaters import Level
 from ...errors import BadSetting
 from ...geometry import Pose, rotation_from_quaternion
@@ -27,6 +28,7 @@ from ...simulation.tracked_state import TrackedState
 from ...simulation.views import view_from_pose
 from .clock import Clock
 from .head import head_of
+from .mapping import PilotMapping, merged
 from .server import LiveServer, Message
 
 RATE = 30.0
@@ -52,6 +54,7 @@ class LiveView:
     Args:
         server: to whom it is handed.
         speed: simulation time a second of the wall clock; 0: as fast as it can.
+        mapping: what keys and sticks do; None: nobody pilots.
         wall: returns the wall time [s].
     """
 
@@ -60,6 +63,7 @@ class LiveView:
         server: LiveServer,
         *,
         speed: float = 1.0,
+        mapping: PilotMapping | None = None,
         wall: Callable[[], float] = time.monotonic,
     ) -> None:
         self._server, self._wall = server, wall
@@ -72,10 +76,8 @@ class LiveView:
         self._n_batches = 0
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0}
         self._views: dict[int, Message] = {}
-        self.on_input: Callable[[int, Message], None] = lambda viewer, message: None
-        """Called with what a pilot does, and by whom."""
-        self.mapping: dict[str, str] = {}
-        """Key -> what it does, where there is a pilot."""
+        self._mapping = mapping
+        self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
 
     def open(self, simulation: Simulation, title: str) -> None:
         """Show a simulation from now on; it is at step 0."""
@@ -110,6 +112,10 @@ class LiveView:
         why = row.missing.get("total", "")
         self._levels[-1] |= {"status": row.status, "why": why, "end": row.ended_at}
         self._server.publish("levels", json.dumps({"type": "levels", "levels": self._levels}))
+
+    def pilot(self) -> Sequence[float] | None:
+        """Return what all pilots do together; None before the first has done anything."""
+        return merged(self._inputs)
 
     def close(self) -> None:
         """The simulation is about to be closed."""
@@ -166,7 +172,7 @@ class LiveView:
         for gated in self._measures:
             name, unit = gated.spec.name, gated.measure.unit
             first = self._taken.get(name, 0)
-            samples += [(name, unit, began + each[0] or 0.0, each[1]) for each in gated.log[first:]]
+            samples += [(name, unit, began + (each[0] or 0.0), each[1]) for each in gated.log[first:]]
             self._taken[name] = len(gated.log)
         if samples:
             text = json.dumps({"type": "samples", "samples": samples})
@@ -221,8 +227,8 @@ class LiveView:
             "type": "state",
             "paused": self._clock.is_paused,
             "speed": self._clock.speed,
-            "pilot": bool(self.mapping),
-            "mapping": self.mapping,
+            "pilot": self._mapping is not None,
+            "mapping": {} if self._mapping is None else dict(self._mapping.keys),
         }
         self._server.publish("state", json.dumps(state))
 
@@ -235,9 +241,12 @@ class LiveView:
             elif kind == "view":
                 self._views.pop(viewer, None)
                 self._views[viewer] = message
-            elif kind in ("input", "left"):
-                self._views.pop(viewer if kind == "left" else 0, None)
-                self.on_input(viewer, message)
+            elif kind == "input" and self._mapping is not None:
+                self._inputs[viewer] = self._mapping.values(message)
+            elif kind == "left":
+                self._views.pop(viewer, None)
+                if viewer in self._inputs:
+                    self._inputs[viewer] = (0.0,) * len(AXES)
 
 
 def jpeg(image: npt.NDArray[np.uint8]) -> bytes:

@@ -1,0 +1,117 @@
+"""What keys, gamepad and sticks of the page do: by default, and by a file of the user's.
+
+.. code-block:: toml
+
+    dead_zone = 0.08
+    axes = ["yaw", "-heave", "sway", "-surge"]      # of the gamepad, in its order
+    buttons = ["", "", "", "", "", "", "-jaw", "+jaw"]
+    sticks = ["yaw", "heave", "sway", "surge"]      # those on the screen
+
+    [keys]
+    w = "+surge"
+    s = "-surge"
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any
+
+from ...algorithms.pilot import AXES
+from ...errors import BadSetting, did_you_mean
+
+KEYS = {
+    **{"w": "+surge", "s": "-surge", "d": "+sway", "a": "-sway", "e": "+yaw", "q": "-yaw"},
+    **{"r": "+heave", "v": "-heave", "t": "+joint1", "g": "-joint1", "y": "+joint2"},
+    **{"h": "-joint2", "u": "+joint3", "j": "-joint3", "i": "+joint4", "k": "-joint4"},
+    **{"o": "+jaw", "l": "-jaw"},
+}
+"""Key -> axis and direction; none of those by which the page itself is used."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PilotMapping:
+    """Which axis everything moves."""
+
+    keys: Mapping[str, str] = field(default_factory=lambda: KEYS)
+    """Key, as the browser names it in lower case -> axis with its sign."""
+    axes: tuple[str, ...] = ("yaw", "-heave", "sway", "-surge")
+    """Of the axes of the gamepad."""
+    buttons: tuple[str, ...] = ("", "", "", "", "", "", "-jaw", "+jaw")
+    """Of its buttons."""
+    sticks: tuple[str, ...] = ("yaw", "heave", "sway", "surge")
+    """Of the sticks on the screen: left x, left y, right x, right y."""
+    dead_zone: float = 0.08
+    """Of gamepad and sticks: less counts as none [1]."""
+
+    def values(self, said: Mapping[str, Any]) -> tuple[float, ...]:
+        """Return the value of each axis, -1..1, for a message of the page; nonsense counts as 0."""
+        total = dict.fromkeys(AXES, 0.0)
+        pressed = said.get("keys")
+        for key in pressed[:32] if isinstance(pressed, list) else ():
+            if isinstance(key, str) and key in self.keys:
+                _add(total, self.keys[key], 1.0)
+        for name in ("axes", "buttons", "sticks"):
+            numbers = said.get(name)
+            for target, number in zip(
+                getattr(self, name), numbers if isinstance(numbers, list) else (), strict=False
+            ):
+                if target and abs(value := _number(number)) > self.dead_zone:
+                    _add(total, target, value)
+        return tuple(min(1.0, max(-1.0, total[axis])) for axis in AXES)
+
+
+def read_mapping(path: Path) -> PilotMapping:
+    """Read a mapping file; what it lacks is as usual.
+
+    Raises:
+        BadSetting: it cannot be read, or names an axis that there is not.
+    """
+    try:
+        read = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise BadSetting(f"--pilot-mapping {path}: cannot be read: {error}.") from None
+    known = [each.name for each in fields(PilotMapping)]
+    for name, value in read.items():
+        if name not in known:
+            raise BadSetting(f"--pilot-mapping {path}: {name!r}?{did_you_mean(name, known)}")
+        _check(path, name, value)
+    return PilotMapping(**{k: tuple(v) if isinstance(v, list) else v for k, v in read.items()})
+
+
+def _check(path: Path, name: str, value: object) -> None:
+    if name == "dead_zone":
+        if not isinstance(value, int | float) or not 0.0 <= value < 1.0:
+            raise BadSetting(f"--pilot-mapping {path}: dead_zone is {value!r}; expected 0 to 1.")
+        return
+    targets = list(value.values()) if isinstance(value, dict) else value
+    if isinstance(value, dict) != (name == "keys") or not isinstance(targets, list):
+        raise BadSetting(f"--pilot-mapping {path}: {name} is {value!r}; see docs/piloting.md.")
+    for target in targets:
+        axis = str(target).lstrip("+-")
+        if target and axis not in AXES:
+            raise BadSetting(
+                f"--pilot-mapping {path}: {name}: no axis is called {target!r}."
+                f"{did_you_mean(axis, AXES)} Axes: {', '.join(AXES)}."
+            )
+
+
+def _add(total: dict[str, float], target: str, value: float) -> None:
+    total[target.lstrip("+-")] += -value if target.startswith("-") else value
+
+
+def _number(value: object) -> float:
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return float(value) if is_number and math.isfinite(value) else 0.0  # type: ignore[arg-type]
+
+
+def merged(by_viewer: Mapping[int, Sequence[float]]) -> tuple[float, ...] | None:
+    """Return what all pilots do together, -1..1 each; None where there is none."""
+    if not by_viewer:
+        return None
+    sums = [sum(column) for column in zip(*by_viewer.values(), strict=True)]
+    return tuple(min(1.0, max(-1.0, value)) for value in sums)
