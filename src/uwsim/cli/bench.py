@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import shutil
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -24,6 +25,7 @@ from ..terminal import warn
 from .exit_status import running
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, in_group
+from .options.live import LiveOptions
 from .options.options import (
     CodeOptions,
     ModeOption,
@@ -41,6 +43,7 @@ if TYPE_CHECKING:
     from ..runs.executors.executor import Executor, Outcome
     from ..runs.planning.plan import Plan
     from ..runs.run import Run
+    from ..runs.trial.onlooker import Onlooker
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,6 +100,7 @@ class BenchOptions:
     overwrite: Annotated[
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier result in --out.")
     ] = False
+    live: LiveOptions
     files: CodeOptions
 
     @property
@@ -135,6 +139,8 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
         with wrong.kept():
             plans.append(make_plan(options.request(name)))
     with wrong.kept():
+        check_live(options, plans)
+    with wrong.kept():
         folders = folders_of(options.algorithm or ())
     with wrong.kept():
         check(options.directory, **how, results=folders)
@@ -148,8 +154,39 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     raise_from_now_on()
     if note := repeats_note(len(plans), len(plans[0].levels()), options.repeat):
         print(note, file=sys.stderr)
-    with running(), prepared(options.directory, **how, results=folders):
+    with (
+        running(),
+        prepared(options.directory, **how, results=folders),
+        looked_at(options.live, plans) as onlooker,
+    ):
+        if onlooker is not None:
+            from ..runs.executors.executor import SerialExecutor
+
+            executor = SerialExecutor(onlooker)
         run_and_finish(runs, executor, options.by.workers, watch, context.obj)
+
+
+def check_live(options: BenchOptions, plans: Sequence[Plan]) -> None:
+    """Refuse a live view of several processes, and a pilot without one; raises BadSetting."""
+    options.live.check()
+    if options.live.view and options.by.workers not in ("0", "1"):
+        raise BadSetting("--view looks on at one process: leave out --workers.")
+    if any(map(is_piloted, plans)) and not options.live.view:
+        raise BadSetting("--algorithm pilot: add --view, the page in which the pilot acts.")
+
+
+def is_piloted(plan: Plan) -> bool:
+    """Whether somebody is to pilot now: not where inputs of an earlier run are sent again."""
+    return bool(getattr(plan.algorithm, "IS_PILOTED", False)) and not plan.inputs
+
+
+@contextmanager
+def looked_at(live: LiveOptions, plans: Sequence[Plan]) -> Iterator[Onlooker | None]:
+    """Open the live view that the options ask for; a pilot's run is in real time, and waits."""
+    pilots = any(map(is_piloted, plans))
+    title = Path(plans[0].benchmark.path).stem
+    with live.opened(title, speed=float(pilots), is_piloted=pilots, waits=pilots) as view:
+        yield view
 
 
 def run_and_finish(

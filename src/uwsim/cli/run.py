@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from contextlib import ExitStack
-from dataclasses import dataclass
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -21,6 +21,7 @@ from ..terminal import print_warnings, warn
 from .exit_status import running
 from .options.connections import ConnectionOptions, connected
 from .options.help_texts import RUN, in_group
+from .options.live import LiveOptions
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .options.run_options import ProgramOptions, RecordOptions
 from .output.progress import progress
@@ -45,6 +46,7 @@ def run(
     what: ProgramOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
+    live: LiveOptions,
     seed: Annotated[
         int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of every random stream.")
     ] = 0,
@@ -59,6 +61,9 @@ def run(
     same bytes of the recording. Without --hz and --record, images that no program reads are not
     drawn. Ctrl-C ends the run; the recording is complete up to there.
 
+    With --view the scene runs in real time and is seen in a browser, where its first vehicle is
+    piloted, unless a program runs.
+
     With a connection (--ros1, --ros2) programs outside read and write topics and call services
     while the scene runs in real time, and the run is not repeatable.
     """
@@ -71,7 +76,9 @@ def run(
         if spec is not None and no_code:
             refuse_code(spec)
     quirks = compatibility_of(changes.compat or [], wrong)
-    wanted = wanted_of(what, output, changes, connections, wrong)
+    with wrong.kept():
+        live.check()
+    wanted = wanted_of(what, output, changes, connections, live, wrong)
     wrong.check()
     assert spec is not None
     announce_code(spec)
@@ -81,8 +88,36 @@ def run(
     ) as simulation:
         print_warnings(simulation.world.warnings)
         raise_from_now_on()
-        with connected(simulation, connections):
+        pace = connections if not live.view else replace(connections, speed=0.0)
+        with connected(simulation, pace), viewed(simulation, spec, wanted, live, connections):
             run_and_report(simulation, spec, wanted, output)
+
+
+@contextmanager
+def viewed(
+    simulation: Simulation,
+    spec: SceneSpec,
+    wanted: Wanted,
+    live: LiveOptions,
+    connections: ConnectionOptions,
+) -> Iterator[None]:
+    """Open the live view that the options ask for; where no program runs its viewers pilot."""
+    from ..runs.trial.pilot_inputs import PilotInputs
+    from ..runs.trial.pilot_topics import pilot_topics
+
+    title, is_piloted = Path(spec.path).stem, wanted.program is None
+    speed = 1.0 if connections.speed is None else connections.speed
+    with live.opened(title, speed=speed, is_piloted=is_piloted) as view:
+        if view is not None:
+            if is_piloted:
+                from ..algorithms.pilot import Pilot
+
+                PilotInputs(simulation, view.pilot)
+                simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
+            view.open(simulation, title)
+        yield
+        if view is not None:
+            view.close()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,6 +139,7 @@ def wanted_of(
     output: RecordOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
+    live: LiveOptions,
     wrong: AllErrors,
 ) -> Wanted:
     """Check the options; collects their errors."""
@@ -114,7 +150,7 @@ def wanted_of(
     own = [each for each in changes.settings or () if each.startswith(OF_ALGORITHM)]
     connections.check(wrong)
     with wrong.kept():
-        is_endless = what.duration is None and connections.is_connected
+        is_endless = what.duration is None and (connections.is_connected or live.view)
         duration = math.inf if is_endless else duration_of(what.duration or "10s")
     with wrong.kept():
         if what.program is not None:

@@ -57,13 +57,16 @@ class LiveOptions:
             read_mapping(self.pilot_mapping)
 
     @contextmanager
-    def opened(self, title: str, *, speed: float, is_piloted: bool) -> Iterator[LiveView | None]:
+    def opened(
+        self, title: str, *, speed: float, is_piloted: bool, waits: bool = False
+    ) -> Iterator[LiveView | None]:
         """Open the port and print the address; None where nobody may look.
 
         Args:
             title: of the page.
             speed: simulation time a second; 0: as fast as it can.
             is_piloted: whether viewers pilot.
+            waits: whether nothing begins before somebody looks.
         """
         if not self.view:
             yield None
@@ -77,7 +80,7 @@ class LiveOptions:
         if is_piloted:
             mapping = read_mapping(self.pilot_mapping) if self.pilot_mapping else PilotMapping()
         server = LiveServer(lambda: document(title, None), self.port or 0)
-        view = LiveView(server, speed=speed, mapping=mapping)
+        view = LiveView(server, speed=speed, mapping=mapping, waits=waits)
         typer.echo(f"view: {server.url}", err=True)
         try:
             yield view

@@ -80,7 +80,8 @@ def read_mapping(path: Path) -> PilotMapping:
         if name not in known:
             raise BadSetting(f"--pilot-mapping {path}: {name!r}?{did_you_mean(name, known)}")
         _check(path, name, value)
-    return PilotMapping(**{k: tuple(v) if isinstance(v, list) else v for k, v in read.items()})
+    given: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in read.items()}
+    return PilotMapping(**given)
 
 
 def _check(path: Path, name: str, value: object) -> None:

@@ -26,7 +26,7 @@ from ...runs.trial.triggered_measure import TriggeredMeasure
 from ...simulation import Simulation
 from ...simulation.tracked_state import TrackedState
 from ...simulation.views import view_from_pose
-from .clock import Clock
+from .clock import NAP, Clock
 from .head import head_of
 from .mapping import PilotMapping, merged
 from .server import LiveServer, Message
@@ -55,6 +55,7 @@ class LiveView:
         server: to whom it is handed.
         speed: simulation time a second of the wall clock; 0: as fast as it can.
         mapping: what keys and sticks do; None: nobody pilots.
+        waits: whether a simulation does not begin before somebody looks.
         wall: returns the wall time [s].
     """
 
@@ -64,6 +65,7 @@ class LiveView:
         *,
         speed: float = 1.0,
         mapping: PilotMapping | None = None,
+        waits: bool = False,
         wall: Callable[[], float] = time.monotonic,
     ) -> None:
         self._server, self._wall = server, wall
@@ -76,20 +78,22 @@ class LiveView:
         self._n_batches = 0
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0}
         self._views: dict[int, Message] = {}
-        self._mapping = mapping
+        self._mapping, self._waits = mapping, waits
         self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
 
     def open(self, simulation: Simulation, title: str) -> None:
         """Show a simulation from now on; it is at step 0."""
         self._simulation, self._state = simulation, TrackedState(simulation.world)
-        self._clock.begin(simulation.time)
         self._levels, self._measures = [], ()
         self._due = dict.fromkeys(self._due, 0.0)
         self._server.forget(lambda channel: channel != "state")
         head = head_of(simulation, title, self._state)
         self._server.publish("head", HEADER.pack(0, 0, 0, 0, 0.0) + head)
         self._say_state()
-        self._look()
+        self._hand_over()
+        while self._waits and not self._server.n_viewers:
+            time.sleep(NAP)
+        self._clock.begin(simulation.time)
         simulation.watch(self._look)
 
     def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
@@ -172,7 +176,9 @@ class LiveView:
         for gated in self._measures:
             name, unit = gated.spec.name, gated.measure.unit
             first = self._taken.get(name, 0)
-            samples += [(name, unit, began + (each[0] or 0.0), each[1]) for each in gated.log[first:]]
+            samples += [
+                (name, unit, began + (each[0] or 0.0), each[1]) for each in gated.log[first:]
+            ]
             self._taken[name] = len(gated.log)
         if samples:
             text = json.dumps({"type": "samples", "samples": samples})
