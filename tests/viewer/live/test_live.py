@@ -1,0 +1,260 @@
+"""The live view: what viewers get, what they may say, and that they change nothing."""
+
+import gzip
+import http.client
+import json
+import struct
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import ClientConnection, connect
+
+from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
+from uwsim.algorithms.pilot import AXES
+from uwsim.errors import BadSetting
+from uwsim.results import journal
+from uwsim.results.result_file import load
+from uwsim.runs.executors.executor import SerialExecutor, run_all
+from uwsim.viewer.live.clock import Clock
+from uwsim.viewer.live.mapping import KEYS, PilotMapping, merged, read_mapping
+from uwsim.viewer.live.server import MAX_MESSAGES, LiveServer
+from uwsim.viewer.live.view import LiveView
+
+WAIT = 60.0
+"""Bound on hanging [s]."""
+
+
+@pytest.fixture
+def server() -> Iterator[LiveServer]:
+    made = LiveServer(lambda: "<p>page</p>")
+    yield made
+    made.close()
+
+
+def socket_of(server: LiveServer, **options: Any) -> ClientConnection:
+    url = server.url.replace("http://", "ws://").replace("/?", "/socket?")
+    return connect(url, open_timeout=WAIT, max_size=None, **options)
+
+
+def get(server: LiveServer, path: str) -> tuple[int, str]:
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=WAIT)
+    connection.request("GET", path)
+    answer = connection.getresponse()
+    body = answer.read().decode()
+    connection.close()
+    return answer.status, body
+
+
+def test_the_page_needs_the_token_of_the_address(server: LiveServer) -> None:
+    assert get(server, server.url.partition(str(server.port))[2]) == (200, "<p>page</p>")
+    for path in ("/", "/?token=guess", "/socket", "/?token=%C3%A9"):
+        assert get(server, path)[0] == 403
+    assert get(server, "/other?" + server.url.partition("?")[2])[0] == 404
+
+
+def test_a_socket_needs_the_token_and_the_origin_of_the_page(server: LiveServer) -> None:
+    with pytest.raises(InvalidStatus), socket_of(server, origin="http://elsewhere.example"):
+        pass
+    with pytest.raises(InvalidStatus), connect(f"ws://127.0.0.1:{server.port}/socket?token=x"):
+        pass
+    server.publish("head", b"head")
+    with socket_of(server, origin=f"http://127.0.0.1:{server.port}") as socket:
+        assert socket.recv(timeout=WAIT) == b"head"
+
+
+def test_whoever_comes_gets_the_newest_of_each_channel_oldest_first(server: LiveServer) -> None:
+    server.publish("head", b"head")
+    for k in range(5):
+        server.publish("row", b"%d" % k)
+    server.publish("?image/a", b"image")
+    with socket_of(server) as one, socket_of(server) as two:
+        for socket in (one, two):
+            assert [socket.recv(timeout=WAIT) for _ in range(2)] == [b"head", b"4"]
+        one.send(json.dumps({"type": "images", "cameras": ["a"]}))
+        server_has(server, 1)
+        server.publish("?image/a", b"newer")
+        assert one.recv(timeout=WAIT) == b"newer"
+        server.publish("row", b"5")
+        assert two.recv(timeout=WAIT) == b"5"
+
+
+def server_has(server: LiveServer, n: int) -> list[tuple[int, dict[str, Any]]]:
+    """Wait until viewers have said n things."""
+    found: list[tuple[int, dict[str, Any]]] = []
+    pause = threading.Event()
+    for _ in range(6000):
+        found += server.messages()
+        if len(found) >= n:
+            return found
+        pause.wait(0.01)
+    raise AssertionError(f"only {len(found)} messages came")
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["x" * 5000, "no json", "[1]", '{"type": 3}', b"bytes", "[" * 4000],
+    ids=["long", "text", "list", "number", "bytes", "deep"],
+)
+def test_a_viewer_who_says_nonsense_is_disconnected_and_the_others_stay(
+    server: LiveServer, said: str | bytes
+) -> None:
+    server.publish("row", b"1")
+    with socket_of(server) as good, socket_of(server) as bad:
+        assert good.recv(timeout=WAIT) == bad.recv(timeout=WAIT) == b"1"
+        bad.send(said)
+        with pytest.raises(ConnectionClosed):
+            bad.recv(timeout=WAIT)
+        server.publish("row", b"2")
+        assert good.recv(timeout=WAIT) == b"2"
+
+
+def test_a_viewer_who_says_too_much_is_disconnected(server: LiveServer) -> None:
+    with socket_of(server) as socket, pytest.raises(ConnectionClosed):
+        say_much(socket)
+
+
+def say_much(socket: ClientConnection) -> None:
+    for _ in range(100 * MAX_MESSAGES):
+        socket.send('{"type": "input"}')
+    socket.recv(timeout=WAIT)
+
+
+def test_a_reader_who_stalls_costs_nothing_and_the_others_go_on(server: LiveServer) -> None:
+    big = bytes(200_000)
+    with socket_of(server) as good, socket_of(server, max_queue=1) as stalled:
+        assert stalled is not None
+        for k in range(50):
+            server.publish("row", struct.pack("<I", k) + big)
+        last = -1
+        while last < 49:
+            data = good.recv(timeout=WAIT)
+            assert isinstance(data, bytes)
+            (last,) = struct.unpack_from("<I", data)
+
+
+def test_a_port_that_is_taken_is_said_in_a_line(server: LiveServer) -> None:
+    with pytest.raises(BadSetting, match=rf"--port {server.port}: cannot be opened: .*in use"):
+        LiveServer(lambda: "", server.port)
+
+
+def test_a_clock_waits_for_the_wall_and_single_steps_are_counted() -> None:
+    now = [0.0]
+    clock = Clock(2.0, lambda: now[0], lambda seconds: now.__setitem__(0, now[0] + seconds))
+    clock.begin(0.0)
+    assert not clock.waits(0.0)
+    while clock.waits(1.0):
+        clock.sleep(1.0)
+    assert now[0] == pytest.approx(0.5, abs=0.01)
+    assert clock.control({"action": "step"})
+    assert not clock.waits(9.0)
+    clock.stepped()
+    assert clock.waits(9.0)
+    assert clock.control({"action": "play"})
+    assert clock.control({"action": "speed", "speed": 0})
+    assert not clock.waits(99.0)
+    assert not clock.control({"action": "speed", "speed": "fast"})
+    assert not clock.control({"action": "reset"})
+
+
+def test_keys_gamepad_and_sticks_become_axes_and_nonsense_counts_as_nothing() -> None:
+    mapping = PilotMapping()
+    at = AXES.index
+    values = mapping.values({"keys": ["w", "q", "?"], "axes": [0.05, 0.5], "sticks": [0, 0, 1, 1]})
+    assert values[at("surge")] == 1.0
+    assert values[at("yaw")] == -1.0
+    assert values[at("heave")] == -0.5
+    assert values[at("sway")] == 1.0
+    odd = {"keys": "w", "axes": [None, float("nan"), "1"], "buttons": {}, "sticks": [True]}
+    assert not any(mapping.values(odd))
+    assert merged({}) is None
+    assert merged({1: values, 2: values})[at("heave")] == -1.0  # type: ignore[index]
+    assert not {"f", "c", "1", "2", "3"} & KEYS.keys()  # those of the page
+
+
+def test_a_mapping_file_changes_what_it_names_and_errors_name_the_nearest(tmp_path: Path) -> None:
+    path = tmp_path / "mapping.toml"
+    path.write_text('dead_zone = 0.2\naxes = ["surge"]\n[keys]\nz = "+jaw"\n')
+    mapping = read_mapping(path)
+    assert mapping.values({"keys": ["z", "w"], "axes": [0.5]})[:1] == (0.5,)
+    assert mapping.sticks == PilotMapping().sticks
+    for text, said in [
+        ('axes = ["surg"]', "Did you mean 'surge'"),
+        ("dead_zone = 2", "expected 0 to 1"),
+        ("key = 1", "Did you mean 'keys'"),
+        ('keys = ["w"]', "keys is"),
+        ("[", "cannot be read"),
+    ]:
+        path.write_text(text)
+        with pytest.raises(BadSetting, match="--pilot-mapping") as error:
+            read_mapping(path)
+        assert said in str(error.value)
+
+
+def test_a_bench_with_a_viewer_has_the_bytes_of_one_without(
+    server: LiveServer, tmp_path: Path
+) -> None:
+    benchmark = write_benchmark(tmp_path, "0.2")
+    run(benchmark, tmp_path / "without")
+    view = LiveView(server, speed=0.0)
+    with socket_of(server) as socket:
+        socket.send(json.dumps({"type": "images", "cameras": ["bowtech1"]}))
+        run_all([bench_of(benchmark, tmp_path / "with")], SerialExecutor(view))
+        view.end("over")
+        heard: list[Any] = []
+        while not heard or "over" not in str(heard[-1]):
+            heard.append(socket.recv(timeout=WAIT))
+    assert fingerprint(tmp_path / "with") == fingerprint(tmp_path / "without")
+    kinds = {data[0] for data in heard if isinstance(data, bytes)}
+    assert {0, 1} <= kinds
+    head = next(data for data in heard if isinstance(data, bytes) and data[0] == 0)
+    content = gzip.decompress(head[16:])
+    (length,) = struct.unpack_from("<I", content)
+    motion = json.loads(content[4 : 4 + length])["motion"]
+    row = [data for data in heard if isinstance(data, bytes) and data[0] == 1][-1]
+    assert len(np.frombuffer(row, "<f4", offset=16)) == 7 * len(motion["bodies"]) + len(
+        motion["signals"]
+    )
+    texts = [json.loads(data) for data in heard if isinstance(data, str)]
+    levels = [text["levels"] for text in texts if text["type"] == "levels"][-1]
+    assert [level["label"] for level in levels] == ["fog 0", "fog 0.4", "fog 0.8"]
+
+
+class Scribble:
+    """A pilot whose hand is a function of how often it is asked."""
+
+    def __init__(self) -> None:
+        self.n = 0
+
+    def __call__(self) -> tuple[float, ...]:
+        self.n += 1
+        values = [0.0] * len(AXES)
+        values[0], values[5] = (self.n % 7) / 7.0, ((self.n // 3) % 5) / 5.0 - 0.4
+        return tuple(values)
+
+
+def test_a_pilots_run_is_stored_and_sent_again_with_the_same_bytes(
+    server: LiveServer, tmp_path: Path
+) -> None:
+    text = write_benchmark(tmp_path, "0.2").read_text()
+    benchmark = tmp_path / "pilot.xml"
+    benchmark.write_text(text.replace("visibility-scene.xml", "currents-scene.xml"))
+    view = LiveView(server, speed=0.0, mapping=PilotMapping())
+    view.pilot = Scribble()  # type: ignore[method-assign]
+    settings, levels = ["algorithm.speed=0.8"], ["fog=0.4"]
+    flown = bench_of(
+        benchmark, tmp_path / "flown", algorithm="pilot", settings=settings, levels=levels
+    )
+    run_all([flown], SerialExecutor(view))
+    stored = journal.path_of(tmp_path / "flown", 0).with_suffix(journal.INPUTS)
+    head, *lines = stored.read_text().splitlines()
+    assert json.loads(head)["axes"] == list(AXES)
+    assert len(lines) >= 5
+    stored_again = f"scripted:{tmp_path / 'flown'}"
+    run(benchmark, tmp_path / "again", algorithm=stored_again, levels=levels)
+    assert fingerprint(tmp_path / "again") == fingerprint(tmp_path / "flown")
+    assert load(tmp_path / "again").run.algorithm == "pilot"
