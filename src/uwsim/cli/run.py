@@ -78,7 +78,7 @@ def run(
     quirks = compatibility_of(changes.compat or [], wrong)
     with wrong.kept():
         live.check()
-    wanted = wanted_of(what, output, changes, connections, live, wrong)
+    wanted = wanted_of(what, output, changes, connections, wrong, is_viewed=live.view)
     wrong.check()
     assert spec is not None
     announce_code(spec)
@@ -139,8 +139,9 @@ def wanted_of(
     output: RecordOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
-    live: LiveOptions,
     wrong: AllErrors,
+    *,
+    is_viewed: bool = False,
 ) -> Wanted:
     """Check the options; collects their errors."""
     from ..algorithms import ALGORITHMS
@@ -150,7 +151,7 @@ def wanted_of(
     own = [each for each in changes.settings or () if each.startswith(OF_ALGORITHM)]
     connections.check(wrong)
     with wrong.kept():
-        is_endless = what.duration is None and (connections.is_connected or live.view)
+        is_endless = what.duration is None and (connections.is_connected or is_viewed)
         duration = math.inf if is_endless else duration_of(what.duration or "10s")
     with wrong.kept():
         if what.program is not None:
