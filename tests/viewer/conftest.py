@@ -25,9 +25,12 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "result"
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """Chromium; the test is skipped where there is none."""
+    """Chromium; the test is skipped where there is none.
+
+    Of a module and no longer: while playwright is open, no test can run an event loop.
+    """
     api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     if not shutil.which(CHROMIUM):
         pytest.skip(f"{CHROMIUM} is not installed (Debian: apt-get install chromium)")

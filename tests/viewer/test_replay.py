@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.short_benchmark import run, write_benchmark
+from tests.short_trial import DATA
 from uwsim.errors import ResultError
 from uwsim.results.log import load_log
 from uwsim.viewer.document import FOLDER, document
@@ -69,3 +71,18 @@ def test_the_script_is_small_and_names_its_licences() -> None:
     script = FOLDER / "page.js"
     assert script.stat().st_size < 700_000
     assert "The MIT License" in script.read_text(encoding="utf-8")
+
+
+def test_what_a_seed_puts_elsewhere_is_there(tmp_path: Path) -> None:
+    scene = (DATA / "scenes" / "visibility-scene.xml").read_text(encoding="utf-8")
+    drawn = "<u:path>object[blackbox].position.x</u:path><u:low>1.9</u:low><u:high>2.1</u:high>"
+    vary = f'<u:vary xmlns:u="urn:uwsim:1"><u:uniform>{drawn}</u:uniform></u:vary></UWSimScene>'
+    (tmp_path / "visibility-scene.xml").write_text(scene.replace("</UWSimScene>", vary))
+    benchmark = write_benchmark(tmp_path, "0.1")
+    run(benchmark, tmp_path / "result", repeat=2)
+    head, _ = unpacked(Replay(tmp_path / "result").pack())
+    at_first = next(body["pose"] for body in head["bodies"] if body["name"] == "blackbox")
+    first, second = head["trials"]
+    assert first["poses"] == {}
+    assert list(second["poses"]) == ["blackbox"]
+    assert second["poses"]["blackbox"] != at_first

@@ -39,7 +39,8 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
     suns        {name: {direction, colour}}; ambient, specular: constants of the law
     localized   pose of the frame L in W
     estimates   [{camera, truth: signals, estimate: signals}] quadrangles in images [px]
-    trials      replays only: [{title, motion: ref u1 or null, levels, curves}]
+    trials      replays only: [{title, motion: ref u1 or null, levels, curves, poses}]
+                  poses: {body: pose} of bodies that this seed puts elsewhere at step 0
 
     levels      [{label, status, why, start, end, values: {fog: ...}}]  [s of simulation time]
     curves      [{name, unit, times: ref u4 [0.1 ms], values: ref f4}]  NaN: nothing was measured
@@ -187,6 +188,14 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
     }
 
 
+def body_poses(simulation: Simulation) -> dict[str, list[float]]:
+    """Return where all bodies of the head are now: name -> x y z w x y z."""
+    bodies = _Bodies(simulation.world)
+    for part in simulation.world.scenery.parts:
+        bodies.of(part)
+    return {row["name"]: row["pose"] for row in bodies.rows}
+
+
 class _Bodies:
     """The bodies that the page draws, or that something is mounted on.
 
@@ -216,13 +225,16 @@ class _Bodies:
         """Return where a body is, by the name that `link` returned."""
         return self._poses[name]
 
+    def of(self, part: Part) -> str:
+        """Return the body of a part of the scene, which is among the bodies from now on."""
+        if part.vehicle is not None:
+            return self.link(part.vehicle, part.link)
+        assert part.object is not None
+        return self._body(part.name, self._world.state.poses.object(part.object), None)
+
     def add(self, part: Part, models: Models) -> None:
         """Add a part of the scene."""
-        if part.vehicle is not None:
-            name = self.link(part.vehicle, part.link)
-        else:
-            assert part.object is not None
-            name = self._body(part.name, self._world.state.poses.object(part.object), None)
+        name = self.of(part)
         body_from_mesh = product(
             self._poses[name].inverse().matrix, self._world.scenery.world_from_mesh(part)
         )

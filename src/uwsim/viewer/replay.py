@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from ..results.atomic_file import write_text
 from ..simulation import Simulation
 from ..verify.recorded_plan import FileOverrides
 from .document import document
-from .head import scene_head
+from .head import body_poses, scene_head
 from .pack import Blob, packed
 from .recorded import RecordedLevel, RecordedTrial, trials_of
 
@@ -64,17 +64,21 @@ class Replay:
     def pack(self) -> bytes:
         """Return what the page shows (`head`)."""
         blob, first = Blob(), self._trials[0]
-        with Simulation(
-            first.scene,
-            seed=first.seed,
-            timestep=first.timestep,
-            data_path=first.data_path,
-            compatibility=first.compatibility,
-            runs_code=False,
-        ) as simulation:
+        with _scene_of(first) as simulation:
             head = scene_head(simulation, self.title, blob)
         head["trials"] = [_trial(trial, blob) for trial in self._trials]
+        at_first = {body["name"]: body["pose"] for body in head["bodies"]}
+        placed = {seed: _moved(trial, at_first) for seed, trial in self._varied().items()}
+        for trial, described in zip(self._trials, head["trials"], strict=True):
+            described["poses"] = placed.get(trial.seed, {})
         return packed(head, blob)
+
+    def _varied(self) -> dict[int, RecordedTrial]:
+        """Seeds of which the scene differs from that of the first trial, with a trial of each."""
+        first = self._trials[0]
+        if not first.scene.vary:
+            return {}
+        return {trial.seed: trial for trial in self._trials if trial.seed != first.seed}
 
     def html(self) -> str:
         """Return the page, which needs nothing else."""
@@ -98,6 +102,25 @@ class Replay:
         return (
             f'<iframe srcdoc="{page}" style="{style}" title="{html.escape(self.title)}"></iframe>'
         )
+
+
+def _scene_of(trial: RecordedTrial) -> Simulation:
+    """Open the scene of a trial, at step 0."""
+    return Simulation(
+        trial.scene,
+        seed=trial.seed,
+        timestep=trial.timestep,
+        data_path=trial.data_path,
+        compatibility=trial.compatibility,
+        runs_code=False,
+    )
+
+
+def _moved(trial: RecordedTrial, at_first: Mapping[str, list[float]]) -> Json:
+    """Return the bodies that a trial's seed puts elsewhere, with their poses."""
+    with _scene_of(trial) as simulation:
+        poses = body_poses(simulation)
+    return {name: pose for name, pose in poses.items() if pose != at_first.get(name)}
 
 
 def _trial(trial: RecordedTrial, blob: Blob) -> Json:

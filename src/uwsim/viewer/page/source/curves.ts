@@ -31,6 +31,7 @@ export class Curves {
     private readonly place: HTMLElement,
     private readonly seek: (time: number) => void,
   ) {
+    this.set([]);
     new ResizeObserver(() => this.resize()).observe(place);
   }
 
@@ -38,12 +39,11 @@ export class Curves {
     for (const { plot } of this.charts) plot.destroy();
     this.place.replaceChildren();
     this.charts = curves.map((curve, i) => this.chart(curve, i));
-    if (!curves.length) {
-      const none = document.createElement("p");
-      none.className = "none";
-      none.textContent = "No measure keeps a log (<log> in the benchmark).";
-      this.place.append(none);
-    }
+    if (curves.length) return;
+    const none = document.createElement("p");
+    none.className = "none";
+    none.textContent = "No measure has a log.";
+    this.place.append(none);
   }
 
   /** Move the cursor; new samples of a live run are drawn, too. */

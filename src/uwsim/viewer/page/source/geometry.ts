@@ -45,6 +45,22 @@ export function fromPose(pose: Pose, at = 0): Matrix {
   ]);
 }
 
+/** x y z w x y z of a rotation and a shift. */
+export function toPose(m: Matrix): number[] {
+  const signs = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]; // of w, x, y, z
+  const squares = signs.map(([a, b, c]) => Math.max(0, 1 + a * m[0] + b * m[5] + c * m[10]));
+  const [w, x, y, z] = squares.map((square) => Math.sqrt(square) / 2);
+  const largest = squares.indexOf(Math.max(...squares));
+  const pairs: number[][] = [
+    [1, m[9] - m[6], m[2] - m[8], m[4] - m[1]],
+    [m[9] - m[6], 1, m[1] + m[4], m[2] + m[8]],
+    [m[2] - m[8], m[1] + m[4], 1, m[6] + m[9]],
+    [m[4] - m[1], m[2] + m[8], m[6] + m[9], 1],
+  ];
+  const q = [w, x, y, z].map((value, i) => value * (pairs[largest][i] < 0 ? -1 : 1));
+  return [m[3], m[7], m[11], ...q];
+}
+
 /** The inverse of a rotation and a shift. */
 export function inverse(m: Matrix): Matrix {
   const back = (i: number): number => -(m[i] * m[3] + m[4 + i] * m[7] + m[8 + i] * m[11]);

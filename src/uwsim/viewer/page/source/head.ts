@@ -90,6 +90,7 @@ export interface Curve {
 
 export interface Trial {
   title: string;
+  poses?: Record<string, number[]>;
   motion: Ref | null;
   levels: Level[];
   curves: Curve[];

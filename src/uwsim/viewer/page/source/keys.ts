@@ -30,6 +30,11 @@ export class Keyboard {
       },
       { passive: false },
     );
+    this.help();
+  }
+
+  /** Write the list of keys; those of a pilot are known later. */
+  help(): void {
     fillHelp(this.groups());
   }
 
@@ -61,7 +66,9 @@ export class Keyboard {
     if (isField && !/^[a-z?]$/.test(event.key)) return;
     if (event.key === " " && target instanceof HTMLButtonElement) return;
     if (page.link?.takes(event)) return;
-    const act = this.actions()[event.key];
+    // while somebody pilots, the page's own letters are typed with Shift
+    const key = page.link?.pilot.isOn && event.shiftKey ? event.key.toLowerCase() : event.key;
+    const act = this.actions()[key];
     if (!act) return;
     event.preventDefault();
     act();
@@ -77,6 +84,7 @@ export class Keyboard {
     };
     const sun = (number: number) => () => {
       page.switches.sun = SUNS[number];
+      page.draw();
     };
     return {
       " ": () => page.play(),

@@ -1,11 +1,15 @@
 // The live view: what a running simulation sends, and what is sent to it (viewer/head.py).
 import type { Level } from "./head";
+import { toPose } from "./geometry";
 import type { Page } from "./main";
 import { unpack, type Pack } from "./pack";
 import type { Stream } from "./player";
+import { element } from "./panels";
 import { Pilot } from "./pilot";
+import type { Sight } from "./views";
 
 const HEADER = 16;
+const MAX_WIDTH = 640; // of an image that the server draws
 
 type Message =
   | { type: "state"; paused: boolean; speed: number; pilot: boolean; mapping?: Record<string, string> }
@@ -17,20 +21,42 @@ export class Link {
   readonly pilot = new Pilot((message) => this.send(message));
   private page: Page | null = null;
   private stream: Stream | null = null;
+  private asked = "";
 
   constructor(
     private readonly socket: WebSocket,
     readonly pack: Pack,
+    private readonly early: MessageEvent<ArrayBuffer | string>[],
+    /** Whether the server draws, because this browser cannot. */
+    private readonly isDrawnThere: boolean,
   ) {
-    socket.onmessage = (event) => this.receive(event);
     socket.onclose = () => this.end("The simulation has ended.");
   }
 
   begin(page: Page, stream: Stream): void {
     this.page = page;
     this.stream = stream;
-    page.isPlaying = true;
-    this.send({ type: "images", cameras: this.pack.head.cameras.map(({ name }) => name), rate: 10 });
+    for (const event of this.early) this.receive(event);
+    this.socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => this.receive(event);
+    this.subscribe(page.switches.pictures);
+  }
+
+  /** Ask for the images of the cameras, or for none. */
+  subscribe(on: boolean): void {
+    const cameras = on ? this.pack.head.cameras.map(({ name }) => name) : [];
+    this.send({ type: "images", cameras, rate: 10 });
+  }
+
+  /** Ask for an image of what is looked at, where this browser cannot draw it. */
+  ask({ worldFromCamera, camera, lens }: Sight): void {
+    if (!this.isDrawnThere) return;
+    const share = Math.min(1, MAX_WIDTH / lens.width);
+    const [width, height] = [lens.width, lens.height].map((size) => Math.round(share * size));
+    const pose = toPose(worldFromCamera).map((value) => Math.round(1e4 * value) / 1e4);
+    const message = { type: "view", camera: camera?.name ?? null, pose, width, height };
+    const text = JSON.stringify(message);
+    if (text !== this.asked) this.send(message);
+    this.asked = text;
   }
 
   control(action: string, speed?: number): void {
@@ -56,15 +82,17 @@ export class Link {
     if (typeof event.data === "string") return this.hear(JSON.parse(event.data) as Message, page, stream);
     const view = new DataView(event.data);
     const [kind, index] = [view.getUint8(0), view.getUint8(1)];
+    if (kind === 0) location.reload(); // another scene has begun
     if (kind === 1) stream.push(view.getFloat64(8, true), new Float32Array(event.data, HEADER));
     if (kind === 2) this.showImage(page.picture.frame(index), event.data.slice(HEADER), index);
+    if (kind === 3 && this.isDrawnThere) this.showView(event.data.slice(HEADER));
   }
 
   private hear(message: Message, page: Page, stream: Stream): void {
     if (message.type === "state") {
-      page.isPlaying = !message.paused;
-      document.getElementById("play")!.textContent = message.paused ? "Play" : "Pause";
+      page.isTold(message.paused, message.speed);
       this.pilot.enable(message.pilot, message.mapping ?? {});
+      page.keyboard.help();
     } else if (message.type === "levels") stream.setLevels(message.levels);
     else if (message.type === "samples") for (const each of message.samples) stream.sample(...each);
     else if (message.type === "end") this.end(message.why);
@@ -79,28 +107,45 @@ export class Link {
       frame.prepend(image);
       frame.querySelector("figcaption")!.textContent = this.pack.head.cameras[index].name;
     }
-    const before = image.src;
-    image.src = URL.createObjectURL(new Blob([data], { type: "image/jpeg" }));
-    if (before) URL.revokeObjectURL(before);
+    show(image, data);
+  }
+
+  private showView(data: ArrayBuffer): void {
+    const image = element<HTMLImageElement>("stream");
+    image.hidden = false;
+    show(image, data);
   }
 
   private end(why: string): void {
-    document.getElementById("message")!.textContent = why;
+    element("message").textContent = why;
     if (this.page) this.page.isPlaying = false;
   }
 }
 
-/** Open the socket that the page came from; resolves when the head has arrived. */
-export function connect(): Promise<Link> {
+function show(image: HTMLImageElement, data: ArrayBuffer): void {
+  const before = image.src;
+  image.src = URL.createObjectURL(new Blob([data], { type: "image/jpeg" }));
+  if (before) URL.revokeObjectURL(before);
+}
+
+/** Open the socket of the server that the page came from; resolves when the head has arrived. */
+export function connect(isDrawnThere: boolean): Promise<Link> {
   const scheme = location.protocol === "https:" ? "wss:" : "ws:";
   const socket = new WebSocket(`${scheme}//${location.host}/socket${location.search}`);
   socket.binaryType = "arraybuffer";
   return new Promise((resolve, reject) => {
-    socket.onerror = () => reject(new Error("The simulation cannot be reached."));
-    socket.onmessage = (event: MessageEvent<ArrayBuffer>) => {
-      if (typeof event.data === "string" || new DataView(event.data).getUint8(0) !== 0) return;
-      unpack(new Uint8Array(event.data.slice(HEADER))).then(
-        (pack) => resolve(new Link(socket, pack)), reject,
+    const early: MessageEvent<ArrayBuffer | string>[] = [];
+    let isThere = false;
+    socket.onerror = socket.onclose = () => reject(new Error("The simulation cannot be reached."));
+    socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
+      const { data } = event;
+      if (isThere || typeof data === "string" || new DataView(data).getUint8(0) !== 0) {
+        early.push(event);
+        return;
+      }
+      isThere = true;
+      unpack(new Uint8Array(data.slice(HEADER))).then(
+        (pack) => resolve(new Link(socket, pack, early, isDrawnThere)), reject,
       );
     };
   });

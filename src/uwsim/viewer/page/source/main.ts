@@ -22,6 +22,7 @@ export class Page {
   private readonly curves = new Curves(element("curves"), (time) => this.seek(time));
   private readonly levels: LevelList;
   private readonly thrusters: Thrusters;
+  readonly keyboard: Keyboard;
   private last = performance.now();
   private drawn = "";
 
@@ -34,6 +35,7 @@ export class Page {
   ) {
     this.levels = new LevelList(player, (index) => void this.go(index));
     this.thrusters = new Thrusters(pack.head);
+    this.keyboard = new Keyboard(this);
     this.build();
     requestAnimationFrame((now) => this.tick(now));
   }
@@ -75,10 +77,17 @@ export class Page {
     else this.seek(this.time + direction / 30);
   }
 
-  setSpeed(speed: number): void {
+  setSpeed(speed: number, tell = true): void {
     this.speed = speed;
     element<HTMLSelectElement>("speed").value = String(speed);
-    this.link?.control("speed", speed);
+    if (tell) this.link?.control("speed", speed);
+  }
+
+  /** What a running simulation says of itself. */
+  isTold(paused: boolean, speed: number): void {
+    this.isPlaying = !paused;
+    element("play").textContent = paused ? "Play" : "Pause";
+    this.setSpeed(speed, false);
   }
 
   faster(direction: number): void {
@@ -96,6 +105,7 @@ export class Page {
 
   toggle(name: "clear" | "pictures" | "frames" | "labels" | "trails" | "sonars"): void {
     this.switches[name] = !this.switches[name];
+    this.link?.subscribe(this.switches.pictures);
     this.refresh();
   }
 
@@ -114,7 +124,8 @@ export class Page {
   draw(): void {
     if (this.player.isLive) this.time = this.player.end;
     const moment = this.player.moment(this.time);
-    this.picture.draw(this.player, moment, this.views, this.switches);
+    const sight = this.picture.draw(this.player, moment, this.views, this.switches);
+    if (sight) this.link?.ask(sight);
     this.levels.show(this.time);
     this.curves.show(this.time, this.player.curves);
     this.thrusters.show(moment);
@@ -194,7 +205,7 @@ export class Page {
     const speeds = element<HTMLSelectElement>("speed");
     for (const speed of SPEEDS) speeds.append(new Option(`${speed}×`, String(speed)));
     speeds.addEventListener("change", () => this.setSpeed(Number(speeds.value)));
-    this.setSpeed(1);
+    this.setSpeed(1, false);
     const line = element<HTMLInputElement>("time");
     line.addEventListener("input", () => this.seek(Number(line.value)));
     element("play").addEventListener("click", () => this.play());
@@ -202,7 +213,6 @@ export class Page {
     element("back").addEventListener("click", () => this.step(-1));
     element("back").hidden = element("line").hidden = this.player.isLive;
     element("help-button").addEventListener("click", toggleHelp);
-    new Keyboard(this);
     this.refresh();
   }
 }
@@ -241,10 +251,9 @@ async function begin(): Promise<void> {
   message.textContent = "Loading…";
   try {
     const data = document.getElementById("pack");
-    const link = data ? null : await connect();
-    const pack = link ? link.pack : await unpack(fromBase64(data!.textContent ?? ""));
     const gl = graphics(element<HTMLCanvasElement>("image"));
-    if (!gl) throw new Error("This browser has no WebGL 2.");
+    const link = data ? null : await connect(gl === null);
+    const pack = link ? link.pack : await unpack(fromBase64(data!.textContent ?? ""));
     const picture = await Picture.make(gl, pack);
     const player: Player = link ? new Stream(pack.head) : new Replay(pack);
     const page = new Page(pack, player, picture, new Views(pack.head, picture.models), link);
@@ -254,7 +263,8 @@ async function begin(): Promise<void> {
       await page.select(player.levels[wanted]?.trial ?? 0);
       page.seek(player.levels[wanted] ? player.levels[wanted].level.start : player.start);
     }
-    message.textContent = "";
+    const without = link ? "" : "This browser has no WebGL 2: levels and curves alone are shown.";
+    message.textContent = gl ? "" : without;
     expose(page);
   } catch (error) {
     message.textContent = error instanceof Error ? error.message : String(error);

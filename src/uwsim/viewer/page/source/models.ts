@@ -30,7 +30,7 @@ export class Instance {
     readonly number: number,
     readonly visual: Visual,
     readonly body: string,
-    readonly array: WebGLVertexArrayObject,
+    readonly array: WebGLVertexArrayObject | null,
     readonly texture: WebGLTexture | null,
     readonly repeats: boolean,
     readonly wide: boolean,
@@ -84,8 +84,11 @@ export class Models {
 
   private constructor(private readonly head: Head) {}
 
-  static async load(gl: WebGL2RenderingContext, pack: Pack): Promise<Models> {
+  /** Without WebGL only the places of bodies are known. */
+  static async load(gl: WebGL2RenderingContext | null, pack: Pack): Promise<Models> {
     const models = new Models(pack.head);
+    models.place(new Map());
+    if (!gl) return models;
     const { meshes, textures, bodies, projector } = pack.head;
     const images = await Promise.all(
       textures.map((each, i) => loadTexture(gl, pack, i, i !== projector?.pattern && each.repeats)),

@@ -130,10 +130,15 @@ export type Keys = { keys: string; does: string }[];
 
 export function fillHelp(groups: Record<string, Keys>): void {
   const dialog = element<HTMLDialogElement>("help");
+  dialog.replaceChildren();
+  const columns = make("div", "", "columns");
+  dialog.append(columns);
   for (const [title, keys] of Object.entries(groups)) {
     const list = make("dl");
     for (const each of keys) list.append(make("dt", each.keys), make("dd", each.does));
-    dialog.append(make("h2", title), list);
+    const group = make("section");
+    group.append(make("h2", title), list);
+    columns.append(group);
   }
   const close = make("button", "Close");
   close.addEventListener("click", () => dialog.close());

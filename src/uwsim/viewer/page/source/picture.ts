@@ -7,7 +7,7 @@ import type { Pack } from "./pack";
 import { element, indexAt, make } from "./panels";
 import type { Moment, Player } from "./player";
 import { Renderer } from "./renderer";
-import { inside, type Views } from "./views";
+import { inside, type Sight, type Views } from "./views";
 import type { Lens } from "./geometry";
 
 const PICTURE_HEIGHT = 150;
@@ -38,15 +38,15 @@ export function graphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | nu
 export class Picture {
   readonly canvas = element<HTMLCanvasElement>("image");
   private readonly overlay = element<HTMLCanvasElement>("overlay");
-  private readonly renderer: Renderer;
+  private readonly renderer: Renderer | null;
   private readonly frames: HTMLElement[] = [];
 
   private constructor(
-    private readonly gl: WebGL2RenderingContext,
+    private readonly gl: WebGL2RenderingContext | null,
     private readonly head: Head,
     readonly models: Models,
   ) {
-    this.renderer = new Renderer(gl, head, models);
+    this.renderer = gl && new Renderer(gl, head, models);
     for (const camera of head.cameras) {
       const frame = make("figure");
       frame.append(make("figcaption", `${camera.name} · redrawn, no noise`));
@@ -57,15 +57,17 @@ export class Picture {
     }
   }
 
-  static async make(gl: WebGL2RenderingContext, pack: Pack): Promise<Picture> {
+  /** Without WebGL lines and names alone are drawn, over what a live view sends. */
+  static async make(gl: WebGL2RenderingContext | null, pack: Pack): Promise<Picture> {
     return new Picture(gl, pack.head, await Models.load(gl, pack));
   }
 
-  draw(player: Player, moment: Moment, views: Views, switches: Switches): void {
+  /** Draw it all; returns from where, null while nothing is to be seen. */
+  draw(player: Player, moment: Moment, views: Views, switches: Switches): Sight | null {
     const { canvas, head, models } = this;
-    const ratio = isSoftware(this.gl) ? 1 : Math.min(devicePixelRatio, 2);
+    const ratio = this.gl && isSoftware(this.gl) ? 1 : Math.min(devicePixelRatio, 2);
     const [w, h] = [canvas.clientWidth, canvas.clientHeight];
-    if (w === 0 || h === 0) return;
+    if (w === 0 || h === 0) return null;
     for (const each of [canvas, this.overlay]) {
       const [wide, high] = [Math.round(w * ratio), Math.round(h * ratio)];
       if (each.width !== wide || each.height !== high) [each.width, each.height] = [wide, high];
@@ -76,9 +78,8 @@ export class Picture {
     const clear = switches.clear ? { ...water, fog: 0 } : water;
     const lamps = this.lamps(moment);
     const { worldFromCamera, observer } = sight;
-    this.renderer.draw(
-      { worldFromCamera, lens: scaled(sight.lens, ratio), water: clear, lamps, observer }, null, [0, 0],
-    );
+    const lens = scaled(sight.lens, ratio);
+    this.renderer?.draw({ worldFromCamera, lens, water: clear, lamps, observer }, null, [0, 0]);
     const context = this.overlay.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
@@ -87,12 +88,14 @@ export class Picture {
     if (sight.camera) drawQuads(context, sight.camera, sight.lens, 0, 0, moment);
     this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === sight.camera));
     this.drawPictures(context, water, lamps, moment, switches, ratio, h);
+    return sight;
   }
 
   /** A camera's image in its own size, row 0 at the top, RGBA. */
   image(lens: Lens, worldFromCamera: Float64Array, player: Player, moment: Moment,
         switches: Switches, water: Partial<Water> = {}, observer = false): Uint8Array {
-    const { gl, models } = this;
+    const { gl, models, renderer } = this;
+    if (!gl || !renderer) return new Uint8Array();
     models.place(moment.poses);
     const buffer = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, buffer);
@@ -107,7 +110,7 @@ export class Picture {
       worldFromCamera, lens, lamps: this.lamps(moment), observer,
       water: { ...this.water(player, moment, switches), ...water },
     };
-    this.renderer.draw(look, buffer, [0, 0], true);
+    renderer.draw(look, buffer, [0, 0], true);
     const pixels = new Uint8Array(4 * lens.width * lens.height);
     gl.readPixels(0, 0, lens.width, lens.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     for (const store of stores) gl.deleteRenderbuffer(store);
@@ -138,7 +141,7 @@ export class Picture {
           Math.round(x * ratio), Math.round((height - y - place.height + 2) * ratio),
         ];
         const look = { worldFromCamera, lens: scaled(lens, ratio), water, lamps, observer: false };
-        this.renderer.draw(look, null, corner);
+        this.renderer?.draw(look, null, corner);
       }
       drawQuads(context, camera, lens, x, y, moment);
     });

@@ -12,7 +12,7 @@ interface Input {
 }
 
 export class Pilot {
-  private isOn = false;
+  isOn = false;
   private mapping: Record<string, string> = {};
   private readonly held = new Set<string>();
   private readonly sticks = [0, 0, 0, 0];
@@ -33,7 +33,6 @@ export class Pilot {
 
   enable(on: boolean, mapping: Record<string, string>): void {
     this.mapping = mapping;
-    if (on === this.isOn) return;
     this.isOn = on;
     element("pilot").hidden = !on;
     if (on && !element("pilot").children.length) {
@@ -43,7 +42,7 @@ export class Pilot {
 
   takes(event: KeyboardEvent): boolean {
     const key = event.key.toLowerCase();
-    if (!this.isOn || !(key in this.mapping)) return false;
+    if (!this.isOn || event.shiftKey || !(key in this.mapping)) return false;
     event.preventDefault();
     this.held.add(key);
     this.look();
@@ -52,7 +51,8 @@ export class Pilot {
 
   help(): { keys: string; does: string }[] {
     const keys = Object.entries(this.mapping).map(([keys, does]) => ({ keys, does }));
-    return keys.length ? keys : [{ keys: "w a s d …", does: "drive, where a pilot is asked for" }];
+    if (!keys.length) return [{ keys: "–", does: "nobody pilots this simulation" }];
+    return [...keys, { keys: "Shift", does: "with a letter: the page's own key" }];
   }
 
   private input(): Input {

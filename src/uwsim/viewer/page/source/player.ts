@@ -19,7 +19,9 @@ export class Moment {
     readonly time: number,
     head: MotionHead | null,
     row: ArrayLike<number> | null,
+    placed: Record<string, number[]> = {},
   ) {
+    for (const [name, pose] of Object.entries(placed)) this.poses.set(name, fromPose(pose));
     if (!head || !row) return;
     head.bodies.forEach((name, i) => this.poses.set(name, fromPose(row, 7 * i)));
     const first = 7 * head.bodies.length;
@@ -102,7 +104,8 @@ export class Replay implements Player {
   }
 
   moment(time: number): Moment {
-    return new Moment(time, this.motion?.head ?? null, this.motion?.at(time) ?? null);
+    const placed = this.pack.head.trials?.[this.trial]?.poses;
+    return new Moment(time, this.motion?.head ?? null, this.motion?.at(time) ?? null, placed);
   }
 
   trail(body: string, until: number): number[][] {
