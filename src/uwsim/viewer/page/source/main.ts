@@ -1,11 +1,12 @@
 // Puts the page together: a replay that lies in it, or a live view.
-import { Curves, valueAt } from "./curves";
+import { Curves } from "./curves";
 import { Keyboard } from "./keys";
 import { connect, type Link } from "./live";
 import { fromBase64, unpack, type Pack } from "./pack";
-import { element, indexAt, LevelList, make, Thrusters, toggleHelp } from "./panels";
+import { element, LevelList, make, Thrusters, toggleHelp } from "./panels";
 import { graphics, Picture, type Switches } from "./picture";
 import { Replay, Stream, type Player } from "./player";
+import { expose } from "./testing";
 import { MODES, Views, type Mode } from "./views";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
@@ -215,33 +216,6 @@ export class Page {
     element("help-button").addEventListener("click", toggleHelp);
     this.refresh();
   }
-}
-
-/** What tests and the curious read. */
-function expose(page: Page): void {
-  const { player, picture } = page;
-  Object.assign(window, {
-    uwsim: {
-      page,
-      seek: (time: number) => page.seek(time),
-      go: (index: number) => page.go(index),
-      time: () => page.time,
-      level: () => indexAt(player, page.time),
-      curves: () => Object.fromEntries(player.curves.map((c) => [c.name, valueAt(c, page.time)])),
-      body: (name: string) => Array.from(picture.models.body(name)),
-      image: (name: string, water = {}) => {
-        const camera = page.pack.head.cameras.find((each) => each.name === name)!;
-        const moment = player.moment(page.time);
-        picture.models.place(moment.poses);
-        const place = picture.models.mounted(camera);
-        const pixels = picture.image(camera, place, player, moment, page.switches, water);
-        let text = "";
-        for (let i = 0; i < pixels.length; i += 8192)
-          text += String.fromCharCode(...pixels.subarray(i, i + 8192));
-        return btoa(text);
-      },
-    },
-  });
 }
 
 async function begin(): Promise<void> {

@@ -1,0 +1,33 @@
+// What tests, and the curious in the browser's console, may ask the page.
+import { valueAt } from "./curves";
+import type { Page } from "./main";
+import { indexAt } from "./panels";
+
+export function expose(page: Page): void {
+  const { player, picture } = page;
+  Object.assign(window, {
+    uwsim: {
+      page,
+      seek: (time: number) => page.seek(time),
+      go: (index: number) => page.go(index),
+      time: () => page.time,
+      level: () => indexAt(player, page.time),
+      /** Name of each measure, and its value at the cursor. */
+      curves: () => Object.fromEntries(player.curves.map((c) => [c.name, valueAt(c, page.time)])),
+      /** World from body, 4 x 4, row by row. */
+      body: (name: string) => Array.from(picture.models.body(name)),
+      /** A camera's image in its own size, RGBA, base64. */
+      image: (name: string, water = {}) => {
+        const camera = page.pack.head.cameras.find((each) => each.name === name)!;
+        const moment = player.moment(page.time);
+        picture.models.place(moment.poses);
+        const place = picture.models.mounted(camera);
+        const pixels = picture.image(camera, place, player, moment, page.switches, water);
+        let text = "";
+        for (let i = 0; i < pixels.length; i += 8192)
+          text += String.fromCharCode(...pixels.subarray(i, i + 8192));
+        return btoa(text);
+      },
+    },
+  });
+}
