@@ -17,6 +17,7 @@
       MissingExtra         an optional dependency is missing; the message names it
       NoGraphics           no OpenGL context; the message names what to install
       RunFailed            a run that failed
+        ClientLost         ... because a client in lock-step did not answer
       NeverStarted         the start trigger of a benchmark never switched on
       ResultError          a result that cannot be read or resumed, or is inconsistent
         ReplayDiffers      ... a replay whose rows differ from the stored ones
@@ -139,6 +140,10 @@ class NeverStarted(UwsimError):
 
 class RunFailed(UwsimError):
     """A run that failed; its finished parts are kept."""
+
+
+class ClientLost(RunFailed):
+    """A client in lock-step did not answer, or left: the run is invalid from there on."""
 
 
 class ResultError(UwsimError):

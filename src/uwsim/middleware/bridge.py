@@ -18,6 +18,11 @@ Any thread of the transport may call:
   it is given away. It waits in a bounded queue (latest wins) for the next step boundary.
 - ``request(name, request)``: call a service of the bus; returns a Future with the response, which
   comes at the next step boundary.
+- ``offer(name, service)`` and ``withdraw(name)``: somebody outside offers a service to the bus. A
+  call of it is handed to ``call_outside``, and the simulation waits for the response; calls that
+  come in meanwhile are answered, so that the one asked may ask back.
+- ``tap(topic, receive)``: have the messages of a topic from outside at once, in the thread in which
+  they come, instead of at a step boundary (`uwsim.middleware.lockstep`).
 
 `step` is the boundary: call it at the end of each step (`Simulation.watch(bridge.step)`), and
 before the first. There it follows the bus, answers requests in their order, publishes what came
@@ -33,13 +38,14 @@ Topics that are withheld from algorithms under test are not shown to the outside
 from __future__ import annotations
 
 import threading
+import time
 from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 
 from ..bus import Bus, TopicEnds
-from ..errors import BadMessage, UwsimError
+from ..errors import BadMessage, RunFailed, UwsimError
 from ..message_fields import size_of
 from ..messages.services import Service
 from .log import Log
@@ -48,6 +54,8 @@ from .types import service_of, wire_type
 
 MAX_REQUESTS = 1000
 """Calls of services that may wait for the end of a step."""
+CALL_LIMIT = 60.0
+"""How long a call of a service that is offered outside may take [s of wall time]."""
 CLOSED = "The simulation has ended."
 
 
@@ -67,6 +75,13 @@ class Bridge(ABC):
         self._wants: list[tuple[str, int]] = []
         self._incoming: dict[str, LatestQueue[object]] = {}
         self._requests: list[tuple[str, object, Future[object]]] = []
+        self._offers: list[tuple[str, Service | None]] = []
+        self._is_urgent = False  # something waits that is done also while the simulation waits
+        self._woken = threading.Event()
+        self._taps: dict[str, list[Callable[[object], None]]] = {}
+        self._offered: set[str] = set()
+        self.n_arrived: Counter[str] = Counter()
+        """Messages that have come from outside so far, by topic."""
         self._n_wanted: Counter[str] = Counter()
         self._stops: dict[str, Callable[[], None]] = {}
         self._publishers: dict[str, Callable[[object], None]] = {}
@@ -88,6 +103,10 @@ class Bridge(ABC):
     def send(self, topic: str, message: object) -> None:
         """Hand a message to those outside who read its topic, without waiting."""
 
+    def call_outside(self, name: str, request: object) -> Future[object]:
+        """Call a service that somebody outside offers. In the thread of the simulation."""
+        raise UwsimError(f"{type(self).__name__} calls no services outside.")
+
     def want(self, topic: str) -> None:
         """One more outside reads ``topic``. Any thread."""
         self._add_want(topic, 1)
@@ -99,7 +118,34 @@ class Bridge(ABC):
     def _add_want(self, topic: str, n: int) -> None:
         with self._lock:
             self._wants.append((topic.lstrip("/"), n))
-            self._has_news = True
+            self._has_news = self._is_urgent = True
+        self._woken.set()
+
+    def offer(self, name: str, service: Service) -> None:
+        """Somebody outside offers a service. Any thread."""
+        self._add_offer(name, service)
+
+    def withdraw(self, name: str) -> None:
+        """A service is no longer offered outside. Any thread."""
+        self._add_offer(name, None)
+
+    def _add_offer(self, name: str, service: Service | None) -> None:
+        with self._lock:
+            self._offers.append((name.lstrip("/"), service))
+            self._has_news = self._is_urgent = True
+        self._woken.set()
+
+    def tap(self, topic: str, receive: Callable[[object], None]) -> None:
+        """Call ``receive`` with each message of a topic from outside, at once, in its thread.
+
+        Those that wait already come first, in this thread.
+        """
+        name = topic.lstrip("/")
+        with self._lock:
+            waiting = self._incoming.pop(name, None)
+            self._taps.setdefault(name, []).append(receive)
+        for message in waiting.take() if waiting is not None else ():
+            receive(message)
 
     def put(self, topic: str, message: object) -> None:
         """Take in a message from outside, for the next step boundary. Any thread."""
@@ -108,9 +154,16 @@ class Bridge(ABC):
         with self._lock:
             if self._is_closed:
                 return
-            queue = self._incoming.setdefault(name, LatestQueue())
-            self._has_news = True
-        if queue.put(message, size):
+            is_full = 0
+            taps = list(self._taps.get(name, ()))
+            if not taps:
+                is_full = self._incoming.setdefault(name, LatestQueue()).put(message, size)
+                self.n_arrived[name] += 1
+                self._has_news = True
+        for receive in taps:
+            receive(message)
+        self._woken.set()
+        if is_full:
             self.log.say(
                 f"/{name}: messages come faster than the simulation takes them; the oldest are "
                 "dropped",
@@ -130,7 +183,8 @@ class Bridge(ABC):
                 future.set_exception(UwsimError(f"More than {MAX_REQUESTS} calls are waiting."))
             else:
                 self._requests.append((name.lstrip("/"), request, future))
-                self._has_news = True
+                self._has_news = self._is_urgent = True
+        self._woken.set()
         return future
 
     def step(self) -> None:
@@ -140,6 +194,30 @@ class Bridge(ABC):
         if self._has_news:
             self._exchange()
         self.tick()
+
+    def wait(self, until: Callable[[], bool], limit_s: float) -> bool:
+        """Wait for something from outside, in the thread of the simulation, at most ``limit_s``.
+
+        Meanwhile subscribers are followed and calls of services answered, and messages kept for
+        the next step boundary. Returns whether it came.
+        """
+        deadline = time.monotonic() + limit_s
+        while not until():
+            if self._is_urgent:
+                self._serve()
+                continue
+            left = deadline - time.monotonic()
+            if left <= 0.0:
+                return False
+            self._woken.wait(left)
+            self._woken.clear()
+        if self._is_urgent:
+            self._serve()
+        return True
+
+    def wake(self) -> None:
+        """Have `wait` look again. Any thread."""
+        self._woken.set()
 
     def tick(self) -> None:  # noqa: B027 - a transport that publishes no clock has nothing to do
         """Do what a transport does at each step boundary, as publishing the clock."""
@@ -155,6 +233,9 @@ class Bridge(ABC):
         for stop in self._stops.values():
             stop()
         self._stops.clear()
+        for name in sorted(self._offered):
+            self.bus.withdraw(name)
+        self._offered.clear()
 
     def _follow(self) -> None:
         """Tell the transport what has changed on the bus."""
@@ -182,21 +263,54 @@ class Bridge(ABC):
             self.on_services(services)
 
     def _exchange(self) -> None:
+        self._serve()
         with self._lock:
             self._has_news = False
-            wants, self._wants = self._wants, []
-            requests, self._requests = self._requests, []
             incoming, self._incoming = self._incoming, {}
-        for topic, n in wants:
-            self._n_wanted[topic] += n
-            self._follow_demand(topic)
-        for name, request, future in requests:
-            self._answer(name, request, future)
         for topic in sorted(incoming):
             for message in incoming[topic].take():
                 self._publish(topic, message)
         self.bus.deliver()
         self._own.clear()
+
+    def _serve(self) -> None:
+        """Follow those outside who read or offer services, and answer their calls."""
+        with self._lock:
+            self._is_urgent = False
+            wants, self._wants = self._wants, []
+            requests, self._requests = self._requests, []
+            offers, self._offers = self._offers, []
+        for topic, n in wants:
+            self._n_wanted[topic] += n
+            self._follow_demand(topic)
+        for name, service in offers:
+            self._follow_offer(name, service)
+        for name, request, future in requests:
+            self._answer(name, request, future)
+
+    def _follow_offer(self, name: str, service: Service | None) -> None:
+        """Offer a service of the outside on the bus, or no longer."""
+        if service is None:
+            if name in self._offered:
+                self._offered.discard(name)
+                self.bus.withdraw(name)
+        elif self.bus.serves(name):
+            self.log.say(f"service /{name} is offered already; that of the outside is not taken")
+        else:
+            self._offered.add(name)
+            self.bus.serve(name, service.request, lambda request: self._ask(name, request))
+
+    def _ask(self, name: str, request: object) -> object:
+        """Call a service of the outside and wait for its response.
+
+        Raises:
+            RunFailed: there is none.
+        """
+        future = self.call_outside(name, request)
+        future.add_done_callback(lambda _: self.wake())
+        if not self.wait(future.done, CALL_LIMIT):
+            raise RunFailed(f"Service /{name}: no response within {CALL_LIMIT:g} s of wall time.")
+        return future.result()
 
     def _follow_demand(self, topic: str) -> None:
         """Subscribe on the bus while somebody outside reads a topic."""

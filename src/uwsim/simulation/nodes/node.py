@@ -10,7 +10,7 @@ from typing import NoReturn, TypeVar
 import numpy as np
 
 from ...bus import Algorithm, Bus
-from ...errors import BadSetting, NotAllowed
+from ...errors import BadSetting, ClientLost, NeverStarted, NotAllowed
 from ...interrupts import is_of_user
 from ...message_fields import copied
 from ...raised import what_was_raised
@@ -117,7 +117,7 @@ class InProcessNode:
         try:
             with self._calls:
                 algorithm.start(self)
-        except BadSetting:
+        except (BadSetting, NeverStarted):
             raise
         except BaseException as error:
             self._broken_by(error)
@@ -222,7 +222,7 @@ class InProcessNode:
 
     def _broken_by(self, error: BaseException) -> None:
         """Keep what a third-party program raised; called in its except clause."""
-        if is_of_user(error):
+        if is_of_user(error) or isinstance(error, ClientLost):
             raise error
         self.error = what_broke(error, self._algorithm)
         if isinstance(error, Stopped):

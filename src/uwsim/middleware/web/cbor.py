@@ -1,0 +1,55 @@
+"""CBOR (RFC 8949) of messages, arrays as typed arrays (RFC 8746), as rosbridge sends them."""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+import numpy as np
+
+TAGS = {"u1": 64, "u2": 69, "u4": 70, "u8": 71, "i1": 72, "i2": 77, "i4": 78, "i8": 79}
+"""Tags of little-endian arrays by their dtype."""
+FLOAT_TAGS = {"f4": 85, "f8": 86}
+SIMPLE = {False: b"\xf4", True: b"\xf5", None: b"\xf6"}
+_DOUBLE = struct.Struct(">d")
+
+
+def encode_cbor(value: Any) -> bytes:
+    """Return numbers, texts, bytes, arrays, lists and dicts as CBOR."""
+    if value is None or isinstance(value, bool):
+        return SIMPLE[value]
+    if isinstance(value, int):
+        return _head(0, value) if value >= 0 else _head(1, -1 - value)
+    if isinstance(value, float):
+        return b"\xfb" + _DOUBLE.pack(value)
+    if isinstance(value, str):
+        data = value.encode("utf-8", "surrogatepass")
+        return _head(3, len(data)) + data
+    if isinstance(value, bytes):
+        return _head(2, len(value)) + value
+    if isinstance(value, np.ndarray):
+        return _array(value)
+    if isinstance(value, dict):
+        pairs = (encode_cbor(str(key)) + encode_cbor(each) for key, each in value.items())
+        return _head(5, len(value)) + b"".join(pairs)
+    return _head(4, len(value)) + b"".join(encode_cbor(each) for each in value)
+
+
+def _array(array: np.ndarray[Any, Any]) -> bytes:
+    """Bytes as bytes, other numbers as a typed array, truth values as a list."""
+    if array.dtype.kind == "b":
+        return encode_cbor(array.tolist())
+    name = f"{array.dtype.kind}{array.dtype.itemsize}"
+    data = array.astype(f"<{name}", copy=False).tobytes()
+    if name == "u1":
+        return encode_cbor(data)
+    return _head(6, {**TAGS, **FLOAT_TAGS}[name]) + encode_cbor(data)
+
+
+def _head(major: int, n: int) -> bytes:
+    for extra, (limit, form) in enumerate(((2**8, "B"), (2**16, ">H"), (2**32, ">I")), start=24):
+        if n < 24:
+            return bytes([major << 5 | n])
+        if n < limit:
+            return bytes([major << 5 | extra]) + struct.pack(form, n)
+    return bytes([major << 5 | 27]) + struct.pack(">Q", n)

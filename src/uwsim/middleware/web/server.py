@@ -1,0 +1,286 @@
+"""The WebSocket server, in a thread of its own, and the bridge from it to the bus."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import http
+import re
+import threading
+import time
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+from contextlib import suppress
+from dataclasses import dataclass
+from urllib.parse import parse_qs, urlsplit
+
+from websockets.asyncio.server import ServerConnection, serve
+from websockets.datastructures import Headers
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
+
+from ...bus import Bus, TopicEnds
+from ...errors import BadSetting, UnknownName, UwsimError
+from ...message_fields import size_of
+from ...messages.services import Service
+from ..bridge import Bridge
+from ..log import Log
+from ..stamps import clock_time
+from ..types import message_class, wire_type
+from .outgoing import Outgoing
+from .session import Session, Subscription
+
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
+"""Origins of pages that may connect unless others are named: those of this computer."""
+MAX_FRAME = 16 * 2**20
+"""Longest frame of a client [bytes]."""
+MAX_RATE = 5000
+"""Frames a second that are read from one client."""
+MAX_CLIENTS = 64
+PING, PING_LIMIT = 20.0, 300.0
+"""How often a client is asked whether it is there, and how long it may take to answer [s]."""
+CLOSING = 2.0
+"""How long closing may take [s of wall time]."""
+CLOCK = "clock"
+
+
+@dataclass(frozen=True, kw_only=True)
+class WebOptions:
+    """Where the server listens, and who may connect."""
+
+    port: int = 9090
+    """Port; 0: one that the system chooses."""
+    host: str = "127.0.0.1"
+    """Address; another than this computer's own needs a token."""
+    token: str | None = None
+    """What a client has to give: ``ws://HOST:PORT/?token=...`` or ``Authorization: Bearer``."""
+    origins: tuple[str, ...] = ()
+    """Pages that may connect, as ``https://example.org``, next to those of this computer."""
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.port < 2**16:
+            raise BadSetting(f"--web {self.port}: expected a port, from 0 to 65535.")
+        if self.host not in LOOPBACK and not self.token:
+            raise BadSetting(
+                f"--web-host {self.host}: other computers could connect; give a --web-token too."
+            )
+
+
+class WebBridge(Bridge):
+    """Serves the topics and services of a bus to web clients.
+
+    Args:
+        bus: of the simulation.
+        clock: returns the simulation time [s].
+        options: where to listen.
+        log: where it reports.
+
+    Raises:
+        BadSetting: it cannot listen there.
+    """
+
+    def __init__(
+        self,
+        bus: Bus,
+        clock: Callable[[], float],
+        options: WebOptions,
+        log: Log | None = None,
+    ) -> None:
+        super().__init__(bus, clock, log or Log("web"))
+        self._options = options
+        self._readers: dict[str, tuple[tuple[Session, Subscription], ...]] = {}
+        self._ends: Mapping[str, TopicEnds] = {}
+        self.services: Mapping[str, Service] = {}
+        """Services of the bus."""
+        self._offerers: dict[str, Session] = {}
+        self._n_clients = 0
+        self._loop = asyncio.new_event_loop()
+        self._listening: Future[int] = Future()
+        self._ended: asyncio.Event | None = None
+        self._thread = threading.Thread(target=self._serve_all, name="uwsim web", daemon=True)
+        self._thread.start()
+        try:
+            self.port = self._listening.result()
+            """Port at which it listens."""
+        except OSError as error:
+            self._thread.join()
+            raise BadSetting(
+                f"--web {options.port}: cannot listen at {options.host}: {error.strerror or error}."
+            ) from None
+
+    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+        """Note what is there; clients ask."""
+        self._ends = dict(topics)
+
+    def on_services(self, services: Mapping[str, Service]) -> None:
+        """Note what is there; clients ask."""
+        self.services = dict(services)
+
+    def send(self, topic: str, message: object) -> None:
+        """Give a message to all who read its topic."""
+        readers = self._readers.get(topic, ())
+        if readers:
+            outgoing = Outgoing(topic, message, size_of(message))
+            for session, subscription in readers:
+                session.post(subscription, outgoing)
+
+    def tick(self) -> None:
+        """Publish ``/clock`` for those who read it."""
+        if CLOCK in self._readers and CLOCK not in self._ends:
+            clock = message_class("rosgraph_msgs/Clock")
+            self.send(CLOCK, clock(clock=clock_time(self.clock())))
+
+    def call_outside(self, name: str, request: object) -> Future[object]:
+        """Call a service of a client."""
+        session = self._offerers.get(name)
+        if session is None:
+            raise UwsimError(f"Service /{name}: who offered it has left.")
+        return session.call(name, request)
+
+    def close(self) -> None:
+        """Close all connections and the port."""
+        if self._ended is not None:
+            with suppress(RuntimeError):
+                self._loop.call_soon_threadsafe(self._ended.set)
+        self._thread.join(2 * CLOSING)
+        super().close()
+
+    def type_of(self, topic: str) -> type | None:
+        """The class of the messages of a topic; None if it is not known."""
+        ends = self._ends.get(topic)
+        return None if ends is None else ends.type
+
+    def types(self) -> dict[str, str]:
+        """Topic -> name of its type in ROS 2, sorted by topic."""
+        found = {}
+        for name in sorted(self._ends):
+            wire = wire_type(self._ends[name].type)
+            if wire is not None:
+                found[name] = wire.ros2_name
+        return found
+
+    def service_named(self, name: str) -> Service:
+        """Return the type of a service of the bus; UnknownName if it is not there."""
+        if name not in self.services:
+            raise UnknownName("service", f"/{name}", [f"/{each}" for each in self.services])
+        return self.services[name]
+
+    def read(self, topic: str, session: Session, subscription: Subscription) -> None:
+        """A client subscribes. In the thread of the server."""
+        self._readers[topic] = (*self._readers.get(topic, ()), (session, subscription))
+        if topic != CLOCK:
+            self.want(topic)
+
+    def unread(self, topic: str, session: Session, subscription: Subscription) -> None:
+        """A client does so no more. In the thread of the server."""
+        left = tuple(each for each in self._readers.get(topic, ()) if each[1] is not subscription)
+        if left:
+            self._readers[topic] = left
+        else:
+            self._readers.pop(topic, None)
+        if topic != CLOCK:
+            self.unwant(topic)
+
+    def offer_of(self, name: str, service: Service, session: Session) -> None:
+        """A client offers a service. In the thread of the server."""
+        self._offerers[name] = session
+        self.offer(name, service)
+
+    def withdraw_of(self, name: str, session: Session) -> None:
+        """A client offers it no more. In the thread of the server."""
+        if self._offerers.get(name) is session:
+            del self._offerers[name]
+            self.withdraw(name)
+
+    def _serve_all(self) -> None:
+        """Serve until `close`; the thread of the server."""
+        asyncio.set_event_loop(self._loop)
+        try:
+            self._loop.run_until_complete(self._listen())
+        except OSError as error:
+            self._listening.set_exception(error)
+        finally:
+            left = asyncio.all_tasks(self._loop)  # of clients that do not let go
+            for task in left:
+                task.cancel()
+            self._loop.run_until_complete(asyncio.gather(*left, return_exceptions=True))
+            self._loop.run_until_complete(self._loop.shutdown_asyncgens())
+            self._loop.close()
+
+    async def _listen(self) -> None:
+        self._ended = asyncio.Event()
+        options = self._options
+        async with serve(
+            self._attend,
+            options.host,
+            options.port,
+            origins=[None, LOCAL_PAGES, *(re.compile(re.escape(o)) for o in options.origins)],
+            process_request=self._admit,
+            max_size=MAX_FRAME,
+            ping_interval=PING,
+            ping_timeout=PING_LIMIT,
+            close_timeout=CLOSING,
+            server_header=None,
+            compression=None,
+        ) as server:
+            self._listening.set_result(server.sockets[0].getsockname()[1])
+            await self._ended.wait()
+            server.close(code=1001, reason="the simulation has ended")
+            with suppress(TimeoutError):
+                await asyncio.wait_for(server.wait_closed(), CLOSING)
+            for task in asyncio.all_tasks() - {asyncio.current_task()}:
+                task.cancel()  # of clients that do not let go
+
+    def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Refuse who has no token, and more clients than are served."""
+        if self._n_clients >= MAX_CLIENTS:
+            return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many clients.\n")
+        token = self._options.token
+        if token and not hmac.compare_digest(_token_of(request).encode(), token.encode()):
+            self.log.say(f"a client at {_peer(connection)} was refused: no token, or a wrong one")
+            return connection.respond(http.HTTPStatus.UNAUTHORIZED, "A token is needed.\n")
+        return None
+
+    async def _attend(self, connection: ServerConnection) -> None:
+        """Serve one client until it leaves."""
+        name = f"client {_peer(connection)}"
+        session = Session(self, self._loop, name)
+        self._n_clients += 1
+        self.log.say(f"{name} has come", kind="has come")
+        writer = asyncio.create_task(_write(connection, session))
+        began, n = time.monotonic(), 0
+        try:
+            async for raw in connection:
+                session.handle(raw)
+                n += 1
+                if n % 100 == 0:  # a flood waits in the sockets, not here
+                    early = n / MAX_RATE - (time.monotonic() - began)
+                    await asyncio.sleep(max(0.0, early))
+                    if early < -1.0:
+                        began, n = time.monotonic(), 0
+        except ConnectionClosed:
+            pass
+        finally:
+            writer.cancel()
+            session.close()
+            self._n_clients -= 1
+            why = connection.close_reason or connection.close_code
+            self.log.say(f"{name} has left ({why})", kind="has left")
+
+
+async def _write(connection: ServerConnection, session: Session) -> None:
+    with suppress(ConnectionClosed):
+        while True:
+            await connection.send(await session.next_frame())
+
+
+def _token_of(request: Request) -> str:
+    given = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
+    headers: Headers = request.headers
+    return given or headers.get("Authorization", "").removeprefix("Bearer ").strip()
+
+
+def _peer(connection: ServerConnection) -> str:
+    address = connection.remote_address
+    return f"{address[0]}:{address[1]}" if address else "unknown"

@@ -1,0 +1,337 @@
+"""The rosbridge protocol over a real socket: a plain client, and hostile ones."""
+
+from __future__ import annotations
+
+import base64
+import json
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, suppress
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import ClientConnection, connect
+
+from uwsim.bus import Bus
+from uwsim.errors import BadSetting, RunFailed, UwsimError
+from uwsim.messages import (
+    Empty,
+    EmptyResponse,
+    Float32MultiArray,
+    GTpublish,
+    GTpublishResponse,
+    Image,
+    String,
+    TwistStamped,
+    header,
+)
+from uwsim.middleware.log import Log
+from uwsim.middleware.web.server import WebBridge, WebOptions
+
+LIMIT = 60.0
+"""Nothing takes longer unless it hangs [s]."""
+
+
+class Setting:
+    """A bus with a server, and the simulation's thread is the test's."""
+
+    def __init__(self, **options: Any) -> None:
+        self.bus = Bus()
+        self.lines: list[str] = []
+        self.time = 0.0
+        self.bridge = WebBridge(
+            self.bus,
+            lambda: self.time,
+            WebOptions(port=0, **options),
+            Log("web", self.lines.append),
+        )
+        self._stack = ExitStack()
+
+    def client(self, path: str = "/", **options: Any) -> ClientConnection:
+        uri = f"ws://127.0.0.1:{self.bridge.port}{path}"
+        client = connect(uri, max_size=2**26, open_timeout=LIMIT, **options)
+        return self._stack.enter_context(client)
+
+    def step_until(self, condition: Any) -> None:
+        deadline = time.monotonic() + LIMIT
+        while not condition():
+            assert time.monotonic() < deadline, "it never came"
+            self.bridge.step()
+            time.sleep(0.001)
+
+    def ask(self, client: ClientConnection, **frame: Any) -> Any:
+        """Call a service of the simulation and return the response."""
+        send(client, op="call_service", id="c", **frame)
+        heard: list[Any] = []
+
+        def is_answered() -> bool:
+            try:
+                heard.append(json.loads(client.recv(timeout=0.001)))
+            except TimeoutError:
+                return False
+            return heard[-1].get("op") == "service_response"
+
+        self.step_until(is_answered)
+        return heard[-1]
+
+    def close(self) -> None:
+        self.bridge.close()
+        self._stack.close()
+
+
+@pytest.fixture
+def setting() -> Iterator[Setting]:
+    made = Setting()
+    yield made
+    made.close()
+
+
+def send(client: ClientConnection, **frame: Any) -> None:
+    client.send(json.dumps(frame))
+
+
+def heard(client: ClientConnection) -> Any:
+    return json.loads(client.recv(timeout=LIMIT))
+
+
+def test_a_client_reads_a_topic_and_nothing_is_published_before(setting: Setting) -> None:
+    say = setting.bus.publisher("twist", TwistStamped)
+    assert not setting.bus.has_readers("twist")
+    client = setting.client()
+    send(client, op="subscribe", topic="/twist", type="geometry_msgs/TwistStamped")
+    setting.step_until(lambda: setting.bus.has_readers("twist"))
+    message = TwistStamped(header=header(0.5))
+    message.twist.linear.x = 1.0 / 3.0
+    say(message)
+    setting.bus.deliver()
+    frame = heard(client)
+    assert (frame["op"], frame["topic"]) == ("publish", "/twist")
+    assert frame["msg"]["twist"]["linear"]["x"] == 1.0 / 3.0
+    assert frame["msg"]["header"]["stamp"] == {"sec": 1, "nanosec": 500_000_000}
+    send(client, op="unsubscribe", topic="/twist")
+    setting.step_until(lambda: not setting.bus.has_readers("twist"))
+    send(client, op="subscribe", topic="/twist")
+    setting.step_until(lambda: setting.bus.has_readers("twist"))
+    client.close()
+    setting.step_until(lambda: not setting.bus.has_readers("twist"))
+
+
+def test_a_client_publishes(setting: Setting) -> None:
+    inbox = setting.bus.inbox("corners", Float32MultiArray)
+    client = setting.client()
+    send(client, op="advertise", topic="/corners", type="std_msgs/msg/Float32MultiArray")
+    send(client, op="publish", topic="/corners", msg={"data": [1.5, None]})
+    setting.step_until(lambda: inbox.last is not None)
+    assert inbox.last is not None
+    assert inbox.last.data[0] == 1.5
+    assert np.isnan(inbox.last.data[1])
+
+
+def test_a_client_calls_services_and_asks_what_there_is(setting: Setting) -> None:
+    setting.bus.publisher("twist", TwistStamped)
+    setting.bus.serve("reset", Empty, lambda request: EmptyResponse())
+    setting.bridge.step()
+    client = setting.client()
+    found = setting.ask(client, service="/rosapi/topics")
+    assert found["values"] == {"topics": ["/twist"], "types": ["geometry_msgs/msg/TwistStamped"]}
+    assert "/reset" in setting.ask(client, service="/rosapi/services")["values"]["services"]
+    asked = {"service": "/rosapi/service_type", "args": {"service": "/reset"}}
+    assert setting.ask(client, **asked)["values"] == {"type": "std_srvs/srv/Empty"}
+    answer = setting.ask(client, service="/reset")
+    assert (answer["result"], answer["values"], answer["id"]) == (True, {}, "c")
+    wrong = setting.ask(client, service="/rest")
+    assert wrong["result"] is False
+    assert "Did you mean '/reset'?" in wrong["values"]
+
+
+def test_the_simulation_calls_a_service_of_a_client(setting: Setting) -> None:
+    client = setting.client()
+    kind = "underwater_sensor_msgs/GTpublish"
+    send(client, op="advertise_service", service="/autoInit", type=kind)
+    setting.step_until(lambda: setting.bus.serves("autoInit"))
+    asked: list[Any] = []
+
+    def answer() -> None:
+        frame = heard(client)
+        asked.append(frame)
+        send(client, op="service_response", id=frame["id"], service="/autoInit", result=True)
+
+    outside = threading.Thread(target=answer)
+    outside.start()
+    response = setting.bus.call("autoInit", GTpublish(groundTruth=np.array([1, 2], np.float32)))
+    outside.join()
+    assert isinstance(response, GTpublishResponse)
+    assert (asked[0]["op"], asked[0]["args"]) == ("call_service", {"groundTruth": [1.0, 2.0]})
+
+
+def test_a_service_whose_client_leaves_fails_and_is_withdrawn(setting: Setting) -> None:
+    client = setting.client()
+    kind = "underwater_sensor_msgs/srv/GTpublish"
+    send(client, op="advertise_service", service="/autoInit", type=kind)
+    setting.step_until(lambda: setting.bus.serves("autoInit"))
+    client.close()
+    with pytest.raises((RunFailed, UwsimError), match="left"):
+        setting.bus.call("autoInit", GTpublish(groundTruth=np.zeros(8, np.float32)))
+    setting.step_until(lambda: not setting.bus.serves("autoInit"))
+
+
+def test_images_come_as_json_as_png_and_as_cbor(setting: Setting) -> None:
+    say = setting.bus.publisher("image", Image)
+    pixels = np.arange(12, dtype=np.uint8)
+    clients = {}
+    for compression in ("none", "png", "cbor"):
+        clients[compression] = setting.client()
+        send(clients[compression], op="subscribe", topic="/image", compression=compression)
+    setting.step_until(lambda: len(setting.bridge._readers.get("image", ())) == 3)
+    setting.step_until(lambda: setting.bus.has_readers("image"))
+    say(Image(height=2, width=2, encoding="rgb8", step=6, data=pixels))
+    setting.bus.deliver()
+    plain = heard(clients["none"])
+    assert base64.b64decode(plain["msg"]["data"]) == pixels.tobytes()
+    png = base64.b64decode(heard(clients["png"])["data"])
+    image = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
+    assert image is not None
+    assert json.loads(image[..., ::-1].tobytes()) == plain
+    binary = clients["cbor"].recv(timeout=LIMIT)
+    assert isinstance(binary, bytes)
+    assert b"\x64data\x4c" + pixels.tobytes() in binary
+
+
+def test_throttled_and_queued_messages_are_few(setting: Setting) -> None:
+    say = setting.bus.publisher("text", String)
+    client = setting.client()
+    send(client, op="subscribe", topic="/text", throttle_rate=3_600_000)
+    setting.step_until(lambda: setting.bus.has_readers("text"))
+    for n in range(5):
+        say(String(data=str(n)))
+    setting.bus.deliver()
+    send(client, op="unsubscribe", topic="/text")
+    assert heard(client)["msg"] == {"data": "0"}
+    assert setting.ask(client, service="/rosapi/nodes")["values"] == {"nodes": ["/uwsim"]}
+
+
+def test_a_reader_that_stalls_costs_a_known_amount_of_memory(setting: Setting) -> None:
+    say = setting.bus.publisher("image", Image)
+    client = setting.client(max_queue=1)
+    send(client, op="subscribe", topic="/image")
+    setting.step_until(lambda: setting.bus.has_readers("image"))
+    for _ in range(300):
+        say(Image(height=480, width=640, step=1920, data=np.zeros(921_600, np.uint8)))
+        setting.bus.deliver()
+    ((session, _),) = setting.bridge._readers["image"]
+    assert session._queue._n_bytes <= 64 * 2**20
+    assert session._queue.n_dropped > 0
+    assert any("too slowly" in line for line in setting.lines)
+
+
+BAD = [
+    "",
+    "nonsense",
+    "[1, 2]",
+    '{"op": 3}',
+    '{"op": "sing"}',
+    "[" * 100_000,
+    '{"op": "publish"}',
+    '{"op": "publish", "topic": "/nobody", "msg": {}}',
+    '{"op": "advertise", "topic": "/a", "type": "no/Such"}',
+    '{"op": "advertise", "topic": "/twist", "type": "std_msgs/String"}',
+    '{"op": "publish", "topic": "/twist", "msg": {"twist": 3}}',
+    '{"op": "publish", "topic": "/twist", "msg": [1]}',
+    '{"op": "subscribe", "topic": 5}',
+    '{"op": "subscribe", "topic": "/twist", "throttle_rate": -1}',
+    '{"op": "subscribe", "topic": "/twist", "throttle_rate": "x"}',
+    '{"op": "subscribe", "topic": "/twist", "compression": "zip"}',
+    '{"op": "service_response", "id": "call:1"}',
+    '{"op": "advertise_service", "service": "/s", "type": "no/Such"}',
+    '{"op": "unsubscribe", "topic": ""}',
+]
+
+
+def test_frames_that_mean_nothing_are_answered_with_a_status(setting: Setting) -> None:
+    setting.bus.publisher("twist", TwistStamped)
+    setting.bridge.step()
+    client = setting.client()
+    client.send(b"\x00\x01")
+    assert "binary" in heard(client)["msg"]
+    for frame in BAD:
+        client.send(frame)
+        status = heard(client)
+        assert (status["op"], status["level"]) == ("status", "error"), frame[:80]
+        assert len(status["msg"]) < 500
+    assert setting.ask(client, service="/rosapi/nodes")["result"] is True
+    assert len(setting.lines) < 20
+
+
+def test_a_flood_of_messages_is_bounded_and_the_others_are_served(setting: Setting) -> None:
+    inbox = setting.bus.inbox("twist", TwistStamped)
+    setting.bridge.step()
+    flooder, other = setting.client(), setting.client()
+    frame = json.dumps({"op": "publish", "topic": "/twist", "msg": {}})
+    for _ in range(5000):
+        flooder.send(frame)
+    assert setting.ask(other, service="/rosapi/nodes")["result"] is True
+    setting.step_until(lambda: setting.bridge.n_arrived["twist"] == 5000)
+    assert inbox.last is not None
+
+
+def test_bytes_that_are_no_http_a_large_frame_and_a_vanished_peer_do_no_harm(
+    setting: Setting,
+) -> None:
+    address = ("127.0.0.1", setting.bridge.port)
+    for garbage in (b"\x00" * 1000, b"GET / HTTP/1.1\r\n\r\n", b"GET"):
+        with socket.create_connection(address, timeout=LIMIT) as raw:
+            raw.sendall(garbage)
+    stalled = socket.create_connection(address, timeout=LIMIT)
+    large = setting.client()
+    with suppress(ConnectionClosed):
+        large.send("x" * (17 * 2**20))
+    with pytest.raises(ConnectionClosed):
+        large.recv(timeout=LIMIT)
+    vanished = setting.client()
+    vanished.socket.close()
+    assert setting.ask(setting.client(), service="/rosapi/nodes")["result"] is True
+    stalled.close()
+
+
+def test_pages_of_other_origins_are_refused(setting: Setting) -> None:
+    assert setting.client(origin="http://localhost:8080")
+    for origin in ("https://example.org", "null", "http://localhost.example.org"):
+        with pytest.raises(InvalidStatus) as caught:
+            setting.client(origin=origin)
+        assert caught.value.response.status_code == 403
+
+
+def test_a_token_is_asked_for() -> None:
+    setting = Setting(token="secret")
+    try:
+        for path in ("/", "/?token=wrong"):
+            with pytest.raises(InvalidStatus) as caught:
+                setting.client(path)
+            assert caught.value.response.status_code == 401
+        assert setting.client("/?token=secret")
+        assert setting.client(additional_headers={"Authorization": "Bearer secret"})
+    finally:
+        setting.close()
+
+
+def test_other_computers_need_a_token_and_a_used_port_is_one_line(setting: Setting) -> None:
+    with pytest.raises(BadSetting, match="--web-token"):
+        WebOptions(host="0.0.0.0")
+    with pytest.raises(BadSetting, match="--web 70000"):
+        WebOptions(port=70000)
+    with pytest.raises(BadSetting, match="cannot listen at 127"):
+        WebBridge(Bus(), lambda: 0.0, WebOptions(port=setting.bridge.port))
+
+
+def test_the_clock_of_ros_is_served(setting: Setting) -> None:
+    client = setting.client()
+    send(client, op="subscribe", topic="/clock")
+    setting.time = 0.25
+    setting.step_until(lambda: "clock" in setting.bridge._readers)
+    setting.bridge.step()
+    assert heard(client)["msg"] == {"clock": {"sec": 1, "nanosec": 250_000_000}}
