@@ -7,8 +7,11 @@ twist, 1000 times: one simulated control period at 100 Hz. The target is 0.5 ms 
 from __future__ import annotations
 
 import importlib
+import subprocess
+import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from statistics import median
 
 import numpy as np
@@ -16,10 +19,28 @@ from measure import main
 
 from uwsim.bus import Bus, Node
 from uwsim.messages import Image, Odometry, TwistStamped
+from uwsim.middleware.lockstep.client import lockstep_clients
+from uwsim.middleware.web.options import WebOptions
+from uwsim.middleware.web.server import WebBridge
 from uwsim.rng import stream
 from uwsim.runs.own_process.process import OwnProcess, ProcessAlgorithm
 from uwsim.simulation import InProcessNode
 
+EXAMPLES = Path(__file__).parents[1] / "examples" / "websocket"
+TIMESTEP = 0.002
+CLIENT = """
+import sys
+sys.path.insert(0, sys.argv[1])
+from lockstep import Client, connected
+with connected(f"ws://127.0.0.1:{sys.argv[2]}") as socket:
+    client = Client(socket, "controller")
+    say = client.publisher("/twist", "geometry_msgs/TwistStamped")
+    def answer(odometry):
+        say({"twist": {"linear": {"x": -0.4 * odometry["pose"]["pose"]["position"]["x"]}}})
+    client.subscribe("/odometry", answer)
+    client.run()
+"""
+"""The same controller in a process without uwsim."""
 TARGET = 0.5
 """Of a round trip [ms]."""
 ROUNDS = 1000
@@ -74,7 +95,7 @@ def own_process(rounds: int = ROUNDS) -> dict[str, object]:
         importable: type = importlib.import_module("lockstep").Controller  # not that of __main__
         algorithm = ProcessAlgorithm(process, importable)
         node = InProcessNode(
-            bus, name="controller", timestep=0.002, random=stream(0, "c"), parameters={}
+            bus, name="controller", timestep=TIMESTEP, random=stream(0, "c"), parameters={}
         )
         node.run(algorithm)
         start = time.perf_counter() - began
@@ -92,9 +113,37 @@ def own_process(rounds: int = ROUNDS) -> dict[str, object]:
     }
 
 
+def web_client(rounds: int = ROUNDS) -> dict[str, object]:
+    """Measure a program outside, by WebSocket."""
+    bus = Bus()
+    heard = bus.inbox("twist", TwistStamped)
+    bridge = WebBridge(bus, lambda: bus.step * TIMESTEP, WebOptions(port=0))
+    client = subprocess.Popen([sys.executable, "-c", CLIENT, str(EXAMPLES), str(bridge.port)])
+    try:
+        (outside,) = lockstep_clients([bridge], ["controller"], timestep=TIMESTEP, limit=60.0)
+        node = InProcessNode(
+            bus, name="controller", timestep=TIMESTEP, random=stream(0, "c"), parameters={}
+        )
+        say = bus.publisher("odometry", Odometry)
+        node.run(outside)
+
+        def publish() -> None:
+            say(Odometry())
+            bus.deliver()
+            node.tick()
+
+        trips = round_trips(bus, publish, rounds)
+    finally:
+        bridge.close()
+        client.kill()
+        client.wait()
+    assert len(heard.take()) == rounds
+    return {"odometry in, twist out": summary(trips, TARGET)}
+
+
 def measure() -> dict[str, object]:
     """Measure everything."""
-    return {"a process of its own": own_process()}
+    return {"a process of its own": own_process(), "a program outside, WebSocket": web_client()}
 
 
 if __name__ == "__main__":

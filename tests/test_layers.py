@@ -64,7 +64,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     },
     "benchmark": PARTS | {"benchmark"},
     "results": GROUND | {"statistics", "results"},
-    "runs": TASKS | {"physics", "runs"},
+    "runs": TASKS | {"middleware", "physics", "runs"},
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},

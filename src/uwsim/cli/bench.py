@@ -23,6 +23,7 @@ from ..runs.planning.plan_request import PlanRequest
 from ..runs.timing import Stopwatch, Timing
 from ..terminal import warn
 from .exit_status import running
+from .options.client_options import ClientOptions
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, in_group
 from .options.live import LiveOptions
@@ -90,6 +91,7 @@ class BenchOptions:
         ),
     ] = 1
     by: WorkerOptions
+    outside: ClientOptions
     out: Annotated[
         Path | None,
         in_group(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
@@ -117,6 +119,7 @@ class BenchOptions:
             repeat=self.repeat,
             mode=self.mode,
             levels=self.level or (),
+            client=self.outside.client_spec(),
         )
 
 
@@ -131,6 +134,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     from ..runs.prepare import prepare_runs
 
     wrong, executor, folders = AllErrors(), None, []
+    options.outside.check(wrong, options.by.workers)
     how = {"resume": options.resume, "overwrite": options.overwrite}
     with wrong.kept():
         executor = options.by.executor()

@@ -27,9 +27,10 @@ Any thread of the transport may call:
 `step` is the boundary: call it at the end of each step (`Simulation.watch(bridge.step)`), and
 before the first. There it follows the bus, answers requests in their order, publishes what came
 from outside, by topic in the order of names and within a topic in the order of arrival, and has it
-delivered. A message that came from outside is not sent back out by the same bridge; other bridges
-send it. What arrives when depends on the wall clock: a run with a bridge is not repeatable. For a
-repeatable one, an algorithm outside is attached in lock-step instead.
+delivered. A message that came from outside is not sent back out by the same bridge (unless
+``SENDS_BACK``); other bridges send it. What arrives when depends on the wall clock: a run with a
+bridge is not repeatable. For a repeatable one, a program outside takes part in lock-step
+(`uwsim.middleware.lockstep`).
 
 Topics and services have no leading slash on the bus; transports add it where it is customary.
 Topics that are withheld from algorithms under test are not shown to the outside.
@@ -43,6 +44,7 @@ from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from typing import ClassVar
 
 from ..bus import Bus, TopicEnds
 from ..errors import BadMessage, RunFailed, UwsimError
@@ -68,6 +70,10 @@ class Bridge(ABC):
         log: where events are reported.
     """
 
+    SENDS_BACK: ClassVar[bool] = False
+    """Whether messages from outside are sent out, too: where those outside do not reach each
+    other."""
+
     def __init__(self, bus: Bus, clock: Callable[[], float], log: Log) -> None:
         self.bus, self.clock, self.log = bus, clock, log
         self._lock = threading.Lock()
@@ -79,7 +85,7 @@ class Bridge(ABC):
         self._is_urgent = False  # something waits that is done also while the simulation waits
         self._woken = threading.Event()
         self._taps: dict[str, list[Callable[[object], None]]] = {}
-        self._offered: set[str] = set()
+        self._from_outside: set[str] = set()
         self.n_arrived: Counter[str] = Counter()
         """Messages that have come from outside so far, by topic."""
         self._n_wanted: Counter[str] = Counter()
@@ -195,7 +201,7 @@ class Bridge(ABC):
             self._exchange()
         self.tick()
 
-    def wait(self, until: Callable[[], bool], limit_s: float) -> bool:
+    def wait_for(self, until: Callable[[], bool], limit_s: float) -> bool:
         """Wait for something from outside, in the thread of the simulation, at most ``limit_s``.
 
         Meanwhile subscribers are followed and calls of services answered, and messages kept for
@@ -216,7 +222,7 @@ class Bridge(ABC):
         return True
 
     def wake(self) -> None:
-        """Have `wait` look again. Any thread."""
+        """Have `wait_for` look again. Any thread."""
         self._woken.set()
 
     def tick(self) -> None:  # noqa: B027 - a transport that publishes no clock has nothing to do
@@ -233,9 +239,9 @@ class Bridge(ABC):
         for stop in self._stops.values():
             stop()
         self._stops.clear()
-        for name in sorted(self._offered):
+        for name in sorted(self._from_outside):
             self.bus.withdraw(name)
-        self._offered.clear()
+        self._from_outside.clear()
 
     def _follow(self) -> None:
         """Tell the transport what has changed on the bus."""
@@ -291,13 +297,13 @@ class Bridge(ABC):
     def _follow_offer(self, name: str, service: Service | None) -> None:
         """Offer a service of the outside on the bus, or no longer."""
         if service is None:
-            if name in self._offered:
-                self._offered.discard(name)
+            if name in self._from_outside:
+                self._from_outside.discard(name)
                 self.bus.withdraw(name)
         elif self.bus.serves(name):
             self.log.say(f"service /{name} is offered already; that of the outside is not taken")
         else:
-            self._offered.add(name)
+            self._from_outside.add(name)
             self.bus.serve(name, service.request, lambda request: self._ask(name, request))
 
     def _ask(self, name: str, request: object) -> object:
@@ -308,7 +314,7 @@ class Bridge(ABC):
         """
         future = self.call_outside(name, request)
         future.add_done_callback(lambda _: self.wake())
-        if not self.wait(future.done, CALL_LIMIT):
+        if not self.wait_for(future.done, CALL_LIMIT):
             raise RunFailed(f"Service /{name}: no response within {CALL_LIMIT:g} s of wall time.")
         return future.result()
 
@@ -326,7 +332,7 @@ class Bridge(ABC):
             self._stops.pop(topic)()
 
     def _pass(self, topic: str, message: object) -> None:
-        if id(message) not in self._own:
+        if self.SENDS_BACK or id(message) not in self._own:
             self.send(topic, message)
 
     def _answer(self, name: str, request: object, future: Future[object]) -> None:

@@ -56,6 +56,8 @@ def control_of(run: Run) -> Run:
         algorithm_name=CONTROL,
         parameters={} if topic is None or is_usual else {"image_topic": topic},
         is_blind=True,
+        own_process=False,
+        client=None,
     )
     inputs = run.inputs.without_algorithm()
     return Run(plan=plan, out=run.out / FOLDER, inputs=inputs, renderer="none", files=run.files)

@@ -31,7 +31,8 @@ from uwsim.messages import (
     header,
 )
 from uwsim.middleware.log import Log
-from uwsim.middleware.web.server import WebBridge, WebOptions
+from uwsim.middleware.web.options import WebOptions
+from uwsim.middleware.web.server import WebBridge
 
 LIMIT = 60.0
 """Nothing takes longer unless it hangs [s]."""

@@ -27,6 +27,11 @@ SAID_ELSEWHERE = ("notes", "clients", "levels", "settings", "compatibility", "un
 CLIENTS = {
     "own process": "in lock-step, in a process of its own, by messages only",
     "in process": "in the process of the simulation (--in-process)",
+    **{
+        f"lock-step, {transport}": f"as a program outside over {name}, in lock-step: simulation "
+        "time waits for its answers"
+        for transport, name in {"web": "WebSocket", "ros1": "ROS 1", "ros2": "ROS 2"}.items()
+    },
 }
 """How an algorithm or an external client takes part -> what that means."""
 CODE = ("code", "code_before")

@@ -5,79 +5,115 @@ from __future__ import annotations
 import importlib.util
 import os
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
-from ...errors import AllErrors, BadSetting, MissingExtra
+from ...errors import AllErrors, BadSetting, MissingExtra, RunFailed
 from .help_texts import CONNECTED, in_group
+from .web_options import (
+    CLIENT_LIMIT,
+    ClientLimitOption,
+    ClientOption,
+    WebHostOption,
+    WebOption,
+    WebOriginOption,
+    WebTokenOption,
+    check_clients,
+    web_options,
+)
 
 if TYPE_CHECKING:
     from ...middleware.bridge import Bridge
+    from ...middleware.connection import ConnectionSpec
+    from ...middleware.web.options import WebOptions
     from ...simulation import Simulation
+
+
+Ros1Option = Annotated[
+    bool,
+    in_group(
+        CONNECTED,
+        "--ros1",
+        help="Be a node of ROS 1: topics, services, /clock and /tf, at the master of "
+        "ROS_MASTER_URI; a master is started where none runs. ROS need not be installed.",
+    ),
+]
+
+Ros1HostOption = Annotated[
+    str | None,
+    in_group(
+        CONNECTED,
+        "--ros1-host",
+        metavar="ADDRESS",
+        help="Address of this computer at which ROS 1 nodes on others reach it [127.0.0.1: "
+        "nodes on this computer only].",
+    ),
+]
+
+Ros2Option = Annotated[
+    bool,
+    in_group(
+        CONNECTED,
+        "--ros2",
+        help="Be a node of ROS 2: topics, services, /clock. On this computer only, unless "
+        "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET.",
+    ),
+]
+
+DomainOption = Annotated[
+    int | None,
+    in_group(
+        CONNECTED,
+        "--domain",
+        metavar="N",
+        help="ROS 2 domain, 0 to 232 [ROS_DOMAIN_ID, or 0].",
+    ),
+]
 
 
 @dataclass(frozen=True, kw_only=True)
 class ConnectionOptions:
     """To what a simulation is connected, and how fast it runs then."""
 
-    ros1: Annotated[
-        bool,
-        in_group(
-            CONNECTED,
-            "--ros1",
-            help="Be a node of ROS 1: topics, services, /clock and /tf, at the master of "
-            "ROS_MASTER_URI; a master is started where none runs. ROS need not be installed.",
-        ),
-    ] = False
-    ros1_host: Annotated[
-        str | None,
-        in_group(
-            CONNECTED,
-            "--ros1-host",
-            metavar="ADDRESS",
-            help="Address of this computer at which ROS 1 nodes on others reach it [127.0.0.1: "
-            "nodes on this computer only].",
-        ),
-    ] = None
-    ros2: Annotated[
-        bool,
-        in_group(
-            CONNECTED,
-            "--ros2",
-            help="Be a node of ROS 2: topics, services, /clock. On this computer only, unless "
-            "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET.",
-        ),
-    ] = False
-    domain: Annotated[
-        int | None,
-        in_group(
-            CONNECTED,
-            "--domain",
-            metavar="N",
-            help="ROS 2 domain, 0 to 232 [ROS_DOMAIN_ID, or 0].",
-        ),
-    ] = None
+    ros1: Ros1Option = False
+    ros1_host: Ros1HostOption = None
+    ros2: Ros2Option = False
+    domain: DomainOption = None
     speed: Annotated[
         float | None,
         in_group(
             CONNECTED,
             "--speed",
             metavar="X",
-            help="Simulation time per real time; 0 is as fast as it can [1 with a connection, "
-            "else 0].",
+            help="Simulation time per real time; 0 is as fast as it can [1 with a connection "
+            "and no --client, else 0].",
         ),
     ] = None
+
+    web: WebOption = None
+    web_host: WebHostOption = None
+    web_token: WebTokenOption = None
+    web_origin: WebOriginOption = None
+    client: ClientOption = None
+    client_limit: ClientLimitOption = CLIENT_LIMIT
 
     @property
     def is_connected(self) -> bool:
         """Whether there is any connection."""
-        return self.ros1 or self.ros2
+        return bool(self.transports)
+
+    @property
+    def transports(self) -> tuple[str, ...]:
+        """Names of those that are asked for."""
+        are = {"ros1": self.ros1, "ros2": self.ros2, "web": self.web is not None}
+        return tuple(name for name, is_used in are.items() if is_used)
 
     @property
     def pace(self) -> float:
         """Simulation time per real time; 0 is as fast as it can."""
-        return float(self.is_connected) if self.speed is None else self.speed
+        is_free = self.is_connected and not self.client
+        return float(is_free) if self.speed is None else self.speed
 
     def check(self, wrong: AllErrors) -> None:
         """Collect the errors of the options."""
@@ -93,6 +129,10 @@ class ConnectionOptions:
         with wrong.kept():
             if self.ros2:
                 self._check_ros2()
+        with wrong.kept():
+            self.web_options()
+        with wrong.kept():
+            check_clients(self.client or (), self.client_limit, self.transports)
 
     def _check_ros2(self) -> None:
         if importlib.util.find_spec("cyclonedds") is None:
@@ -103,14 +143,35 @@ class ConnectionOptions:
 
         settings_from(os.environ, self.domain)
 
+    def spec(self) -> ConnectionSpec:
+        """Return what is opened; raises BadSetting."""
+        from ...middleware.connection import ConnectionSpec
+
+        return ConnectionSpec(
+            ros1=self.ros1,
+            ros1_host=self.ros1_host or "127.0.0.1",
+            ros2=self.ros2,
+            domain=self.domain,
+            web=self.web_options(),
+        )
+
+    def web_options(self) -> WebOptions | None:
+        """Return where web clients are served; raises BadSetting."""
+        return web_options(self.web, self.web_host, self.web_token, self.web_origin)
+
 
 @contextmanager
 def connected(simulation: Simulation, options: ConnectionOptions) -> Iterator[None]:
-    """Connect a simulation, and pace it, within the block; a program outside may end the block."""
+    """Connect a simulation, and pace it, within the block; a program outside may end the block.
+
+    Clients in lock-step are waited for until they have joined.
+    """
     from ...simulation.control import Quit
 
-    with ExitStack() as stack:
-        if bridges := list(_bridges(simulation, options, stack)):
+    with options.spec().open(simulation.bus, lambda: simulation.time) as bridges:
+        if options.client:
+            _attach(simulation, bridges, options)
+        if bridges:
             _connect(simulation, bridges)
         if options.pace > 0:
             from ...middleware.pacing import Pace
@@ -118,6 +179,21 @@ def connected(simulation: Simulation, options: ConnectionOptions) -> Iterator[No
             simulation.watch(Pace(lambda: simulation.time, options.pace).step)
         with suppress(Quit):
             yield
+
+
+def _attach(simulation: Simulation, bridges: Sequence[Bridge], options: ConnectionOptions) -> None:
+    """Attach the clients in lock-step."""
+    from ...middleware.lockstep.client import lockstep_clients
+
+    for client in lockstep_clients(
+        bridges,
+        options.client or (),
+        timestep=simulation.timestep,
+        limit=options.client_limit,
+    ):
+        node = simulation.attach(client, name=client.name, raises=False)
+        if node.error is not None:
+            raise RunFailed(f"{client.name} {node.how}: {node.error}")
 
 
 def _connect(simulation: Simulation, bridges: Sequence[Bridge]) -> None:
@@ -133,28 +209,3 @@ def _connect(simulation: Simulation, bridges: Sequence[Bridge]) -> None:
     control.begin()
     simulation.watch(exchange)
     simulation.watch(control.hold)
-
-
-def _bridges(
-    simulation: Simulation, options: ConnectionOptions, stack: ExitStack
-) -> Iterator[Bridge]:
-    """Open what the options ask for; ``stack`` closes it."""
-    if options.ros1:
-        from ...middleware.ros1 import Ros1Options, connect
-
-        ros1_options = Ros1Options(host=options.ros1_host or "127.0.0.1")
-        connection = connect(simulation.bus, lambda: simulation.time, ros1_options)
-        stack.callback(connection.close)
-        yield connection.bridge
-    if options.ros2:
-        from ...middleware.ros2.adapter import Ros2
-        from ...middleware.ros2.settings import settings_from
-
-        ros2 = Ros2(
-            simulation.bus,
-            lambda: simulation.time,
-            settings_from(os.environ, options.domain),
-            more=os.environ.get("CYCLONEDDS_URI", ""),
-        )
-        stack.callback(ros2.close)
-        yield ros2

@@ -5,17 +5,18 @@ The contract, on three topics of std_msgs/String with a JSON object as their tex
 .. code-block:: text
 
     /uwsim/lockstep/join   from the client, once, when it has subscribed and advertised
-        {"client": NAME, "topics": ["/odom", ...], "period": 0.1}
+        {"client": NAME, "topics": ["/odom", ...], "next": 0.0}
     /uwsim/lockstep/tick   to the client
         {"client": NAME, "tick": 5, "time": 0.1, "sent": {"/odom": 6}}
     /uwsim/lockstep/ack    from the client, when it has done all that follows from the tick
-        {"client": NAME, "tick": 5, "published": {"/cmd": 5}}
+        {"client": NAME, "tick": 5, "published": {"/cmd": 5}, "next": 0.2}
 
 A tick comes at the end of each step in which a message of one of the client's ``topics`` was
-published, or its ``period`` [s of simulation time] is over; period 0 or none: only with messages.
-``sent`` counts the messages of each topic since the join: topics are not ordered relative to each
-other in ROS, and a client waits until it has as many. ``published`` counts the client's own in the
-same way, and may be left out where the transport keeps the order of topics (WebSocket does).
+published, or in which the simulation time ``next`` [s] is reached that the client named last, for
+its timers. ``sent`` counts the messages of each topic since the join: topics are not ordered
+relative to each other in ROS, and a client waits until it has as many. ``published`` counts the
+client's own in the same way, and may be left out where the transport keeps the order of topics
+(WebSocket does).
 
 Until the ack is there simulation time stands. Calls of services are answered at once, also those
 that the simulation makes of the client; what the client has published is put on the bus after the

@@ -5,16 +5,32 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter, deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from ...bus import Node
-from ...errors import ClientLost, NeverStarted
+from ...errors import BadSetting, ClientLost, NeverStarted
 from ...messages import String
 from ..bridge import Bridge
+from ..connection import ConnectionSpec
 from .topics import ACK, JOIN, TICK
 
 MAX_ROUNDS = 1000
 """Ticks of one step: a client that answers its own messages without end goes no further."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClientSpec:
+    """A program outside that takes part in lock-step."""
+
+    name: str
+    """Under which it joins."""
+    connection: ConnectionSpec
+    """The one by which it comes."""
+    limit: float = 60.0
+    """How long it may take to join, and to answer a tick [s of wall time]."""
 
 
 class LockStepClient:
@@ -33,12 +49,12 @@ class LockStepClient:
         self._acks: deque[dict[str, Any]] = deque()
         self._sent: Counter[str] = Counter()
         self._is_due, self._next_time = False, math.inf
-        self._period = math.inf
         self._n_ticks = 0
-        for topic, queue in ((JOIN, self._joins), (ACK, self._acks)):
-            bridge.bus.subscribe(topic, String, _nothing)  # so that transports subscribe outside
-            bridge.tap(topic, self._receiver(queue))
-        bridge.bus.publisher(TICK, String)
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self._name
 
     def start(self, node: Node) -> None:
         """Wait until the client has joined, and subscribe for it.
@@ -49,15 +65,13 @@ class LockStepClient:
         self._node = node
         bridge = self._bridge
         bridge.step()
-        if not bridge.wait(lambda: bool(self._joins), self._limit):
+        if not bridge.wait_for(lambda: bool(self._joins), self._limit):
             raise NeverStarted(
                 f"No client {self._name!r} has joined within {self._limit:g} s of wall time "
                 "(--client-limit)."
             )
         joined = self._joins.popleft()
-        period = joined.get("period")
-        if isinstance(period, int | float) and period > 0.0:
-            self._period, self._next_time = float(period), node.now
+        self._wish(joined)
         for topic in _texts(joined.get("topics")):
             node.subscribe(topic, object, self._counter(topic))
         node.every(self._timestep, self._barrier)
@@ -67,13 +81,9 @@ class LockStepClient:
         """Those of the client are its own."""
         return {}
 
-    def _receiver(self, queue: deque[dict[str, Any]]) -> Any:
-        def receive(message: object) -> None:
-            found = _object_in(message)
-            if found.get("client") == self._name:
-                queue.append(found)
-
-        return receive
+    def hear(self, topic: str, content: dict[str, Any]) -> None:
+        """Take in what the client says on one of the topics of lock-step. Any thread."""
+        (self._joins if topic == JOIN else self._acks).append(content)
 
     def _counter(self, topic: str) -> Any:
         def count(message: object) -> None:
@@ -84,11 +94,8 @@ class LockStepClient:
 
     def _barrier(self) -> None:
         """Tick the client if something is due for it, and wait until it has answered."""
-        node = self._node
-        if node.now >= self._next_time - 0.5 * self._timestep:
-            self._is_due = True
-            n = math.floor((node.now + 0.5 * self._timestep) / self._period) + 1
-            self._next_time = n * self._period
+        if self._node.now - self._next_time >= -1e-9 * self._timestep:
+            self._is_due, self._next_time = True, math.inf
         for _ in range(MAX_ROUNDS):
             if not self._is_due:
                 return
@@ -102,12 +109,19 @@ class LockStepClient:
         number = self._n_ticks
         tick = {"client": self._name, "tick": number, "time": now, "sent": dict(self._sent)}
         bridge.send(TICK, String(data=json.dumps(tick)))
-        if not bridge.wait(lambda: self._is_answered(number), self._limit):
+        if not bridge.wait_for(lambda: self._is_answered(number), self._limit):
             raise ClientLost(
                 f"Client {self._name!r} did not answer the tick at {now:g} s within "
                 f"{self._limit:g} s of wall time (--client-limit): the run is invalid."
             )
+        self._wish(self._acks.popleft())
         bridge.step()
+
+    def _wish(self, said: dict[str, Any]) -> None:
+        """Take note of when the client wants its next tick at the latest."""
+        wish = said.get("next")
+        if isinstance(wish, int | float) and not isinstance(wish, bool):
+            self._next_time = float(wish)
 
     def _is_answered(self, number: int) -> bool:
         """Whether the ack of a tick is there, and all that it announces."""
@@ -125,6 +139,43 @@ class LockStepClient:
             for topic, n in published.items()
             if isinstance(n, int)
         )
+
+
+def lockstep_clients(
+    bridges: Sequence[Bridge], names: Sequence[str], *, timestep: float, limit: float
+) -> tuple[LockStepClient, ...]:
+    """Return the clients of these names, in the order of the names; attach them in it.
+
+    Args:
+        bridges: the transports; one, by which the clients come.
+        names: of the clients.
+        timestep: of the simulation [s].
+        limit: how long one may take to join, and to answer a tick [s of wall time].
+
+    Raises:
+        BadSetting: there is no transport, or more than one.
+    """
+    if len(bridges) != 1:
+        raise BadSetting("--client: expected one of --web, --ros1 and --ros2, by which it comes.")
+    (bridge,) = bridges
+    ordered = sorted(dict.fromkeys(names))
+    clients = {
+        name: LockStepClient(bridge, name, timestep=timestep, limit=limit) for name in ordered
+    }
+
+    def hear(topic: str, message: object) -> None:
+        content = _object_in(message)
+        client = clients.get(str(content.get("client")))
+        if client is not None:
+            client.hear(topic, content)
+        else:
+            bridge.log.say(f"/{topic}: no client of this run: {str(content.get('client'))[:100]!r}")
+
+    for topic in (JOIN, ACK):
+        bridge.bus.subscribe(topic, String, _nothing)  # so that transports subscribe outside
+        bridge.tap(topic, partial(hear, topic))
+    bridge.bus.publisher(TICK, String)
+    return tuple(clients.values())
 
 
 def _nothing(message: object) -> None:

@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
-from dataclasses import dataclass
+from typing import ClassVar
 from urllib.parse import parse_qs, urlsplit
 
 from websockets.asyncio.server import ServerConnection, serve
@@ -27,10 +27,10 @@ from ..bridge import Bridge
 from ..log import Log
 from ..stamps import clock_time
 from ..types import message_class, wire_type
+from .options import WebOptions
 from .outgoing import Outgoing
 from .session import Session, Subscription
 
-LOOPBACK = ("127.0.0.1", "localhost", "::1")
 LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
 """Origins of pages that may connect unless others are named: those of this computer."""
 MAX_FRAME = 16 * 2**20
@@ -45,28 +45,6 @@ CLOSING = 2.0
 CLOCK = "clock"
 
 
-@dataclass(frozen=True, kw_only=True)
-class WebOptions:
-    """Where the server listens, and who may connect."""
-
-    port: int = 9090
-    """Port; 0: one that the system chooses."""
-    host: str = "127.0.0.1"
-    """Address; another than this computer's own needs a token."""
-    token: str | None = None
-    """What a client has to give: ``ws://HOST:PORT/?token=...`` or ``Authorization: Bearer``."""
-    origins: tuple[str, ...] = ()
-    """Pages that may connect, as ``https://example.org``, next to those of this computer."""
-
-    def __post_init__(self) -> None:
-        if not 0 <= self.port < 2**16:
-            raise BadSetting(f"--web {self.port}: expected a port, from 0 to 65535.")
-        if self.host not in LOOPBACK and not self.token:
-            raise BadSetting(
-                f"--web-host {self.host}: other computers could connect; give a --web-token too."
-            )
-
-
 class WebBridge(Bridge):
     """Serves the topics and services of a bus to web clients.
 
@@ -79,6 +57,8 @@ class WebBridge(Bridge):
     Raises:
         BadSetting: it cannot listen there.
     """
+
+    SENDS_BACK: ClassVar[bool] = True
 
     def __init__(
         self,
@@ -108,6 +88,7 @@ class WebBridge(Bridge):
             raise BadSetting(
                 f"--web {options.port}: cannot listen at {options.host}: {error.strerror or error}."
             ) from None
+        self.log.say(f"listening at ws://{options.host}:{self.port}", kind="listening")
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         """Note what is there; clients ask."""

@@ -1,32 +1,62 @@
-"""The algorithm of a plan: made in this process, or in one of its own."""
+"""The algorithm of a plan: made in this process, in one of its own, or a program outside."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import partial
 
 from ...bus import Algorithm
+from ...middleware.lockstep.client import ClientSpec, lockstep_clients
+from ...simulation import Simulation
 from ..planning.plan import Plan
 from .process import OwnProcess, ProcessAlgorithm
 
-Program = Callable[[Mapping[str, float | str]], Algorithm]
-"""Makes the algorithm; takes the parameters that the user set."""
-OWN_PROCESS, IN_PROCESS = "own process", "in process"
-"""How a third-party algorithm takes part, as a result says it."""
+Program = Callable[[Simulation, Mapping[str, float | str]], Algorithm]
+"""Makes the algorithm of a simulation; takes the parameters that the user set."""
+OWN_PROCESS, IN_PROCESS, LOCK_STEP = "own process", "in process", "lock-step"
+"""How an algorithm that is not bundled takes part, as a result says it."""
 
 
 @contextmanager
 def program_of(plan: Plan) -> Iterator[Program]:
-    """Yield what makes the algorithm of a plan; its process ends with the block."""
-    if not plan.own_process:
-        yield lambda parameters: plan.algorithm()
-        return
-    with OwnProcess() as process:
-        yield lambda parameters: ProcessAlgorithm(process, plan.algorithm, plan.plugins, parameters)
+    """Yield what makes the algorithm of a plan; its process, or connection, ends with the block."""
+    with ExitStack() as stack:
+        if plan.client is not None:
+            yield partial(_client, plan.client, stack)
+        elif plan.own_process:
+            yield partial(_in_own_process, plan, stack.enter_context(OwnProcess()))
+        else:
+            yield lambda simulation, parameters: plan.algorithm()
+
+
+def _in_own_process(
+    plan: Plan, process: OwnProcess, simulation: Simulation, parameters: Mapping[str, float | str]
+) -> Algorithm:
+    return ProcessAlgorithm(process, plan.algorithm, plan.plugins, parameters)
+
+
+def _client(
+    spec: ClientSpec,
+    stack: ExitStack,
+    simulation: Simulation,
+    parameters: Mapping[str, float | str],
+) -> Algorithm:
+    """Open the connection of a program outside, until the stack is closed."""
+    opened = spec.connection.open(simulation.bus, lambda: simulation.time)
+    bridges = stack.enter_context(opened)
+    (client,) = lockstep_clients(
+        bridges, [spec.name], timestep=simulation.timestep, limit=spec.limit
+    )
+    for bridge in bridges:
+        simulation.watch(bridge.step)
+    return client
 
 
 def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
     """Return who takes part, and how; None where only code of uwsim does."""
+    if plan.client is not None:
+        return ((plan.algorithm_name, f"{LOCK_STEP}, {plan.client.connection.names[0]}"),)
     if plan.own_process:
         return ((plan.algorithm_name, OWN_PROCESS),)
     if plan.algorithm.__module__.startswith("uwsim."):

@@ -73,6 +73,8 @@ def make_plan(request: PlanRequest) -> Plan:
             refuse_code(scene)
     with wrong.kept():
         kind = _algorithm(request, read)
+    with wrong.kept():
+        check_client(request, parameters)
     check_parameters(kind, parameters, wrong)
     mode: Mode = "sequential"
     with wrong.kept():
@@ -102,7 +104,9 @@ def make_plan(request: PlanRequest) -> Plan:
         data_path=tuple(request.data_path),
         inputs=inputs,
         plugins=read.plugins,
-        own_process=not request.in_process
+        client=request.client,
+        own_process=request.client is None
+        and not request.in_process
         and kind not in _bundled_algorithms(_wanted(request, spec)),
     )
 
@@ -151,11 +155,17 @@ def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErr
 
 def _wanted(request: PlanRequest, spec: BenchmarkSpec | None) -> str:
     """Return the name of the algorithm; empty where none is given."""
+    if request.client is not None:
+        return request.client.name
     return request.algorithm or (None if spec is None else spec.algorithm) or ""
 
 
 def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
     """Find the algorithm; a class that a file names is announced, or refused."""
+    from ...middleware.lockstep.client import LockStepClient
+
+    if request.client is not None:
+        return LockStepClient
     wanted, spec = _wanted(request, read.benchmark), read.benchmark
     file = request.algorithm_is_from or ("" if request.algorithm or spec is None else spec.path)
     if file and ":" in wanted:
@@ -232,6 +242,20 @@ def algorithm_of(
     if not wanted or tables is None:
         return None
     return load_program(wanted, tables.algorithms)
+
+
+def check_client(request: PlanRequest, parameters: Mapping[str, float | str]) -> None:
+    """Refuse what does not go together with a client outside; raises BadSetting."""
+    if request.client is None:
+        return
+    name = request.client.name
+    if request.algorithm:
+        raise BadSetting(f"--algorithm {request.algorithm}: the algorithm is --client {name}.")
+    if parameters:
+        raise BadSetting(
+            f"--set {OF_ALGORITHM}{next(iter(parameters))}: the parameters of --client {name} are "
+            "its own."
+        )
 
 
 def check_parameters(

@@ -18,6 +18,7 @@ from ...benchmark.updaters import Level
 from ...benchmark.updaters import levels as levels_of
 from ...bus import Algorithm
 from ...errors import BadSetting, did_you_mean
+from ...middleware.lockstep.client import ClientSpec
 from ...scene.spec import SceneSpec
 from ...scene.variation import Draw, draw
 from ...world import TIMESTEP
@@ -89,6 +90,8 @@ class Plan:
     """What was read with ``--plugin``."""
     own_process: bool = False
     """Whether the algorithm runs in a process of its own, in lock-step."""
+    client: ClientSpec | None = None
+    """The program outside that is the algorithm; None where ``algorithm`` is."""
 
     def __reduce__(self) -> tuple[Callable[..., Plan], tuple[object, ...]]:
         """Pickle the plugins first, because later fields may be of their classes."""

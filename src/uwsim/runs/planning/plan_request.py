@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ...middleware.lockstep.client import ClientSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,6 +39,8 @@ class PlanRequest:
     """Files of ``--plugin``."""
     no_code: bool = False
     """Whether code that the files name is refused."""
+    client: ClientSpec | None = None
+    """The program outside that is the algorithm."""
     in_process: bool = False
     """Whether a third-party algorithm shares the simulation's process."""
     algorithm_is_from: str = ""

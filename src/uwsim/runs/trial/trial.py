@@ -7,9 +7,13 @@ its target and runs 1 s; then the level's values are ramped in over 1 s; only th
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing
+<<<<<<< HEAD
 from pathlib import Path
+=======
+from functools import partial
+>>>>>>> 83f1280 (WebSocket and lock-step with programs outside: uwsim run --web, bench --client; examples, pages)
 
 from ...benchmark.plugin import attribute_errors_to
 from ...benchmark.plugin_checks import check_values, parameters_of
@@ -142,11 +146,16 @@ class _Execution:
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
         self._calls = calls
+<<<<<<< HEAD
         self._onlooker = onlooker
         self._inputs = _inputs_of(plan, trial, simulation, onlooker)
         found = {} if self._inputs is None else pilot_topics(simulation)
         self._parameters = {**found, **known_corners(plan), **plan.parameters}
         self._algorithm = _make(plan, program, self._parameters, calls)
+=======
+        self._parameters = {**known_corners(plan), **plan.parameters}
+        self._algorithm = _make(plan, partial(program, simulation), self._parameters, calls)
+>>>>>>> 83f1280 (WebSocket and lock-step with programs outside: uwsim run --web, bench --client; examples, pages)
         self._node = simulation.attach(
             self._algorithm,
             name=plan.algorithm_name,
@@ -398,7 +407,10 @@ class _Execution:
 
 
 def _make(
-    plan: Plan, program: Program, parameters: Mapping[str, float | str], calls: Calls
+    plan: Plan,
+    program: Callable[[Mapping[str, float | str]], Algorithm],
+    parameters: Mapping[str, float | str],
+    calls: Calls,
 ) -> Algorithm:
     """Make the algorithm; an exception of its constructor is a NeverStarted."""
     try:

@@ -1,0 +1,147 @@
+"""Lock-step over WebSocket for any Python program; needs `websockets` alone, not uwsim.
+
+A program subscribes, advertises and offers services, then calls `run`. Messages are dicts, as JSON
+has them. Its callbacks run while simulation time stands; when all that is due has been done, the
+simulation goes on.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import Any
+
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection, connect
+
+JOIN, TICK, ACK = (f"/uwsim/lockstep/{name}" for name in ("join", "tick", "ack"))
+TEXT = "std_msgs/String"
+
+
+class Client:
+    """A client in lock-step.
+
+    Args:
+        socket: an open connection.
+        name: that of ``--client``.
+        before_ack: called before each answer; a test lets it sleep.
+    """
+
+    def __init__(
+        self, socket: ClientConnection, name: str, before_ack: Callable[[], None] = lambda: None
+    ) -> None:
+        self._socket, self._name, self._before_ack = socket, name, before_ack
+        self._callbacks: dict[str, list[Callable[[Any], None]]] = {}
+        self._handlers: dict[str, Callable[[Any], Any]] = {}
+        self._waiting: list[tuple[str, Any]] = []  # messages that came before their tick
+        self._timers: list[tuple[list[float], Callable[[], None]]] = []
+        self._n_calls = 0
+        self.now = 0.0
+        """Simulation time [s]."""
+
+    def subscribe(self, topic: str, callback: Callable[[Any], None]) -> None:
+        """Have ``callback`` called with every message of a topic."""
+        if topic not in self._callbacks:
+            self._callbacks[topic] = []
+            self._send(op="subscribe", topic=topic)
+        self._callbacks[topic].append(callback)
+
+    def publisher(self, topic: str, type: str) -> Callable[[Any], None]:
+        """Return ``publish(message)`` for a topic."""
+        self._send(op="advertise", topic=topic, type=type)
+        return lambda message: self._send(op="publish", topic=topic, msg=message)
+
+    def serve(self, name: str, type: str, handler: Callable[[Any], Any]) -> None:
+        """Offer a service: ``handler`` takes the request and returns the response."""
+        self._handlers[name] = handler
+        self._send(op="advertise_service", service=name, type=type)
+
+    def call(self, name: str, request: Any) -> Any:
+        """Call a service and return its response; LookupError with the reason if it fails."""
+        self._n_calls += 1
+        number = f"call {self._n_calls}"
+        self._send(op="call_service", id=number, service=name, args=request)
+        while True:
+            frame = self._receive()
+            if frame.get("op") == "service_response" and frame.get("id") == number:
+                if not frame["result"]:
+                    raise LookupError(frame["values"])
+                return frame["values"]
+            self._handle(frame)
+
+    def every(self, period: float, callback: Callable[[], None]) -> None:
+        """Have ``callback`` called every ``period`` [s] of simulation time."""
+        self._timers.append(([self.now, period, 0], callback))
+
+    def run(self) -> None:
+        """Join, and answer ticks until the simulation closes the connection."""
+        self._send(op="advertise", topic=JOIN, type=TEXT)
+        self._send(op="advertise", topic=ACK, type=TEXT)
+        self._send(op="subscribe", topic=TICK)
+        self._say(JOIN, topics=list(self._callbacks), next=self._next())
+        with suppress(ConnectionClosed):
+            while True:
+                self._handle(self._receive())
+
+    def _handle(self, frame: dict[str, Any]) -> None:
+        if frame["op"] == "call_service":
+            values = self._handlers[frame["service"]](frame.get("args", {}))
+            answer = {"service": frame["service"], "id": frame["id"], "values": values}
+            self._send(op="service_response", result=True, **answer)
+        elif frame["op"] == "publish" and frame["topic"] == TICK:
+            self._tick(json.loads(frame["msg"]["data"]))
+        elif frame["op"] == "publish":
+            self._waiting.append((frame["topic"], frame["msg"]))
+        elif frame["op"] == "status":
+            raise RuntimeError(frame["msg"])
+
+    def _tick(self, tick: dict[str, Any]) -> None:
+        """Do what is due: messages in their order, then timers; then let time go on."""
+        self.now = tick["time"]
+        while self._waiting:
+            topic, message = self._waiting.pop(0)
+            for callback in self._callbacks[topic]:
+                callback(message)
+        for timer, callback in self._timers:
+            if self.now >= _due(timer):
+                timer[2] += 1
+                callback()
+        self._before_ack()
+        self._say(ACK, tick=tick["tick"], next=self._next())
+
+    def _next(self) -> float | None:
+        return min((_due(timer) for timer, _ in self._timers), default=None)
+
+    def _say(self, topic: str, **content: Any) -> None:
+        text = json.dumps({"client": self._name, **content})
+        self._send(op="publish", topic=topic, msg={"data": text})
+
+    def _send(self, **frame: Any) -> None:
+        self._socket.send(json.dumps(frame))
+
+    def _receive(self) -> Any:
+        return json.loads(self._socket.recv())
+
+
+def _due(timer: list[float]) -> float:
+    start, period, n = timer
+    return start + n * period - 1e-9 * period if math.isfinite(period) else math.inf
+
+
+@contextmanager
+def connected(uri: str, limit: float = 60.0) -> Iterator[ClientConnection]:
+    """Open a connection; tries again until the simulation listens, at most ``limit`` seconds."""
+    deadline = time.monotonic() + limit
+    while True:
+        try:
+            opened = connect(uri, max_size=2**26, open_timeout=limit)
+            break
+        except OSError:
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(0.05)
+    with opened as socket:
+        yield socket

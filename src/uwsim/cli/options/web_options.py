@@ -1,0 +1,109 @@
+"""Options of web clients and of clients in lock-step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
+
+from ...errors import BadSetting
+from .help_texts import CONNECTED, in_group
+
+if TYPE_CHECKING:
+    from ...middleware.web.options import WebOptions
+
+CLIENT_LIMIT = 60.0
+"""Default of the longest time that a client in lock-step may take [s of wall time]."""
+
+WebOption = Annotated[
+    int | None,
+    in_group(
+        CONNECTED,
+        "--web",
+        metavar="PORT",
+        help="Serve topics and services by WebSocket (rosbridge protocol) at this port; 9090 is "
+        "usual, 0: one that is free.",
+    ),
+]
+
+WebHostOption = Annotated[
+    str | None,
+    in_group(
+        CONNECTED,
+        "--web-host",
+        metavar="ADDRESS",
+        help="Address at which --web listens, for other computers with --web-token [127.0.0.1].",
+    ),
+]
+
+WebTokenOption = Annotated[
+    str | None,
+    in_group(
+        CONNECTED,
+        "--web-token",
+        metavar="TOKEN",
+        help="What web clients have to give, as ws://HOST:PORT/?token=TOKEN.",
+    ),
+]
+
+WebOriginOption = Annotated[
+    list[str] | None,
+    in_group(
+        CONNECTED,
+        "--web-origin",
+        metavar="ORIGIN",
+        help="A page that may connect, as https://example.org, next to those of this computer; "
+        "may be repeated.",
+    ),
+]
+
+ClientOption = Annotated[
+    list[str] | None,
+    in_group(
+        CONNECTED,
+        "--client",
+        metavar="NAME",
+        help="A program outside, in lock-step: simulation time waits until it has joined under "
+        "this name, and for its answers; may be repeated.",
+    ),
+]
+
+ClientLimitOption = Annotated[
+    float,
+    in_group(
+        CONNECTED,
+        "--client-limit",
+        metavar="SECONDS",
+        help="How long a --client may take to join and to answer, in wall time; after that the "
+        "run is invalid.",
+    ),
+]
+
+
+def web_options(
+    port: int | None, host: str | None, token: str | None, origins: Sequence[str] | None
+) -> WebOptions | None:
+    """Return where web clients are served; None without ``--web``.
+
+    Raises:
+        BadSetting: an option is wrong, or is of ``--web`` and there is none.
+    """
+    from ...middleware.web.options import WebOptions
+
+    if port is None:
+        for name, value in {"host": host, "token": token, "origin": origins}.items():
+            if value:
+                raise BadSetting(f"--web-{name} is of --web.")
+        return None
+    return WebOptions(
+        port=port, host=host or "127.0.0.1", token=token, origins=tuple(origins or ())
+    )
+
+
+def check_clients(names: Sequence[str], limit: float, transports: Sequence[str]) -> None:
+    """Refuse clients that could not come; raises BadSetting."""
+    if not 0.0 < limit < float("inf"):
+        raise BadSetting(f"--client-limit {limit:g}: expected a time > 0 [s].")
+    if names and len(transports) != 1:
+        raise BadSetting(
+            f"--client {names[0]}: expected one of --web, --ros1 and --ros2, by which it comes."
+        )

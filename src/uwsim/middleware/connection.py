@@ -1,0 +1,70 @@
+"""The connections of a simulation to the world outside: which there are, and opening them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+
+from ..bus import Bus
+from .bridge import Bridge
+from .web.options import WebOptions
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConnectionSpec:
+    """To what a simulation is connected; `open` binds it to a bus."""
+
+    ros1: bool = False
+    """Whether it is a node of ROS 1."""
+    ros1_host: str = "127.0.0.1"
+    """Address at which the node listens."""
+    ros2: bool = False
+    """Whether it is a node of ROS 2."""
+    domain: int | None = None
+    """Domain of ROS 2; None: that of ``ROS_DOMAIN_ID``."""
+    web: WebOptions | None = None
+    """Where it serves web clients."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the transports: ros1, ros2, web."""
+        are = {"ros1": self.ros1, "ros2": self.ros2, "web": self.web is not None}
+        return tuple(name for name, is_used in are.items() if is_used)
+
+    @contextmanager
+    def open(self, bus: Bus, clock: Callable[[], float]) -> Iterator[tuple[Bridge, ...]]:
+        """Open all within the block; yields a bridge each.
+
+        Args:
+            bus: of the simulation.
+            clock: returns the simulation time [s].
+
+        Raises:
+            BadSetting: one cannot be opened.
+        """
+        with ExitStack() as stack:
+            yield tuple(self._opened(bus, clock, stack))
+
+    def _opened(self, bus: Bus, clock: Callable[[], float], stack: ExitStack) -> Iterator[Bridge]:
+        if self.ros1:
+            from .ros1 import Ros1Options, connect
+
+            connection = connect(bus, clock, Ros1Options(host=self.ros1_host))
+            stack.callback(connection.close)
+            yield connection.bridge
+        if self.ros2:
+            from .ros2.adapter import Ros2
+            from .ros2.settings import settings_from
+
+            more = os.environ.get("CYCLONEDDS_URI", "")
+            ros2 = Ros2(bus, clock, settings_from(os.environ, self.domain), more=more)
+            stack.callback(ros2.close)
+            yield ros2
+        if self.web is not None:
+            from .web.server import WebBridge
+
+            web = WebBridge(bus, clock, self.web)
+            stack.callback(web.close)
+            yield web

@@ -1,0 +1,91 @@
+"""Programs outside, over WebSocket and in lock-step, score what they do in process."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.byte_hashes import short_currents
+from tests.short_benchmark import write_benchmark
+
+EXAMPLES = Path(__file__).parents[3] / "examples" / "websocket"
+LIMIT = 240.0
+"""Nothing takes longer unless it hangs [s]."""
+
+
+def uwsim(*words: str) -> list[str]:
+    return [sys.executable, "-m", "uwsim", *words]
+
+
+def result_of(out: Path) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads((out / "result.json").read_text())
+    return found
+
+
+def scored_outside(
+    benchmark: Path, out: Path, program: list[str], *options: str
+) -> tuple[dict[str, Any], str]:
+    """Run a benchmark with a program outside; its port is chosen by the system."""
+    words = ["bench", str(benchmark), "--client", "outside", "--web", "0", "--out", str(out)]
+    bench = subprocess.Popen(
+        uwsim(*words, *options), stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True
+    )
+    watchdog = threading.Timer(LIMIT, bench.kill)
+    watchdog.start()
+    client: subprocess.Popen[str] | None = None
+    said = ""
+    try:
+        assert bench.stderr is not None
+        for line in bench.stderr:
+            said += line
+            if "listening at ws://" in line and client is None:
+                uri = line.split()[-1]
+                client = subprocess.Popen(
+                    [sys.executable, *program, "--uri", uri], cwd=EXAMPLES, text=True
+                )
+        bench.wait()
+    finally:
+        watchdog.cancel()
+        for process in (bench, client):
+            if process is not None:
+                process.kill()
+                process.wait()
+        bench.communicate()
+    return result_of(out), said
+
+
+def scored_inside(benchmark: Path, out: Path, algorithm: str, *options: str) -> dict[str, Any]:
+    words = ["bench", str(benchmark), "--algorithm", algorithm, "--out", str(out), *options]
+    subprocess.run(uwsim(*words), check=True, capture_output=True, timeout=LIMIT)
+    return result_of(out)
+
+
+@pytest.mark.slow
+def test_a_tracker_outside_scores_the_same_rows_also_when_it_dawdles(tmp_path: Path) -> None:
+    benchmark = write_benchmark(tmp_path, "0.5")
+    inside = scored_inside(benchmark, tmp_path / "inside", "esm")
+    for delay in ("0", "20"):
+        program = ["run_algorithm.py", "uwsim.algorithms:Esm", "--name", "outside"]
+        outside, said = scored_outside(
+            benchmark, tmp_path / f"outside-{delay}", [*program, "--delay", delay]
+        )
+        assert outside["rows"] == inside["rows"], said
+        assert outside["run"]["clients"] == [["outside", "lock-step, web"]]
+
+
+@pytest.mark.slow
+def test_a_controller_outside_scores_the_same_rows_also_when_it_dawdles(tmp_path: Path) -> None:
+    benchmark = short_currents(tmp_path)
+    level = ("--level", "current=0.2")
+    inside = scored_inside(benchmark, tmp_path / "inside", "p", *level)
+    program = ["run_algorithm.py", "uwsim.algorithms.control:P", "--name", "outside"]
+    outside, said = scored_outside(
+        benchmark, tmp_path / "outside", [*program, "--delay", "20"], *level
+    )
+    assert outside["rows"] == inside["rows"], said

@@ -1,0 +1,213 @@
+"""Lock-step with clients outside: who is waited for, what is applied when, and who is lost."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uwsim.bus import Bus, TopicEnds
+from uwsim.errors import BadSetting, ClientLost, NeverStarted
+from uwsim.messages import Float64, String
+from uwsim.messages.services import Service
+from uwsim.middleware.bridge import Bridge
+from uwsim.middleware.lockstep.client import LockStepClient, lockstep_clients
+from uwsim.middleware.lockstep.topics import ACK, JOIN, TICK
+from uwsim.middleware.log import Log
+from uwsim.simulation import InProcessNode
+
+TIMESTEP = 0.1
+Answer = Callable[["Outside", dict[str, Any]], None]
+
+
+class Outside(Bridge):
+    """A transport whose clients answer ticks as they are sent."""
+
+    def __init__(self, bus: Bus, answer: Answer) -> None:
+        super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", lambda line: None))
+        self.answer = answer
+        self.ticks: list[dict[str, Any]] = []
+
+    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+        pass
+
+    def on_services(self, services: Mapping[str, Service]) -> None:
+        pass
+
+    def send(self, topic: str, message: object) -> None:
+        if topic == TICK and isinstance(message, String):
+            self.ticks.append(json.loads(message.data))
+            self.answer(self, self.ticks[-1])
+
+    def says(self, topic: str, **content: Any) -> None:
+        self.put(topic, String(data=json.dumps(content)))
+
+
+def echoes(outside: Outside, tick: dict[str, Any]) -> None:
+    """Answer with the time, and acknowledge."""
+    outside.put("answer", Float64(data=tick["time"]))
+    outside.says(ACK, client=tick["client"], tick=tick["tick"])
+
+
+def is_silent(outside: Outside, tick: dict[str, Any]) -> None:
+    """Do nothing."""
+
+
+def started(
+    bus: Bus, outside: Outside, *names: str, limit: float = 60.0, **join: Any
+) -> list[InProcessNode]:
+    clients = lockstep_clients([outside], names, timestep=TIMESTEP, limit=limit)
+    for name in names:
+        outside.says(JOIN, client=name, topics=["/depth"], **join)
+    return [node_of(bus, client) for client in clients]
+
+
+def node_of(bus: Bus, client: LockStepClient) -> InProcessNode:
+    node = InProcessNode(
+        bus, name=client.name, timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
+    )
+    node.run(client)
+    assert node.error is None
+    return node
+
+
+def step(bus: Bus, nodes: list[InProcessNode]) -> None:
+    bus.step += 1
+    bus.deliver()
+    for node in nodes:
+        node.tick()
+    bus.deliver()
+
+
+def test_a_client_is_ticked_in_steps_with_messages_and_answers_in_the_same_step() -> None:
+    bus = Bus()
+    outside = Outside(bus, echoes)
+    nodes = started(bus, outside, "a")
+    answers = bus.inbox("answer", Float64)
+    say = bus.publisher("depth", Float64)
+    for n in range(6):
+        if n % 3 == 2:
+            say(Float64(data=1.0))
+            say(Float64(data=2.0))
+        step(bus, nodes)
+        assert len(answers.take()) == (n % 3 == 2)
+    assert [tick["tick"] for tick in outside.ticks] == [1, 2]
+    assert [tick["sent"] for tick in outside.ticks] == [{"/depth": 2}, {"/depth": 4}]
+    assert [tick["time"] for tick in outside.ticks] == pytest.approx([0.3, 0.6])
+
+
+def test_a_client_names_when_its_timers_are_due() -> None:
+    bus = Bus()
+
+    def every_third(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(ACK, client="a", tick=tick["tick"], next=tick["time"] + 3 * TIMESTEP)
+
+    outside = Outside(bus, every_third)
+    nodes = started(bus, outside, "a", next=0.2)
+    for _ in range(9):
+        step(bus, nodes)
+    assert [round(tick["time"] / TIMESTEP) for tick in outside.ticks] == [2, 5, 8]
+
+
+def test_several_clients_answer_in_the_order_of_their_names() -> None:
+    bus = Bus()
+    outside = Outside(bus, echoes)
+    nodes = started(bus, outside, "b", "a")
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    assert [tick["client"] for tick in outside.ticks] == ["a", "b"]
+
+
+def test_what_is_published_waits_for_the_ack_and_for_all_that_it_announces() -> None:
+    bus = Bus()
+
+    def announces_first(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(ACK, client="a", tick=tick["tick"], published={"/answer": 2})
+        for value in (1.0, 2.0):
+            outside.put("answer", Float64(data=value))
+
+    outside = Outside(bus, announces_first)
+    nodes = started(bus, outside, "a")
+    answers = bus.inbox("answer", Float64)
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    assert [message.data for message in answers.take()] == [1.0, 2.0]
+
+
+def test_acks_of_other_ticks_and_nonsense_do_not_count() -> None:
+    bus = Bus()
+
+    def babbles(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(ACK, client="a", tick=99)
+        outside.says(ACK, client="stranger", tick=tick["tick"])
+        for text in ("", "[1]", "[" * 100_000, '{"client": {}}'):
+            outside.put(ACK, String(data=text))
+        outside.put(ACK, Float64(data=1.0))
+        echoes(outside, tick)
+
+    outside = Outside(bus, babbles)
+    nodes = started(bus, outside, "a")
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    assert len(outside.ticks) == 1
+
+
+def test_a_client_that_does_not_answer_ends_the_run() -> None:
+    bus = Bus()
+    outside = Outside(bus, is_silent)
+    nodes = started(bus, outside, "a", limit=0.01)
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    with pytest.raises(ClientLost, match=r"'a' did not answer the tick at 0.1 s within 0.01 s"):
+        step(bus, nodes)
+
+
+def test_a_client_that_leaves_ends_the_run_at_once() -> None:
+    bus = Bus()
+    outside = Outside(bus, lambda outside, tick: outside.says(JOIN, client="a", left=True))
+    nodes = started(bus, outside, "a")
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    with pytest.raises(ClientLost, match="'a' left at"):
+        step(bus, nodes)
+
+
+def test_a_client_that_answers_itself_without_end_is_stopped() -> None:
+    bus = Bus()
+
+    def asks_again(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.put("depth", Float64(data=1.0))
+        outside.says(ACK, client="a", tick=tick["tick"])
+
+    nodes = started(bus, Outside(bus, asks_again), "a")
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    with pytest.raises(ClientLost, match="without end"):
+        step(bus, nodes)
+
+
+def test_a_client_that_does_not_join_is_one_line() -> None:
+    bus = Bus()
+    outside = Outside(bus, is_silent)
+    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=0.01)
+    outside.says(JOIN, client="b", topics=[])
+    with pytest.raises(NeverStarted, match=r"No client 'a' has joined within 0.01 s"):
+        node_of(bus, client)
+
+
+def test_a_topic_for_observers_is_not_for_clients() -> None:
+    bus = Bus()
+    bus.withhold("depth")
+    outside = Outside(bus, is_silent)
+    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
+    outside.says(JOIN, client="a", topics=["/depth"])
+    node = InProcessNode(
+        bus, name="a", timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
+    )
+    node.run(client)
+    assert "for observers of the run" in str(node.error)
+
+
+def test_a_client_needs_one_transport() -> None:
+    with pytest.raises(BadSetting, match="expected one of --web, --ros1 and --ros2"):
+        lockstep_clients([], ["a"], timestep=TIMESTEP, limit=60.0)
