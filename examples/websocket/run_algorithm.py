@@ -1,6 +1,6 @@
 """Run an algorithm written for uwsim as a program outside: the same class, over WebSocket.
 
-    uwsim bench visibility --client tracker --web 9090 &
+    uwsim bench visibility --client tracker --web 9090        # in another terminal
     python examples/websocket/run_algorithm.py uwsim.algorithms:Esm --name tracker
 
 The rows are those of ``--algorithm esm``, to the last bit. A trial that begins anew closes the

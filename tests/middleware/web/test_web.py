@@ -263,7 +263,7 @@ def test_frames_that_mean_nothing_are_answered_with_a_status(setting: Setting) -
         client.send(frame)
         status = heard(client)
         assert (status["op"], status["level"]) == ("status", "error"), frame[:80]
-        assert len(status["msg"]) < 500
+        assert len(status["msg"]) < 2000
     assert setting.ask(client, service="/rosapi/nodes")["result"] is True
     assert len(setting.lines) < 20
 
@@ -294,7 +294,7 @@ def test_bytes_that_are_no_http_a_large_frame_and_a_vanished_peer_do_no_harm(
     with pytest.raises(ConnectionClosed):
         large.recv(timeout=LIMIT)
     vanished = setting.client()
-    vanished.socket.close()
+    vanished.socket.shutdown(socket.SHUT_RDWR)
     assert setting.ask(setting.client(), service="/rosapi/nodes")["result"] is True
     stalled.close()
 
