@@ -9,11 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing
-<<<<<<< HEAD
-from pathlib import Path
-=======
 from functools import partial
->>>>>>> 83f1280 (WebSocket and lock-step with programs outside: uwsim run --web, bench --client; examples, pages)
+from pathlib import Path
 
 from ...benchmark.plugin import attribute_errors_to
 from ...benchmark.plugin_checks import check_values, parameters_of
@@ -146,16 +143,11 @@ class _Execution:
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
         self._calls = calls
-<<<<<<< HEAD
         self._onlooker = onlooker
         self._inputs = _inputs_of(plan, trial, simulation, onlooker)
         found = {} if self._inputs is None else pilot_topics(simulation)
         self._parameters = {**found, **known_corners(plan), **plan.parameters}
-        self._algorithm = _make(plan, program, self._parameters, calls)
-=======
-        self._parameters = {**known_corners(plan), **plan.parameters}
         self._algorithm = _make(plan, partial(program, simulation), self._parameters, calls)
->>>>>>> 83f1280 (WebSocket and lock-step with programs outside: uwsim run --web, bench --client; examples, pages)
         self._node = simulation.attach(
             self._algorithm,
             name=plan.algorithm_name,
