@@ -105,6 +105,12 @@ class FilmOptions:
             help="The view from outside has the water's fog; a camera's image always has.",
         ),
     ] = False
+    smooth: Annotated[
+        bool,
+        in_group(
+            OUTPUT, "--smooth", help="Smooth edges in the view from outside; takes twice as long."
+        ),
+    ] = False
     size: Annotated[
         str,
         in_group(OUTPUT, "--size", metavar="WxH", help="Of the film [px]; even numbers."),
@@ -162,6 +168,7 @@ class FilmOptions:
             start=part.start,
             end=part.end,
             fog=self.fog,
+            samples=2 if self.smooth else 1,
         )
 
 

@@ -51,6 +51,8 @@ class Wanted:
     """From where to where, in L, (3,) each [m]."""
     size: tuple[int, int] | None = None
     """Width and height [px]."""
+    samples: int = 2
+    """Of a pixel of a view, in width and in height: smooth edges."""
     has_fog: bool = False
     """Whether fog is set, so that views show it."""
 
@@ -108,12 +110,12 @@ class Wanted:
     def _viewed(self, simulation: Simulation, view: View, what: str) -> RenderedView:
         fog = 0.0 if view.is_clear and not self.has_fog else None
 
-        def draw() -> RenderedImage:
+        def draw(samples: int = 1) -> RenderedImage:
             return simulation.world.scenery.render_view(
-                view.world_from_camera, view.intrinsics, fog=fog
+                view.world_from_camera, view.intrinsics, fog=fog, samples=samples
             )
 
-        pixels = draw().colour
+        pixels = draw(self.samples).colour
         assert pixels is not None
         return RenderedView(what, pixels.view(np.uint8), draw)
 

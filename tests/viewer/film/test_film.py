@@ -101,6 +101,18 @@ def test_every_view_shows_something(trial: RecordedTrial, view: str) -> None:
         film.close()
 
 
+def test_a_smooth_view_is_the_mean_of_a_larger_one(trial: RecordedTrial) -> None:
+    plain = {"inset": False, "has_curves": False, "view": "fixed"}
+    frames = []
+    for size, samples in (((160, 160), 2), ((320, 320), 1)):
+        film = Film(trial, FilmSpec(size=size, samples=samples, **plain))  # type: ignore[arg-type]
+        frames.append(film.draw(0.5).astype(float))
+        film.close()
+    means = frames[1].reshape(160, 2, 160, 2, 3).mean(axis=(1, 3))
+    rows = slice(40, 150)  # without what is written over it
+    assert np.abs(frames[0][rows] - means[rows]).max() <= 1.0
+
+
 def test_a_webp_is_written_twice_with_the_same_bytes(
     result: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

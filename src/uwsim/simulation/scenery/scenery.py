@@ -34,6 +34,8 @@ from .sand import heaps_of
 if TYPE_CHECKING:
     from ...rendering.renderer import Renderer
 
+MAX_SMOOTH = 8192
+"""Larger images are not drawn larger still to be smoothed [px]."""
 ALL_TARGETS = frozenset({"colour", "range", "ids"})
 
 
@@ -160,6 +162,7 @@ class Scenery:
         targets: Collection[str] = ALL_TARGETS,
         hidden: frozenset[int] = frozenset(),
         fog: float | None = None,
+        samples: int = 1,
     ) -> RenderedImage:
         """Render the view of an observer: with ghosts, and with air above the water.
 
@@ -169,15 +172,20 @@ class Scenery:
             targets: some of colour, range, ids.
             hidden: numbers of parts that are left out.
             fog: density of the fog instead of the scene's [1/m].
+            samples: the colour of a pixel is the mean of so many in width and in height, so that
+                edges are smooth; range and ids are not drawn then.
         """
         density = self.water.fog if fog is None else fog
-        return self._draw(
+        many = samples > 1 and max(intrinsics.width, intrinsics.height) * samples <= MAX_SMOOTH
+        size = intrinsics.width * samples, intrinsics.height * samples
+        rendered = self._draw(
             world_from_camera,
-            intrinsics,
+            intrinsics.resized(*size) if many else intrinsics,
             replace(self.water, fog=density, has_air=True, fog_distance="ray"),
-            targets=frozenset(targets),
+            targets=frozenset({"colour"} if many else targets),
             hidden=hidden,
         )
+        return rendered if not many else _reduced(rendered, intrinsics)
 
     def _draw(
         self,
@@ -267,6 +275,18 @@ class Scenery:
             self._drawn_heaps = {}
             self._drawn_version = -1
         self._own_pool.close()
+
+
+def _reduced(image: RenderedImage, intrinsics: Intrinsics) -> RenderedImage:
+    """Return an image of fewer pixels, each the mean of those in it."""
+    import cv2
+
+    assert image.colour is not None
+    size = intrinsics.width, intrinsics.height
+    colour = cv2.resize(image.colour.view(np.uint8), size, interpolation=cv2.INTER_AREA)
+    return RenderedImage(
+        intrinsics=intrinsics, colour=np.asarray(colour, dtype=np.uint8), range=None, ids=None
+    )
 
 
 def _shining(lamp: MountedLamp | Led) -> Lamp:

@@ -50,6 +50,8 @@ class FilmSpec:
     """Simulation time of the first image; None: the beginning [s]."""
     end: float | None = None
     """Simulation time of the last image; None: the end [s]."""
+    samples: int = 1
+    """Of a pixel of the view from outside, in width and in height: 2 has smooth edges."""
     fog: bool = False
     """Whether the view from outside has the water's fog; cameras always have it."""
 
@@ -164,6 +166,7 @@ class Film:
             self._path.intrinsics,
             targets={"colour"},
             fog=None if self.spec.fog else 0.0,
+            samples=self.spec.samples,
         )
         assert rendered.colour is not None
         return rendered.colour.view(np.uint8)
