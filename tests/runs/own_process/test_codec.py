@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from uwsim.messages import Image, Odometry, Pose, String
@@ -32,6 +32,7 @@ def same(a: Any, b: Any) -> bool:
     return type(a) is type(b) and bool(a == b)
 
 
+@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
 @given(VALUES)
 def test_values_come_out_as_they_went_in(value: object) -> None:
     assert same(value, decode(encode(value)))
