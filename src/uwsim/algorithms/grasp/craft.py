@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
 from ...geometry import Array, Pose
-from ...messages import JointState, Twist, TwistStamped, Vector3, WrenchStamped, header
+from ...messages import JointState, Twist, TwistStamped, Vector3, header
 from ...numerics.linear import turned
 from .arm import DOWN, FOLDED, JAW, JOINTS, OPEN, Kinematics
 from .station import Motion, StationLaw
@@ -54,8 +53,8 @@ class Craft:
         """The fingers' position [rad]."""
         self.jaw_speed = 0.0
         """Of the fingers [rad/s]."""
-        self.forces: dict[str, float] = {}
-        """Force on each finger [N]."""
+        self.jaw_effort = 0.0
+        """Torque of the fingers' drive, as its current tells [N m]."""
         self._sent: Array = np.full(5, math.inf)
 
     @property
@@ -90,18 +89,11 @@ class Craft:
         """Take joint states."""
         where = dict(zip(message.name, message.position.tolist(), strict=False))
         speeds = dict(zip(message.name, message.velocity.tolist(), strict=False))
+        efforts = dict(zip(message.name, message.effort.tolist(), strict=False))
         if all(name in where for name in (*JOINTS, JAW)):
             self.joints = np.array([where[name] for name in JOINTS])
             self.jaw, self.jaw_speed = where[JAW], speeds.get(JAW, 0.0)
-
-    def on_force(self, finger: str) -> Callable[[WrenchStamped], None]:
-        """Return what takes the force on a finger."""
-
-        def take(message: WrenchStamped) -> None:
-            f = message.wrench.force
-            self.forces[finger] = math.sqrt(f.x * f.x + f.y * f.y + f.z * f.z)
-
-        return take
+            self.jaw_effort = abs(efforts.get(JAW, 0.0))
 
     def twist(self, time: float, dt: float) -> TwistStamped:
         """Return the twist that leads to the goal."""

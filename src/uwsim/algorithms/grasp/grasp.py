@@ -1,6 +1,6 @@
 """``grasp``: finds a box with a camera, takes it by its handle with the ARM5E, and brings it up.
 
-It uses what a real vehicle has: images, DVL, IMU, depth, joint states, forces on the fingers. It is
+It uses what a real vehicle has: images, DVL, IMU, depth, joint states, efforts of the drives. It is
 made of parts, each of which a derived class can replace: `Grasp.navigation`, `Grasp.detector`,
 `Grasp.tracker`, `Grasp.controller`, `Grasp.kinematics`. `uwsim.algorithms.grasp.phases` says what
 it does when.
@@ -25,7 +25,6 @@ from ...messages import (
     JointState,
     String,
     TwistStamped,
-    WrenchStamped,
     pixels_of,
 )
 from ...numerics.linear import product
@@ -77,7 +76,6 @@ class Grasp:
         "dvl_topic": "/girona500/dvl",
         "depth_topic": "/girona500/pressure",
         "joint_topic": "/girona500/joint_state",
-        "force_topics": "/girona500/finger1 /girona500/finger2",
         "twist_topic": "/girona500/twist",
         "arm_topic": "/girona500/joint_command",
     }
@@ -170,8 +168,6 @@ class Grasp:
     def _subscribe(self, node: Node) -> None:
         self._navigator = self.navigation(node)
         node.subscribe(self.text("joint_topic"), JointState, self.craft.on_joints)
-        for topic in self.text("force_topics").split():
-            node.subscribe(topic, WrenchStamped, self.craft.on_force(topic))
         node.subscribe(self.text("info_topic"), CameraInfo, self._on_info)
         node.subscribe(self.text("image_topic"), Image, self._on_image)
 

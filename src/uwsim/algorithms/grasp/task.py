@@ -17,8 +17,8 @@ from .target import Target
 
 GRIPPED = 0.02
 """Fingers that stand further open than closed by this have something between them [rad]."""
-SLOW = 0.25
-"""Speed of the goal to a distant station [m/s]."""
+PRESSED = 2.0
+"""Least torque of their drive while they press [N m]."""
 
 
 class Task:
@@ -77,8 +77,8 @@ class Task:
 
     @property
     def holds_something(self) -> bool:
-        """Whether the fingers are kept apart by something."""
-        return self.craft.jaw > CLOSED + GRIPPED
+        """Whether the fingers press, and are kept apart by something."""
+        return self.craft.jaw > CLOSED + GRIPPED and self.craft.jaw_effort > PRESSED
 
     def is_target_lost(self, patience: float) -> bool:
         """Whether the target was not seen for longer than this [s]; the reason is noted."""
