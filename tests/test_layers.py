@@ -68,7 +68,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
-    "viewer": TASKS | ENGINES | {"runs", "verify", "viewer"},
+    "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "recording", "viewer"},
     "__main__": {"cli", "interrupts"},
     "cli": (
         TASKS

@@ -23,6 +23,8 @@ MAX_RATE = 120.0
 """Most images a second of a film [Hz]."""
 WEBP_RATE = 10.0
 """Images a second of a WebP, unless --fps says otherwise [Hz]."""
+RECORDING = ".mcap"
+"""Ending of a recording for 3-D panels."""
 FILM_RATE = 30.0
 """Of the other films [Hz]."""
 
@@ -185,7 +187,9 @@ def replay(
             "-o",
             metavar="FILE",
             help="A page for any browser, .html; or a film: .mp4, .webm (both by ffmpeg, extra "
-            "'film') or .webp. Without it the page is served until Ctrl-C.",
+            "'film') or .webp; or .mcap for Foxglove and its kin: /tf, shapes and measures of a "
+            "trial. "
+            "Without it the page is served until Ctrl-C.",
         ),
     ] = None,
     port: Annotated[
@@ -225,10 +229,23 @@ def replay(
     if out is None or out.suffix.lower() in SUFFIXES:
         show_page(opened(result, part.trial, scene, folders), out, overwrite=overwrite, port=port)
         return
+    if out.suffix.lower() == RECORDING:
+        typer.echo(write_mcap(recorded(result, part.trial, scene, folders)[0], out, overwrite))
+        return
     check_film_path(out, overwrite=overwrite)
     spec = look.spec(part, out)
     trials = recorded(result, part.trial, scene, folders)
     typer.echo(write_film(trials, spec, out))
+
+
+def write_mcap(trial: RecordedTrial, out: Path, overwrite: bool) -> str:
+    """Write a trial as a recording, showing progress; returns what was written."""
+    from ..viewer.recording import check_recording_path, write_recording
+
+    check_recording_path(out, overwrite=overwrite)
+    with progress("recording", trial.track.n_frames, of="rows") as on_row:
+        n = write_recording(trial, out, on_row)
+    return f"{trial.title}: {n} messages; written: {out}"
 
 
 def opened(

@@ -5,9 +5,12 @@ import subprocess
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from mcap.reader import make_reader
+from mcap_ros2.decoder import DecoderFactory
 from PIL import Image
 
 from tests.short_benchmark import run, write_benchmark
@@ -170,3 +173,27 @@ def test_what_cannot_be_filmed_is_said_in_a_line(
     assert main(["replay", str(old), "-o", out]) == 2
     assert "holds no motion" in capsys.readouterr().err
     assert not Path(out).exists()
+
+
+def test_a_recording_for_3d_panels_has_frames_shapes_and_measures(
+    result: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    one, two = tmp_path / "one.mcap", tmp_path / "two.mcap"
+    for out in (one, two):
+        assert main(["replay", str(result), "-o", str(out)]) == 0
+    assert one.read_bytes() == two.read_bytes()
+    assert main(["replay", str(result), "-o", str(one)]) == 2
+    assert "exists; --overwrite replaces it" in capsys.readouterr().err
+    found: dict[str, list[Any]] = {}
+    with one.open("rb") as stream:
+        reader = make_reader(stream, decoder_factories=[DecoderFactory()])
+        for _, channel, _, message in reader.iter_decoded_messages():
+            found.setdefault(channel.topic, []).append(message)
+    assert len(found["/tf"]) == 37  # 1.2 s at 30 Hz
+    frames = {each.child_frame_id for each in found["/tf"][0].transforms}
+    assert "girona500/base_link" in frames
+    assert {each.header.frame_id for each in found["/scene"]} <= {*frames, "world"}
+    assert all(len(each.points) % 3 == 0 and each.points for each in found["/scene"])
+    assert [each.data for each in found["/level"]] == ["fog 0", "fog 0.4", "fog 0.8"]
+    assert "<robot" in found["/robot_description"][0].data
+    assert found["/measures/corners"]

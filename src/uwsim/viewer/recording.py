@@ -1,0 +1,152 @@
+"""A recorded trial as an MCAP file of ROS 2 messages, with bodies that 3-D panels show.
+
+``/tf`` has every body of the motion track in ``world`` (W, z up), 30 times a second; ``/scene`` the
+shapes, once: markers that are locked to these frames; ``/robot_description`` the first vehicle's
+URDF file, once; ``/measures/NAME`` the samples of each log; ``/level`` the label of each level.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..assets.mesh import Mesh
+from ..errors import BadSetting
+from ..geometry import Array, Pose, rotation_from_quaternion
+from ..messages import ColorRGBA, Float64, Marker, Point, String, TFMessage, Vector3, header
+from ..messages.build import NANOSECONDS
+from ..middleware.types import wire_type
+from ..numerics.linear import product
+from ..recording.mcap_file import McapFile
+from ..simulation import Simulation
+from ..simulation.tracked_bodies import TrackedBodies
+from ..topics.frames import transform
+from .film.puppets import Puppets
+from .recorded import RecordedTrial
+
+SUFFIX = ".mcap"
+WORLD = "world"
+"""Frame of W."""
+Message = tuple[float, str, Any]
+"""Time [s], topic, message."""
+
+
+def check_recording_path(path: Path, *, overwrite: bool) -> None:
+    """Refuse a path that cannot be written; raises BadSetting."""
+    if path.is_dir():
+        raise BadSetting(f"-o {path}: is a folder.")
+    if path.exists() and not overwrite:
+        raise BadSetting(f"-o {path}: exists; --overwrite replaces it.")
+
+
+def write_recording(
+    trial: RecordedTrial, path: Path, on_frame: Callable[[], object] = lambda: None
+) -> int:
+    """Write a trial as an MCAP file, with the same bytes for the same trial.
+
+    Args:
+        trial: the one.
+        path: of the file.
+        on_frame: called after each row of the motion track.
+
+    Returns:
+        The number of messages.
+    """
+    puppets = Puppets(trial)
+    try:
+        n = 0
+        puppets.put(0.0)
+        file = McapFile(path)
+        try:
+            messages = [*_shapes(puppets.simulation), *_about(trial, puppets.simulation)]
+            waiting = deque(sorted(messages, key=lambda each: each[0]))
+            for time, message in _transforms(trial):
+                while waiting and waiting[0][0] <= time:
+                    n += _write(file, *waiting.popleft())
+                n += _write(file, time, "/tf", message)
+                on_frame()
+            for each in waiting:
+                n += _write(file, *each)
+        finally:
+            file.close()
+        return n
+    finally:
+        puppets.close()
+
+
+def _write(file: McapFile, time: float, topic: str, message: Any) -> int:
+    own: type = type(message)
+    kind = wire_type(own)
+    assert kind is not None
+    file.write(topic, kind, round(time * NANOSECONDS), message)
+    return 1
+
+
+def _transforms(trial: RecordedTrial) -> Iterator[tuple[float, TFMessage]]:
+    track = trial.track
+    for frame in range(track.n_frames):
+        time = frame / track.rate
+        poses = [Pose(row[:3], rotation_from_quaternion(row[3:])) for row in track.poses[frame]]
+        names = zip(track.bodies, poses, strict=True)
+        yield (
+            time,
+            TFMessage(transforms=[transform(WORLD, name, pose, time) for name, pose in names]),
+        )
+
+
+def _about(trial: RecordedTrial, simulation: Simulation) -> Iterator[Message]:
+    """What is not motion: the robot, the levels, the measures."""
+    robots = simulation.world.robots
+    if robots and (file := Path(robots[0].path)).is_file():
+        yield 0.0, "/robot_description", String(data=file.read_text(encoding="utf-8"))
+    for level in trial.levels:
+        yield level.began, "/level", String(data=level.label)
+        for curve in level.curves:
+            for time, value in zip(curve.times.tolist(), curve.values.tolist(), strict=True):
+                if np.isfinite(value):
+                    yield time, f"/measures/{curve.measure}", Float64(data=value)
+
+
+def _shapes(simulation: Simulation) -> Iterator[Message]:
+    """A marker for each mesh of the scene, in the frame of its body; what stands still in W."""
+    world = simulation.world
+    bodies = TrackedBodies(world)
+    rows, number = bodies.rows(), 0
+    for part in world.scenery.parts:
+        body = bodies.body_of(part)
+        placed, frame = world.scenery.world_from_mesh(part), WORLD
+        if body is not None:
+            here = Pose(rows[body, :3], rotation_from_quaternion(rows[body, 3:]))
+            placed, frame = product(here.inverse().matrix, placed), bodies.names[body]
+        for mesh in part.model.meshes:
+            marker = Marker(
+                header=header(0.0, frame),
+                ns=part.name,
+                id=number,
+                type=Marker.TRIANGLE_LIST,
+                frame_locked=True,
+                scale=Vector3(x=1.0, y=1.0, z=1.0),
+                color=_colour(mesh),
+                points=[*_points(mesh, placed)],
+            )
+            marker.pose.orientation.w = 1.0
+            number += 1
+            yield 0.0, "/scene", marker
+
+
+def _points(mesh: Mesh, frame_from_mesh: Array) -> list[Point]:
+    """Corners of all triangles in the frame, to 0.1 mm."""
+    vertices = mesh.vertices.astype(np.float64) @ frame_from_mesh[:3, :3].T + frame_from_mesh[:3, 3]
+    corners = np.round(vertices, 4)[mesh.triangles.ravel()]
+    return [Point(x=x, y=y, z=z) for x, y, z in corners.tolist()]
+
+
+def _colour(mesh: Mesh) -> ColorRGBA:
+    """The mesh's colour times the mean of its texture."""
+    mean = np.ones(3) if mesh.texture is None else mesh.texture.pixels.mean(axis=(0, 1)) / 255.0
+    r, g, b = (np.array(mesh.colour) * mean).tolist()
+    return ColorRGBA(r=r, g=g, b=b, a=mesh.opacity)
