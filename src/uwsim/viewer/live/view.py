@@ -154,6 +154,9 @@ class LiveView:
         if self._is_due("images", now, IMAGE_RATE):
             self._send_images()
             self._send_views()
+            # where drawing takes long, the simulation goes on between one image and the next
+            rest = self._wall() + 0.5 / IMAGE_RATE
+            self._due["images"] = max(self._due["images"], rest)
 
     def _is_due(self, what: str, now: float, rate: float) -> bool:
         if now < self._due[what]:

@@ -19,6 +19,7 @@ export function valueAt(curve: Samples, time: number): number | null {
 interface Chart {
   curve: Samples;
   plot: uPlot;
+  cursor: HTMLElement;
   value: HTMLElement;
   drawn: number;
 }
@@ -46,6 +47,11 @@ export class Curves {
     this.place.append(none);
   }
 
+  /** Draw all charts again, in the colours of now. */
+  redraw(): void {
+    for (const { plot } of this.charts) plot.redraw(false);
+  }
+
   /** Move the cursor; new samples of a live run are drawn, too. */
   show(time: number, curves: Samples[]): void {
     this.time = time;
@@ -56,8 +62,16 @@ export class Curves {
       if (chart.drawn !== chart.curve.times.length) {
         chart.drawn = chart.curve.times.length;
         chart.plot.setData([chart.curve.times, chart.curve.values]);
-      } else chart.plot.redraw(false, false);
+      }
+      this.point(chart);
     }
+  }
+
+  /** Put the cursor of a chart where the time is. */
+  private point({ plot, cursor }: Chart): void {
+    const x = plot.valToPos(this.time, "x");
+    cursor.hidden = !(x >= 0 && x <= plot.over.clientWidth);
+    cursor.style.transform = `translateX(${x}px)`;
   }
 
   private chart(curve: Samples, number: number): Chart {
@@ -74,7 +88,10 @@ export class Curves {
       this.options(COLOURS[number % COLOURS.length]), [curve.times, curve.values], figure,
     );
     plot.over.addEventListener("click", (event) => this.seek(plot.posToVal(event.offsetX, "x")));
-    return { curve, plot, value, drawn: curve.times.length };
+    const cursor = document.createElement("i");
+    cursor.className = "cursor";
+    plot.over.append(cursor);
+    return { curve, plot, cursor, value, drawn: curve.times.length };
   }
 
   private options(colour: string): uPlot.Options {
@@ -93,27 +110,15 @@ export class Curves {
       scales: { x: { time: false } },
       axes: [{ ...axis(), size: 20, gap: 2 }, { ...axis(), size: 44, gap: 2 }],
       series: [{}, { stroke: colour, width: 1.5, points: { show: false }, spanGaps: false }],
-      hooks: {
-        draw: [
-          (plot) => {
-            const x = Math.round(plot.valToPos(this.time, "x", true)) + 0.5;
-            const { left, top, width, height } = plot.bbox;
-            if (x < left || x > left + width) return;
-            plot.ctx.strokeStyle = style("--accent");
-            plot.ctx.lineWidth = 1.5;
-            plot.ctx.beginPath();
-            plot.ctx.moveTo(x, top);
-            plot.ctx.lineTo(x, top + height);
-            plot.ctx.stroke();
-          },
-        ],
-      },
     };
   }
 
   private resize(): void {
     const width = Math.max(120, this.place.clientWidth - 20);
-    for (const { plot } of this.charts) plot.setSize({ width, height: HEIGHT });
+    for (const chart of this.charts) {
+      chart.plot.setSize({ width, height: HEIGHT });
+      this.point(chart);
+    }
   }
 }
 

@@ -119,7 +119,7 @@ export class Page {
   theme(): void {
     const root = document.documentElement;
     root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
-    this.draw();
+    this.curves.redraw();
   }
 
   draw(): void {

@@ -150,7 +150,7 @@ function drawCurrent(pen: Pen, vehicle: string, base: Matrix, moment: Moment): v
   const flow = ["x", "y", "z"].map((axis) => moment.signal(`water/${vehicle}/${axis}`) ?? 0);
   const speed = Math.hypot(...flow);
   if (speed < 1e-3) return;
-  const from = plus(origin(base), [0, 0, 0.8]);
+  const from = plus(origin(base), [0, 0, 0.55]);
   const to = plus(from, flow, (0.5 + 2 * speed) / speed);
   const aside = [-flow[1] / speed, flow[0] / speed, 0];
   const back = plus(to, flow, -0.15 / speed);
