@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import pytest
 
+from uwsim.errors import RunFailed
 from uwsim.middleware.pacing import Pace
 
 
 class Wall:
     """Real time and simulation time of a test."""
 
-    def __init__(self, speed: float) -> None:
+    def __init__(self, speed: float, max_lag: float | None = None) -> None:
         self.now, self.simulated = 100.0, 5.0
-        self.pace = Pace(lambda: self.simulated, speed, now=lambda: self.now, sleep=self.sleep)
+        self.pace = Pace(
+            lambda: self.simulated,
+            speed,
+            max_lag=max_lag,
+            now=lambda: self.now,
+            sleep=self.sleep,
+        )
         self.pace.step()
 
     def sleep(self, seconds: float) -> None:
@@ -44,3 +51,11 @@ def test_a_short_lag_is_caught_up_and_a_long_one_is_lost() -> None:
         wall.step(0.01, takes=0.0)
     assert wall.now == pytest.approx(100.21 + 3.01 + 0.2)
     assert wall.pace.lost == pytest.approx(3.0)
+
+
+def test_a_strict_clock_ends_the_run_when_a_step_is_late() -> None:
+    wall = Wall(1.0, max_lag=0.05)
+    wall.step(0.01, takes=0.05)
+    wall.step(0.01, takes=0.0)
+    with pytest.raises(RunFailed, match="late; --max-lag"):
+        wall.step(0.01, takes=0.06)

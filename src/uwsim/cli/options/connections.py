@@ -90,6 +90,16 @@ class ConnectionOptions:
             "and no --client, else 0].",
         ),
     ] = None
+    max_lag: Annotated[
+        float | None,
+        in_group(
+            CONNECTED,
+            "--max-lag",
+            metavar="SECONDS",
+            help="A strict clock, for hardware in the loop: the run ends when the simulation is "
+            "later than this [a late simulation loses time].",
+        ),
+    ] = None
 
     web: WebOption = None
     web_host: WebHostOption = None
@@ -126,6 +136,11 @@ class ConnectionOptions:
         with wrong.kept():
             if not 0 <= self.pace < float("inf"):
                 raise BadSetting(f"--speed {self.pace:g}: expected 0 or more.")
+        with wrong.kept():
+            if self.max_lag is not None and not 0.0 < self.max_lag < float("inf"):
+                raise BadSetting(f"--max-lag {self.max_lag:g}: expected a time > 0 [s].")
+            if self.max_lag is not None and self.pace == 0:
+                raise BadSetting("--max-lag is of a run in real time; give its --speed.")
         with wrong.kept():
             if self.ros2:
                 self._check_ros2()
@@ -176,7 +191,8 @@ def connected(simulation: Simulation, options: ConnectionOptions) -> Iterator[No
         if options.pace > 0:
             from ...middleware.pacing import Pace
 
-            simulation.watch(Pace(lambda: simulation.time, options.pace).step)
+            pace = Pace(lambda: simulation.time, options.pace, max_lag=options.max_lag)
+            simulation.watch(pace.step)
         with suppress(Quit):
             yield
 
