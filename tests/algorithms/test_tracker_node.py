@@ -11,7 +11,8 @@ from uwsim.algorithms.tracker import Estimate, LossTest
 from uwsim.errors import BadSetting
 
 QUAD = rectangle(160.0, 120.0, 93.0, 28.0)
-LOOKING = [name for name in ALGORITHMS if name != "scripted" and not name.startswith("grasp")]
+BLIND = ("pilot", "scripted")
+LOOKING = [name for name in ALGORITHMS if name not in BLIND and not name.startswith("grasp")]
 TRACKERS = [name for name in LOOKING if name != "frozen"]
 
 
