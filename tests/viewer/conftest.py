@@ -35,7 +35,18 @@ def browser() -> Iterator[Any]:
     if not shutil.which(CHROMIUM):
         pytest.skip(f"{CHROMIUM} is not installed (Debian: apt-get install chromium)")
     with api.sync_playwright() as playwright:
-        opened = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        try:
+            opened = playwright.chromium.launch(
+                executable_path=CHROMIUM, args=ARGUMENTS, timeout=LIMIT
+            )
+        except api.Error as error:
+            pytest.skip(f"{CHROMIUM} cannot be started here: {error.message.splitlines()[0]}")
+        page = opened.new_page()
+        has_webgl = page.evaluate("document.createElement('canvas').getContext('webgl2') !== null")
+        page.close()
+        if not has_webgl:
+            opened.close()
+            pytest.skip(f"{CHROMIUM} has no WebGL 2 here")
         yield opened
         opened.close()
 
