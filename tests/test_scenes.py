@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 from tests.whole_scene import SceneRun, run_scene
 from uwsim.assets.bundled import bundled
+from uwsim.scene.reader import read_scene
+from uwsim.sensors.sonar.message import amplitudes
+from uwsim.simulation import Simulation
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 SCENES = bundled("scenes")
@@ -39,6 +44,33 @@ def test_each_topic_of_a_bundled_scene_at_once(name: str) -> None:
 @pytest.mark.parametrize("name", SCENES)
 def test_each_topic_of_a_bundled_scene_for_five_seconds(name: str) -> None:
     assert_sound(run_scene(SCENES[name], 5.0))
+
+
+@pytest.mark.parametrize(
+    ("name", "sensors"),
+    [
+        ("survey-scene", ("multibeam",)),
+        ("shapes-scene", ("altimeter",)),
+        ("shipwreck-scene", ("altimeter",)),
+    ],
+)
+def test_what_looks_down_sees_the_bottom_and_not_its_vehicle(
+    name: str, sensors: tuple[str, ...]
+) -> None:
+    with Simulation(read_scene(SCENES[name]), is_blind=True) as simulation:
+        for sensor in sensors:
+            kinds = ("multibeamSensor", "rangeSensor")
+            message: Any = simulation.world.sensor(sensor, kinds).sample(0.0)
+            nearest = message.range if hasattr(message, "range") else min(message.ranges)
+            assert 1.0 < nearest < 20.0
+
+
+def test_the_side_scan_of_the_survey_hears_no_echo_of_its_vehicle() -> None:
+    with Simulation(read_scene(SCENES["survey-scene"]), is_blind=True) as simulation:
+        message: Any = simulation.world.sensor("sidescan", ("u:sideScanSonar",)).sample(0.0)
+        echoes = amplitudes(message)
+        near = np.asarray(message.ranges) < 2.0
+        assert echoes[~near].max() > 10.0 * echoes[near].max()
 
 
 @pytest.mark.slow
