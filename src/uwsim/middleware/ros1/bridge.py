@@ -117,22 +117,29 @@ class Ros1Bridge(Bridge):
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         """Advertise what is published on the bus, subscribe to what is read there."""
+        publications, subscriptions = dict(self._publications), dict(self._subscriptions)
         for name, ends in topics.items():
             kind = wire_type(ends.type)
             if kind is None or not kind.md5:
                 self.log.say(f"/{name}: ROS 1 has no type {ends.type.__name__}")
                 continue
             topic = f"/{name}"
-            if ends.is_published and topic not in self._publications:
-                self._publications[topic] = Publication(
+            if ends.is_published and topic not in publications:
+                publications[topic] = Publication(
                     topic, kind, self._node, self.log, self._send_timeout
                 )
-            if ends.is_read and topic not in self._subscriptions:
-                self._subscriptions[topic] = Subscription(
+            if _is_of_interest(ends) and topic not in subscriptions:
+                subscriptions[topic] = Subscription(
                     topic, kind, self._node, self.log, self._receiver(topic)
                 )
-        for topic in [each for each in self._subscriptions if not _is_read(topics, each)]:
-            self._subscriptions.pop(topic).close()
+        gone = [
+            subscriptions.pop(each) for each in self._subscriptions if not _is_read(topics, each)
+        ]
+        # at once, because other nodes ask for them: who sees a publication sees all subscriptions
+        self._subscriptions = subscriptions
+        self._publications = publications
+        for subscription in gone:
+            subscription.close()
         self._register()
 
     def on_services(self, services: Mapping[str, Service]) -> None:
@@ -274,6 +281,10 @@ class Ros1Bridge(Bridge):
         found = list(self._publications.items())
         return [1, "", [[topic, each.kind.ros1_name] for topic, each in found]]
 
+    def _getArrived(self, caller: str) -> Answer:  # noqa: N802
+        """How many messages have come by topic: of uwsim, for programs in lock-step."""
+        return [1, "", dict(self.n_arrived)]
+
     def _paramUpdate(self, caller: str, key: str, value: Any) -> Answer:  # noqa: N802
         return [1, "", 0]
 
@@ -285,11 +296,16 @@ class Ros1Bridge(Bridge):
 
 SLAVE_METHODS = (
     *("publisherUpdate", "requestTopic", "getBusStats", "getBusInfo", "getMasterUri", "getPid"),
-    *("getSubscriptions", "getPublications", "paramUpdate", "shutdown"),
+    *("getSubscriptions", "getPublications", "paramUpdate", "shutdown", "getArrived"),
 )
-"""Methods that every node of ROS 1 serves."""
+"""Methods that every node of ROS 1 serves, and one more."""
+
+
+def _is_of_interest(ends: TopicEnds) -> bool:
+    """Whether a topic is read here, or may be: its reader of a later level shall miss nothing."""
+    return ends.is_read or not ends.is_published
 
 
 def _is_read(topics: Mapping[str, TopicEnds], topic: str) -> bool:
     ends = topics.get(topic.lstrip("/"))
-    return ends is not None and ends.is_read
+    return ends is not None and _is_of_interest(ends)

@@ -114,29 +114,27 @@ class Publication:
         """
         queue: LatestQueue[Outgoing] = LatestQueue(QUEUE_LENGTH, QUEUE_BYTES)
         connection.settimeout(self._send_timeout)
-        write(
-            connection,
-            encode_header(
-                {
-                    "callerid": self._caller,
-                    "latching": "0",
-                    "md5sum": self.kind.md5,
-                    "message_definition": self.kind.ros1_definition,
-                    "topic": self.topic,
-                    "type": self.kind.ros1_name,
-                }
-            ),
-        )
         with self._lock:
             if self._is_closed:
                 return
-            self._queues.append(queue)
+            self._queues.append(queue)  # before the header: who has it misses no message
         try:
+            write(connection, encode_header(self._header()))
             self._send_all(connection, queue)
         finally:
             with self._lock:
                 self._queues.remove(queue)
             queue.close()
+
+    def _header(self) -> dict[str, str]:
+        return {
+            "callerid": self._caller,
+            "latching": "0",
+            "md5sum": self.kind.md5,
+            "message_definition": self.kind.ros1_definition,
+            "topic": self.topic,
+            "type": self.kind.ros1_name,
+        }
 
     def _send_all(self, connection: socket.socket, queue: LatestQueue[Outgoing]) -> None:
         while not queue.is_closed:

@@ -1,0 +1,157 @@
+"""Run an algorithm written for uwsim as a node of ROS 1: the same class, with rospy, in lock-step.
+
+    uwsim bench currents --ros1 --client station &
+    python examples/ros1/run_algorithm.py uwsim.algorithms:P --name station
+
+The rows are those of ``--algorithm p``, to the last bit. It needs the uwsim's Python to be of the
+version of Debian's rospy (3.11); messages go through rospy as bytes.
+"""
+
+import argparse
+import importlib
+import random
+import sys
+import time
+
+sys.path.append("/usr/lib/python3/dist-packages")  # rospy; our own packages come first
+
+import genpy
+import numpy as np
+import rospy
+from lockstep import LockStep, run
+
+from uwsim.errors import UnknownName
+from uwsim.middleware.encodings import from_ros1, to_ros1
+from uwsim.middleware.stamps import inward, outward
+from uwsim.middleware.types import service_of, wire_service, wire_type
+
+PATIENCE = 10.0
+"""How long a service is waited for [s]."""
+
+
+class Raw(genpy.Message):
+    """A message of any type as its bytes."""
+
+    __slots__ = ("data",)
+
+    def __init__(self, data=b"") -> None:
+        self.data = data
+
+    def serialize(self, buff) -> None:
+        """Write the bytes."""
+        buff.write(self.data)
+
+    def deserialize(self, data):
+        """Keep the bytes."""
+        self.data = bytes(data)
+        return self
+
+
+def raw_type(kind: type) -> type:
+    """Return a class of rospy for a class of the bus."""
+    wire = wire_type(kind)
+    names = {"_type": wire.ros1_name, "_md5sum": wire.md5, "_full_text": wire.ros1_definition}
+    return type("Raw" + kind.__name__, (Raw,), {"__slots__": (), **names})
+
+
+def raw_service(request: type) -> type:
+    """Return a service class of rospy for the class of a request."""
+    service = wire_service(service_of(request))
+    return type(
+        "RawService",
+        (),
+        {
+            "_type": service.ros1_name,
+            "_md5sum": service.md5,
+            "_request_class": raw_type(service.service.request),
+            "_response_class": raw_type(service.service.response),
+        },
+    )
+
+
+class Node:
+    """A `uwsim.bus.Node` outside."""
+
+    def __init__(self, lockstep: LockStep, parameters: dict) -> None:
+        self._lockstep, self.parameters = lockstep, parameters
+        self.random = np.random.default_rng(0)
+
+    @property
+    def now(self) -> float:
+        """Simulation time [s]."""
+        return self._lockstep.now
+
+    def subscribe(self, topic: str, kind: type, callback) -> None:
+        """Have ``callback`` called with every message on ``topic``."""
+        self._lockstep.subscribe(
+            slashed(topic),
+            raw_type(kind),
+            lambda message: callback(inward(from_ros1(kind, message.data))),
+        )
+
+    def publisher(self, topic: str, kind: type):
+        """Return ``publish(message)`` for ``topic``."""
+        raw = raw_type(kind)
+        publish = self._lockstep.publisher(slashed(topic), raw)
+        return lambda message: publish(raw(bytes(to_ros1(outward(message)))))
+
+    def serve(self, name: str, kind: type, handler) -> None:
+        """Offer a service; ``kind`` is the class of its request."""
+        service = raw_service(kind)
+
+        def answer(request: Raw) -> Raw:
+            response = handler(inward(from_ros1(kind, request.data)))
+            return service._response_class(bytes(to_ros1(outward(response))))
+
+        self._lockstep.serve(slashed(name), service, answer)
+
+    def call(self, name: str, request: object) -> object:
+        """Call a service and return its response; UnknownName if it is not offered."""
+        service = raw_service(type(request))
+        try:
+            rospy.wait_for_service(slashed(name), timeout=PATIENCE)
+            proxy = rospy.ServiceProxy(slashed(name), service)
+            response = proxy(service._request_class(bytes(to_ros1(outward(request)))))
+        except rospy.ROSException as error:
+            raise UnknownName("service", name, []) from error
+        return inward(from_ros1(service_of(type(request)).response, response.data))
+
+    def every(self, period_s: float, callback) -> None:
+        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
+        self._lockstep.every(period_s, callback)
+
+
+def slashed(name: str) -> str:
+    """Return a name with a leading slash."""
+    return "/" + name.strip().lstrip("/")
+
+
+def pair(text: str):
+    """``NAME=VALUE`` as a name, and a number or a text."""
+    name, _, value = text.partition("=")
+    try:
+        return name, float(value)
+    except ValueError:
+        return name, value
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="An algorithm of uwsim as a node of ROS 1.")
+    parser.add_argument("algorithm", help="module:Class, with a method start(node)")
+    parser.add_argument("--name", required=True, help="that of --client")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", type=pair)
+    parser.add_argument("--trials", type=int, default=1, help="how many trials there are [1]")
+    parser.add_argument("--delay", type=float, default=0.0, help="longest random delay [ms]")
+    given = parser.parse_args()
+    module, _, name = given.algorithm.partition(":")
+    algorithm = getattr(importlib.import_module(module), name)
+    run(
+        given.name,
+        lambda lockstep: algorithm().start(Node(lockstep, dict(given.set))),
+        lambda: time.sleep(random.uniform(0.0, given.delay / 1000.0)),
+        given.trials,
+    )
+
+
+if __name__ == "__main__":
+    main()

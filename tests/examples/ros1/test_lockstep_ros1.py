@@ -1,0 +1,107 @@
+"""Programs of rospy in lock-step score what they do in process, also when they dawdle."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.byte_hashes import short_currents
+from tests.ros1_peers import EXAMPLES, Peers, needs_ros1, peers
+from tests.short_benchmark import write_benchmark
+from tests.waiting import LIMIT
+
+ROSPY = "import sys; sys.path.append('/usr/lib/python3/dist-packages'); import rospy, rosgraph"
+TOTAL = 4 * LIMIT
+"""Nothing takes longer unless it hangs [s]."""
+
+
+def has_rospy() -> bool:
+    """Whether the Python of the tests can import Debian's rospy."""
+    return subprocess.run([sys.executable, "-c", ROSPY], capture_output=True).returncode == 0
+
+
+pytestmark = [
+    needs_ros1,
+    pytest.mark.slow,
+    pytest.mark.skipif(
+        not has_rospy(), reason="this Python cannot import Debian's rospy, which is for 3.11"
+    ),
+]
+
+
+@pytest.fixture
+def graph(tmp_path: Path) -> Iterator[Peers]:
+    (tmp_path / "ros").mkdir()
+    with peers(tmp_path / "ros") as made:
+        yield made
+
+
+def scored(out: Path, *words: str, environment: dict[str, str] | None = None) -> dict[str, Any]:
+    """Run a benchmark and return its result."""
+    command = [sys.executable, "-m", "uwsim", "bench", *words, "--out", str(out)]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=TOTAL)
+    assert done.returncode == 0, done.stderr
+    found: dict[str, Any] = json.loads((out / "result.json").read_text())
+    return found
+
+
+def scored_outside(
+    graph: Peers, benchmark: Path, out: Path, *options: str, program: tuple[str, ...]
+) -> dict[str, Any]:
+    """Run a benchmark with a program of rospy as its algorithm."""
+    own = {name: graph.environment[name] for name in ("ROS_MASTER_URI", "ROS_IP", "ROS_LOG_DIR")}
+    environment = {**os.environ, **own}
+    client = subprocess.Popen(
+        [sys.executable, str(EXAMPLES / "run_algorithm.py"), *program, "--name", "outside"],
+        env=environment,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        words = (str(benchmark), "--ros1", "--client", "outside", *options)
+        return scored(out, *words, environment=environment)
+    finally:
+        client.kill()
+        client.wait()
+
+
+def test_a_tracker_of_rospy_scores_the_same_rows_also_when_it_dawdles(
+    graph: Peers, tmp_path: Path
+) -> None:
+    benchmark = write_benchmark(tmp_path, "0.5")
+    inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", "esm")
+    for delay in ("0", "20"):
+        program = ("uwsim.algorithms:Esm", "--delay", delay)
+        out = tmp_path / f"outside-{delay}"
+        outside = scored_outside(graph, benchmark, out, program=program)
+        assert outside["rows"] == inside["rows"]
+        assert outside["run"]["clients"] == [["outside", "lock-step, ros1"]]
+        log = "measure-corners.csv"
+        assert (out / log).read_bytes() == (tmp_path / "inside" / log).read_bytes()
+
+
+def test_a_controller_of_rospy_scores_the_currents_as_in_process(
+    graph: Peers, tmp_path: Path
+) -> None:
+    benchmark = short_currents(tmp_path)
+    level = ("--level", "current=0.2")
+    inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", "p", *level)
+    program = ("uwsim.algorithms:P", "--delay", "5")
+    outside = scored_outside(graph, benchmark, tmp_path / "outside", *level, program=program)
+    assert outside["rows"] == inside["rows"]
+
+
+def test_several_trials_are_run_by_one_program(graph: Peers, tmp_path: Path) -> None:
+    benchmark = write_benchmark(tmp_path, "0.2")
+    options = ("--repeat", "2", "--level", "fog=0.4")
+    inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", "esm", *options)
+    program = ("uwsim.algorithms:Esm", "--trials", "2")
+    outside = scored_outside(graph, benchmark, tmp_path / "outside", *options, program=program)
+    assert outside["rows"] == inside["rows"]
