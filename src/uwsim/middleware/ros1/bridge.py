@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import os
 import socket
+import threading
 from collections.abc import Callable, Hashable, Mapping
+from concurrent.futures import Future
 from types import MappingProxyType
 from typing import Any, cast
 
@@ -18,6 +20,7 @@ from ...bus import Bus, TopicEnds
 from ...errors import BadSetting, UwsimError
 from ...messages.services import Service
 from ..bridge import Bridge
+from ..lockstep.topics import TICK
 from ..log import Log
 from ..stamps import clock_time
 from ..types import WireService, message_class, service_of, wire_service, wire_type
@@ -89,7 +92,7 @@ class Ros1Bridge(Bridge):
         self._registrar = Registrar(
             master, node, self.uri, self.log, self._update, parameters=parameters, poll=poll
         )
-        self._stop_elsewhere = bus.serve_elsewhere(self._is_offered_outside, self._call_outside)
+        self._stop_elsewhere = bus.serve_elsewhere(self._is_offered_outside, self._ask)
         self._register()
 
     def wait(self, timeout: float) -> bool:
@@ -118,6 +121,7 @@ class Ros1Bridge(Bridge):
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         """Advertise what is published on the bus, subscribe to what is read there."""
         publications, subscriptions = dict(self._publications), dict(self._subscriptions)
+        to_read = _topics_to_read(topics)
         for name, ends in topics.items():
             kind = wire_type(ends.type)
             if kind is None or not kind.md5:
@@ -128,13 +132,11 @@ class Ros1Bridge(Bridge):
                 publications[topic] = Publication(
                     topic, kind, self._node, self.log, self._send_timeout
                 )
-            if _is_of_interest(ends) and topic not in subscriptions:
+            if topic in to_read and topic not in subscriptions:
                 subscriptions[topic] = Subscription(
                     topic, kind, self._node, self.log, self._receiver(topic)
                 )
-        gone = [
-            subscriptions.pop(each) for each in self._subscriptions if not _is_read(topics, each)
-        ]
+        gone = [subscriptions.pop(topic) for topic in self._subscriptions if topic not in to_read]
         # at once, because other nodes ask for them: who sees a publication sees all subscriptions
         self._subscriptions = subscriptions
         self._publications = publications
@@ -239,12 +241,29 @@ class Ros1Bridge(Bridge):
         except PeerError:
             return False
 
-    def _call_outside(self, name: str, request: object) -> object:
+    def call_outside(self, name: str, request: object) -> Future[object]:
+        """Call a service that another node offers, in a thread of its own.
+
+        Raises:
+            UwsimError: the request has no definition, or nobody offers the service any more.
+        """
         kind = service_of(cast(Hashable, request.__class__))
         if kind is None:
             raise UwsimError(f"Service {name!r}: {type(request).__name__} has no definition.")
         uri = str(self._registrar.call("lookupService", f"/{name}"))
-        return tcp_services.call(uri, f"/{name}", wire_service(kind), self._node, request)
+        future: Future[object] = Future()
+
+        def run() -> None:
+            try:
+                wanted = wire_service(kind)
+                found = tcp_services.call(uri, f"/{name}", wanted, self._node, request)
+            except UwsimError as error:
+                future.set_exception(error)
+            else:
+                future.set_result(found)
+
+        threading.Thread(target=run, name="ros1-call", daemon=True).start()
+        return future
 
     def _publisherUpdate(self, caller: str, topic: str, uris: list[str]) -> Answer:  # noqa: N802
         self._update(topic, [each for each in uris if isinstance(each, str)])
@@ -301,11 +320,14 @@ SLAVE_METHODS = (
 """Methods that every node of ROS 1 serves, and one more."""
 
 
-def _is_of_interest(ends: TopicEnds) -> bool:
-    """Whether a topic is read here, or may be: its reader of a later level shall miss nothing."""
-    return ends.is_read or not ends.is_published
+def _topics_to_read(topics: Mapping[str, TopicEnds]) -> set[str]:
+    """Topics, with a leading slash, that the bus reads from outside.
 
-
-def _is_read(topics: Mapping[str, TopicEnds], topic: str) -> bool:
-    ends = topics.get(topic.lstrip("/"))
-    return ends is not None and _is_of_interest(ends)
+    In lock-step also those that it may read: the measure of a later level shall miss nothing.
+    """
+    may_read = TICK in topics
+    return {
+        f"/{name}"
+        for name, ends in topics.items()
+        if ends.is_read or (may_read and not ends.is_published)
+    }
