@@ -17,21 +17,16 @@ from tests.ros1_peers import EXAMPLES, Peers, needs_ros1, peers
 from tests.short_benchmark import write_benchmark
 from tests.waiting import LIMIT
 
-ROSPY = "import sys; sys.path.append('/usr/lib/python3/dist-packages'); import rospy, rosgraph"
 TOTAL = 4 * LIMIT
 """Nothing takes longer unless it hangs [s]."""
-
-
-def has_rospy() -> bool:
-    """Whether the Python of the tests can import Debian's rospy."""
-    return subprocess.run([sys.executable, "-c", ROSPY], capture_output=True).returncode == 0
 
 
 pytestmark = [
     needs_ros1,
     pytest.mark.slow,
     pytest.mark.skipif(
-        not has_rospy(), reason="this Python cannot import Debian's rospy, which is for 3.11"
+        "UWSIM_TEST_ROS1_LOCKSTEP" not in os.environ,
+        reason="takes minutes on a busy machine; UWSIM_TEST_ROS1_LOCKSTEP=1 runs it",
     ),
 ]
 
@@ -65,7 +60,7 @@ def scored_outside(
         stderr=subprocess.DEVNULL,
     )
     try:
-        words = (str(benchmark), "--ros1", "--client", "outside", *options)
+        words = (str(benchmark), "--ros1", "--client", "outside", "--client-limit", "200", *options)
         return scored(out, *words, environment=environment)
     finally:
         client.kill()
