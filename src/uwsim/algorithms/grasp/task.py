@@ -15,6 +15,8 @@ from .perception import Perception
 from .station import horizontal
 from .target import Target
 
+ABOVE = 0.30
+"""Height of the grip over the handle from which it begins to descend [m]."""
 GRIPPED = 0.02
 """Fingers that stand further open than closed by this have something between them [rad]."""
 PRESSED = 2.0
