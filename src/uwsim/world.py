@@ -128,6 +128,8 @@ class Contact:
     """Whether the engine lists the body as the first of the two."""
     other: str = ""
     """Name of what it touches."""
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Where, in W [m]; the origin for contacts that the engine does not simulate."""
 
 
 class Actuators(Protocol):

@@ -22,6 +22,8 @@ MAX_IMAGES = 40
 """Of the first repeat; more are thinned out evenly, with a note."""
 MAX_OTHERS = 8
 """Of other repeats: where they first failed."""
+PHASE = "phase "
+"""How the name of the camera begins of an image of a task's phase."""
 MAX_BYTES = 3_000_000
 """Of all images together; if they are more, they are thinned out further."""
 
@@ -38,6 +40,20 @@ class Shown:
     """The image as a data URL; None when its file cannot be read."""
     ok: bool
     """Whether its level ended ``ok``."""
+
+
+def phase_images(result: Result, directory: Path) -> list[Shown]:
+    """Return the images of the phases of a task: the first level that has any."""
+    found = [saved for saved in result.images if saved.camera.startswith(PHASE)]
+    return [
+        Shown(
+            caption=saved.camera.removeprefix(PHASE),
+            data=_drawn(saved, directory),
+            ok=True,
+        )
+        for saved in found
+        if saved.row == found[0].row
+    ]
 
 
 def shown_images(result: Result, directory: Path) -> list[Shown]:
@@ -68,14 +84,15 @@ def evenly(items: Sequence[T], most: int) -> list[T]:
 
 def images_text(result: Result, n_shown: int) -> str:
     """Say which images are shown; empty when all are."""
-    if n_shown >= len(result.images):
+    images = [saved for saved in result.images if not saved.camera.startswith(PHASE)]
+    if n_shown >= len(images):
         return ""
     repeats = repeats_of(result)
-    n_first = sum(repeats[saved.row] == repeats[0] for saved in result.images)
+    n_first = sum(repeats[saved.row] == repeats[0] for saved in images)
     which = "evenly chosen" if n_first > MAX_IMAGES or n_shown < n_first else "every level"
     if len(set(repeats)) > 1:
         which += " of the first repeat, and of the others where they first did not end ok"
-    return f"{n_shown} of {len(result.images)} images: {which}. All are in the folder pictures."
+    return f"{n_shown} of {len(images)} images: {which}. All are in the folder pictures."
 
 
 def data_url(data: bytes, kind: str) -> str:
@@ -85,14 +102,15 @@ def data_url(data: bytes, kind: str) -> str:
 
 def _chosen(result: Result, endings: Sequence[str]) -> list[SavedImage]:
     repeats = repeats_of(result)
-    own = [saved for saved in result.images if repeats[saved.row] == repeats[0]]
+    images = [saved for saved in result.images if not saved.camera.startswith(PHASE)]
+    own = [saved for saved in images if repeats[saved.row] == repeats[0]]
     own = evenly(own, MAX_IMAGES)
     failed: dict[tuple[object, ...], int] = {}
     for row, (repeat, ended) in enumerate(zip(repeats, endings, strict=True)):
         if ended not in ("ok", "") and repeat != repeats[0]:
             failed.setdefault(repeat, row)
     rows = set(failed.values())
-    return own + [saved for saved in result.images if saved.row in rows][:MAX_OTHERS]
+    return own + [saved for saved in images if saved.row in rows][:MAX_OTHERS]
 
 
 def _endings(result: Result) -> list[str]:

@@ -46,7 +46,7 @@ from .configuration import (
     settings,
     variations,
 )
-from .images import data_url, images_text, shown_images
+from .images import data_url, images_text, phase_images, shown_images
 from .outcomes import Ending, breaks, endings, named_level
 from .rows import all_cells, heads, level_rows
 from .task_section import task_section
@@ -110,6 +110,7 @@ def render(
         algorithm=algorithm_of(result) or "no algorithm",
         lead=_lead(result),
         task=task_section(result, directory / "plots"),
+        phases=phase_images(result, directory),
         remarks=remarks(result, unchecked),
         command=command(result, provenance),
         cards=_cards(result, found),

@@ -17,6 +17,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from ...geometry import Array, Pose
 from ...inbox import Inbox
 from ...messages import String
@@ -87,8 +89,8 @@ class Grasp(Measure):
     lay, and lasts while it is carried. All of this is the truth of the simulation; the algorithm
     adds only its phases.
 
-    Slip is how far the point of the object that was at the jaw's frame when the hold began has
-    moved in that frame, the largest value during the hold; ``slip_raising`` the same from 1 s
+    Slip is how far the point of the object that was in the middle of its contacts with the vehicle
+    when the hold began has moved in the jaw's frame, the largest value during the hold; ``slip_raising`` the same from 1 s
     after the object was off the ground until the hold began. Impulses are
     :math:`\max_t \lVert \int_{t-50\,\mathrm{ms}}^{t} F\,dt \rVert` of the net force of the vehicle
     on the object, and of the ground on the vehicle; the two forces of a closed jaw cancel.
@@ -228,9 +230,11 @@ class Grasp(Measure):
             self._end = "ok", None
 
     def _point_at_jaw(self) -> tuple[Array, Array]:
-        """The point of the object where the jaw is: in the object's frame, and in the jaw's."""
-        jaw = self._jaw.world_from_body
-        point = self._thing.world_from_body.inverse().transform(jaw.position[None])[0]
+        """The middle of its contacts with the vehicle: in the object's frame, and in the jaw's."""
+        touching = self._world.contacts(self._spec.target)
+        places = [one.position for one in touching if one.other == self._spec.vehicle]
+        middle = np.mean(places, axis=0) if places else self._jaw.world_from_body.position
+        point = self._thing.world_from_body.inverse().transform(middle[None])[0]
         return point, self._place(point)
 
     def _place(self, point: Array) -> Array:
@@ -329,6 +333,16 @@ class Grasp(Measure):
         if self._phases.is_at_first:
             return "not found", f"{thing} was still searched for when the time was over"
         return "timeout", f"{thing} was not touched before the time was over"
+
+    @property
+    def moment(self) -> str | None:
+        """The algorithm's phase."""
+        return self._phases.name
+
+    @property
+    def watched(self) -> tuple[Body, Body]:
+        """The vehicle and its jaw."""
+        return self._base, self._jaw
 
     def close(self) -> None:
         """Unsubscribe."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from ...schema import element
-from ...world import World
+from ...world import Body, World
 from ..triggers import NeverSpec, OnInitSpec, TriggerSpec
 
 
@@ -142,6 +142,16 @@ class Measure(abc.ABC):
 
         It counts at the end of the level, unless the algorithm failed.
         """
+        return None
+
+    @property
+    def moment(self) -> str | None:
+        """Name of the phase of a task, of which the report is to have an image; None: none."""
+        return None
+
+    @property
+    def watched(self) -> tuple[Body, Body] | None:
+        """The vehicle and the body that such an image shows."""
         return None
 
     def close(self) -> None:  # noqa: B027 - most measures hold nothing

@@ -54,6 +54,11 @@ class Phases:
         self._since = time
 
     @property
+    def name(self) -> str | None:
+        """The present phase; None before any."""
+        return self._now
+
+    @property
     def number(self) -> int:
         """Number of the present phase, 1 the first; 0 before any."""
         return 0 if self._now is None else self._names.index(self._now) + 1

@@ -159,6 +159,7 @@ def contacts_of(
                 own_speed=v_first if is_first else -v_second,
                 is_first=is_first,
                 other=names[found.geom[i][1 if is_first else 0]],
+                position=tuple(found.pos[i].tolist()),
             )
         )
     return contacts

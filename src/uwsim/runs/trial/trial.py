@@ -43,11 +43,12 @@ from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
+from .moments import Moments
 from .motion_recorder import MotionRecorder
 from .onlooker import Onlooker
 from .pilot_inputs import PilotInputs, read_inputs
 from .pilot_topics import pilot_topics
-from .snapshots import capture
+from .snapshots import Snapshot, capture
 from .status import StatusMonitor, legible
 from .triggered_measure import TriggeredMeasure, finite
 from .visibility import Fact, TargetMotion, visibility_facts
@@ -158,6 +159,8 @@ class _Execution:
         self._monitor = StatusMonitor(self._node, status)
         self._notes: dict[str, None] = {}
         self._n_measured = 0  # steps of the levels so far
+        has_images = trial.index == 0 and not plan.is_blind
+        self._moments = Moments(simulation) if has_images else None
 
     def rows(self) -> Iterator[LevelRow | TrialEnd]:
         """Run the levels."""
@@ -345,6 +348,8 @@ class _Execution:
             self._n_measured += 1
             _tick(measures)
             self._live.update(level, self._n_measured * plan.timestep, measures)
+            if self._moments is not None:
+                self._moments.look(measures)
             monitor.listen(simulation.time)
             stopped = not self._triggers.is_open()
             ended = _end_of_level(measures)
@@ -353,6 +358,8 @@ class _Execution:
         for gated in measures:
             gated.end()
             check_values(gated.measure)
+        if self._moments is not None:
+            self._moments.end(measures)
         overran = MAX_TASK_DURATION if length is None and not stopped and ended is None else None
         status, why = monitor.status(measures, overran=overran, ended=ended)
         for gated in measures:
@@ -360,6 +367,16 @@ class _Execution:
         row = self._row(level, measures, status, why, began)
         self._close_measures(measures)
         return row
+
+    def _snapshots(
+        self, measures: list[TriggeredMeasure], *, is_tracking: bool
+    ) -> tuple[Snapshot, ...]:
+        """The cameras' last images; of the first trial's level also those of its phases."""
+        if self._plan.is_blind:
+            return ()
+        pairs = [(gated.spec, gated.measure) for gated in measures]
+        last = capture(self._simulation, pairs, is_tracking=is_tracking)
+        return last if self._moments is None else (*last, *self._moments.snapshots)
 
     def _row(
         self,
@@ -388,13 +405,7 @@ class _Execution:
             logs={gated.spec.name: gated.log for gated in logged},
             log_headers={gated.spec.name: log_columns(gated.measure) for gated in logged},
             fingerprint=self._fingerprinter.fingerprint,
-            snapshots=()
-            if self._plan.is_blind
-            else capture(
-                simulation,
-                [(gated.spec, gated.measure) for gated in measures],
-                is_tracking=status == "ok",
-            ),
+            snapshots=self._snapshots(measures, is_tracking=status == "ok"),
         )
 
 
