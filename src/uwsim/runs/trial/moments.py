@@ -17,7 +17,7 @@ from ...numerics.linear import length
 from ...scene.mounts import camera_axes
 from ...simulation import Simulation
 from ...world import Body
-from .snapshots import Snapshot
+from .snapshots import Snapshot, capture
 from .triggered_measure import TriggeredMeasure
 
 SIZE = (640, 400)
@@ -90,6 +90,19 @@ class Moments:
             if images.last is not None:
                 return with_inset(pixels, images.last)
         return pixels
+
+
+def all_snapshots(
+    simulation: Simulation,
+    measures: Sequence[TriggeredMeasure],
+    moments: Moments | None,
+    *,
+    is_tracking: bool,
+) -> tuple[Snapshot, ...]:
+    """The cameras' last images, and those of the phases if any were taken."""
+    pairs = [(gated.spec, gated.measure) for gated in measures]
+    last = capture(simulation, pairs, is_tracking=is_tracking)
+    return last if moments is None else (*last, *moments.snapshots)
 
 
 def observer(world_from_vehicle: Pose, at: Array) -> Pose:

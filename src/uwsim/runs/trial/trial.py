@@ -43,12 +43,11 @@ from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
-from .moments import Moments
+from .moments import Moments, all_snapshots
 from .motion_recorder import MotionRecorder
 from .onlooker import Onlooker
 from .pilot_inputs import PilotInputs, read_inputs
 from .pilot_topics import pilot_topics
-from .snapshots import Snapshot, capture
 from .status import StatusMonitor, legible
 from .triggered_measure import TriggeredMeasure, finite
 from .visibility import Fact, TargetMotion, visibility_facts
@@ -368,16 +367,6 @@ class _Execution:
         self._close_measures(measures)
         return row
 
-    def _snapshots(
-        self, measures: list[TriggeredMeasure], *, is_tracking: bool
-    ) -> tuple[Snapshot, ...]:
-        """The cameras' last images; of the first trial's level also those of its phases."""
-        if self._plan.is_blind:
-            return ()
-        pairs = [(gated.spec, gated.measure) for gated in measures]
-        last = capture(self._simulation, pairs, is_tracking=is_tracking)
-        return last if self._moments is None else (*last, *self._moments.snapshots)
-
     def _row(
         self,
         level: Level,
@@ -405,7 +394,9 @@ class _Execution:
             logs={gated.spec.name: gated.log for gated in logged},
             log_headers={gated.spec.name: log_columns(gated.measure) for gated in logged},
             fingerprint=self._fingerprinter.fingerprint,
-            snapshots=self._snapshots(measures, is_tracking=status == "ok"),
+            snapshots=()
+            if self._plan.is_blind
+            else all_snapshots(simulation, measures, self._moments, is_tracking=status == "ok"),
         )
 
 
