@@ -94,8 +94,8 @@ class Grasp(Measure):
     ``slip_raising`` the same from 1 s after the object was off the ground until the hold began.
     Impulses are :math:`\max_t \lVert \int_{t-50\,\mathrm{ms}}^{t} F\,dt \rVert` of the net force
     of the vehicle on the object, and of the ground on the vehicle; the two forces of a closed jaw
-    cancel. ``excursion`` is how far the vehicle's base went from where it was when the object was first
-    touched, until that was off the ground.
+    cancel. ``excursion`` is how far the vehicle's base went from where it was when the object was
+    first touched, until that was off the ground.
 
     It ends the level with success, with a collision, and when the object was dropped; and it is
     its judge (`verdict`).
