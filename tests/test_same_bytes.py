@@ -32,6 +32,9 @@ MAKE_NO_NUMBERS = {
     "physics/hydrodynamics/file/checks.py": "says that a vehicle's file is wrong",
     "physics/hydrodynamics/file/passivity.py": "says that a vehicle's file is wrong",
     "physics/hydrodynamics/self_test.py": "says that MuJoCo is another",
+    "viewer/film/paths.py": "where the camera of a film is",
+    "viewer/live/view.py": "refuses a view that is none",
+    "viewer/recording.py": "meshes for the viewers of recordings",
     "examples/paper/station_keeping.py": "the theory beside the measurements in a report",
 }
 POSES = re.compile(r"_from_|[pP]ose|_before|\.now|motion|place|scaled")

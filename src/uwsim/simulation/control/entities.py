@@ -33,6 +33,7 @@ from ...messages.simulation_control import (
     SpawnEntity,
     SpawnEntityResponse,
 )
+from ...numerics.linear import turned
 from ..simulation import Simulation
 
 NAMESPACE = "spawned"
@@ -97,7 +98,7 @@ class Entities:
         state.pose = _message(pose)
         if name in world.vehicles and world.state.is_simulated(world.vehicle(name).index):
             twist = self._simulation.velocity(name)
-            linear, angular = pose.rotation @ twist[:3], pose.rotation @ twist[3:]
+            linear, angular = turned(pose.rotation, twist[:3]), turned(pose.rotation, twist[3:])
             state.twist = Twist(linear=Vector3(*linear), angular=Vector3(*angular))
         return GetEntityStateResponse(state=state)
 
