@@ -1,0 +1,72 @@
+"""Track a dark box in images: as a node of ROS 2 in lock-step, and as a class in uwsim.
+
+    uwsim bench visibility --ros2 --client dark_box       python examples/ros2/dark_box.py
+    uwsim bench visibility --algorithm examples/ros2/dark_box.py:DarkBox
+
+Both give the same rows, because simulation time waits for the node. The corners are those of the
+upright rectangle around all pixels that are darker than a threshold.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+DARKER = 40
+"""Grey level below which a pixel is of the box."""
+
+
+def corners_of(data, width: int, height: int) -> list[float]:
+    """Return x, y of NW, NE, SE, SW [px], or nothing if no pixel is dark."""
+    pixels = np.frombuffer(bytes(data), dtype=np.uint8).reshape(height, width, -1)
+    rows, columns = np.nonzero(pixels.max(axis=2) < DARKER)
+    if not len(rows):
+        return []
+    west, east = float(columns.min()), float(columns.max())
+    north, south = float(rows.min()), float(rows.max())
+    return [west, north, east, north, east, south, west, south]
+
+
+class DarkBox:
+    """The algorithm in the process of the simulation."""
+
+    def start(self, node) -> None:
+        from uwsim.messages import Empty, Float32MultiArray, Image, floats
+
+        self.has_begun, self.node = False, node
+        publish = node.publisher("/cornersTopic", Float32MultiArray)
+
+        def look(image: Image) -> None:
+            if corners := corners_of(image.data, image.width, image.height):
+                publish(floats(corners))
+            if not self.has_begun:
+                self.has_begun = True
+                node.call("startBench", Empty())
+
+        node.subscribe("/uwsim/camera1", Image, look)
+
+
+class DarkBoxNode:
+    """The same as a node of ROS 2."""
+
+    def __init__(self, lockstep) -> None:
+        from sensor_msgs.msg import Image
+        from std_msgs.msg import Float32MultiArray
+
+        self.has_begun, self.lockstep, self.message = False, lockstep, Float32MultiArray
+        self.publish = lockstep.publisher("/cornersTopic", Float32MultiArray)
+        lockstep.subscribe("/uwsim/camera1", Image, self.look)
+
+    def look(self, image) -> None:
+        if corners := corners_of(image.data, image.width, image.height):
+            self.publish(self.message(data=corners))
+        if not self.has_begun:
+            self.has_begun = True
+            self.lockstep.call("startBench")
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parent))
+    from lockstep import run
+
+    run("dark_box", DarkBoxNode)

@@ -1,0 +1,164 @@
+"""Lock-step with uwsim for nodes of rclpy: simulation time waits for what a node computes.
+
+Copy this file next to your node. It needs rclpy and std_msgs, and nothing of uwsim.
+
+    class Tracker:
+        def __init__(self, lockstep):
+            self.publish = lockstep.publisher("/cornersTopic", Float32MultiArray)
+            lockstep.subscribe("/uwsim/camera1", Image, self.look)
+            lockstep.call("startBench")
+        def look(self, image): ...
+
+    lockstep.run("tracker", Tracker)
+
+and `uwsim bench visibility --ros2 --client tracker`. For each trial there is a new node and a new
+Tracker. Its callbacks are called in the order of topics' names and then of arrival, once all
+messages of a step are there; whatever they publish takes effect in the same step.
+"""
+
+import json
+import time
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+JOIN, TICK, ACK = (f"/uwsim/lockstep/{name}" for name in ("join", "tick", "ack"))
+DEPTH = 100
+GLANCE = 0.05
+"""How often a node looks whether the simulation is still there [s]."""
+
+
+class LockStep:
+    """What an algorithm sees of the simulation: topics, and the time of the tick."""
+
+    def __init__(self, node: Node, client: str, period: float) -> None:
+        self.node, self.now = node, 0.0
+        self._client, self._period = client, period
+        self._callbacks, self._waiting, self._arrived, self._published = {}, {}, {}, {}
+        self._calls, self._publishers, self._ticks, self._types = [], [], [], {}
+        self._join = self._publisher(JOIN, String)
+        self._ack = self._publisher(ACK, String)
+        node.create_subscription(String, TICK, self._on_tick, DEPTH)
+
+    def subscribe(self, topic: str, kind: type, callback) -> None:
+        """Have a callback called with each message of a topic."""
+        self._callbacks[topic], self._waiting[topic], self._arrived[topic] = callback, [], 0
+
+        def receive(message) -> None:
+            self._waiting[topic].append(message)
+            self._arrived[topic] += 1
+
+        self.node.create_subscription(kind, topic, receive, DEPTH)
+
+    def publisher(self, topic: str, kind: type):
+        """Return ``publish(message)``."""
+        out = self._publisher(topic, kind)
+        self._published[topic] = 0
+        package, part, _ = kind.__module__.split(".")
+        self._types[topic] = f"{package}/{part}/{kind.__name__}"
+
+        def publish(message) -> None:
+            self._published[topic] += 1
+            out.publish(message)
+
+        return publish
+
+    def call(self, service: str) -> None:
+        """Call a service of std_srvs/Empty with the next answer, as ``startBench``."""
+        self._calls.append(service)
+
+    def simulator(self) -> list:
+        """Identify the simulation that is there; empty: there is none."""
+        return [bytes(i.endpoint_gid) for i in self.node.get_subscriptions_info_by_topic(JOIN)]
+
+    def is_connected(self) -> bool:
+        """Whether every topic has its other end, but for those that the algorithm publishes."""
+        return all(each.get_subscription_count() for each in (self._join, self._ack)) and all(
+            self.node.count_publishers(topic) for topic in (TICK, *self._callbacks)
+        )
+
+    def join(self) -> None:
+        """Tell the simulation to wait for this client from now on."""
+        topics, later = list(self._callbacks), self._next(0.0)
+        self._say(self._join, topics=topics, publishes=self._types, **later)
+
+    def answer(self) -> None:
+        """Answer the tick for which all messages are there, if there is one."""
+        if not self._ticks or not all(o.get_subscription_count() for o in self._publishers):
+            return
+        tick = self._ticks[0]
+        if any(self._arrived.get(topic, 0) < n for topic, n in named(tick["sent"]).items()):
+            return
+        self._ticks.pop(0)
+        self.now = tick["time"]
+        for topic in sorted(self._waiting):
+            messages, self._waiting[topic] = self._waiting[topic], []
+            for message in messages:
+                self._callbacks[topic](message)
+        calls, self._calls = self._calls, []
+        later = self._next(self.now + self._period)
+        self._say(self._ack, tick=tick["tick"], published=self._published, calls=calls, **later)
+
+    def _next(self, time: float) -> dict:
+        """Wish for a tick at a time at the latest, whether there are messages or not."""
+        return {"next": time} if self._period > 0.0 else {}
+
+    def _on_tick(self, message: String) -> None:
+        tick = json.loads(message.data)
+        if tick.get("client") == self._client:
+            self._ticks.append(tick)
+
+    def _publisher(self, topic: str, kind: type):
+        self._publishers.append(self.node.create_publisher(kind, topic, DEPTH))
+        return self._publishers[-1]
+
+    def _say(self, out, **content) -> None:
+        out.publish(String(data=json.dumps({"client": self._client, **content})))
+
+
+def named(counts: dict) -> dict:
+    """Give topics their leading slash."""
+    return {f"/{topic.lstrip('/')}": n for topic, n in counts.items()}
+
+
+def run(client: str, algorithm, *, period: float = 0.0, patience: float = 60.0) -> None:
+    """Take part in trial after trial, until none has begun for some time.
+
+    Args:
+        client: the name that `uwsim bench --client` has.
+        algorithm: is called with a LockStep for each trial.
+        period: longest time between two ticks [s of simulation time]; 0: only with messages.
+        patience: how long to wait for a simulation [s].
+    """
+    rclpy.init()
+    known: list = []
+    while (begun := begin(client, algorithm, period, patience, known)) is not None:
+        lockstep, known = begun
+        while lockstep.simulator() == known:
+            until = time.monotonic() + GLANCE
+            while time.monotonic() < until:
+                rclpy.spin_once(lockstep.node, timeout_sec=GLANCE)
+                lockstep.answer()
+        lockstep.node.destroy_node()
+    rclpy.shutdown()
+
+
+def begin(client: str, algorithm, period: float, patience: float, before: list):
+    """Wait for a simulation that is not the one before, and join it; None: there is none."""
+    node = Node(client)
+    lockstep = LockStep(node, client, period)
+    algorithm(lockstep)
+    until = time.monotonic() + patience
+    while time.monotonic() < until:
+        rclpy.spin_once(node, timeout_sec=GLANCE)
+        found = lockstep.simulator()
+        if len(found) == 1 and found != before and lockstep.is_connected():
+            lockstep.join()
+            return lockstep, found
+    node.destroy_node()
+    return None
+
+
+if __name__ == "__main__":
+    print(__doc__)
