@@ -58,7 +58,8 @@ class Peer:
 
     def __init__(self, source: str, domain: int, log_folder: str) -> None:
         self.process = subprocess.Popen(
-            [PYTHON, "-c", PRELUDE + source],
+            [PYTHON, "-c", source],
+            cwd=ROOT,
             env=environment(domain, log_folder),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -104,10 +105,11 @@ class Peer:
 
 
 @contextmanager
-def peer(source: str, domain: int) -> Iterator[Peer]:
+def peer(source: str, domain: int, *, prelude: str | None = None) -> Iterator[Peer]:
     """Run a node while the block lasts; what it wrote to standard error is shown if it fails."""
+    program = (PRELUDE if prelude is None else prelude) + source
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as logs:
-        node = Peer(source, domain, logs)
+        node = Peer(program, domain, logs)
         try:
             yield node
         except BaseException:

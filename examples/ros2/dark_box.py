@@ -31,6 +31,7 @@ class DarkBox:
     """The algorithm in the process of the simulation."""
 
     def start(self, node) -> None:
+        """Subscribe to the images; the benchmark starts with the first."""
         from uwsim.messages import Empty, Float32MultiArray, Image, floats
 
         self.has_begun, self.node = False, node
@@ -58,6 +59,7 @@ class DarkBoxNode:
         lockstep.subscribe("/uwsim/camera1", Image, self.look)
 
     def look(self, image) -> None:
+        """Publish where the box is; the benchmark starts with the first image."""
         if corners := corners_of(image.data, image.width, image.height):
             self.publish(self.message(data=corners))
         if not self.has_begun:

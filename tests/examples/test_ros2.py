@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -10,14 +11,25 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from tests.ros2_peers import BOUND_S, PYTHON, ROOT, environment, free_domain, needs_rclpy
+from tests.ros2_peers import (
+    BOUND_S,
+    PYTHON,
+    ROOT,
+    environment,
+    free_domain,
+    needs_rclpy,
+    peer,
+)
+from tests.short_benchmark import BENCHMARK
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
 pytestmark = needs_rclpy
+AUTO_INIT = " <publishOn>autoInit</publishOn>"
 SCENE = """<UWSimScene>
   <vehicle>
     <name>rov</name> <file>bluerov2_heavy.urdf</file>
@@ -76,3 +88,56 @@ def test_a_node_of_ros_2_drives_the_vehicle_to_its_goal(tmp_path: Path) -> None:
         topics = ["--odometry", "/odom", "--command", "/twist"]
         told = example("goto_position.py", *goal, *topics, domain=domain)
     assert told.startswith("reached [0.3, 0.2, 2.1]: 0.")
+
+
+LATE = """
+import random, sys, time
+sys.path.insert(0, "examples/ros2")
+import dark_box, lockstep
+look = dark_box.DarkBoxNode.look
+def late(self, image):
+    time.sleep(random.random() * 0.02)
+    look(self, image)
+dark_box.DarkBoxNode.look = late
+lockstep.run("dark_box", dark_box.DarkBoxNode, patience=240.0)
+"""
+"""The tracker of the example, with a random delay of up to 20 ms."""
+
+
+@pytest.mark.slow
+def test_a_node_in_lock_step_scores_the_rows_of_the_same_algorithm_in_process(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    benchmark = tmp_path / "short.xml"
+    benchmark.write_text(BENCHMARK.replace("LENGTH", "0.5").replace(AUTO_INIT, ""))
+    monkeypatch.setenv("PYTHONPATH", str(ROOT / "examples" / "ros2"), prepend=os.pathsep)
+    one_level = ["--level", "fog=0.4", "--workers", "0"]
+    command = [sys.executable, "-m", "uwsim", "bench", str(benchmark), *one_level]
+
+    def bench(name: str, *options: str) -> dict[str, Any]:
+        done = subprocess.run(
+            [*command, *options, "--out", tmp_path / name],
+            timeout=4 * BOUND_S,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        found: dict[str, Any] = json.loads((tmp_path / name / "result.json").read_text())
+        return found
+
+    inside = bench("inside", "--algorithm", "dark_box:DarkBox", "--in-process")
+    with free_domain() as domain, peer(LATE, domain, prelude=""):
+        client = [
+            "--ros2",
+            "--domain",
+            str(domain),
+            "--client",
+            "dark_box",
+            "--client-limit",
+            "120",
+        ]
+        outside = bench("outside", *client)
+    for part in ("rows", "columns", "missing", "facts"):
+        assert inside[part] == outside[part]
+    assert outside["run"]["clients"] == [["dark_box", "lock-step, ros2"]]

@@ -121,6 +121,10 @@ class Bridge(ABC):
         """One fewer outside reads ``topic``. Any thread."""
         self._add_want(topic, -1)
 
+    def is_wanted(self, topic: str) -> bool:
+        """Whether anybody outside reads ``topic``. In the thread of the simulation."""
+        return self._n_wanted[topic.lstrip("/")] > 0
+
     def _add_want(self, topic: str, n: int) -> None:
         with self._lock:
             self._wants.append((topic.lstrip("/"), n))

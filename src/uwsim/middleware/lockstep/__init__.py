@@ -13,10 +13,16 @@ The contract, on three topics of std_msgs/String with a JSON object as their tex
 
 A tick comes at the end of each step in which a message of one of the client's ``topics`` was
 published, or in which the simulation time ``next`` [s] is reached that the client named last, for
-its timers. ``sent`` counts the messages of each topic since the join: topics are not ordered
-relative to each other in ROS, and a client waits until it has as many. ``published`` counts the
-client's own in the same way, and may be left out where the transport keeps the order of topics
-(WebSocket does).
+its timers.
+
+A join may also say what the client will publish, ``"publishes": {"/cmd": "geometry_msgs/Twist"}``,
+so that a transport reads it before anybody on the bus does: in ROS a message that nobody reads is
+lost. An ack may have ``"calls": ["startBench"]``: services of std_srvs/Empty that are called for a
+client whose transport has none.
+
+``sent`` counts the messages of each topic since the join: topics are not ordered relative to each
+other in ROS, and a client waits until it has as many. ``published`` counts the client's own in the
+same way, and may be left out where the transport keeps the order of topics (WebSocket does).
 
 Until the ack is there simulation time stands. Calls of services are answered at once, also those
 that the simulation makes of the client; what the client has published is put on the bus after the

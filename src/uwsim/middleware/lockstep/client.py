@@ -12,9 +12,10 @@ from typing import Any
 
 from ...bus import Node
 from ...errors import BadSetting, ClientLost, NeverStarted
-from ...messages import String
+from ...messages import Empty, String
 from ..bridge import Bridge
 from ..connection import ConnectionSpec
+from ..types import message_class
 from .topics import ACK, JOIN, TICK
 
 MAX_ROUNDS = 1000
@@ -72,9 +73,22 @@ class LockStepClient:
             )
         joined = self._joins.popleft()
         self._wish(joined)
-        for topic in _texts(joined.get("topics")):
-            node.subscribe(topic, object, self._counter(topic))
+        self._connect(joined)
         node.every(self._timestep, self._barrier)
+
+    def _connect(self, joined: dict[str, Any]) -> None:
+        """Subscribe for the client, and read what it will publish."""
+        bridge, topics = self._bridge, _texts(joined.get("topics"))
+        publishes = joined.get("publishes")
+        for topic, kind in publishes.items() if isinstance(publishes, dict) else ():
+            bridge.bus.subscribe(str(topic), message_class(str(kind)), _nothing)
+        bridge.step()
+        if not bridge.wait_for(lambda: all(map(bridge.is_wanted, [TICK, *topics])), self._limit):
+            raise NeverStarted(
+                f"Client {self._name!r} has joined, and does not subscribe to all of its topics."
+            )
+        for topic in topics:
+            self._node.subscribe(topic, object, self._counter(topic))
 
     @property
     def parameters(self) -> dict[str, float | str]:
@@ -114,7 +128,10 @@ class LockStepClient:
                 f"Client {self._name!r} did not answer the tick at {now:g} s within "
                 f"{self._limit:g} s of wall time (--client-limit): the run is invalid."
             )
-        self._wish(self._acks.popleft())
+        answer = self._acks.popleft()
+        self._wish(answer)
+        for name in _texts(answer.get("calls")):
+            self._node.call(name, Empty())
         bridge.step()
 
     def _wish(self, said: dict[str, Any]) -> None:
