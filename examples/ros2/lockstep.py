@@ -21,10 +21,13 @@ import time
 
 import rclpy
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
 JOIN, TICK, ACK = (f"/uwsim/lockstep/{name}" for name in ("join", "tick", "ack"))
 DEPTH = 100
+WHOLE = QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+"""With its history: nothing is lost while both ends get to know each other."""
 GLANCE = 0.05
 """How often a node looks whether the simulation is still there [s]."""
 
@@ -37,9 +40,10 @@ class LockStep:
         self._client, self._period = client, period
         self._callbacks, self._waiting, self._arrived, self._published = {}, {}, {}, {}
         self._calls, self._publishers, self._ticks, self._types = [], [], [], {}
+        self.run, self.next_run = "", ""
         self._join = self._publisher(JOIN, String)
         self._ack = self._publisher(ACK, String)
-        node.create_subscription(String, TICK, self._on_tick, DEPTH)
+        node.create_subscription(String, TICK, self._on_tick, WHOLE)
 
     def subscribe(self, topic: str, kind: type, callback) -> None:
         """Have a callback called with each message of a topic."""
@@ -68,10 +72,6 @@ class LockStep:
         """Call a service of std_srvs/Empty with the next answer, as ``startBench``."""
         self._calls.append(service)
 
-    def simulator(self) -> list:
-        """Identify the simulation that is there; empty: there is none."""
-        return [bytes(i.endpoint_gid) for i in self.node.get_subscriptions_info_by_topic(JOIN)]
-
     def is_connected(self) -> bool:
         """Whether every topic has its other end, but for those that the algorithm publishes."""
         return all(each.get_subscription_count() for each in (self._join, self._ack)) and all(
@@ -80,6 +80,7 @@ class LockStep:
 
     def join(self) -> None:
         """Tell the simulation to wait for this client from now on."""
+        self.run = self.next_run
         topics, later = list(self._callbacks), self._next(0.0)
         self._say(self._join, topics=topics, publishes=self._types, **later)
 
@@ -106,15 +107,19 @@ class LockStep:
 
     def _on_tick(self, message: String) -> None:
         tick = json.loads(message.data)
-        if tick.get("client") == self._client:
+        if tick.get("client") != self._client:
+            return
+        if tick["tick"] == 0:  # a simulation invites
+            self.next_run = tick["run"]
+        elif tick["run"] == self.run:
             self._ticks.append(tick)
 
     def _publisher(self, topic: str, kind: type):
-        self._publishers.append(self.node.create_publisher(kind, topic, DEPTH))
+        self._publishers.append(self.node.create_publisher(kind, topic, WHOLE))
         return self._publishers[-1]
 
     def _say(self, out, **content) -> None:
-        out.publish(String(data=json.dumps({"client": self._client, **content})))
+        out.publish(String(data=json.dumps({"client": self._client, "run": self.run, **content})))
 
 
 def named(counts: dict) -> dict:
@@ -132,10 +137,10 @@ def run(client: str, algorithm, *, period: float = 0.0, patience: float = 60.0) 
         patience: how long to wait for a simulation [s].
     """
     rclpy.init()
-    known: list = []
-    while (begun := begin(client, algorithm, period, patience, known)) is not None:
-        lockstep, known = begun
-        while lockstep.simulator() == known:
+    before = ""
+    while (lockstep := begin(client, algorithm, period, patience, before)) is not None:
+        before = lockstep.run
+        while lockstep.next_run == before and lockstep.is_connected():
             until = time.monotonic() + GLANCE
             while time.monotonic() < until:
                 rclpy.spin_once(lockstep.node, timeout_sec=GLANCE)
@@ -144,7 +149,7 @@ def run(client: str, algorithm, *, period: float = 0.0, patience: float = 60.0) 
     rclpy.shutdown()
 
 
-def begin(client: str, algorithm, period: float, patience: float, before: list):
+def begin(client: str, algorithm, period: float, patience: float, before: str):
     """Wait for a simulation that is not the one before, and join it; None: there is none."""
     node = Node(client)
     lockstep = LockStep(node, client, period)
@@ -152,10 +157,9 @@ def begin(client: str, algorithm, period: float, patience: float, before: list):
     until = time.monotonic() + patience
     while time.monotonic() < until:
         rclpy.spin_once(node, timeout_sec=GLANCE)
-        found = lockstep.simulator()
-        if len(found) == 1 and found != before and lockstep.is_connected():
+        if lockstep.next_run not in ("", before) and lockstep.is_connected():
             lockstep.join()
-            return lockstep, found
+            return lockstep
     node.destroy_node()
     return None
 

@@ -121,6 +121,9 @@ class Bridge(ABC):
         """One fewer outside reads ``topic``. Any thread."""
         self._add_want(topic, -1)
 
+    def read_all(self, topic: str) -> None:  # noqa: B027 - others lose nothing
+        """Read ``topic`` from its publishers' first message on; where a transport may lose some."""
+
     def is_wanted(self, topic: str) -> bool:
         """Whether anybody outside reads ``topic``. In the thread of the simulation."""
         return self._n_wanted[topic.lstrip("/")] > 0

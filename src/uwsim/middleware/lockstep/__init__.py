@@ -18,7 +18,8 @@ its timers.
 A join may also say what the client will publish, ``"publishes": {"/cmd": "geometry_msgs/Twist"}``,
 so that a transport reads it before anybody on the bus does: in ROS a message that nobody reads is
 lost. An ack may have ``"calls": ["startBench"]``: services of std_srvs/Empty that are called for a
-client whose transport has none.
+client whose transport has none. Ticks have ``run``, which tells simulations apart, and so has an
+invitation, tick 0, that is sent before the join; a join or ack with another ``run`` is not heard.
 
 ``sent`` counts the messages of each topic since the join: topics are not ordered relative to each
 other in ROS, and a client waits until it has as many. ``published`` counts the client's own in the

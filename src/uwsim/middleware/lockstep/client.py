@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import secrets
 from collections import Counter, deque
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -51,6 +52,7 @@ class LockStepClient:
         self._sent: Counter[str] = Counter()
         self._is_due, self._next_time = False, math.inf
         self._n_ticks = 0
+        self._run = secrets.token_hex(8)  # what tells simulations apart; not in any result
 
     @property
     def name(self) -> str:
@@ -66,6 +68,8 @@ class LockStepClient:
         self._node = node
         bridge = self._bridge
         bridge.step()
+        invitation = {"client": self._name, "tick": 0, "run": self._run}
+        bridge.send(TICK, String(data=json.dumps(invitation)))
         if not bridge.wait_for(lambda: bool(self._joins), self._limit):
             raise NeverStarted(
                 f"No client {self._name!r} has joined within {self._limit:g} s of wall time "
@@ -81,6 +85,7 @@ class LockStepClient:
         bridge, topics = self._bridge, _texts(joined.get("topics"))
         publishes = joined.get("publishes")
         for topic, kind in publishes.items() if isinstance(publishes, dict) else ():
+            bridge.read_all(str(topic))
             bridge.bus.subscribe(str(topic), message_class(str(kind)), _nothing)
         bridge.step()
         if not bridge.wait_for(lambda: all(map(bridge.is_wanted, [TICK, *topics])), self._limit):
@@ -97,7 +102,8 @@ class LockStepClient:
 
     def hear(self, topic: str, content: dict[str, Any]) -> None:
         """Take in what the client says on one of the topics of lock-step. Any thread."""
-        (self._joins if topic == JOIN else self._acks).append(content)
+        if content.get("run", self._run) == self._run:  # else: to a simulation before this one
+            (self._joins if topic == JOIN else self._acks).append(content)
 
     def _counter(self, topic: str) -> Any:
         def count(message: object) -> None:
@@ -121,7 +127,8 @@ class LockStepClient:
         bridge, now = self._bridge, self._node.now
         self._n_ticks += 1
         number = self._n_ticks
-        tick = {"client": self._name, "tick": number, "time": now, "sent": dict(self._sent)}
+        who = {"client": self._name, "run": self._run}
+        tick = {**who, "tick": number, "time": now, "sent": dict(self._sent)}
         bridge.send(TICK, String(data=json.dumps(tick)))
         if not bridge.wait_for(lambda: self._is_answered(number), self._limit):
             raise ClientLost(
@@ -189,6 +196,7 @@ def lockstep_clients(
             bridge.log.say(f"/{topic}: no client of this run: {str(content.get('client'))[:100]!r}")
 
     for topic in (JOIN, ACK):
+        bridge.read_all(topic)
         bridge.bus.subscribe(topic, String, _nothing)  # so that transports subscribe outside
         bridge.tap(topic, partial(hear, topic))
     bridge.bus.publisher(TICK, String)

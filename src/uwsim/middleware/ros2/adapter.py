@@ -67,6 +67,7 @@ class Ros2(Bridge):
         self._writers: dict[str, Writer] = {}
         self._readers: dict[str, Any] = {}
         self._servers: dict[str, ServiceServer] = {}
+        self._whole: set[str] = set()
         self._outgoing: LatestQueue[tuple[str, object]] = LatestQueue()
         self._types: dict[type, type[RawSample]] = {}
         self._clock_class = message_class("rosgraph_msgs/Clock")
@@ -116,6 +117,18 @@ class Ros2(Bridge):
                 "readers do not keep up; the oldest messages are dropped", kind="outgoing flood"
             )
 
+    def read_all(self, topic: str) -> None:
+        """Read a topic with its history (transient local), which its publishers then must offer.
+
+        A reader without history takes no sample that came before it knew the writer, and a writer
+        cannot tell when that is.
+        """
+        name = topic.lstrip("/")
+        self._whole.add(name)
+        if name in self._readers:
+            self._drop(self._readers.pop(name))
+            self._add_reader(name, self._topics[name].type)
+
     def tick(self) -> None:
         """Publish the time, if anybody reads it."""
         time = self.clock()
@@ -156,7 +169,7 @@ class Ros2(Bridge):
         reader = self._participant.reader(
             topic_name(name),
             self._raw(type),
-            Quality(depth=MAX_ITEMS, is_latched=name in LATCHED, ignores_own=True),
+            Quality(depth=MAX_ITEMS, is_latched=name in (*LATCHED, *self._whole), ignores_own=True),
             partial(self._receive, name, type),
             user_data=type_hash_data(wire.type_hash),
             events={WRITER_REFUSED: partial(self._refuse, name)},

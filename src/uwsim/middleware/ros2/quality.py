@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from cyclonedds.qos import Policy, Qos
 from cyclonedds.util import duration
 
+from ..lockstep.topics import TICK
+
 LATCHED = ("tf_static", "robot_description")
 """Topics whose newest message a late subscriber gets as well (transient local)."""
 CLOCK = "clock"
@@ -60,4 +62,4 @@ class Quality:
 
 def quality_of(topic: str) -> Quality:
     """Return the quality of a topic of the simulator; no leading slash."""
-    return Quality(depth=100, is_latched=True) if topic in LATCHED else Quality()
+    return Quality(depth=100, is_latched=True) if topic in (*LATCHED, TICK) else Quality()
