@@ -74,6 +74,9 @@ class Bridge(ABC):
     """Whether messages from outside are sent out, too: where those outside do not reach each
     other."""
 
+    must_meet: ClassVar[bool] = False
+    """Whether messages are lost before both ends of a topic know each other."""
+
     def __init__(self, bus: Bus, clock: Callable[[], float], log: Log) -> None:
         self.bus, self.clock, self.log = bus, clock, log
         self._lock = threading.Lock()

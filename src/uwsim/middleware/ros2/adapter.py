@@ -52,6 +52,8 @@ class Ros2(Bridge):
         UwsimError: the domain cannot be joined.
     """
 
+    must_meet = True
+
     def __init__(
         self,
         bus: Bus,
