@@ -61,7 +61,7 @@ def test_a_body_takes_little_room_and_equal_tracks_are_equal_bytes() -> None:
         lambda data: data[:-20],
         lambda data: b"",
         lambda data: b"not a track",
-        lambda data: data[:40] + b"x" + data[41:],
+        lambda data: data[:40] + bytes([data[40] ^ 1]) + data[41:],
     ],
 )
 def test_a_damaged_track_is_an_error_that_says_so(damage: object, tmp_path: Path) -> None:

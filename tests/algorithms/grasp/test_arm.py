@@ -11,13 +11,17 @@ from uwsim.scene.urdf.kinematics import link_poses
 from uwsim.scene.urdf.reader import read_urdf
 
 URDF = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "g500ARM5.urdf"
-RANDOM = np.random.Generator(np.random.Philox(7))
 
 
-def test_the_wrist_is_where_the_urdf_has_it() -> None:
+@pytest.fixture
+def random() -> np.random.Generator:
+    return np.random.Generator(np.random.Philox(7))
+
+
+def test_the_wrist_is_where_the_urdf_has_it(random: np.random.Generator) -> None:
     robot, arm = read_urdf(URDF), Arm5e()
     for _ in range(20):
-        joints = RANDOM.uniform(LIMITS[:, 0], LIMITS[:, 1])
+        joints = random.uniform(LIMITS[:, 0], LIMITS[:, 1])
         true = link_poses(robot, [*joints, 0.0])["part4_base"]
         found = arm.wrist(joints)
         assert found.position == pytest.approx(true.position, abs=1e-5)
@@ -39,10 +43,10 @@ def test_reaching_down_the_jaw_is_vertical_below_the_vehicle() -> None:
     assert np.linalg.norm(grip.position - wrist.position) == pytest.approx(REACH)
 
 
-def test_the_inverse_finds_joints_for_a_place_and_a_heading() -> None:
+def test_the_inverse_finds_joints_for_a_place_and_a_heading(random: np.random.Generator) -> None:
     arm = Arm5e()
     for _ in range(30):
-        joints = DOWN + RANDOM.uniform(-0.15, 0.15, 4) * [1, 1, 1, 5]
+        joints = DOWN + random.uniform(-0.15, 0.15, 4) * [1, 1, 1, 5]
         true = arm.grip(joints)
         heading = np.arctan2(true.rotation[1, 0], true.rotation[0, 0])
         reach = arm.reach(true.position, heading, DOWN)

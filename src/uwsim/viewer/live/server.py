@@ -36,7 +36,7 @@ KEPT = 256
 """Messages of viewers that wait for the simulation."""
 BUFFER = 64 * 1024
 """Of what is on its way to a viewer [byte]."""
-START = 10.0
+START = 60.0
 """Longest time that the port takes to open [s]."""
 
 Message = dict[str, Any]
