@@ -57,6 +57,7 @@ def bench_of(
     levels: list[str] | None = None,
     settings: list[str] | None = None,
     compat: list[str] | None = None,
+    in_process: bool = False,
 ) -> Run:
     plan = make_plan(
         PlanRequest(
@@ -68,6 +69,7 @@ def bench_of(
             levels=levels or [],
             settings=settings or [],
             compat=compat or [],
+            in_process=in_process,
         )
     )
     inputs, renderer = hash_inputs(plan)

@@ -8,7 +8,13 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import TWIST, command, make, run
-from uwsim.geometry import Pose, rotation_from_quaternion, rotation_from_rpy, rpy_from_rotation
+from uwsim.geometry import (
+    Array,
+    Pose,
+    rotation_from_quaternion,
+    rotation_from_rpy,
+    rpy_from_rotation,
+)
 from uwsim.messages import Imu, Vector3
 from uwsim.sensors.drift import DriftSpec
 from uwsim.sensors.imu import ImuSpec
@@ -156,7 +162,11 @@ def test_a_saved_simulation_goes_on_with_the_same_measurements() -> None:
 
 def test_the_motion_of_a_vehicle_that_is_placed_is_the_difference_of_its_poses() -> None:
     pose = [Pose.identity()]
-    body = PlacedBody("vehicle/link", lambda: pose[0], lambda point: np.zeros(6))
+
+    def none(point: Array) -> Array:
+        return np.zeros(6)
+
+    body = PlacedBody("vehicle/link", lambda: pose[0], none, none)
     assert np.all(body.motion(0.0).velocity == 0.0)
     pose[0] = Pose(np.array([0.1, 0.0, 0.0]), rotation_from_rpy(0.0, 0.0, 0.02))
     first = body.motion(0.1)

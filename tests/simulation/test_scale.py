@@ -97,7 +97,7 @@ def test_a_lamp_hangs_where_the_scale_puts_it(
     scale: tuple[float, float, float], tmp_path: Path
 ) -> None:
     simulation = begin(arm(tmp_path, scale), is_blind=True)
-    (lamp,) = simulation.world.scenery._mounted_lamps
+    (lamp,) = simulation.world.scenery.mounted_lamps
     base_from_rail = link_poses(simulation.world.robots[0], VALUES)["rail"]
     place = base_from_rail.transform(np.array([[0.1, 0.2, 0.3]]))[0]
     assert lamp.world_from_lamp.position == pytest.approx(placed(scale, place))

@@ -50,8 +50,13 @@ def benchmark(tmp_path: Path) -> Path:
 
 
 def mortal(tmp_path: Path, dies: str) -> dict[str, object]:
-    immortal = f"algorithm.immortal={tmp_path / 'immortal'}"
-    return {"algorithm": f"{HERE}:Mortal", "settings": [immortal, f"algorithm.dies={dies}"]}
+    settings = [f"algorithm.immortal={tmp_path / 'immortal'}", f"algorithm.dies={dies}"]
+    return {"algorithm": f"{HERE}:Mortal", "settings": settings}
+
+
+def killing_its_worker(tmp_path: Path) -> dict[str, object]:
+    """An algorithm in the worker's own process: it takes the worker with it, once."""
+    return {**mortal(tmp_path, "once"), "in_process": True}
 
 
 def test_one_worker_and_two_give_the_same_bytes(benchmark: Path, tmp_path: Path) -> None:
@@ -68,10 +73,10 @@ def test_one_worker_and_two_give_the_same_bytes(benchmark: Path, tmp_path: Path)
 def test_a_worker_that_is_killed_leaves_the_same_bytes(benchmark: Path, tmp_path: Path) -> None:
     """Its trial is sequential: the level that was over is played again and must be the same."""
     n_levels: list[None] = []
-    disturbed = bench_of(benchmark, tmp_path / "a", repeat=2, **mortal(tmp_path, "once"))
+    disturbed = bench_of(benchmark, tmp_path / "a", repeat=2, **killing_its_worker(tmp_path))
     run_all([disturbed], ProcessExecutor(2), on_level=lambda: n_levels.append(None))
     assert (tmp_path / "immortal").exists()
-    run(benchmark, tmp_path / "b", repeat=2, **mortal(tmp_path, "once"))
+    run(benchmark, tmp_path / "b", repeat=2, **killing_its_worker(tmp_path))
     assert fingerprint(tmp_path / "a") == fingerprint(tmp_path / "b")
     assert len(n_levels) == 6
 

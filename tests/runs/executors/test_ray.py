@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.runs.executors.test_executor import mortal
+from tests.runs.executors.test_executor import killing_its_worker
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from uwsim.errors import BadSetting, MissingExtra
 from uwsim.runs.executors.ray import RayExecutor, RayWorker, address
@@ -23,14 +23,14 @@ SCRIPT = """
 import sys
 from pathlib import Path
 from tests.short_benchmark import bench_of
-from tests.runs.executors.test_executor import mortal
+from tests.runs.executors.test_executor import killing_its_worker
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.ray import RayExecutor
 
 folder = Path(sys.argv[1])
 benches = [
     bench_of(folder / "short.xml", folder / "esm", repeat=2),
-    bench_of(folder / "short.xml", folder / "mortal", **mortal(folder, "once")),
+    bench_of(folder / "short.xml", folder / "mortal", **killing_its_worker(folder)),
 ]
 levels = []
 run_all(benches, RayExecutor(cpus=2), on_level=lambda: levels.append(1))
@@ -62,7 +62,7 @@ def test_a_cluster_of_two_that_loses_a_worker_gives_the_same_bytes(
     assert (done.returncode, done.stdout, done.stderr) == (0, "9 levels, 1 lost\n", "")
     assert (tmp_path / "immortal").exists()
     run(benchmark, tmp_path / "esm-here", repeat=2)
-    run(benchmark, tmp_path / "mortal-here", **mortal(tmp_path, "once"))
+    run(benchmark, tmp_path / "mortal-here", **killing_its_worker(tmp_path))
     for name in ("esm", "mortal"):
         assert fingerprint(tmp_path / name) == fingerprint(tmp_path / f"{name}-here")
     assert leftovers(home) == before
