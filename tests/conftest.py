@@ -1,4 +1,4 @@
-"""What every test gets: a home of its own, and children that hear Ctrl-C."""
+"""What every test gets: a home of its own, children that hear Ctrl-C, no limit of an example."""
 
 from __future__ import annotations
 
@@ -7,6 +7,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
+
+settings.register_profile(
+    "any computer", deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("any computer")  # a slow one is no error
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -6,7 +6,6 @@ import functools
 import os
 import shutil
 import signal
-import socket
 import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.waiting import LIMIT, until
+from tests.waiting import LIMIT, free_port, until
 from uwsim.middleware.ros1.tcpros import PeerError
 from uwsim.middleware.ros1.xmlrpc import call
 
@@ -36,12 +35,6 @@ needs_ros1 = pytest.mark.skipif(
 )
 
 
-def free_port() -> int:
-    """Return a port that nobody listens on."""
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        return int(server.getsockname()[1])
-
-
 class Peers:
     """A real master, and programs at it.
 
@@ -56,13 +49,11 @@ class Peers:
         kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL"))}
         self.environment = {**kept, **own, "PYTHONUNBUFFERED": "1"}
         self._programs: list[subprocess.Popen[str]] = []
-        self._master = self.start_master()
 
-    def start_master(self) -> subprocess.Popen[str]:
+    def start_master(self) -> None:
         """Start rosmaster and wait until it answers."""
         self._master = self._popen(["rosmaster", "--core", "-p", self.uri.rpartition(":")[2]])
         until(self._answers)
-        return self._master
 
     def kill_master(self) -> None:
         """Kill it."""
@@ -108,6 +99,7 @@ def peers(folder: Path) -> Iterator[Peers]:
     """Give a master and what it takes to start programs."""
     made = Peers(folder)
     try:
+        made.start_master()
         yield made
     finally:
         made.close()

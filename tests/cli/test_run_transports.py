@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-import socket
-
 import pytest
 
+from tests.waiting import free_port
 from uwsim.cli import main
-
-
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        return int(server.getsockname()[1])
 
 
 def test_a_scene_is_a_node_of_ros_1_and_starts_a_master(

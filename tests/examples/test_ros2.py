@@ -72,7 +72,7 @@ def example(name: str, *arguments: str, domain: int) -> str:
             env=environment(domain, logs),
             capture_output=True,
             text=True,
-            timeout=2 * BOUND_S,
+            timeout=BOUND_S,
             check=False,
         )
     assert done.returncode == 0, done.stderr
@@ -117,7 +117,7 @@ def test_a_node_in_lock_step_scores_the_rows_of_the_same_algorithm_in_process(
     def bench(name: str, *options: str) -> dict[str, Any]:
         done = subprocess.run(
             [*command, *options, "--out", tmp_path / name],
-            timeout=4 * BOUND_S,
+            timeout=BOUND_S,
             capture_output=True,
             text=True,
             check=False,

@@ -15,10 +15,10 @@ def test_the_page_is_served_at_its_address_alone() -> None:
     try:
         place = urlsplit(served.url)
         assert place.hostname == "127.0.0.1"
-        with urllib.request.urlopen(served.url, timeout=60) as answer:
+        with urllib.request.urlopen(served.url, timeout=200) as answer:
             assert answer.read().decode() == "<p>é</p>"
         with pytest.raises(urllib.error.HTTPError) as refused:
-            urllib.request.urlopen(f"http://{place.netloc}/", timeout=60)
+            urllib.request.urlopen(f"http://{place.netloc}/", timeout=200)
         refused.value.close()
         assert refused.value.code == 404
     finally:

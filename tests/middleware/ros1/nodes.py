@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from tests.waiting import LIMIT, until
+from tests.waiting import LIMIT, free_port, until
 from uwsim.bus import Bus
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import Master, Ros1Bridge
@@ -18,7 +18,7 @@ class Graph:
     def __init__(self) -> None:
         self.printed: list[str] = []
         self.log = Log("test", self.printed.append)
-        self.master = Master(self.log)
+        self.master = Master(self.log, port=free_port())
         self.nodes: list[Ros1Bridge] = []
 
     def node(self, name: str = "/uwsim", **options: Any) -> Ros1Bridge:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 import struct
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -94,8 +95,8 @@ def test_garbage_on_the_port_is_reported(graph: Graph, sent: bytes, said: str) -
     sim = graph.node()
     sim.bus.publisher("depth", Float64)
     graph.ready()
-    with connect(port_of(sim)) as peer:
-        peer.sendall(sent)
+    with connect(port_of(sim)) as peer, suppress(OSError):
+        peer.sendall(sent)  # the node may leave before all is read: broken, reset, not connected
         peer.shutdown(socket.SHUT_WR)
         while peer.recv(4096):
             pass
@@ -111,25 +112,34 @@ def test_a_client_that_sends_no_header_is_left(graph: Graph) -> None:
     until(lambda: any("sends nothing" in line for line in graph.printed), graph.step)
 
 
-def test_a_subscriber_that_stalls_costs_bounded_memory_and_no_time(graph: Graph) -> None:
+def test_a_subscriber_that_stalls_costs_bounded_memory(graph: Graph) -> None:
+    sim = graph.node(send_timeout=LIMIT)
+    publish = sim.bus.publisher("camera", Image)
+    graph.ready()
+    with subscribe(sim, "/camera"):
+        graph.connected("/camera")
+        (queue,) = sim._publications["/camera"]._queues
+        pixels = np.zeros((480, 640, 3), np.uint8)
+        for i in range(200):
+            publish(image(pixels, time=float(i)))
+            graph.step()
+            assert len(queue) * pixels.nbytes <= QUEUE_BYTES
+        assert any("too slowly" in line for line in graph.printed)
+
+
+def test_a_subscriber_that_stalls_is_left(graph: Graph) -> None:
     sim = graph.node(send_timeout=0.2)
     publish = sim.bus.publisher("camera", Image)
     graph.ready()
-    peer = subscribe(sim, "/camera")
-    graph.connected("/camera")
-    pixels = np.zeros((480, 640, 3), np.uint8)
-    n_bytes_held = []
-    for i in range(200):
-        publish(image(pixels, time=float(i)))
+    message = image(np.zeros((480, 640, 3), np.uint8), time=0.0)
+
+    def step() -> None:
+        publish(message)
         graph.step()
-        (queue,) = sim._publications["/camera"]._queues or [None]
-        if queue is not None:
-            n_bytes_held.append(len(queue) * pixels.nbytes)
-    assert max(n_bytes_held) <= QUEUE_BYTES + pixels.nbytes
-    until(lambda: any("does not read" in line for line in graph.printed), graph.step)
-    assert any("too slowly" in line for line in graph.printed)
-    until(lambda: not sim.bus.has_readers("camera"), graph.step)
-    peer.close()
+
+    with subscribe(sim, "/camera"):
+        until(lambda: any("does not read" in line for line in graph.printed), step)
+        until(lambda: not sim.bus.has_readers("camera"), graph.step)
 
 
 def test_a_subscriber_killed_in_mid_transfer_is_forgotten(graph: Graph) -> None:

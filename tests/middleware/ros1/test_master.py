@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import socket
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import pytest
 
-from tests.waiting import until
+from tests.waiting import LIMIT, until
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1.master import Master
 from uwsim.middleware.ros1.tcpros import PeerError
@@ -149,8 +150,8 @@ def test_a_subscriber_of_a_parameter_hears_of_its_change(
 )
 def test_garbage_does_not_end_it(master: Master, sent: bytes) -> None:
     port = int(master.uri.rsplit(":", 1)[1].strip("/"))
-    with socket.create_connection(("127.0.0.1", port), 60.0) as peer:
-        peer.sendall(sent)
+    with socket.create_connection(("127.0.0.1", port), LIMIT) as peer, suppress(OSError):
+        peer.sendall(sent)  # the master may leave before all is read: broken, reset, not connected
         peer.shutdown(socket.SHUT_WR)
         while peer.recv(4096):
             pass

@@ -17,6 +17,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
+from tests.waiting import LIMIT
 from uwsim.bus import Bus
 from uwsim.errors import BadSetting, RunFailed, UwsimError
 from uwsim.messages import (
@@ -33,9 +34,6 @@ from uwsim.messages import (
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.server import WebBridge
-
-LIMIT = 60.0
-"""Nothing takes longer unless it hangs [s]."""
 
 
 class Setting:
@@ -55,7 +53,7 @@ class Setting:
 
     def client(self, path: str = "/", **options: Any) -> ClientConnection:
         uri = f"ws://127.0.0.1:{self.bridge.port}{path}"
-        client = connect(uri, max_size=2**26, open_timeout=LIMIT, **options)
+        client = connect(uri, max_size=2**26, open_timeout=LIMIT, ping_interval=None, **options)
         return self._stack.enter_context(client)
 
     def step_until(self, condition: Any) -> None:
@@ -277,6 +275,7 @@ def test_a_flood_of_messages_is_bounded_and_the_others_are_served(setting: Setti
         flooder.send(frame)
     assert setting.ask(other, service="/rosapi/nodes")["result"] is True
     setting.step_until(lambda: setting.bridge.n_arrived["twist"] == 5000)
+    setting.bridge.step()
     assert inbox.last is not None
 
 

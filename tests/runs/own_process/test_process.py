@@ -5,7 +5,6 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +12,7 @@ import pytest
 
 from tests.runs.own_process import programs
 from tests.short_trial import TIME, make_plan, rows_of
+from tests.waiting import until
 from uwsim.errors import BadSetting, NeverStarted, RunFailed
 from uwsim.runs.planning.plan import Plan
 from uwsim.runs.trial.level_row import LevelRow, TrialEnd
@@ -155,7 +155,4 @@ def test_a_process_ends_with_its_parent_also_from_an_endless_callback() -> None:
     finally:
         parent.kill()
         parent.wait()
-    deadline = time.monotonic() + 60.0
-    while is_there(pid) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    assert not is_there(pid)
+    until(lambda: not is_there(pid))

@@ -9,10 +9,10 @@ bus are offered, and services that only the graph has are called there. ``/clock
 from __future__ import annotations
 
 import os
-import socket
 import threading
 from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import Future
+from functools import partial
 from types import MappingProxyType
 from typing import Any, cast
 
@@ -210,19 +210,9 @@ class Ros1Bridge(Bridge):
             return f"topic {header.get('topic', '')[:100]!r} is not published here"
         if (refusal := publication.check(header)) is not None:
             return refusal
-        own = publication in (self._clock, self._rosout)
-
-        def serve(connection: socket.socket, header: dict[str, str]) -> None:
-            if own:
-                publication.serve(connection, header)
-                return
-            self.want(publication.topic)
-            try:
-                publication.serve(connection, header)
-            finally:
-                self.unwant(publication.topic)
-
-        return serve
+        if publication in (self._clock, self._rosout):
+            return publication.serve
+        return partial(publication.serve, count=partial(self._add_want, publication.topic))
 
     def _choose_service(self, header: dict[str, str]) -> Serve | str:
         name = header["service"]

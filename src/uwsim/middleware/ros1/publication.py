@@ -106,8 +106,18 @@ class Publication:
             )
         return None
 
-    def serve(self, connection: socket.socket, header: dict[str, str]) -> None:
+    def serve(
+        self,
+        connection: socket.socket,
+        header: dict[str, str],
+        count: Callable[[int], object] = lambda n: None,
+    ) -> None:
         """Send messages over a connection until either side leaves; in the connection's thread.
+
+        Args:
+            connection: to the subscriber.
+            header: that the subscriber has sent.
+            count: called with 1 once messages are kept for the subscriber, and with -1 at its end.
 
         Raises:
             PeerError: the subscriber broke off, or does not read.
@@ -118,10 +128,12 @@ class Publication:
             if self._is_closed:
                 return
             self._queues.append(queue)  # before the header: who has it misses no message
+        count(1)
         try:
             write(connection, encode_header(self._header()))
             self._send_all(connection, queue)
         finally:
+            count(-1)
             with self._lock:
                 self._queues.remove(queue)
             queue.close()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import math
+import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -63,7 +64,8 @@ class Session:
         self._advertised: dict[str, type] = {}
         self._services: set[str] = set()
         self._asked: dict[str, tuple[Future[object], type]] = {}
-        self._n_asked = 0
+        self._n_asked, self._has_left = 0, False
+        self._lock = threading.Lock()
         self._joined_as: object = None
         self._handlers: dict[str, Callable[[dict[str, Any]], None]] = {
             "advertise": self._advertise,
@@ -125,9 +127,12 @@ class Session:
         future: Future[object] = Future()
         of = service_of(cast(Any, type(request)))
         assert of is not None
-        self._n_asked += 1
-        number = f"call:{self._n_asked}"
-        self._asked[number] = future, of.response
+        with self._lock:
+            if self._has_left:
+                raise UwsimError(f"{self._name} has left.")
+            self._n_asked += 1
+            number = f"call:{self._n_asked}"
+            self._asked[number] = future, of.response
         content = {"op": "call_service", "id": number, "service": f"/{name}"}
         self.reply({**content, "args": to_json(outward(request))})
         return future
@@ -139,6 +144,8 @@ class Session:
         for name in self._services:
             self._bridge.withdraw_of(name, self)
         self._services.clear()
+        with self._lock:
+            self._has_left = True  # from here on, no call waits for it
         for future, _ in self._asked.values():
             if not future.done():
                 future.set_exception(UwsimError(f"{self._name} has left."))
