@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from tests.short_benchmark import write_benchmark
 from uwsim.assets.bundled import bundled
 from uwsim.cli import main
 from uwsim.results.leaves import leaves
@@ -406,3 +407,18 @@ def test_what_was_typed_in_a_folder_above_is_found_there(
     assert "uwsim bench own/b.xml --out o/m --resume" in capsys.readouterr().err
     assert main(["bench", "own/b.xml", "--out", "o/m", "--resume"]) == 0
     assert (folder / "o" / "m" / "result.json").read_text() == said
+
+
+@pytest.mark.slow
+def test_an_algorithm_of_a_file_runs_in_workers_and_is_found_again_where_it_was(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program = tmp_path / "hold.py"
+    program.write_text("from uwsim.algorithms import Frozen\n\n\nclass Hold(Frozen):\n    pass\n")
+    call = ["bench", str(write_benchmark(tmp_path, "0.2")), "--algorithm", f"{program}:Hold"]
+    assert main([*call, "--out", str(tmp_path / "out")]) == 0
+    assert main(["verify", str(tmp_path / "out")]) == 0
+    assert "the same, byte for byte" in capsys.readouterr().out
+    program.write_text(program.read_text() + "# changed\n")
+    assert main(["verify", str(tmp_path / "out")]) == 2
+    assert "The result was made with the plugin hold.py" in capsys.readouterr().err

@@ -103,12 +103,23 @@ def make_plan(request: PlanRequest) -> Plan:
         compatibility=quirks,
         data_path=tuple(request.data_path),
         inputs=inputs,
-        plugins=read.plugins,
+        plugins=_with_program(read.plugins, _wanted(request, spec)),
         client=request.client,
         own_process=request.client is None
         and not request.in_process
         and kind not in _bundled_algorithms(_wanted(request, spec)),
     )
+
+
+def _with_program(plugins: tuple[Plugin, ...], algorithm: str) -> tuple[Plugin, ...]:
+    """Add the file of an algorithm ``FILE.py:Class``: other processes import it as a plugin."""
+    file = algorithm.partition(":")[0]
+    if not file.endswith(".py"):
+        return plugins
+    from ...benchmark.plugin import read_plugin
+
+    own = read_plugin(Path(file))
+    return plugins if own.module_name in [each.module_name for each in plugins] else (*plugins, own)
 
 
 def _bundled_algorithms(name: str) -> tuple[type[Algorithm], ...]:
