@@ -142,7 +142,7 @@ def find_input(
         files += [path for path in bundled(f"{kind}s").values() if path.name == name]
     others = []
     for file in dict.fromkeys(path.resolve() if path.exists() else path for path in files):
-        found = "sha256:" + hashlib.sha256(file.read_bytes()).hexdigest()
+        found = _sha256(file)
         if found == wanted:
             return file
         others.append(f"{file} ({_shortened(found)})")
