@@ -13,11 +13,23 @@ from uwsim import message_fields, messages
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage
 from uwsim.message_fields import unfit
-from uwsim.messages import types
+from uwsim.messages import (
+    geometry_msgs,
+    nav_msgs,
+    sensor_msgs,
+    std_msgs,
+    tf2_msgs,
+    visualization_msgs,
+)
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
-ALL = [kind for kind in vars(types).values() if getattr(kind, "__module__", "") == types.__name__]
-CLASSES = [kind for kind in ALL if dataclasses.is_dataclass(kind)]
+PACKAGES = (std_msgs, geometry_msgs, sensor_msgs, nav_msgs, tf2_msgs, visualization_msgs)
+CLASSES = [
+    kind
+    for package in PACKAGES
+    for kind in vars(package).values()
+    if getattr(kind, "__module__", "") == package.__name__ and dataclasses.is_dataclass(kind)
+]
 
 
 @pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
@@ -79,7 +91,7 @@ def test_every_message_type_that_is_public_has_defaults() -> None:
 def test_the_class_of_another_package_is_named_by_its_package() -> None:
     foreign = STORE.types["std_msgs/msg/Bool"]
     publish = Bus().publisher("on", messages.Bool)
-    said = r"carries std_msgs/msg/Bool, the class of uwsim\.messages\.types, not that of rosbags"
+    said = r"carries std_msgs/msg/Bool, the class of uwsim\.messages\.std_msgs, not that of rosbags"
     with pytest.raises(BadMessage, match=said):
         publish(typing.cast("messages.Bool", foreign(data=True)))
 
@@ -95,24 +107,24 @@ def test_the_class_of_another_package_is_named_by_its_package() -> None:
     ],
 )
 def test_a_number_in_a_message_in_a_message_is_checked(value: object, error: str | None) -> None:
-    message = types.TwistStamped()
+    message = messages.TwistStamped()
     message.twist.angular.y = typing.cast("float", value)
     assert unfit(message) == error
 
 
 def test_a_message_of_another_type_in_a_message_is_named() -> None:
-    message = types.TwistStamped()
-    message.twist.angular = typing.cast("types.Vector3", types.Quaternion())
+    message = messages.TwistStamped()
+    message.twist.angular = typing.cast("messages.Vector3", messages.Quaternion())
     assert str(unfit(message)).startswith("twist.angular is Quaternion(")
 
 
 def test_a_message_of_rosbags_own_class_fits() -> None:
-    message = types.TwistStamped()
+    message = messages.TwistStamped()
     own = STORE.types["geometry_msgs/msg/Vector3"](x=1.0, y=0.0, z=0.0)
-    message.twist.linear = typing.cast("types.Vector3", own)
+    message.twist.linear = typing.cast("messages.Vector3", own)
     assert unfit(message) is None
 
 
-@pytest.mark.parametrize("kind", [types.TwistStamped, types.PoseStamped, types.Bool])
+@pytest.mark.parametrize("kind", [messages.TwistStamped, messages.PoseStamped, messages.Bool])
 def test_a_message_without_arrays_has_nothing_to_freeze(kind: type) -> None:
     assert message_fields._with_arrays(kind) == ()

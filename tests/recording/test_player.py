@@ -107,7 +107,7 @@ def test_a_bag_of_another_program_is_read_into_the_classes_of_the_bus(tmp_path: 
     path = write_bag(tmp_path, "ros1", [(0.0, sample_pixels(10)), (0.1, sample_pixels(20))])
     with BagReader(path) as reader:
         kinds = {type(message).__module__ for _, _, message in reader.messages()}
-    assert kinds == {"uwsim.messages.types"}
+    assert kinds == {"uwsim.messages.sensor_msgs"}
 
 
 def test_a_type_that_is_not_known_is_left_out(tmp_path: Path) -> None:

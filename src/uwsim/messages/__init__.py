@@ -1,15 +1,48 @@
 """ROS message and service types of the bus.
 
-Messages are the ROS 2 (Jazzy) dataclasses that rosbags ships, with ROS's defaults, so that
-``Twist()`` is one that is all zero (`types`); their text is ROS's own. Services and the types of
-the UWSim packages are in this package; a test compares them with the ``.srv`` text.
+Messages are the ROS 2 (Jazzy) dataclasses that rosbags ships, one module a ROS package. Those want
+every field; here each field has the default that ROS gives it: 0, False, an empty text or list,
+arrays of zeros in their length, and for a quaternion that of no rotation, w = 1, so that
+``Twist()`` is one that is all zero. Names, order, units and text are ROS's own. Services and the
+types of the UWSim packages are in this package; a test compares them with the ``.srv`` text.
 Headers are ROS 2's; the ROS 1 adapter adds ``seq``.
 """
 
 from __future__ import annotations
 
 from .build import depth_image, floats, header, image, pixels_of, seconds, time_from_seconds
+from .geometry_msgs import (
+    Point,
+    Pose,
+    PoseStamped,
+    PoseWithCovariance,
+    Quaternion,
+    Transform,
+    TransformStamped,
+    Twist,
+    TwistStamped,
+    TwistWithCovariance,
+    Vector3,
+    Wrench,
+    WrenchStamped,
+)
+from .nav_msgs import Odometry, Path
 from .point_cloud import point_cloud, points
+from .sensor_msgs import (
+    BatteryState,
+    CameraInfo,
+    CompressedImage,
+    Image,
+    Imu,
+    JointState,
+    LaserScan,
+    NavSatFix,
+    NavSatStatus,
+    PointCloud2,
+    PointField,
+    Range,
+    RegionOfInterest,
+)
 from .services import (
     Empty,
     EmptyResponse,
@@ -20,52 +53,23 @@ from .services import (
     SpawnMarkerResponse,
 )
 from .sonar import PingInfo, ProjectedSonarImage, SonarImageData
-from .types import (
-    BatteryState,
+from .std_msgs import (
     Bool,
-    CameraInfo,
     ColorRGBA,
-    CompressedImage,
     Duration,
     Float32MultiArray,
     Float64,
     Float64MultiArray,
     Header,
-    Image,
-    Imu,
-    JointState,
-    LaserScan,
-    Marker,
-    MeshFile,
     MultiArrayDimension,
     MultiArrayLayout,
-    NavSatFix,
-    NavSatStatus,
-    Odometry,
-    Path,
-    Point,
-    PointCloud2,
-    PointField,
-    Pose,
-    PoseStamped,
-    PoseWithCovariance,
-    Quaternion,
-    Range,
-    RegionOfInterest,
     String,
-    TFMessage,
     Time,
-    Transform,
-    TransformStamped,
-    Twist,
-    TwistStamped,
-    TwistWithCovariance,
     UInt8MultiArray,
-    Vector3,
-    Wrench,
-    WrenchStamped,
 )
+from .tf2_msgs import TFMessage
 from .underwater import DVL, LedLight, Pressure
+from .visualization_msgs import Marker, MeshFile
 
 __all__ = [
     "DVL",

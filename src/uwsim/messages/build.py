@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from .types import Float32MultiArray, Header, Image, MultiArrayLayout, Time
+from .sensor_msgs import Image
+from .std_msgs import Float32MultiArray, Header, MultiArrayLayout, Time
 
 NANOSECONDS = 1_000_000_000
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ..errors import BadSetting
 from .build import header
-from .types import PointCloud2, PointField
+from .sensor_msgs import PointCloud2, PointField
 
 FLOATS = {7: "f4", 8: "f8"}
 """PointField.FLOAT32 and FLOAT64 -> numpy's name of it, without the byte order."""

@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from .types import Marker
+from .visualization_msgs import Marker
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,9 @@ from typing import Any, ClassVar
 import numpy as np
 from rosbags.typesys.stores import ros2_jazzy as ros
 
+from .geometry_msgs import Pose, PoseStamped, Twist, Vector3
 from .services import Service
-from .types import Header, Pose, PoseStamped, Twist, Vector3
+from .std_msgs import Header
 
 PACKAGE = "simulation_interfaces"
 _CODES: Any = partial(np.zeros, 0, np.uint16)

@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 import numpy as np
 from rosbags.typesys.stores import ros2_jazzy as ros
 
-from .types import Header
+from .std_msgs import Header
 
 _FLOATS_0: Any = partial(np.zeros, 0, np.float32)
 _BYTES_0: Any = partial(np.zeros, 0, np.uint8)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from .types import Duration, Header
+from .std_msgs import Duration, Header
 
 
 @dataclass

@@ -82,7 +82,7 @@ def frame(head: object, tail: bytes = b"") -> bytes:
         frame({"m": ["os:system"]}),
         frame({"m": ["uwsim.runs.planning.plan:Plan"]}),
         frame({"c": "subprocess:Popen"}),
-        frame({"m": ["uwsim.messages.types:String"]}),
+        frame({"m": ["uwsim.messages.std_msgs:String"]}),
         frame({"a": ["|O", 1]}, b"12345678"),
         frame({"a": ["<f8", 2**40]}, b"12345678"),
         frame({"a": ["<f8", -1]}, b"12345678"),
@@ -91,11 +91,11 @@ def frame(head: object, tail: bytes = b"") -> bytes:
     ids=range(13),
 )
 def test_bytes_that_are_no_frame_are_refused(bad: bytes) -> None:
-    assert String.__module__ == "uwsim.messages.types"
+    assert String.__module__ == "uwsim.messages.std_msgs"
     with pytest.raises(FrameError):
         decode(bad)
 
 
 def test_fields_are_set_without_running_code() -> None:
-    assert decode(frame({"m": ["uwsim.messages.types:String", "x"]})) == String(data="x")
+    assert decode(frame({"m": ["uwsim.messages.std_msgs:String", "x"]})) == String(data="x")
     assert type(decode(encode(Pose()))) is Pose
