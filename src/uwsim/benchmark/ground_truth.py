@@ -28,7 +28,7 @@ import numpy as np
 
 from ..geometry import Array
 from ..numerics.linear import placed, product, turned_back
-from ..schema import element
+from ..schema import Spec, element
 from ..world import Body, Box, Camera, World
 from .metrics.min_area_rectangle import like_rectangle, rectangle
 
@@ -36,7 +36,7 @@ BEHIND = "the target is behind the camera"
 CORNERS = ("nw_x", "nw_y", "ne_x", "ne_y", "se_x", "se_y", "sw_x", "sw_y")
 
 
-class GroundTruthSpec(abc.ABC):
+class GroundTruthSpec(Spec, abc.ABC):
     """A ``<groundTruth>`` element."""
 
     unit: ClassVar[str]

@@ -7,7 +7,7 @@ import textwrap
 from lxml import etree
 
 from .. import expression
-from ..schema import Diagnostics
+from ..schema import Diagnostics, line_of
 from .measures import MeasureSpec
 from .spec import FunctionSpec
 from .updaters import SceneUpdaterSpec, swept_parameters
@@ -25,30 +25,29 @@ def check_names(
     columns = () if updater is None else swept_parameters(updater)
     seen: dict[str, MeasureSpec] = {}
     for spec in measures:
-        node = diagnostics.node_of(spec)
         name = spec.name[:60]
         if not (spec.name.isascii() and spec.name.isidentifier()):
             diagnostics.error(
-                node,
+                spec,
                 f"the name {name!r} cannot be used in the function; "
                 "expected letters, digits and _, no digit first",
             )
         elif len(spec.name) > MAX_NAME_LENGTH:
             diagnostics.error(
-                node,
+                spec,
                 f"the name {name!r}... has {len(spec.name)} letters; at most "
                 f"{MAX_NAME_LENGTH}, for files are called after it",
             )
         elif spec.name in seen:
-            first = diagnostics.node_of(seen[spec.name])
-            line = "" if first is None else f" (line {first.sourceline})"
-            diagnostics.error(node, f"another measure{line} is called {name!r}")
+            first = line_of(seen[spec.name])
+            line = "" if first is None else f" (line {first})"
+            diagnostics.error(spec, f"another measure{line} is called {name!r}")
         elif spec.name in RESERVED or spec.name in columns:
-            diagnostics.error(node, f"{name!r} is another column of the result; call it otherwise")
+            diagnostics.error(spec, f"{name!r} is another column of the result; call it otherwise")
         elif spec.name in expression.CONSTANTS or spec.name in expression.FUNCTIONS:
             kind = "constant" if spec.name in expression.CONSTANTS else "function"
             diagnostics.error(
-                node, f"{name!r} is a {kind} of the language of scores; call it otherwise"
+                spec, f"{name!r} is a {kind} of the language of scores; call it otherwise"
             )
         seen.setdefault(spec.name, spec)
 
@@ -61,12 +60,9 @@ def check_function(
 ) -> None:
     """Parse the function; measures with errors of their own count as known."""
     names = [spec.name for spec in measures]
-    were_read = {diagnostics.node_of(spec) for spec in measures}
-    for name in root.iterfind("measures/*/name"):
-        if name.getparent() not in were_read:
-            names.append((name.text or "").strip())
+    names += [(name.text or "").strip() for name in root.iterfind("measures/*/name")]
     try:
-        expression.parse(function.text, names)
+        expression.parse(function.text, list(dict.fromkeys(names)))
     except expression.ScoreError as error:
         message = textwrap.shorten(error.message, 300, placeholder=" ...")
         diagnostics.error(

@@ -160,18 +160,20 @@ class _Reader:
             check_function(root, function, found, self.diagnostics)
         given_step = None if spec is None else spec.timestep
         timestep = self.timestep if given_step is None else given_step
-        for node, message in too_short(self.diagnostics, found, updater, function, timestep):
-            self.diagnostics.error(node, message)
+        for place, message in too_short(found, updater, function, timestep):
+            self.diagnostics.error(place, message)
         if spec is not None and updater is not None:
-            warn_endless(root, spec, self.diagnostics)
+            warn_endless(spec, self.diagnostics)
         if spec is not None:
-            for place, message in never_started(root, spec):
+            for place, message in never_started(spec):
                 self.diagnostics.warning(place, message)
         return spec
 
     def all_measures(self, box: etree._Element) -> list[MeasureSpec]:
         """Read the children of ``<measures>``, in the file's order."""
         found = []
+        if box.find("*") is None:
+            self.diagnostics.warning(box, "<measures> is empty: nothing is measured")
         for node in self.children(box):
             cls = self.measures.get(name_of(node))
             if cls is None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ..scene.variation import DISTRIBUTIONS, VariationSpec
-from ..schema import element
+from ..schema import Spec, element
 from .measures import MeasureSpec
 from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec, chain
@@ -16,7 +16,7 @@ MAX_TASK_DURATION = 600.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class FunctionSpec:
+class FunctionSpec(Spec):
     """The ``<function>`` element: how the measures make a score."""
 
     text: str = element(text=True)
@@ -28,7 +28,7 @@ class FunctionSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class BenchmarkSpec:
+class BenchmarkSpec(Spec):
     """A benchmark file: equal files give equal specs."""
 
     measures: tuple[MeasureSpec, ...]

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 
-from lxml import etree
-
 from ..errors import BadSetting
-from ..schema import Diagnostics
-from .element_names import name_of, place_of
+from ..schema import Diagnostics, line_of
 from .spec import MAX_TASK_DURATION, BenchmarkSpec
 from .triggers import NeverSpec
+from .updater_settings import element_of
 from .updaters import (
     MAX_LEVELS,
     STILL_WATER,
@@ -31,20 +29,19 @@ def check_levels(outermost: SceneUpdaterSpec, diagnostics: Diagnostics) -> None:
     """Refuse a sweep that never ends, or a nest of them with too many levels."""
     count = 1
     for updater in chain(outermost):
-        node = diagnostics.node_of(updater)
         values: tuple[float, ...] = ()
         try:
             values = updater.values()
         except BadSetting as diagnostic:
-            diagnostics.error(node, str(diagnostic))
+            diagnostics.error(updater, str(diagnostic))
         else:
             if not values or not all(
                 isinstance(value, int | float) and math.isfinite(value) for value in values
             ):
-                diagnostics.error(node, "a sweep needs at least one level, and finite values")
+                diagnostics.error(updater, "a sweep needs at least one level, and finite values")
         count *= max(1, len(values))
         if count > MAX_LEVELS:
-            diagnostics.error(node, f"with this, there are more than {MAX_LEVELS} levels")
+            diagnostics.error(updater, f"with this, there are more than {MAX_LEVELS} levels")
             return
 
 
@@ -53,10 +50,10 @@ def warn_overridden(outermost: SceneUpdaterSpec, diagnostics: Diagnostics) -> No
     around: list[SceneUpdaterSpec] = []
     for updater in chain(outermost):
         if isinstance(updater, SETTERS) and any(type(o) is type(updater) for o in around):
-            node = diagnostics.node_of(updater)
-            name = "" if node is None else name_of(node)
             diagnostics.warning(
-                node, f"<{name}> within another: only the inner one's values have an effect"
+                updater,
+                f"<{element_of(updater)}> within another: only the inner one's values have an "
+                "effect",
             )
         around.append(updater)
 
@@ -68,19 +65,18 @@ def warn_still_water(outermost: SceneUpdaterSpec, diagnostics: Diagnostics) -> N
         if not isinstance(updater, CurrentForceUpdaterSpec) or length is None:
             continue
         if 0.0 < length + updater.settling_time <= STILL_WATER:
-            node = diagnostics.node_of(deepest)
             diagnostics.warning(
-                None if node is None else place_of(node, "<interval>"),
+                line_of(deepest, "interval"),
                 f"<interval> {length:g} s: for {STILL_WATER:g} s after each change of the "
                 "current the water is still, so such a level sees nothing of it",
             )
 
 
-def warn_endless(root: etree._Element, spec: BenchmarkSpec, diagnostics: Diagnostics) -> None:
+def warn_endless(spec: BenchmarkSpec, diagnostics: Diagnostics) -> None:
     """Warn of a level that nothing ends."""
     deepest = chain(spec.scene_updater)[-1]
     if deepest.seconds_per_level is None and isinstance(spec.stop_on, NeverSpec):
         diagnostics.warning(
-            root.find("stopOn"),
+            line_of(spec, "stopOn"),
             f"no interval and no <stopOn>: it ends after {MAX_TASK_DURATION:g} s, in timeout",
         )

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Iterator
-from pathlib import Path
-
-from lxml import etree
 
 from ..errors import Diagnostic, UnknownName, UwsimError
-from ..schema import Diagnostics, fields_of, parse
+from ..schema import Diagnostics, Spec, fields_of, line_of
 from ..world import Stage
 from .measures import MeasureSpec
 from .spec import BenchmarkSpec
 from .triggers import TriggerSpec
-from .updaters import SceneUpdaterSpec
+from .updaters import SceneUpdaterSpec, chain
 
 Part = MeasureSpec | TriggerSpec | SceneUpdaterSpec
 
@@ -26,83 +22,61 @@ def unknown_names(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic]:
         benchmark: what was read from the file without an error.
         stage: the scene.
     """
-    root = parse(Path(benchmark.path)).root
     diagnostics = Diagnostics(benchmark.path)
-    seen: set[tuple[int, str]] = set()
-    for part, node in _places(benchmark, root):
-        for place, error in _wrong(part, node, stage):
-            diagnostic = (int(str(place.sourceline)), str(error))
-            if diagnostic not in seen:
-                seen.add(diagnostic)
-                diagnostics.error(place, str(error))
+    for line, message in dict.fromkeys(
+        wrong for part in _parts(benchmark) for wrong in _wrong(part, stage)
+    ):
+        diagnostics.error(line, message)
     return diagnostics.all()
 
 
-def _places(
-    benchmark: BenchmarkSpec, root: etree._Element
-) -> Iterator[tuple[Part, etree._Element]]:
-    """Every part of a benchmark, and the element that it was read from, in the file's order."""
-    for spec, node in zip(benchmark.measures, root.iterfind("measures/*"), strict=True):
-        yield spec, node
-        yield from _gate(spec.start_on, spec.stop_on, node)
-    yield from _gate(benchmark.start_on, benchmark.stop_on, root)
-    updater: SceneUpdaterSpec | None = benchmark.scene_updater
-    box = root.find("sceneUpdater")
-    while updater is not None and box is not None:
-        [node] = box.iterchildren("*")
-        yield updater, node
-        updater, box = updater.child, node.find("sceneUpdater")
+def _parts(benchmark: BenchmarkSpec) -> Iterator[Part]:
+    """Every part of a benchmark, in the file's order."""
+    for spec in benchmark.measures:
+        yield from (spec, spec.start_on, spec.stop_on)
+    yield from (benchmark.start_on, benchmark.stop_on)
+    yield from chain(benchmark.scene_updater)
 
 
-def _gate(
-    start_on: TriggerSpec, stop_on: TriggerSpec, node: etree._Element
-) -> Iterator[tuple[TriggerSpec, etree._Element]]:
-    for trigger, tag in ((start_on, "startOn"), (stop_on, "stopOn")):
-        if (box := node.find(tag)) is not None:
-            yield trigger, box
+def _line(spec: object, name: str) -> int | None:
+    """Line of the field within a spec that has the value ``name``; else of the spec."""
+    return next(_lines(spec, name), line_of(spec)) if name else line_of(spec)
 
 
-def _place(node: etree._Element, name: str) -> etree._Element:
-    """The element within ``node`` that contains ``name``; else ``node``."""
-    among = None
-    for child in node.iter("*") if name else ():
-        text = (child.text or "").strip()
-        if text == name or name in map(str, child.attrib.values()):
-            return child
-        if among is None and name in text.split():
-            among = child
-    return node if among is None else among
+def _lines(spec: object, name: str) -> Iterator[int | None]:
+    for field in fields_of(type(spec)):
+        value = field.of(spec)
+        if value == name or (isinstance(value, str) and name in value.split()):
+            yield line_of(spec, field.tag)
+        elif isinstance(value, Spec) and not isinstance(value, Part):
+            yield from _lines(value, name)
 
 
-def _wrong(
-    part: Part, node: etree._Element, stage: Stage
-) -> Iterator[tuple[etree._Element, UwsimError]]:
+def _wrong(part: Part, stage: Stage) -> Iterator[tuple[int | None, str]]:
     """What keeps a part from being bound, and where: its unknown names; else what it raises."""
-    unknown = [*_unknown(part, node, stage)]
+    unknown = [*_unknown(part, stage)]
     if unknown:
         yield from unknown
         return
     try:
         part.bind(stage).close()
     except UwsimError as error:
-        yield _place(node, error.name), error
+        yield _line(part, error.name), str(error)
 
 
-def _unknown(
-    spec: object, node: etree._Element, stage: Stage
-) -> Iterator[tuple[etree._Element, UwsimError]]:
+def _unknown(spec: object, stage: Stage) -> Iterator[tuple[int | None, str]]:
     """Look up what the fields of a spec, and of the specs in it, refer to."""
     for field in fields_of(type(spec)):
-        value, child = getattr(spec, field.name), node.find(field.tag)
-        if value is None or child is None or isinstance(value, Part):
+        value = field.of(spec)
+        if value is None or isinstance(value, Part):
             continue
         if field.xml.refers_to is not None:
             try:
                 LOOK_UP[field.xml.refers_to](stage, value)
             except UnknownName as error:
-                yield child, error
-        elif dataclasses.is_dataclass(value):
-            yield from _unknown(value, child, stage)
+                yield line_of(spec, field.tag), str(error)
+        elif isinstance(value, Spec):
+            yield from _unknown(value, stage)
 
 
 def _vehicle(stage: Stage, name: str) -> None:

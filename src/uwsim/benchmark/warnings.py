@@ -9,22 +9,21 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from lxml import etree
-
 from ..errors import Diagnostic
 from ..scene.urdf.robot import RobotSpec
-from ..schema import Diagnostics, parse
+from ..schema import Diagnostics, Spec, line_of, parse
 from .measures import EuclideanNormSpec, MeasureSpec
 from .spec import BenchmarkSpec, FunctionSpec
 from .triggers import NeverSpec, ServiceSpec
 from .updaters import ArmMoveUpdaterSpec, SceneUpdaterSpec, chain, interval
 
+Said = tuple[Spec | int | None, str]
+"""A spec or a line, and what is said about it."""
 
-def never_started(
-    root: etree._Element, spec: BenchmarkSpec
-) -> Iterator[tuple[etree._Element | None, str]]:
-    """Warn that no level can begin, or that nothing is measured in it."""
-    start, place = spec.start_on, root.find("startOn")
+
+def never_started(spec: BenchmarkSpec) -> Iterator[Said]:
+    """Warn that no level can begin."""
+    start, place = spec.start_on, line_of(spec, "startOn")
     if isinstance(start, NeverSpec):
         yield place, "<startOn> is 'never': no level will ever begin"
     answered = [
@@ -38,25 +37,17 @@ def never_started(
             f"<startOn> waits for the service {start.target!r}, which the algorithm serves "
             "(<publishOn>): it cannot be called in this run, so no level will begin",
         )
-    box = root.find("measures")
-    if box is not None and box.find("*") is None:
-        yield box, "<measures> is empty: nothing is measured"
-
-
-Said = tuple[etree._Element | None, str]
 
 
 def too_short(
-    diagnostics: Diagnostics,
     measures: Sequence[MeasureSpec],
     updater: SceneUpdaterSpec | None,
     function: FunctionSpec | None,
     timestep: float,
 ) -> Iterator[Said]:
-    """Yield durations shorter than half a step, with their elements.
+    """Yield durations shorter than half a step, with their places.
 
     Args:
-        diagnostics: maps specs to their elements.
         measures: what could be read.
         updater: the outermost, if it could be read.
         function: the score's element, if it could be read.
@@ -65,35 +56,30 @@ def too_short(
     step = f"less than half a step of {timestep:g} s"
     for spec in measures:
         if spec.log is not None and _is_nothing(spec.log, timestep):
-            yield _child(diagnostics.node_of(spec), "log"), f"<log> is {spec.log:g} s: {step}"
+            yield line_of(spec, "log"), f"<log> is {spec.log:g} s: {step}"
     rate = 0.0 if function is None else function.publish_rate
     if rate > 0.0 and _is_nothing(rate, timestep):
         message = f"publishRate is {rate:g} s: {step}; 0 publishes at every step"
-        yield diagnostics.node_of(function), message
+        yield function, message
     if updater is not None:
-        yield from _empty_level(diagnostics, updater, timestep, step)
+        yield from _empty_level(updater, timestep, step)
 
 
-def _empty_level(
-    diagnostics: Diagnostics, updater: SceneUpdaterSpec, timestep: float, step: str
-) -> Iterator[Said]:
+def _empty_level(updater: SceneUpdaterSpec, timestep: float, step: str) -> Iterator[Said]:
     """Report intervals and settling times of less than half a step."""
     length, deepest = interval(updater), chain(updater)[-1]
     if length is not None and _is_nothing(length, timestep):
-        place = _child(diagnostics.node_of(deepest), "interval")
-        yield place, f"<interval> is {length:g} s: {step}, so nothing would be run"
+        yield (
+            line_of(deepest, "interval"),
+            f"<interval> is {length:g} s: {step}, so nothing would be run",
+        )
     for each in chain(updater):
         if each.settling_time > 0.0 and _is_nothing(each.settling_time, timestep):
-            yield diagnostics.node_of(each), f"u:settlingTime is {each.settling_time:g} s: {step}"
+            yield each, f"u:settlingTime is {each.settling_time:g} s: {step}"
 
 
 def _is_nothing(seconds: float, timestep: float) -> bool:
     return round(seconds / timestep) < 1
-
-
-def _child(node: etree._Element | None, tag: str) -> etree._Element | None:
-    child = None if node is None else node.find(tag)
-    return node if child is None else child
 
 
 def arm_warnings(

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..geometry import Array, Pose
 from ..numerics.linear import product
+from ..schema import Spec
 
 MAX_SPEED = 100.0
 """No current of a file or a function is faster: turbidity currents and tsunamis reach
@@ -42,7 +43,7 @@ class Place:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CurrentSpec(abc.ABC):
+class CurrentSpec(Spec, abc.ABC):
     """The spec of a current."""
 
     @abc.abstractmethod

@@ -35,7 +35,7 @@ import numpy as np
 from ..errors import BadSetting
 from ..geometry import Array, Triple
 from ..numerics.elementwise import log, power
-from ..schema import element
+from ..schema import Spec, element
 from .current import MAX_SPEED, Current, CurrentSpec, Place
 
 KARMAN = 0.41
@@ -89,7 +89,7 @@ class LogProfileSpec(CurrentSpec):
 
 
 @dataclass(frozen=True, kw_only=True)
-class LayerSpec:
+class LayerSpec(Spec):
     """A ``<u:layer>``: how the water moves at one depth."""
 
     depth: float = element(namespaced=True)

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..geometry import Array
-from ..schema import element
+from ..schema import Spec, element
 from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
 
 DEGREES_PER_HOUR = {"M2": 28.9841042, "S2": 30.0, "K1": 15.0410686, "O1": 13.9430356}
@@ -29,7 +29,7 @@ DEGREES_PER_HOUR = {"M2": 28.9841042, "S2": 30.0, "K1": 15.0410686, "O1": 13.943
 
 
 @dataclass(frozen=True, kw_only=True)
-class ConstituentSpec:
+class ConstituentSpec(Spec):
     """A ``<u:constituent>``: the ellipse that one constituent of the tide draws."""
 
     name: Literal["M2", "S2", "K1", "O1"] = element(namespaced=True)

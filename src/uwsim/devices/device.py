@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
+from ..schema import Spec
 from ..sensors.sensor import Carrier
 from ..vehicle import Vehicle
 from ..world import Stage
@@ -40,7 +41,7 @@ class DeviceTopic:
 
 
 @dataclass(frozen=True, kw_only=True)
-class DeviceSpec(abc.ABC):
+class DeviceSpec(Spec, abc.ABC):
     """A device that is simulated; the spec of one that is not has no ``bind``."""
 
     is_left_out: ClassVar[bool] = False

@@ -12,7 +12,7 @@ from typing import ClassVar
 
 from ..errors import UnknownName
 from ..messages import String
-from ..schema import REQUIRED, element
+from ..schema import REQUIRED, Spec, element
 from ..world import Stage
 from .device import Device, DeviceSpec, DeviceVehicle
 
@@ -48,7 +48,7 @@ class Echo(Device):
 
 
 @dataclass(frozen=True, kw_only=True)
-class SimulatedDevicesSpec:
+class SimulatedDevicesSpec(Spec):
     """A ``<simulatedDevices>``: an optional wrapper around devices."""
 
     STANDS_ONCE: ClassVar[bool] = True

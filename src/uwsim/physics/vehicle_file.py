@@ -44,7 +44,7 @@ from lxml import etree
 from ..assets.find import roots
 from ..errors import FileError, choices
 from ..files.input_files import is_inside
-from ..schema import Diagnostics, cut, parse, read
+from ..schema import Diagnostics, Spec, cut, line_of, parse, read
 from .actuation.power import power_errors
 from .hydrodynamics.file.checks import body_errors, thruster_errors
 from .hydrodynamics.file.fin_checks import fin_errors
@@ -77,43 +77,38 @@ class _Parts:
     joints: list[JointDrive] = field(default_factory=list)
     files: list[Path] = field(default_factory=list)
 
-    def add_body(
-        self, body: BodyHydrodynamics, node: etree._Element, diagnostics: Diagnostics
-    ) -> None:
+    def add_body(self, body: BodyHydrodynamics, diagnostics: Diagnostics) -> None:
         if any(body.link == known.link for known in self.bodies):
-            diagnostics.error(node, f"two <body> for the link {body.link!r}; only one may be")
-        _check_name(node, "link", body.link, self.links, diagnostics)
-        body = _completed(body, node)
+            diagnostics.error(body, f"two <body> for the link {body.link!r}; only one may be")
+        _check_name(body, "link", body.link, self.links, diagnostics)
         for message in body_errors(body):
-            diagnostics.error(node, message)
+            diagnostics.error(body, message)
         self.bodies.append(body)
 
-    def add_thruster(
-        self, thruster: ThrusterSpec, node: etree._Element, diagnostics: Diagnostics
-    ) -> None:
+    def add_thruster(self, thruster: ThrusterSpec, diagnostics: Diagnostics) -> None:
         if not thruster.name.strip():
-            diagnostics.error(node, "a thruster has no name")
+            diagnostics.error(thruster, "a thruster has no name")
         if any(thruster.name == known.name for known in self.thrusters):
-            diagnostics.error(node, f"two thrusters are called {thruster.name!r}")
-        _check_name(node, "link", thruster.link, self.links, diagnostics)
+            diagnostics.error(thruster, f"two thrusters are called {thruster.name!r}")
+        _check_name(thruster, "link", thruster.link, self.links, diagnostics)
         for message in thruster_errors(thruster) or power_errors(thruster):
-            diagnostics.error(node, message)
+            diagnostics.error(thruster, message)
         self.thrusters.append(thruster)
 
-    def add_fin(self, fin: FinSpec, node: etree._Element, diagnostics: Diagnostics) -> None:
+    def add_fin(self, fin: FinSpec, diagnostics: Diagnostics) -> None:
         if not fin.name.strip():
-            diagnostics.error(node, "a fin has no name")
+            diagnostics.error(fin, "a fin has no name")
         if any(fin.name == known.name for known in self.fins):
-            diagnostics.error(node, f"two fins are called {fin.name!r}")
-        _check_name(node, "link", fin.link, self.links, diagnostics)
+            diagnostics.error(fin, f"two fins are called {fin.name!r}")
+        _check_name(fin, "link", fin.link, self.links, diagnostics)
         for message in fin_errors(fin):
-            diagnostics.error(node, message)
+            diagnostics.error(fin, message)
         self.fins.append(fin)
 
-    def add_joint(self, joint: JointDrive, node: etree._Element, diagnostics: Diagnostics) -> None:
+    def add_joint(self, joint: JointDrive, diagnostics: Diagnostics) -> None:
         if any(joint.name == known.name for known in self.joints):
-            diagnostics.error(node, f"two <joint> for the joint {joint.name!r}; only one may be")
-        _check_name(node, "movable joint", joint.name, self.movable, diagnostics)
+            diagnostics.error(joint, f"two <joint> for the joint {joint.name!r}; only one may be")
+        _check_name(joint, "movable joint", joint.name, self.movable, diagnostics)
         self.joints.append(joint)
 
 
@@ -151,7 +146,7 @@ def read_vehicle_into(
         return None
     if head.name != path.stem:
         diagnostics.warning(
-            diagnostics.node_of(head),
+            head,
             f"the set is called {cut(head.name)}; scenes find it by the name of its file, "
             f"{cut(path.stem)}",
         )
@@ -183,13 +178,13 @@ def _read_file(
     if not head.name.strip():
         diagnostics.error(root, "the set has no name")
     for body in head.bodies:
-        parts.add_body(body, _node_of(body, diagnostics), diagnostics)
+        parts.add_body(_completed(body, root), diagnostics)
     for thruster in head.thrusters:
-        parts.add_thruster(thruster, _node_of(thruster, diagnostics), diagnostics)
+        parts.add_thruster(thruster, diagnostics)
     for fin in head.fins:
-        parts.add_fin(fin, _node_of(fin, diagnostics), diagnostics)
+        parts.add_fin(fin, diagnostics)
     for joint in head.joints:
-        parts.add_joint(joint, _node_of(joint, diagnostics), diagnostics)
+        parts.add_joint(joint, diagnostics)
     for name, node in zip(head.include, root.findall("include"), strict=False):
         _include(name, path, node, diagnostics, parts, above)
     return head
@@ -237,24 +232,23 @@ def _include(
 
 
 def _check_name(
-    node: etree._Element, what: str, name: str, known: list[str] | None, diagnostics: Diagnostics
+    spec: Spec, what: str, name: str, known: list[str] | None, diagnostics: Diagnostics
 ) -> None:
     if known is not None and name not in known:
         diagnostics.error(
-            node,
+            spec,
             f"the robot has no {what} {name!r}."
             + choices(name, known, called=f"{what.split()[-1].capitalize()}s"),
         )
 
 
-def _node_of(spec: object, diagnostics: Diagnostics) -> etree._Element:
-    node = diagnostics.node_of(spec)
-    assert node is not None
-    return node
-
-
-def _completed(body: BodyHydrodynamics, node: etree._Element) -> BodyHydrodynamics:
+def _completed(body: BodyHydrodynamics, root: etree._Element) -> BodyHydrodynamics:
     """The body with its drag law, by default that which its numbers imply."""
+    [node, *_] = (
+        each
+        for each in root.iterfind("body")
+        if int(str(each.sourceline)) == line_of(body) and each.get("link", "").strip() == body.link
+    )
     text = {name: (node.findtext(name) or "").strip() for name in ("dragLaw", "shape")}
     first = body.quadratic_damping[:3]
     is_isotropic = len(body.quadratic_damping) == 6 and len(set(first)) == 1 and first[0] > 0.0

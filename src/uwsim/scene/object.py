@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..acoustics import MaterialName
 from ..geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
 from ..numerics.linear import product
-from ..schema import MAX_DISTANCE, REQUIRED, element
+from ..schema import MAX_DISTANCE, REQUIRED, Spec, element
 from .checks.plausibility import ObjectWarning
 from .on_floor import OnFloorSpec
 
@@ -17,7 +17,7 @@ fixed, and solid for simulated vehicles."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class PhysicsSpec:
+class PhysicsSpec(Spec):
     """A ``<physics>`` block of an object."""
 
     mass: float = element(default=1.0, minimum=0)
@@ -68,7 +68,7 @@ class PhysicsSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class WeatheringSpec:
+class WeatheringSpec(Spec):
     """A ``<u:weathering>``: clouds of light and dark on the textures of an object."""
 
     pattern: int = element(namespaced=True, minimum=0, maximum=1_000_000)
@@ -78,7 +78,7 @@ class WeatheringSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ObjectSpec:
+class ObjectSpec(Spec):
     """An ``<object>``: a thing in the water; the one called ``terrain`` cannot be picked up."""
 
     name: str

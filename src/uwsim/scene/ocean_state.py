@@ -10,7 +10,7 @@ import numpy as np
 from ..acoustics import SeaWater
 from ..currents import CURRENTS, CurrentSpec
 from ..geometry import Triple
-from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED, Numbers, Original, element
+from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED, Numbers, Original, Spec, element
 from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
@@ -19,7 +19,7 @@ MILD = 15.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class FogSpec:
+class FogSpec(Spec):
     """A ``<fog>``: how visibility falls with distance."""
 
     density: float = element(default=0.1, original=REQUIRED, minimum=0, maximum=1e6)
@@ -29,7 +29,7 @@ class FogSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ProfileSpec:
+class ProfileSpec(Spec):
     """A ``<u:profile>``: stratified water, linear between levels, constant above and below them."""
 
     depth: Numbers = element(namespaced=True, minimum=0.0)
@@ -71,7 +71,7 @@ class ProfileSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class OceanStateSpec:
+class OceanStateSpec(Spec):
     """An ``<oceanState>``: the surface and the water."""
 
     windx: float = 0.04

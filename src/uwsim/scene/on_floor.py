@@ -11,14 +11,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..schema import element
+from ..schema import Spec, element
 
 MAX_CLEARANCE = 1e4
 """[m]"""
 
 
 @dataclass(frozen=True, kw_only=True)
-class OnFloorSpec:
+class OnFloorSpec(Spec):
     """A ``<u:onFloor>``: it stands on the ground at the x and y of its ``<position>``.
 
     Whatever height the position says; that chooses the floor where several lie one over another:

@@ -11,7 +11,7 @@ from typing import Protocol
 from ..errors import AssetError, Diagnostic, SceneError
 from ..schema import Diagnostics, Document, check_head, read
 from ..xacro import parse_expanded
-from .checks.angles import check_angles, remember_twins
+from .checks.angles import check_angles
 from .checks.comms import comms_devices
 from .checks.looks import check_looks
 from .checks.names import check_left_out, check_names
@@ -127,23 +127,14 @@ def check_scene(
     return [*diagnostics.all(), *others]
 
 
-def scene_warnings(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...] = ()
-) -> list[Diagnostic]:
+def scene_warnings(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Diagnostic]:
     """Warn of what is left out of a scene with its settings and of its angles.
 
     Args:
         scene: the scene, perhaps changed since its file was read; lines are those of the file.
         robots: the robot of each vehicle, by its number.
-        data_path: further folders in which included files are looked for.
     """
     diagnostics = Diagnostics(scene.path or "the scene")
-    if scene.path:
-        with suppress(SceneError):
-            lines = Diagnostics(scene.path)
-            document = parse_expanded(Path(scene.path), error=SceneError, data_path=data_path)
-            written = read_document(document, lines)
-            remember_twins(scene, written, lines, diagnostics)
     check_left_out(scene, robots, diagnostics)
     check_angles(scene, diagnostics)
     return [each for each in diagnostics.all() if each.severity == "warning"]
@@ -188,19 +179,19 @@ def _robots(
             try:
                 path = library.find_robot(vehicle.file, document.path)
             except AssetError as error:
-                diagnostics.error(diagnostics.node_of(vehicle), str(error))
+                diagnostics.error(vehicle, str(error))
                 continue
             if path is None:
                 searched = library.searched(document.path)
                 diagnostics.error(
-                    diagnostics.node_of(vehicle),
+                    vehicle,
                     f"robot file {vehicle.file!r} is nowhere, and no bundled robot is called so; "
                     f"searched: {searched}",
                 )
                 continue
             if library.find(vehicle.file, document.path) is None:
                 what = f"robot file {vehicle.file!r} is nowhere; the bundled {path.name} is used"
-                diagnostics.warning(diagnostics.node_of(vehicle), what)
+                diagnostics.warning(vehicle, what)
             found += check_robot(path, library=library, data_path=data_path)
             with suppress(SceneError):
                 by_file[vehicle.file] = read_urdf(path, data_path=data_path)
@@ -223,7 +214,7 @@ def _check_models(
             first.setdefault(thing.physics.collision_shape, thing)
     for name, spec in itertools.islice(first.items(), MAX_FILES):
         if why := library.unreadable(name, document.path):
-            diagnostics.error(diagnostics.node_of(spec), why)
+            diagnostics.error(spec, why)
         elif not library.has_model(name, document.path):
             _lost(f"model {name!r}", spec, document, library, diagnostics)
 
@@ -245,4 +236,4 @@ def _lost(
     """
     say = diagnostics.warning if document.has_doctype else diagnostics.error
     searched = library.searched(document.path)
-    say(diagnostics.node_of(spec), f"{what} is nowhere and has no stand-in; searched: {searched}")
+    say(spec, f"{what} is nowhere and has no stand-in; searched: {searched}")

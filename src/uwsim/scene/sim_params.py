@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..geometry import ZERO, Triple
-from ..schema import MAX_DISTANCE, Original, element
+from ..schema import MAX_DISTANCE, Original, Spec, element
 
 Integrator = Literal["implicitfast", "RK4"]
 ContactMode = Literal["default", "precise"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShowTrajectorySpec:
+class ShowTrajectorySpec(Spec):
     """A ``<showTrajectory>``: the viewer draws where something went."""
 
     target: str
@@ -27,7 +27,7 @@ class ShowTrajectorySpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SimParamsSpec:
+class SimParamsSpec(Spec):
     """A ``<simParams>``: frames, window, physics, light."""
 
     disable_shaders: bool = False
@@ -75,7 +75,7 @@ class SimParamsSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ViewerCameraSpec:
+class ViewerCameraSpec(Spec):
     """A ``<camera>``: the viewer's, in the world (z up)."""
 
     free_motion: bool = element(default=True, original=Original(invalid=True))

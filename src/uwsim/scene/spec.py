@@ -28,7 +28,7 @@ from ..devices.comms.comms_channels import AcousticCommsChannelSpec, CustomComms
 from ..errors import BadSetting
 from ..geodesy import Geodetic
 from ..geometry import Pose
-from ..schema import REQUIRED, Original, element
+from ..schema import REQUIRED, Original, Spec, element
 from ..topics import INTERFACES, InterfaceSpec
 from .object import ObjectSpec, PhysicsSpec
 from .ocean_state import OceanStateSpec
@@ -38,7 +38,7 @@ from .vehicle import VehicleSpec
 
 
 @dataclass(frozen=True, kw_only=True)
-class NedOriginSpec:
+class NedOriginSpec(Spec):
     """A ``<nedOrigin>``: where on Earth the origin of W is, for ``<fdm>`` and GPS."""
 
     lat: float = element(default=0.0, original=Original(lenient=True, required=True))
@@ -53,7 +53,7 @@ class NedOriginSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class NetTracingScriptSpec:
+class NetTracingScriptSpec(Spec):
     """A ``<netTracingScript>``: what becomes of each packet is published on ``/network/trace``.
 
     As std_msgs/String: time [s], device, what happens, sender and number of the packet, its size.
@@ -72,7 +72,7 @@ class NetTracingScriptSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SceneSpec:
+class SceneSpec(Spec):
     """A ``<UWSimScene>``."""
 
     ocean_state: OceanStateSpec = element(default=OceanStateSpec())

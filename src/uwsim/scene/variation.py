@@ -29,7 +29,7 @@ from typing import Any, TypeVar, cast
 
 from ..errors import BadSetting
 from ..rng import stream
-from ..schema import NAMESPACE, Diagnostics, element
+from ..schema import NAMESPACE, Diagnostics, Spec, element
 from .settings import Place, locate, overlaps
 
 T = TypeVar("T")
@@ -39,7 +39,7 @@ BOUNDS = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class VariationSpec(abc.ABC):
+class VariationSpec(Spec, abc.ABC):
     """The spec of one value that is drawn for each seed."""
 
     path: str = element(namespaced=True)
@@ -210,7 +210,6 @@ def check_variations(
     """
     places: list[Place] = []
     for variation in spec.vary:
-        node = diagnostics.node_of(variation)
         try:
             place = find(spec, variation.path)
             for changed in _at_its_bounds(place, variation):
@@ -218,7 +217,7 @@ def check_variations(
             if twin := next((each for each in places if overlaps(each, place)), None):
                 raise BadSetting(f"{twin.path} varies already.")
         except BadSetting as error:
-            diagnostics.error(node, f"<u:path> {variation.path}: {error}".rstrip("."))
+            diagnostics.error(variation, f"<u:path> {variation.path}: {error}".rstrip("."))
         else:
             places.append(place)
 

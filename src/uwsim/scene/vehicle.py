@@ -23,7 +23,7 @@ from ..devices.echo import SimulatedDevicesSpec
 from ..devices.fdm import FdmSpec
 from ..devices.tf import TfSpec
 from ..geometry import ONE, ZERO, Pose, Triple
-from ..schema import MAX_DISTANCE, element
+from ..schema import MAX_DISTANCE, Spec, element
 from ..schema.names import local
 from ..sensors import SENSORS
 from .checks.plausibility import VehicleWarning
@@ -46,7 +46,7 @@ PARTS: dict[str, type] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class VehicleSpec:
+class VehicleSpec(Spec):
     """A ``<vehicle>``: a robot and its sensors; dynamic if and only if ``dynamics`` is given."""
 
     name: str

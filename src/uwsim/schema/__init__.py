@@ -30,7 +30,7 @@ Elements may be in any order. Names without a namespace are those of the origina
 """
 
 from .declaration import REQUIRED, Limits, Original, element
-from .diagnostics import MAX_DIAGNOSTICS, Diagnostics
+from .diagnostics import MAX_DIAGNOSTICS, Diagnostics, diagnostic_at
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
 from .grammar import (
     MAX_DISTANCE,
@@ -44,6 +44,7 @@ from .grammar import (
 )
 from .names import NAMESPACE, advice, cut, shown_tag
 from .reading import read, read_choice, text_of
+from .source_line import SourceLine, Spec, line_of, source_line
 from .values import TOKENS, number
 from .writing import uses_extensions, write
 
@@ -63,19 +64,24 @@ __all__ = [
     "Limits",
     "Numbers",
     "Original",
+    "SourceLine",
+    "Spec",
     "TwoNumbers",
     "advice",
     "camel",
     "check_head",
     "cut",
+    "diagnostic_at",
     "element",
     "field_docs",
     "fields_of",
+    "line_of",
     "number",
     "parse",
     "read",
     "read_choice",
     "shown_tag",
+    "source_line",
     "text_of",
     "uses_extensions",
     "write",

@@ -10,6 +10,7 @@ from typing import Literal, cast
 from lxml import etree
 
 from ..errors import Diagnostic, FileError, did_you_mean
+from .source_line import Spec, line_of
 
 MAX_DIAGNOSTICS = 100
 """Greatest number of errors, and of warnings, that are listed."""
@@ -25,15 +26,14 @@ class Diagnostics:
         """Whether junk behind a number is a warning, as where the original used atof."""
         self._found: list[Diagnostic] = []
         self._uncounted = {"error": 0, "warning": 0}
-        self._nodes: dict[int, tuple[object, etree._Element]] = {}
 
-    def error(self, node: etree._Element | int | None, message: str) -> None:
-        """Add an error at ``node`` (or at a line number)."""
-        self._append(node, message, "error")
+    def error(self, place: object, message: str) -> None:
+        """Add an error at an element, a spec or a line number."""
+        self._append(place, message, "error")
 
-    def warning(self, node: etree._Element | int | None, message: str) -> None:
-        """Add a warning at ``node`` (or at a line number); the file stays valid."""
-        self._append(node, message, "warning")
+    def warning(self, place: object, message: str) -> None:
+        """Add a warning at an element, a spec or a line number; the file stays valid."""
+        self._append(place, message, "warning")
 
     def unknown(self, node: etree._Element, what: str, name: str, known: Iterable[str]) -> None:
         """Say that ``name`` is not one of ``known``, with the nearest right one."""
@@ -44,14 +44,6 @@ class Diagnostics:
         if len(name) > 80 or not self._has_room(severity):
             return ""
         return did_you_mean(name, itertools.islice(known, 1000)).replace("'", "")
-
-    def remember(self, spec: object, node: etree._Element) -> None:
-        """Keep the element a spec was read from, so that later checks can name its line."""
-        self._nodes[id(spec)] = (spec, node)
-
-    def node_of(self, spec: object) -> etree._Element | None:
-        """Return the element ``spec`` was read from."""
-        return self._nodes.get(id(spec), (None, None))[1]
 
     @property
     def any(self) -> bool:
@@ -75,12 +67,39 @@ class Diagnostics:
     def _has_room(self, severity: str) -> bool:
         return sum(diagnostic.severity == severity for diagnostic in self._found) < MAX_DIAGNOSTICS
 
-    def _append(self, node: etree._Element | int | None, message: str, severity: str) -> None:
+    def _append(self, place: object, message: str, severity: str) -> None:
         if self._uncounted[severity] or not self._has_room(severity):
             self._uncounted[severity] += 1
             return
-        line = cast(int | None, getattr(node, "sourceline", node))
+        line = line_of(place) if isinstance(place, Spec) else getattr(place, "sourceline", place)
+        line = line if isinstance(line, int) else None
         self._found.append(_diagnostic(self.file, line, message, severity))
+
+
+def diagnostic_at(
+    spec: object,
+    message: str,
+    element: str | None = None,
+    number: int = 0,
+    *,
+    file: str | None = None,
+    severity: Literal["error", "warning"] = "error",
+) -> Diagnostic:
+    """Make an error or a warning at the ``number``th ``element`` in a spec, else at the spec.
+
+    Args:
+        spec: what is wrong.
+        message: why.
+        element: qualified name of the element in it.
+        number: which of several such.
+        file: named where the spec was read from none.
+        severity: of the diagnostic.
+    """
+    source = spec.source_line if isinstance(spec, Spec) else None
+    name = (file or "the scene") if source is None else source.file
+    return Diagnostic(
+        file=name, line=line_of(spec, element, number), message=message, severity=severity
+    )
 
 
 def _diagnostic(file: str, line: int | None, message: str, severity: str) -> Diagnostic:

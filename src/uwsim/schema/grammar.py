@@ -144,7 +144,7 @@ def _fields_of(cls: Hashable) -> tuple[Field, ...]:
     fields = [
         _field(cls, field, hints[field.name])
         for field in dataclasses.fields(cls)
-        if field.init and "path" not in field.metadata
+        if field.init and not {"path", "not_in_file"} & set(field.metadata)
     ]
     return tuple(part for field in fields for part in _members(field))
 

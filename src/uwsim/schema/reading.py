@@ -13,6 +13,7 @@ from lxml import etree
 from .diagnostics import Diagnostics
 from .grammar import Field, fields_of
 from .names import advice, cut, local, shown, shown_attribute
+from .source_line import Spec, source_line
 from .values import BAD, BLANKS, Bad, scalar
 
 T = TypeVar("T")
@@ -54,9 +55,9 @@ def read(
             if field.default is MISSING:
                 return None
             values[field.name] = field.default
-    spec = cls(**values)
-    diagnostics.remember(spec, node)
-    return spec
+    if issubclass(cls, Spec) and "source_line" not in values:
+        values["source_line"] = source_line(node, diagnostics.file)
+    return cls(**values)
 
 
 def read_choice(

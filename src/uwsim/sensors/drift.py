@@ -29,7 +29,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..geometry import Array
-from ..schema import element
+from ..schema import Spec, element
 
 FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)
 """Allan deviation of flicker noise of the bias instability 1 [1]."""
@@ -40,7 +40,7 @@ FIRST = 0.01
 
 
 @dataclass(frozen=True, kw_only=True)
-class DriftSpec:
+class DriftSpec(Spec):
     """A ``<u:gyro>`` or ``<u:accelerometer>``: errors, the same for each axis."""
 
     noise_density: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
 from ..geometry import Pose
+from ..schema import Spec
 from ..world import Body, MovingBody, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
@@ -22,7 +23,7 @@ SCAN_AXES = (0.0, 0.5 * math.pi, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class SensorSpec:
+class SensorSpec(Spec):
     """A sensor of a vehicle."""
 
     frame_rpy: ClassVar[tuple[float, float, float]] = (0.0, 0.0, 0.0)

@@ -21,14 +21,14 @@ import numpy.typing as npt
 
 from ..geometry import Array, Intrinsics, Pose
 from ..messages import CameraInfo, Image, image
-from ..schema import MAX_DISTANCE, element
+from ..schema import MAX_DISTANCE, Spec, element
 from ..world import Body, SensorWorld
 from .pinhole import camera_info
 from .sensor import OPTICAL_AXES, Carrier, LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
-class CameraParametersSpec:
+class CameraParametersSpec(Spec):
     """The pinhole of a camera from a calibration; overrides ``fovy``."""
 
     fx: float = element(above=0, maximum=MAX_DISTANCE)

@@ -23,17 +23,18 @@ from ..rng import stream
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
-from ..schema import NAMESPACE, Diagnostics
+from ..schema import NAMESPACE, Diagnostics, Spec, diagnostic_at
 from ..sensors.sensor import measured_by
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
 from ..world import GRAVITY
 from .bodies import find_file
-from .checks.scene_lines import SceneLines
 
 Severity = Literal["error", "warning"]
 U = f"{{{NAMESPACE}}}"
+DYNAMICS = f"{U}dynamics"
+PROFILE = f"{U}profile"
 MAX_NAMED = 8
 """Links that one warning names."""
 MIN_LIFT = 0.1
@@ -79,7 +80,6 @@ class Search:
         self.found: list[Diagnostic] = []
         """All that is wrong or worth knowing."""
         self._scene, self._data_path = scene, data_path
-        self._lines = SceneLines(scene, data_path)
         for index, vehicle in enumerate(scene.vehicles):
             if vehicle.dynamics is not None and index in robots:
                 self._read(index, vehicle.dynamics, robots[index])
@@ -100,7 +100,7 @@ class Search:
         except VehicleError as error:
             self.found += error.diagnostics
         except UnknownName as error:
-            self._say(str(error), "vehicle", index, f"{U}dynamics", 0)
+            self._say(str(error), self._scene.vehicles[index], DYNAMICS)
         else:
             self.found += diagnostics.all()
             if dynamics is not None:
@@ -111,7 +111,7 @@ class Search:
     def _weigh(self, index: int, name: str, robot: RobotSpec) -> None:
         """Compare a vehicle's weight with its displacement."""
         dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
-        place = ("vehicle", index, f"{U}dynamics", 0)
+        place = (self._scene.vehicles[index], DYNAMICS)
         given = {body.link: body.mass for body in dynamics.bodies}
         mass = sum(given.get(link.name) or link.mass for link in robot.links)
         displaced = dynamics.density * sum(body.volume for body in dynamics.bodies)
@@ -140,7 +140,7 @@ class Search:
             self._say(
                 f"{len(names)} links of the vehicle {vehicle!r} have no mass and are given "
                 f"{1e3 * MIN_MASS:g} g each ({shown}); a <mass> in its URDF or its set says more",
-                *("vehicle", index, f"{U}dynamics", 0),
+                *(self._scene.vehicles[index], DYNAMICS),
                 severity="warning",
             )
 
@@ -149,7 +149,7 @@ class Search:
         ocean = self._scene.ocean_state
         if wrong := self._profile_errors():
             for said in wrong:
-                self._say(f"<u:profile>: {said}", "oceanState", 0, f"{U}profile", 0)
+                self._say(f"<u:profile>: {said}", ocean, PROFILE)
             return
         density = ocean.water_density
         given = {index: one.density for index, one in self.dynamics.items()}
@@ -160,7 +160,7 @@ class Search:
             self._say(
                 f"the sets of the vehicles are for water of different density ({message} kg/m3); "
                 "expected <u:density> in <oceanState>, which says what the water has",
-                *("vehicle", max(given), f"{U}dynamics", 0),
+                *(self._scene.vehicles[max(given)], DYNAMICS),
             )
             return
         for index, own in given.items():
@@ -188,7 +188,7 @@ class Search:
                 f"the water has {density:.6g} kg/m3 and the set {before.name!r} of {name!r} was "
                 f"trimmed in {before.density:.6g}: it is {abs(lift):.3g} N "
                 f"{'lighter' if lift > 0.0 else 'heavier'} here than there",
-                *("vehicle", index, f"{U}dynamics", 0),
+                *(self._scene.vehicles[index], DYNAMICS),
                 severity="warning",
             )
 
@@ -206,27 +206,26 @@ class Search:
                 f"the vehicle {vehicle.name!r} is simulated (<u:dynamics>) and has a <scaleFactor> "
                 f"of {x:g} {y:g} {z:g}; expected 1 1 1: what a scaled vehicle weighs and resists "
                 "nobody has said. Change its URDF and its hydrodynamics file instead",
-                *("vehicle", index, "scaleFactor", 0),
+                *(vehicle, "scaleFactor"),
             )
 
     def _follow_thrusters(self, index: int, vehicle: VehicleSpec) -> None:
-        for number, fault in enumerate(vehicle.parts_of(FaultSpec)):
-            place = ("vehicle", index, f"{U}fault", number)
+        for fault in vehicle.parts_of(FaultSpec):
             for error in fault.errors(vehicle.sensor_names):
-                self._say(error, *place)
+                self._say(error, fault)
             if fault.thruster is None:
                 if said := self._no_field(fault, vehicle):
-                    self._say(said, *place)
+                    self._say(said, fault)
                 continue
             if vehicle.dynamics is None:
                 self._say(
                     f"the vehicle {vehicle.name!r} has no <u:dynamics>: no thruster of it can fail",
-                    *place,
+                    fault,
                 )
             elif index in self.dynamics:
                 names = [thruster.name for thruster in self.dynamics[index].thrusters]
                 if fault.thruster not in names:
-                    self._say(str(UnknownName("thruster", fault.thruster, names)), *place)
+                    self._say(str(UnknownName("thruster", fault.thruster, names)), fault)
 
     def _no_field(self, fault: FaultSpec, vehicle: VehicleSpec) -> str | None:
         """Report a field that no message of the sensor of a fault has."""
@@ -264,13 +263,12 @@ class Search:
             spec.name for one in self._scene.vehicles for spec in one.parts_of(VirtualCameraSpec)
         }
         carried: dict[str, tuple[type, str]] = {}
-        for number, interface in enumerate(self._scene.ros_interfaces):
-            place = ("rosInterfaces", 0, "*", number)
+        for interface in self._scene.ros_interfaces:
             element = element_of(interface).replace(U, "u:")
             if isinstance(interface, AutopilotTopicSpec) and (
                 said := self._no_autopilot(interface, vehicles)
             ):
-                self._say(f"<{element}>: {said}", *place)
+                self._say(f"<{element}>: {said}", interface)
             named = (
                 getattr(interface, "vehicle_name", None),
                 getattr(interface, "camera_name", None),
@@ -284,7 +282,7 @@ class Search:
                     self._say(
                         f"<{element}>: the topic {topic!r} carries {_type_name(message)}, but of "
                         f"<{first}> it carries {_type_name(other)}",
-                        *place,
+                        interface,
                     )
 
     def _follow_currents(self, is_thorough: bool) -> None:
@@ -292,7 +290,7 @@ class Search:
             stream=lambda name: stream(0, name),
             find=lambda name: find_file(name, self._scene.path, self._data_path),
         )
-        for number, current in enumerate(self._scene.ocean_state.currents):
+        for current in self._scene.ocean_state.currents:
             try:
                 current.files(place)
                 if is_thorough and isinstance(current, PythonFunctionSpec):
@@ -300,20 +298,14 @@ class Search:
                 elif is_thorough:
                     current.bind(place)
             except UwsimError as error:
-                self._say(str(error), f"oceanState/{U}current", 0, "*", number)
+                self._say(str(error), current)
 
     def _say(
-        self,
-        message: str,
-        parent: str,
-        index: int,
-        child: str,
-        number: int,
-        severity: Severity = "error",
+        self, message: str, spec: Spec, element: str | None = None, severity: Severity = "error"
     ) -> None:
-        """Keep an error of the ``number``th ``child`` of the ``index``th ``parent``."""
-        found = self._lines.diagnostic(message, parent, index, child, number, severity=severity)
-        self.found.append(found)
+        """Keep an error of an ``element`` in a spec, or of the spec."""
+        file = self._scene.path
+        self.found.append(diagnostic_at(spec, message, element, file=file, severity=severity))
 
 
 def _name(part: object) -> str | None:

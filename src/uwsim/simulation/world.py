@@ -139,7 +139,7 @@ class SceneWorld:
         """Warnings about the scene, with the lines of the file."""
         scene = self._as_written
         implausible = plausibility_warnings(scene, self.robots, self.dynamics, self._data_path)
-        return (*scene_warnings(scene, self.robots, self._data_path), *implausible)
+        return (*scene_warnings(scene, self.robots), *implausible)
 
     @property
     def bus(self) -> Bus:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
-from ..schema import element
+from ..schema import Spec, element
 from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..vehicle import Vehicle
@@ -69,7 +69,7 @@ class Binds(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class InterfaceSpec:
+class InterfaceSpec(Spec):
     """An element of ``<rosInterfaces>``."""
 
     subscribes: ClassVar[bool] = False

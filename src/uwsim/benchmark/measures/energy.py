@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ...schema import element
+from ...schema import Spec, element
 from ...world import Actuators, World
 from .measure import Measure, MeasureSpec
 
@@ -22,7 +22,7 @@ JOULES = {"J": 1.0, "Wh": 3600.0}
 
 
 @dataclass(frozen=True, kw_only=True)
-class BatterySpec:
+class BatterySpec(Spec):
     """A ``<battery>``: its capacity, full when the measure starts."""
 
     capacity: float = element(text=True, above=0.0)

@@ -17,7 +17,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -77,10 +77,8 @@ class EuclideanNormSpec(MeasureSpec):
         """The same spec; with ``u:autoInit="once"`` it initialises no algorithm again."""
         if self.auto_init == "always":
             return self
-        assert dataclasses.is_dataclass(self.ground_truth)
-        return dataclasses.replace(
-            self, ground_truth=dataclasses.replace(self.ground_truth, publish_on=None)
-        )
+        truth: Any = self.ground_truth
+        return dataclasses.replace(self, ground_truth=dataclasses.replace(truth, publish_on=None))
 
     @property
     def start_value(self) -> float:

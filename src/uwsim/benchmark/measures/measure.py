@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
-from ...schema import element
+from ...schema import Spec, element
 from ...world import Body, World
 from ..triggers import NeverSpec, OnInitSpec, TriggerSpec
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeasureSpec(abc.ABC):
+class MeasureSpec(Spec, abc.ABC):
     """An element of ``<measures>`` in a benchmark file."""
 
     values: ClassVar[tuple[str, ...]] = ("last",)

@@ -6,11 +6,12 @@ import abc
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...schema import Spec
 from ...world import World
 
 
 @dataclass(frozen=True, kw_only=True)
-class TriggerSpec(abc.ABC):
+class TriggerSpec(Spec, abc.ABC):
     """A ``<startOn>`` or ``<stopOn>`` element of a benchmark file."""
 
     def __str__(self) -> str:

@@ -30,7 +30,7 @@ from ...currents import (
 )
 from ...errors import BadSetting, UnknownName
 from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
-from ...schema import Original, element
+from ...schema import Original, Spec, element
 from ...world import Flow, Stage
 from .sweep import SweepSpec
 from .updater import SceneUpdater
@@ -49,7 +49,7 @@ DRAG = 500.0 * 0.82
 
 
 @dataclass(frozen=True, kw_only=True)
-class SphericalSpec:
+class SphericalSpec(Spec):
     """A value for each of the two angles of the current's direction."""
 
     theta: float

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from ...errors import BadSetting
-from ...schema import element
+from ...schema import Spec, element
 from ...world import Stage
 
 MAX_LEVELS = 100_000
@@ -28,7 +28,7 @@ class Level:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SceneUpdaterSpec(abc.ABC):
+class SceneUpdaterSpec(Spec, abc.ABC):
     """What ``<sceneUpdater>`` holds: how the scene changes from level to level."""
 
     name: ClassVar[str]

@@ -20,7 +20,7 @@ from typing import ClassVar
 
 from ...messages import Pose
 from ...network import BitErrors, EnergyModel, LinkBudget, ModemSettings, WaterChannel
-from ...schema import REQUIRED, element
+from ...schema import REQUIRED, Spec, element
 from ...world import Stage
 from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import acoustic_channel
@@ -34,7 +34,7 @@ from .comms_device import (
 
 
 @dataclass(frozen=True, kw_only=True)
-class EnergyModelSpec:
+class EnergyModelSpec(Spec):
     """An ``<energyModel>``; without energy a device neither sends nor receives."""
 
     energy_level: float = element(minimum=0)

@@ -15,14 +15,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ...network import DelayChannel, Sea, WaterChannel
-from ...schema import element
+from ...schema import Spec, element
 
 MAX_MS = 1e9
 """Longest delay in a file [ms]."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class CustomCommsChannelSpec:
+class CustomCommsChannelSpec(Spec):
     """A ``<CustomCommsChannel>``: delay = minPropTime + propTimeIncPerMeter * distance."""
 
     id: int
@@ -47,7 +47,7 @@ class CustomCommsChannelSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class AcousticCommsChannelSpec:
+class AcousticCommsChannelSpec(Spec):
     """An ``<AcousticCommsChannel>``: sound in water, along straight lines.
 
     Its noise and absorption count for the devices that have ``u:sourceLevel``.

@@ -30,7 +30,7 @@ from ...network import (
     mac_kind,
     nanoseconds,
 )
-from ...schema import MAX_DISTANCE, REQUIRED, Original, element
+from ...schema import MAX_DISTANCE, REQUIRED, Original, Spec, element
 from ...sensors.sensor import Mounted
 from ...world import Body, Stage
 from ..device import Device, DeviceTopic, DeviceVehicle
@@ -44,7 +44,7 @@ ENERGY_RATE = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class MacProtocolSpec:
+class MacProtocolSpec(Spec):
     """A ``<macProtocol>``: who may send when."""
 
     name: str = element(default="", original=REQUIRED)
@@ -76,7 +76,7 @@ class MacProtocolSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PacketBuilderSpec:
+class PacketBuilderSpec(Spec):
     """A ``<txPacketBuilder>`` or ``<rxPacketBuilder>``: read and not used, data has no frame."""
 
     class_name: str
@@ -86,7 +86,7 @@ class PacketBuilderSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CommsMeshSpec:
+class CommsMeshSpec(Spec):
     """A ``<mesh>`` that shows where a device is; nothing touches it."""
 
     path: str

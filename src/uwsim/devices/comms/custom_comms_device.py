@@ -22,7 +22,7 @@ from typing import ClassVar
 from ... import expression
 from ...messages import Pose
 from ...network import BitErrors, DelayChannel, ErrorModel, ModemSettings, RateErrors, Unit
-from ...schema import REQUIRED, element
+from ...schema import REQUIRED, Spec, element
 from ...world import Stage
 from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import MAX_MS, custom_channel
@@ -36,7 +36,7 @@ from .comms_device import (
 
 
 @dataclass(frozen=True, kw_only=True)
-class JitterSpec:
+class JitterSpec(Spec):
     """A ``<jitter>``: delays that vary, uniformly distributed from 0."""
 
     tx: float = element(default=0.0, minimum=0, maximum=MAX_MS)
@@ -46,7 +46,7 @@ class JitterSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RateErrorModelSpec:
+class RateErrorModelSpec(Spec):
     """A ``<rateErrorModel>``: how likely a part of a packet, and so the packet, is damaged."""
 
     error_unit: Unit = element(default="bit", original=REQUIRED)

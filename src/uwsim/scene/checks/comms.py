@@ -24,21 +24,20 @@ def check_comms(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     names: dict[str, None] = {}
     addresses: dict[tuple[str, int], str] = {}
     for device in (each for vehicle in scene.vehicles for each in comms_devices(vehicle)):
-        node = diagnostics.node_of(device)
         if device.name in names:
             said = f"two devices are called {device.name!r}: they share their topics"
-            diagnostics.warning(node, said)
+            diagnostics.warning(device, said)
         names[device.name] = None
         for channel in _channels_of(device):
             if channel not in channels:
                 kind, _, number = channel.partition("/")
                 element = {"custom": "CustomCommsChannel", "acoustic": "AcousticCommsChannel"}[kind]
                 said = f"{device.name!r}: no <{element}> has the id {number}"
-                diagnostics.warning(node, f"{said}; one with the defaults is used")
+                diagnostics.warning(device, f"{said}; one with the defaults is used")
         key = (_channels_of(device)[-1], device.mac)
         if key in addresses:
             said = f"{device.name!r} has the address {device.mac} of {addresses[key]!r}"
-            diagnostics.warning(node, f"{said}: both receive what is sent to it")
+            diagnostics.warning(device, f"{said}: both receive what is sent to it")
         addresses.setdefault(key, device.name)
         _check_protocol(device.mac_protocol, diagnostics)
         if isinstance(device, CustomCommsDeviceSpec):
@@ -62,7 +61,7 @@ def _check_protocol(protocol: MacProtocolSpec | None, diagnostics: Diagnostics) 
     if protocol is not None and mac_kind(protocol.name) is None:
         known = "ALOHA, slottedALOHA, CSMA"
         said = f"<macProtocol> is {protocol.name[:60]!r}; read as ALOHA; known: {known}"
-        diagnostics.warning(diagnostics.node_of(protocol), said)
+        diagnostics.warning(protocol, said)
 
 
 def _check_formula(device: CustomCommsDeviceSpec, diagnostics: Diagnostics) -> None:
@@ -72,4 +71,4 @@ def _check_formula(device: CustomCommsDeviceSpec, diagnostics: Diagnostics) -> N
     try:
         model.parse()
     except ScoreError as error:
-        diagnostics.error(diagnostics.node_of(model), f"<errorRateExpr>: {error.message}")
+        diagnostics.error(model, f"<errorRateExpr>: {error.message}")

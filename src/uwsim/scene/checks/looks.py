@@ -27,7 +27,7 @@ def check_looks(
     Args:
         scene: the scene.
         robots: the robot of each vehicle that has one, by its number in the scene.
-        diagnostics: receives the warnings; has the elements of the specs.
+        diagnostics: receives the warnings.
     """
     for index, robot in robots.items():
         vehicle = scene.vehicles[index]
@@ -35,12 +35,10 @@ def check_looks(
         for spec in looking(vehicle):
             if spec.look_at is not None and any(spec.orientation):
                 message = "its <orientation> is not used: <u:lookAt> says where it looks"
-                diagnostics.warning(diagnostics.node_of(spec), f"{_called(spec)}: {message}")
+                diagnostics.warning(spec, f"{_called(spec)}: {message}")
             is_camera = isinstance(spec, VirtualCameraSpec | VirtualRangeImageSpec)
             if is_camera and robot.link(spec.relative_to) is not None:
-                diagnostics.warning(
-                    diagnostics.node_of(spec), f"{_called(spec)} {_looks(spec, frames)}"
-                )
+                diagnostics.warning(spec, f"{_called(spec)} {_looks(spec, frames)}")
         if not uses_extensions(scene):
             _check_age(frames, diagnostics)
     cameras = [spec.name for one in scene.vehicles for spec in one.parts_of(VirtualCameraSpec)]
@@ -82,7 +80,7 @@ def _check_age(frames: MountFrames, diagnostics: Diagnostics) -> None:
     if len(turned) > n_right:
         names = ", ".join(_called(spec) for spec in turned[:5])
         diagnostics.warning(
-            diagnostics.node_of(turned[0]),
+            turned[0],
             f"looking up from links whose visual frames are turned: {names}. Before July 2014 "
             "sensors hung on visual frames; if this scene is that old, use --compat visual-frames",
         )

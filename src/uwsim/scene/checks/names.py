@@ -12,7 +12,7 @@ from itertools import chain
 
 from ...devices.force_sensor import ForceSensorSpec
 from ...devices.lamp import MAX_LAMPS, LampSpec
-from ...schema import Diagnostics
+from ...schema import Diagnostics, line_of
 from ...topics import InterfaceSpec, element_of
 from ...topics.simulated_device_ros import SimulatedDeviceROSSpec
 from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
@@ -42,7 +42,7 @@ def check_names(
     Args:
         scene: the scene.
         robots: the robot of each vehicle that has one, by its number in the scene.
-        diagnostics: where to say what leads nowhere; it remembers the elements of the specs.
+        diagnostics: receives what leads nowhere.
         stand_ins: numbers of the vehicles whose robot stands for another: what theirs has is not
             known.
     """
@@ -53,9 +53,7 @@ def check_names(
     drawn = [vehicle for vehicle in scene.vehicles if not vehicle.vr]
     lamps = [lamp for vehicle in drawn for lamp in vehicle.parts_of(LampSpec)]
     for lamp in lamps[MAX_LAMPS:]:
-        diagnostics.error(
-            diagnostics.node_of(lamp), f"<u:lamp> {lamp.name!r}: more than {MAX_LAMPS} lamps"
-        )
+        diagnostics.error(lamp, f"<u:lamp> {lamp.name!r}: more than {MAX_LAMPS} lamps")
     for thing in scene.objects:
         _check_physics(thing, diagnostics)
     if scene.is_dynamic:
@@ -63,7 +61,7 @@ def check_names(
         _check_passable_vehicles(scene, robots, diagnostics)
     if scene.sim_params.physics_solver.lower() not in SOLVERS:
         diagnostics.warning(
-            diagnostics.node_of(scene.sim_params),
+            scene.sim_params,
             f"<physicsSolver> is {scene.sim_params.physics_solver!r}; read as Dantzig",
         )
 
@@ -105,22 +103,17 @@ def _check_links(
             near = diagnostics.near(link, links, severity)
             message = f"<{element}>: {link!r} is no link of {vehicle.file}.{near}"
             if is_error:
-                diagnostics.error(diagnostics.node_of(part), message)
+                diagnostics.error(part, message)
             else:
-                diagnostics.warning(
-                    diagnostics.node_of(part), f"{message} It is left out, as in the original"
-                )
+                diagnostics.warning(part, f"{message} It is left out, as in the original")
         elif isinstance(part, ForceSensorSpec) and scene.sim_params.enable_physics:
             mass = next(each.mass for each in robot.links if each.name == link)
             if mass <= 0 and is_its_own:
-                diagnostics.error(
-                    diagnostics.node_of(part), f"<{element}>: its link {link!r} has no mass"
-                )
+                diagnostics.error(part, f"<{element}>: its link {link!r} has no mass")
 
 
 def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, diagnostics: Diagnostics) -> None:
-    node = diagnostics.node_of(vehicle)
-    place = None if node is None else node.find("jointValues")
+    place = line_of(vehicle, "jointValues")
     if len(vehicle.joint_values) > len(robot.movable):
         diagnostics.warning(
             place,
@@ -163,7 +156,6 @@ def _check_interface(
     known: Mapping[str, Mapping[str, None]],
     diagnostics: Diagnostics,
 ) -> None:
-    node = diagnostics.node_of(interface)
     element = element_of(interface)
     wanted = next(
         (
@@ -179,7 +171,7 @@ def _check_interface(
     if not any(wanted in known.get(kind, {}) for kind in kinds):
         near = diagnostics.near(wanted, chain(*(known.get(kind, {}) for kind in kinds)), "warning")
         diagnostics.warning(
-            node,
+            interface,
             f"<{element}>: no {_or(kinds)} is called {wanted!r}.{near} "
             "The interface is left out, as in the original",
         )
@@ -189,7 +181,7 @@ def _check_interface(
         and wanted not in known.get("virtualRangeImage", {})
     ):
         diagnostics.error(
-            node, f"<{element}>: <depth> 1 needs a virtualRangeImage; {wanted!r} is none"
+            interface, f"<{element}>: <depth> 1 needs a virtualRangeImage; {wanted!r} is none"
         )
 
 
@@ -204,7 +196,7 @@ def _check_sources(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     for name in _repeated(interface.camera_name for interface in cameras):
         last = last_of[name]
         diagnostics.warning(
-            diagnostics.node_of(last),
+            last,
             f"camera {name!r} has several interfaces; the original serves this last one only",
         )
     for name in _repeated(vehicle.name for vehicle in scene.vehicles):
@@ -215,7 +207,7 @@ def _check_physics(thing: ObjectSpec, diagnostics: Diagnostics) -> None:
     if thing.physics is not None and thing.physics.collision_shape_type not in SHAPES:
         message = thing.physics.collision_shape_type
         diagnostics.warning(
-            diagnostics.node_of(thing.physics),
+            thing.physics,
             f"<collisionShapeType> is {message[:60]!r}; read as box; known: {', '.join(SHAPES)}",
         )
 
@@ -229,14 +221,10 @@ def _check_passable_objects(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     ]
     if not things:
         return
-    nodes = [diagnostics.node_of(thing) for thing in things]
-    named = [
-        f"{thing.name!r} (line {getattr(node, 'sourceline', '?')})"
-        for thing, node in zip(things[:MAX_NAMED], nodes, strict=False)
-    ]
+    named = [f"{thing.name!r} (line {line_of(thing) or '?'})" for thing in things[:MAX_NAMED]]
     more = f" and {len(things) - MAX_NAMED} more" if len(things) > MAX_NAMED else ""
     diagnostics.warning(
-        nodes[0],
+        things[0],
         f"simulated vehicles pass through what has no <physics>: {', '.join(named)}{more}; "
         "<u:solid>1</u:solid> in the object makes it solid, <u:solid>0</u:solid> says that it is "
         "meant",
@@ -258,7 +246,7 @@ def _check_passable_vehicles(
         else:
             continue
         diagnostics.warning(
-            diagnostics.node_of(vehicle),
+            vehicle,
             f"vehicle {vehicle.name!r}: {why}; if that is meant: <u:accept>passable</u:accept>",
         )
 

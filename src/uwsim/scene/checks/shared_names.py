@@ -14,7 +14,7 @@ def check_shared_names(scene: SceneSpec, diagnostics: Diagnostics) -> None:
 
     Args:
         scene: the scene.
-        diagnostics: receives the warnings; has the elements of the specs.
+        diagnostics: receives the warnings.
     """
     _check_objects(scene, diagnostics)
     _check_parts(scene, diagnostics)
@@ -28,7 +28,7 @@ def _check_objects(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         if thing.name in first and thing.name not in shared:
             shared.add(thing.name)
             diagnostics.warning(
-                diagnostics.node_of(thing),
+                thing,
                 f"the object {thing.name!r} is called as {first[thing.name]} before it; searches "
                 "find the first",
             )
@@ -54,7 +54,7 @@ def _check_parts(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             else:
                 why = ""
             if why:
-                diagnostics.warning(diagnostics.node_of(part), f"<{element}>: {why}")
+                diagnostics.warning(part, f"<{element}>: {why}")
             of_kind.add((element, name))
             of_vehicle.setdefault(name, element)
 
@@ -73,12 +73,12 @@ def _check_topics(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             other = writers.get(key)
             if other is not None and isinstance(interface, VehiclePublisherSpec):
                 diagnostics.warning(
-                    diagnostics.node_of(interface),
+                    interface,
                     f"the topic {topic!r} carries {own!r} and {other[1]!r}: who reads it gets both",
                 )
             elif other is not None:
                 diagnostics.warning(
-                    diagnostics.node_of(interface),
+                    interface,
                     f"<{element}>: the topic {topic!r} of {own!r} carries {other[1]!r} of "
                     f"<{other[0]}>, too: who reads it gets both",
                 )

@@ -34,7 +34,7 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         n = image.resw * image.resh
         if n > MAX_PIXELS:
             diagnostics.error(
-                diagnostics.node_of(image),
+                image,
                 f"an image of {image.resw} x {image.resh} pixels; at most "
                 f"{MAX_PIXELS / 1e6:.0f} million are drawn",
             )
@@ -42,7 +42,7 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         n_all += n
         if n_all > MAX_PIXELS_IN_ALL:
             diagnostics.error(
-                diagnostics.node_of(image),
+                image,
                 f"with this one, the images of the scene have {n_all / 1e6:.0f} million pixels; "
                 f"at most {MAX_PIXELS_IN_ALL / 1e6:.0f} are drawn",
             )
@@ -50,13 +50,13 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     for fan in _fans(scene):
         if abs(fan.final_angle - fan.init_angle) >= MAX_BEAMS * fan.angle_incr:
             diagnostics.error(
-                diagnostics.node_of(fan),
+                fan,
                 f"from {fan.init_angle:g} to {fan.final_angle:g} degrees in steps of "
                 f"{fan.angle_incr:g} are more than {MAX_BEAMS} beams",
             )
     for sonar in (each for vehicle in scene.vehicles for each in vehicle.parts_of(SonarSpec)):
         for error in _sonar_errors(sonar):
-            diagnostics.error(diagnostics.node_of(sonar), error)
+            diagnostics.error(sonar, error)
 
 
 def _sonar_errors(sonar: SonarSpec) -> Iterator[str]:

@@ -7,7 +7,7 @@ import math
 
 from lxml import etree
 
-from ...schema import Diagnostics
+from ...schema import Diagnostics, source_line
 from ..checks.angles import MORE_THAN_A_TURN
 from .robot import JointKind, JointSpec, LinkSpec, MimicSpec
 from .values import name_of, number_of, origin_of, triple_of
@@ -47,6 +47,7 @@ def read_joint(
             diagnostics.warning(node, f"joint {name!r} has the axis 0 0 0; held fixed")
             kind = "fixed"
     return JointSpec(
+        source_line=source_line(node, diagnostics.file),
         name=name,
         kind=kind,
         parent=parent,
@@ -104,6 +105,7 @@ def _mimic(node: etree._Element, diagnostics: Diagnostics) -> MimicSpec | None:
     if mimic is None:
         return None
     return MimicSpec(
+        source_line=source_line(mimic, diagnostics.file),
         joint=(mimic.get("joint") or "").strip(),
         multiplier=number_of(mimic, "multiplier", diagnostics, 1.0),
         offset=number_of(mimic, "offset", diagnostics, 0.0),
@@ -116,16 +118,13 @@ def with_leader(
     """Return the joint; one that mimics nobody is free."""
     if joint.mimic is None or joint.mimic.joint in joints:
         return joint
-    node, source = diagnostics.node_of(joint), joint.mimic.joint
+    source = joint.mimic.joint
     diagnostics.warning(
-        node,
+        joint,
         f"joint {joint.name!r} mimics {source[:60]!r}, which is no joint"
         f".{diagnostics.near(source, joints, 'warning')} It moves by itself",
     )
-    free = dataclasses.replace(joint, mimic=None)
-    if node is not None:
-        diagnostics.remember(free, node)
-    return free
+    return dataclasses.replace(joint, mimic=None)
 
 
 def check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None:
@@ -142,7 +141,7 @@ def check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None
         for i, member in enumerate(loop):
             turned = (*loop[i:], *loop[:i], member)[:100]
             message = " mimics ".join(repr(each) for each in turned)
-            diagnostics.error(diagnostics.node_of(joints[member]), f"joint {message[:200]}: a loop")
+            diagnostics.error(joints[member], f"joint {message[:200]}: a loop")
 
 
 def _end(

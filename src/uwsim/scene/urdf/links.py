@@ -7,7 +7,7 @@ from typing import cast
 from lxml import etree
 
 from ...geometry import ZERO
-from ...schema import Diagnostics
+from ...schema import Diagnostics, source_line
 from .robot import Colour, LinkSpec, ShapeKind, VisualSpec
 from .values import colour_of, elements_of, name_of, number_of, origin_of, size_of, triple_of
 
@@ -30,6 +30,7 @@ def read_link(
             )
             inertia = (xx, yy, zz, xy, xz, yz)
     return LinkSpec(
+        source_line=source_line(node, diagnostics.file),
         name=name_of(node),
         visuals=_shapes(node.findall("visual"), materials, diagnostics),
         collisions=_shapes(node.findall("collision"), materials, diagnostics),
@@ -95,6 +96,7 @@ def _shape(
         diagnostics.unknown(shape, f"<{given[:60]}> is not a geometry", given, kinds)
         return None
     return VisualSpec(
+        source_line=source_line(node, diagnostics.file),
         kind=cast(ShapeKind, kind),
         file=file,
         size=size,

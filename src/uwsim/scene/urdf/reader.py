@@ -18,7 +18,7 @@ from pathlib import Path
 from lxml import etree
 
 from ...errors import SceneError
-from ...schema import Diagnostics
+from ...schema import Diagnostics, source_line
 from ...xacro import parse_expanded
 from .joints import check_mimics, read_joint, with_leader
 from .links import read_link, read_materials
@@ -62,7 +62,6 @@ def read_robot(
             joint = read_joint(node, links, diagnostics)
             if joint is not None:
                 joints[joint.name] = joint
-                diagnostics.remember(joint, node)
     joints = {name: with_leader(joint, joints, diagnostics) for name, joint in joints.items()}
     check_mimics(joints, diagnostics)
     if not links:
@@ -85,7 +84,7 @@ def _tree(
     for joint in sorted(joints.values(), key=lambda joint: joint.name):
         if joint.child in hung:
             diagnostics.error(
-                diagnostics.node_of(joint),
+                joint,
                 f"link {joint.child!r} has two parent joints, {hung[joint.child].name!r} and "
                 f"{joint.name!r}",
             )
@@ -105,18 +104,17 @@ def _tree(
         depths[joint.child] = depths[joint.parent] + 1
         if depths[joint.child] > MAX_CHAIN:
             diagnostics.error(
-                diagnostics.node_of(joint),
+                joint,
                 f"joint {joint.name!r} ends a chain of more than {MAX_CHAIN} joints",
             )
             return None
         waiting += reversed(children.get(joint.child, []))
     if len(ordered) < len(joints):
         lost = sorted(set(joints) - {joint.name for joint in ordered})
-        diagnostics.error(
-            diagnostics.node_of(joints[lost[0]]), f"joint {lost[0]!r} is part of a loop"
-        )
+        diagnostics.error(joints[lost[0]], f"joint {lost[0]!r} is part of a loop")
         return None
     return RobotSpec(
+        source_line=source_line(root, diagnostics.file),
         name=name_of(root),
         root=roots[0],
         links=(links[roots[0]], *(links[joint.child] for joint in ordered)),

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ...geometry import ZERO, Triple
+from ...schema import Spec
 
 Colour = tuple[float, float, float, float]
 
@@ -28,7 +29,7 @@ JointKind = Literal["revolute", "continuous", "prismatic", "fixed"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class VisualSpec:
+class VisualSpec(Spec):
     """A visual or collision shape on a link."""
 
     kind: ShapeKind
@@ -48,7 +49,7 @@ class VisualSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class LinkSpec:
+class LinkSpec(Spec):
     """A rigid piece of a robot."""
 
     name: str
@@ -78,7 +79,7 @@ class LinkSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class MimicSpec:
+class MimicSpec(Spec):
     """A joint that follows another: ``multiplier * q + offset``."""
 
     joint: str
@@ -90,7 +91,7 @@ class MimicSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class JointSpec:
+class JointSpec(Spec):
     """A joint between two links."""
 
     name: str
@@ -125,7 +126,7 @@ class JointSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RobotSpec:
+class RobotSpec(Spec):
     """A robot: links and joints in UWSim's order."""
 
     name: str

@@ -17,14 +17,15 @@ from ...scene.checks.plausibility import VehicleWarning, unless_meant
 from ...scene.reader import scene_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
+from ...schema import NAMESPACE, diagnostic_at
 from ..bodies import read_robots
 from ..collision.hull import hull_of
 from ..dynamics import read_dynamics
-from .scene_lines import SceneLines
 from .start_plausibility import Starts
 from .thrust_warnings import thrust_said
 from .vehicle_plausibility import OF_SIMULATED, candidate_of, size_said
 
+DYNAMICS = f"{{{NAMESPACE}}}dynamics"
 MAX_VEHICLES = 50
 """Number of vehicles of a scene that are checked."""
 MAX_LOOSE = 200
@@ -45,7 +46,6 @@ def plausibility_warnings(
         dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
         data_path: folders in which files are looked for.
     """
-    lines = SceneLines(scene, data_path)
     vehicles = sorted(robots)[:MAX_VEHICLES]
     found = []
     for index in vehicles:
@@ -53,12 +53,16 @@ def plausibility_warnings(
         for warning, child, text in _of_vehicle(scene, index, robots, dynamics, data_path):
             if text and warning not in vehicle.accepts:
                 message = f"the vehicle {vehicle.name!r}: {text}. {unless_meant(warning)}"
-                found.append(lines.diagnostic(message, "vehicle", index, child, severity="warning"))
+                found.append(
+                    diagnostic_at(vehicle, message, child, file=scene.path, severity="warning")
+                )
     for kind, index, text in _of_starts(scene, vehicles, robots, data_path):
-        name = (scene.vehicles if kind == "vehicle" else scene.objects)[index].name
+        spec = (scene.vehicles if kind == "vehicle" else scene.objects)[index]
         if text:
-            message = f"the {kind} {name!r}: {text}. {unless_meant('start')}"
-            found.append(lines.diagnostic(message, kind, index, "position", severity="warning"))
+            message = f"the {kind} {spec.name!r}: {text}. {unless_meant('start')}"
+            found.append(
+                diagnostic_at(spec, message, "position", file=scene.path, severity="warning")
+            )
     return found
 
 
@@ -67,7 +71,7 @@ def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnosti
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(scene, robots, data_path)
     implausible = plausibility_warnings(scene, robots, dynamics, data_path)
-    return [*scene_warnings(scene, robots, data_path), *implausible]
+    return [*scene_warnings(scene, robots), *implausible]
 
 
 def _of_vehicle(
@@ -86,8 +90,8 @@ def _of_vehicle(
     if index in dynamics:
         one = candidate_of(scene, index, robots[index], dynamics[index], hull)
         for warning, say in OF_SIMULATED.items():
-            yield warning, "u:dynamics", say(one)
-        yield "thrust", "u:dynamics", thrust_said(scene, index, robots[index], dynamics[index])
+            yield warning, DYNAMICS, say(one)
+        yield "thrust", DYNAMICS, thrust_said(scene, index, robots[index], dynamics[index])
 
 
 def _of_starts(

@@ -10,12 +10,12 @@ from ...errors import Diagnostic, SceneError, UwsimError
 from ...scene.spec import SceneSpec
 from ...scene.urdf.reader import read_urdf
 from ...scene.urdf.robot import RobotSpec
+from ...schema import diagnostic_at
 from ..bodies import find_robot
 from ..collision.collision_shapes import collision_shapes, simulated_solids
 from ..collision.floor import set_on_floor
 from ..dynamics import Search
 from .plausibility import plausibility_warnings
-from .scene_lines import SceneLines
 
 
 def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[Diagnostic]:
@@ -48,10 +48,12 @@ def _untouchable(
     scene: SceneSpec, dynamics: Collection[int], data_path: tuple[Path, ...]
 ) -> list[Diagnostic]:
     """Report the objects of which the engine can make no collision shape."""
-    lines, found = SceneLines(scene, data_path), []
+    found = []
     for index, physics in simulated_solids(scene, dynamics).items():
         try:
             collision_shapes(scene, {}, (), {index: physics}, data_path)
         except UwsimError as error:
-            found.append(lines.diagnostic(str(error).removesuffix("."), "object", index, "physics"))
+            message = str(error).removesuffix(".")
+            thing = scene.objects[index]
+            found.append(diagnostic_at(thing, message, "physics", file=scene.path))
     return found

@@ -26,7 +26,7 @@ from ...scene.spec import SceneSpec, stands_on_floor
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import RobotSpec
 from ...scene.vehicle import VehicleSpec
-from ..checks.scene_lines import SceneLines
+from ...schema import diagnostic_at
 from .collision_shapes import collision_shapes, standing_faces
 
 HULL = PhysicsSpec(collision_shape_type="trimesh")
@@ -55,16 +55,14 @@ def set_on_floor(
         if vehicle.on_floor is not None and i in robots:
             placed = floor.pose_of_vehicle(i, vehicle, vehicle.on_floor)
             if placed is None:
-                diagnostics.append(
-                    floor.nothing_under("vehicle", i, vehicle.name, vehicle.position)
-                )
+                diagnostics.append(floor.nothing_under("vehicle", vehicle))
             else:
                 vehicles[i] = _moved_vehicle(vehicle, placed)
     for i, thing in enumerate(objects):
         if thing.on_floor is not None:
             placed = floor.pose_of_object(i, thing, thing.on_floor)
             if placed is None:
-                diagnostics.append(floor.nothing_under("object", i, thing.name, thing.position))
+                diagnostics.append(floor.nothing_under("object", thing))
             else:
                 objects[i] = _moved_object(thing, placed)
     if diagnostics:
@@ -95,7 +93,6 @@ class Floor:
         self, scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
     ) -> None:
         self._scene, self._robots, self._data_path = scene, robots, data_path
-        self._lines = SceneLines(scene, data_path)
         self.faces = ground_faces(scene, data_path)
         self.ground = Ground(np.concatenate([np.zeros((0, 3, 3)), *self.faces.values()]))
 
@@ -155,18 +152,15 @@ class Floor:
         placed = Pose(lifted, world_from_body.rotation)
         return self._scene.world_from_localized.inverse() @ placed
 
-    def nothing_under(
-        self, element: str, index: int, name: str, position: tuple[float, float, float]
-    ) -> Diagnostic:
+    def nothing_under(self, kind: str, spec: VehicleSpec | ObjectSpec) -> Diagnostic:
         """Report that there is no ground below a body."""
-        x, y, _ = position
+        x, y, _ = spec.position
         have = "no ground in this scene" if not len(self.ground) else "none there"
-        return self._lines.diagnostic(
-            f"<u:onFloor>: no ground under the {element} {name!r} at x {x:g}, y {y:g} of the "
+        return diagnostic_at(
+            spec.on_floor,
+            f"<u:onFloor>: no ground under the {kind} {spec.name!r} at x {x:g}, y {y:g} of the "
             f"file's frame; there is {have}: an object called 'terrain', or one with <u:solid> 1",
-            element,
-            index,
-            "u:onFloor",
+            file=self._scene.path,
         )
 
 

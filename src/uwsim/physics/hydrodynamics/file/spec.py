@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from ....errors import UwsimError
 from ....geometry import ZERO, Triple
-from ....schema import Numbers, TwoNumbers, element
+from ....schema import Numbers, Spec, TwoNumbers, element
 
 DragLaw = Literal["axes", "speed", "x", "y", "z"]
 Shape = Literal["sphere", "ellipsoid", "box", "cylinder", "shrinking-sphere"]
@@ -53,7 +53,7 @@ class BadHydrodynamics(UwsimError):
 
 
 @dataclass(frozen=True, kw_only=True)
-class BodyHydrodynamics:
+class BodyHydrodynamics(Spec):
     """The hydrodynamic parameters of one link or object."""
 
     link: str = element(attribute=True)
@@ -99,7 +99,7 @@ class BodyHydrodynamics:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ThrusterSpec:
+class ThrusterSpec(Spec):
     """A propeller: command in, thrust out, along its direction at its place."""
 
     name: str = element(attribute=True)
@@ -142,7 +142,7 @@ class ThrusterSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FinSpec:
+class FinSpec(Spec):
     """A control surface: a foil that turns about its span; see `fins`."""
 
     name: str = element(attribute=True)
@@ -199,7 +199,7 @@ class FinSpec:
 
 
 @dataclass(frozen=True, kw_only=True)
-class JointDrive:
+class JointDrive(Spec):
     """Parameters of the electric power of a joint's motor (`uwsim.physics.actuation.power`)."""
 
     name: str = element(attribute=True)
@@ -211,7 +211,7 @@ class JointDrive:
 
 
 @dataclass(frozen=True, kw_only=True)
-class VehicleHydrodynamics:
+class VehicleHydrodynamics(Spec):
     """A named set: every link and thruster of a vehicle."""
 
     name: str = element(attribute=True)
