@@ -56,7 +56,7 @@ def test_rays_find_what_a_look_at_every_triangle_finds() -> None:
 
 
 def test_a_ray_finds_the_same_among_its_neighbours_and_far_from_them() -> None:
-    """Eight neighbours go down the tree together; rays that go apart each alone."""
+    """Neighbours go down the tree together; rays that go apart each alone."""
     scene = RayScene([[Surface(1, soup(300, seed=3))], [Surface(2, soup(300, seed=4), True)]])
     angles = np.linspace(-math.pi, math.pi, 1001)
     ways = np.stack([np.sin(angles), 0.1 * np.cos(7 * angles), np.cos(angles)], axis=1)

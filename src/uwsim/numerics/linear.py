@@ -167,6 +167,12 @@ def _matrices(a: Array, b: Array) -> Array:
                 for k in range(b.shape[1]):
                     found[i, k] += a[i, j] * b[j, k]
         return found
+    if b.shape == (3, 3):  # as below, with the three sums of a row side by side
+        for i in range(a.shape[0]):
+            x, y, z = a[i, 0], a[i, 1], a[i, 2]
+            for k in range(3):
+                found[i, k] = 0.0 + x * b[0, k] + y * b[1, k] + z * b[2, k]
+        return found
     for i in range(a.shape[0]):
         for k in range(b.shape[1]):
             total = 0.0

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..geometry import Array
 from ..numerics.jit import njit
-from .packet import GROUP, HIT, LANES, fill_lanes, find_nearest
-from .triangle import Ray, Trees, Whole, inverse, meets_triangle, placed
+from .packet import DX, DY, DZ, GROUP, HIT, LANES, NEAR, fill_lanes, find_nearest
+from .triangle import Trees, Whole, meets_triangle, placed
 
 CLOSE = 0.97
 """Least cosine of the angles between rays that go together, 14 degrees."""
@@ -59,53 +59,57 @@ def cast_rays(
     whose = np.zeros(n, dtype=np.int32)
     stack, entries = np.empty(DEEPEST, dtype=np.int32), np.empty(DEEPEST)
     lanes = np.empty(LANES)
+    steps = _steps(directions)
     axis, half_angle = _cone(directions)
     for body in range(len(trees.roots)):
         if _is_missed(trees.balls[body], world_from_body[body], origin, axis, half_angle, reach):
             continue
         f = body_from_world[body]
-        x, y, z = placed(f, origin[0], origin[1], origin[2], 1.0)
-        for first in range(0, n, GROUP):
-            low, high = fill_lanes(lanes, f, directions, first, (begins, hits.distance))
-            are_close = _are_close(directions, first)
-            if are_close:
-                find_nearest(trees, trees.roots[body], (x, y, z), low, high, lanes, stack, entries)
-            for i in range(first, min(first + GROUP, n)):
-                triangle = int(lanes[HIT + i - first])
-                if are_close and triangle < 0:
+        begin = placed(f, origin[0], origin[1], origin[2], 1.0)
+        first = 0
+        while first < n:
+            end = min(first + steps[first // GROUP], n)
+            low, high = fill_lanes(lanes, f, directions, (first, end), (begins, hits.distance))
+            beam = begin, low, high
+            find_nearest(trees, trees.roots[body], beam, lanes, end - first, stack, entries)
+            for i in range(first, end):
+                k = i - first
+                triangle = int(lanes[HIT + k])
+                if triangle < 0:
                     continue
-                dx, dy, dz = placed(f, directions[i, 0], directions[i, 1], directions[i, 2], 0.0)
-                ray = (x, y, z, dx, dy, dz, inverse(dx), inverse(dy), inverse(dz), begins[i])
-                if are_close:
-                    nearest = meets_triangle(
-                        trees.triangles[triangle], trees.surfaces[triangle, 1], ray
-                    )
-                if not are_close or nearest == np.inf:
-                    nearest, triangle = _nearest(
-                        trees, trees.roots[body], ray, hits.distance[i], -1, stack, entries
-                    )
-                if triangle >= 0:
-                    hits.distance[i], last[i], whose[i] = nearest, triangle, body
+                ray = (lanes[DX + k], lanes[DY + k], lanes[DZ + k], begins[i])
+                at = meets_triangle(trees.triangles[triangle], begin, ray)
+                hits.distance[i] = at if at < np.inf else lanes[NEAR + k]
+                last[i], whose[i] = triangle, body
+            first = end
     for i in range(n):
         if last[i] < 0:
             hits.distance[i], hits.surface[i] = np.inf, -1
             hits.normal[i] = 0.0
         else:
             hits.surface[i] = trees.surfaces[last[i], 0]
-            _set_normal(hits.normal[i], trees.triangles[last[i]], body_from_world[whose[i]])
+            if i > 0 and last[i] == last[i - 1]:
+                for k in range(3):
+                    hits.normal[i, k] = hits.normal[i - 1, k]
+            else:
+                _set_normal(hits.normal[i], trees.triangles[last[i]], body_from_world[whose[i]])
             _turn_towards(hits.normal[i], directions[i])
 
 
 @njit
-def _are_close(directions: Array, first: int) -> bool:
-    """Whether the rays of a group can go together."""
-    for i in range(first + 1, min(first + GROUP, len(directions))):
-        cosine = 0.0
-        for axis in range(3):
-            cosine += directions[first, axis] * directions[i, axis]
-        if cosine < CLOSE:
-            return False
-    return True
+def _steps(directions: Array) -> Whole:
+    """How many rays go together in each group: all, or each alone where they go apart."""
+    steps = np.empty((len(directions) + GROUP - 1) // GROUP, dtype=np.int32)
+    for group in range(len(steps)):
+        first = group * GROUP
+        least = 1.0
+        for i in range(first + 1, min(first + GROUP, len(directions))):
+            cosine = 0.0
+            for axis in range(3):
+                cosine += directions[first, axis] * directions[i, axis]
+            least = min(least, cosine)
+        steps[group] = GROUP if least >= CLOSE else 1
+    return steps
 
 
 @njit
@@ -146,71 +150,6 @@ def _is_missed(
     along = (x * axis[0] + y * axis[1] + z * axis[2]) / distance
     between = math.acos(min(max(along, -1.0), 1.0))
     return between > half_angle + math.asin(radius / distance)
-
-
-@njit
-def _nearest(
-    trees: Trees, root: int, ray: Ray, nearest: float, hit: int, stack: Whole, entries: Array
-) -> tuple[float, int]:
-    """The nearest triangle of a body on a ray before ``nearest``; else what was given."""
-    n_waiting, node = 0, root
-    while True:
-        first_at = _enters(trees.boxes[node], 0, ray, nearest)
-        second_at = _enters(trees.boxes[node], 6, ray, nearest)
-        near, far = 0, 2
-        if second_at < first_at:
-            near, far = 2, 0
-            first_at, second_at = second_at, first_at
-        node_after = -1
-        if first_at < nearest:
-            where, count = trees.links[node, near], trees.links[node, near + 1]
-            if count:
-                nearest, hit = _in_leaf(trees, where, where + count, ray, nearest, hit)
-            else:
-                node_after = where
-        if second_at < nearest:
-            where, count = trees.links[node, far], trees.links[node, far + 1]
-            if count:
-                nearest, hit = _in_leaf(trees, where, where + count, ray, nearest, hit)
-            elif node_after < 0:
-                node_after = where
-            else:
-                stack[n_waiting], entries[n_waiting] = where, second_at
-                n_waiting += 1
-        if node_after >= 0:
-            node = node_after
-            continue
-        while n_waiting and entries[n_waiting - 1] >= nearest:
-            n_waiting -= 1
-        if not n_waiting:
-            return nearest, hit
-        n_waiting -= 1
-        node = stack[n_waiting]
-
-
-@njit
-def _enters(box: Array, first: int, ray: Ray, nearest: float) -> float:
-    """Where a ray enters a box; infinite where it does not before ``nearest`` [m]."""
-    enter, leave = 0.0, nearest
-    for axis in range(3):
-        a = (box[first + axis] - ray[axis]) * ray[6 + axis]
-        b = (box[first + 3 + axis] - ray[axis]) * ray[6 + axis]
-        if a > b:
-            a, b = b, a
-        enter = a if a > enter else enter
-        leave = b if b < leave else leave
-    return enter if enter <= leave * (1.0 + 1e-12) else np.inf
-
-
-@njit
-def _in_leaf(
-    trees: Trees, first: int, end: int, ray: Ray, nearest: float, hit: int
-) -> tuple[float, int]:
-    for k in range(first, end):
-        at = meets_triangle(trees.triangles[k], trees.surfaces[k, 1], ray)
-        if at < nearest:
-            nearest, hit = at, k
-    return nearest, hit
 
 
 @njit

@@ -1,4 +1,4 @@
-"""Eight rays from one point at once, compiled: they go down a tree together.
+"""Some rays from one point at once, compiled: they go down a tree together, or one alone.
 
 Whether any of them can enter a box is asked by the bounds of their directions, as in `entry`. A
 triangle is tried for all of them with what they have in common, the origin (A. Kensler, P. Shirley,
@@ -12,10 +12,10 @@ import numpy as np
 
 from ..geometry import Array
 from ..numerics.jit import njit
-from .triangle import TOUCH, Trees, Whole, inverse, placed
+from .triangle import TOUCH, Point, Trees, Whole, inverse, placed
 
-GROUP = 8
-"""Rays that go together."""
+GROUP = 16
+"""Rays that go together at most."""
 DX, DY, DZ, BEGIN, NEAR, HIT = (GROUP * k for k in range(6))
 """Where the directions, the limits and the triangles of the rays are in an array of lanes."""
 LANES = 6 * GROUP
@@ -23,46 +23,67 @@ LANES = 6 * GROUP
 
 @njit
 def fill_lanes(
-    lanes: Array, frame: Array, directions: Array, first: int, limits: tuple[Array, Array]
-) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Take the next rays; return the bounds of one over their directions, lower and upper.
+    lanes: Array,
+    frame: Array,
+    directions: Array,
+    rays: tuple[int, int],
+    limits: tuple[Array, Array],
+) -> tuple[Point, Point]:
+    """Take some rays; return the bounds of one over their directions, lower and upper.
 
     Args:
         lanes: set to directions and limits, without a triangle.
         frame: ``body_from_world``, (4, 4).
         directions: of all rays in W, (n, 3).
-        first: of the rays to take; the last ray fills the lanes that remain.
+        rays: the first one and beyond the last, `GROUP` at most.
         limits: from where on and before where each ray hits, (n,) each [m].
     """
     begins, nearest = limits
-    low = high = (0.0, 0.0, 0.0)
-    for k in range(GROUP):
-        i = min(first + k, len(directions) - 1)
+    first, end = rays
+    x0 = y0 = z0 = np.inf
+    x1 = y1 = z1 = -np.inf
+    for k in range(end - first):
+        i = first + k
         dx, dy, dz = placed(frame, directions[i, 0], directions[i, 1], directions[i, 2], 0.0)
         lanes[DX + k], lanes[DY + k], lanes[DZ + k] = dx, dy, dz
         lanes[BEGIN + k], lanes[NEAR + k], lanes[HIT + k] = begins[i], nearest[i], -1.0
-        x, y, z = inverse(dx), inverse(dy), inverse(dz)
-        if k == 0:
-            low = high = (x, y, z)
-        low = (min(low[0], x), min(low[1], y), min(low[2], z))
-        high = (max(high[0], x), max(high[1], y), max(high[2], z))
-    return low, high
+        x0, y0, z0 = min(x0, dx), min(y0, dy), min(z0, dz)
+        x1, y1, z1 = max(x1, dx), max(y1, dy), max(z1, dz)
+    x, y, z = _inverses(x0, x1), _inverses(y0, y1), _inverses(z0, z1)
+    return (x[0], y[0], z[0]), (x[1], y[1], z[1])
+
+
+@njit
+def _inverses(low: float, high: float) -> tuple[float, float]:
+    """Bounds of one over components between bounds; of both signs where these are."""
+    of_low, of_high = inverse(low), inverse(high)
+    return (of_low, of_high) if of_low < of_high else (of_high, of_low)
 
 
 @njit
 def find_nearest(
     trees: Trees,
     root: int,
-    origin: tuple[float, float, float],
-    low: tuple[float, float, float],
-    high: tuple[float, float, float],
+    beam: tuple[Point, Point, Point],
     lanes: Array,
+    n: int,
     stack: Whole,
     entries: Array,
 ) -> None:
-    """Set the nearest triangle of a body on each ray."""
+    """Set the nearest triangle of a body on each ray.
+
+    Args:
+        trees: of the bodies.
+        root: of this body.
+        beam: origin of the rays; bounds of one over their directions, lower and upper.
+        lanes: of the rays.
+        n: how many they are.
+        stack: for nodes that wait.
+        entries: for where rays enter those.
+    """
+    origin, low, high = beam
     n_waiting, node = 0, root
-    reach = _farthest(lanes)
+    reach = _farthest(lanes, n)
     while True:
         box = trees.boxes[node]
         first_at = _enters(box, 0, origin, low, high, reach)
@@ -75,15 +96,15 @@ def find_nearest(
         if first_at < reach:
             where, count = trees.links[node, near], trees.links[node, near + 1]
             if count:
-                _try_leaf(trees, where, where + count, origin, lanes)
-                reach = _farthest(lanes)
+                _try_leaf(trees, where, where + count, origin, lanes, n)
+                reach = _farthest(lanes, n)
             else:
                 node_after = where
         if second_at < reach:
             where, count = trees.links[node, far], trees.links[node, far + 1]
             if count:
-                _try_leaf(trees, where, where + count, origin, lanes)
-                reach = _farthest(lanes)
+                _try_leaf(trees, where, where + count, origin, lanes, n)
+                reach = _farthest(lanes, n)
             elif node_after < 0:
                 node_after = where
             else:
@@ -101,10 +122,10 @@ def find_nearest(
 
 
 @njit
-def _farthest(lanes: Array) -> float:
+def _farthest(lanes: Array, n: int) -> float:
     """How far a triangle can be and yet be the nearest of one of the rays [m]."""
     farthest: float = lanes[NEAR]
-    for k in range(1, GROUP):
+    for k in range(1, n):
         farthest = max(farthest, lanes[NEAR + k])
     return farthest
 
@@ -113,9 +134,9 @@ def _farthest(lanes: Array) -> float:
 def _enters(
     box: Array,
     first: int,
-    origin: tuple[float, float, float],
-    low: tuple[float, float, float],
-    high: tuple[float, float, float],
+    origin: Point,
+    low: Point,
+    high: Point,
     reach: float,
 ) -> float:
     """Before where no ray enters a box; infinite where none enters it before ``reach`` [m]."""
@@ -132,9 +153,7 @@ def _enters(
 
 
 @njit
-def _try_leaf(
-    trees: Trees, first: int, end: int, origin: tuple[float, float, float], lanes: Array
-) -> None:
+def _try_leaf(trees: Trees, first: int, end: int, origin: Point, lanes: Array, n: int) -> None:
     """Try the triangles of a leaf for all rays."""
     for triangle in range(first, end):
         t = trees.triangles[triangle]
@@ -145,7 +164,7 @@ def _try_leaf(
         along = t[6] * vx + t[7] * vy + t[8] * vz
         least = -np.inf if trees.surfaces[triangle, 1] else 0.0
         number = float(triangle)
-        for k in range(GROUP):
+        for k in range(n):
             dx, dy, dz = lanes[DX + k], lanes[DY + k], lanes[DZ + k]
             determinant = dx * nx + dy * ny + dz * nz
             inverse_of = 1.0 / (determinant if determinant != 0.0 else np.nan)

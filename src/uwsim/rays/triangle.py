@@ -16,8 +16,9 @@ from ..geometry import Array
 from ..numerics.jit import njit
 
 Whole = npt.NDArray[np.int32]
-Ray = tuple[float, float, float, float, float, float, float, float, float, float]
-"""Origin, direction, one over the components of the direction, and where it begins to hit [m]."""
+Point = tuple[float, float, float]
+Ray = tuple[float, float, float, float]
+"""Direction, and where it begins to hit [m]."""
 TOUCH = 1e-9
 """How far outside of a triangle a ray still hits it, as a share of its sides."""
 TINY = 1e-300
@@ -42,7 +43,7 @@ class Trees(NamedTuple):
 
 
 @njit
-def placed(f: Array, x: float, y: float, z: float, w: float) -> tuple[float, float, float]:
+def placed(f: Array, x: float, y: float, z: float, w: float) -> Point:
     """A point (w = 1) or a direction (w = 0) in another frame, by the matrix f (4, 4)."""
     return (
         f[0, 0] * x + f[0, 1] * y + f[0, 2] * z + f[0, 3] * w,
@@ -58,15 +59,15 @@ def inverse(component: float) -> float:
 
 
 @njit
-def meets_triangle(t: Array, is_two_sided: int, ray: Ray) -> float:
-    """Where a ray meets a triangle; infinite where it does not, or from behind [m]."""
-    dx, dy, dz = ray[3], ray[4], ray[5]
+def meets_triangle(t: Array, origin: Point, ray: Ray) -> float:
+    """Where a ray meets a triangle that is not seen from behind; infinite where it does not [m]."""
+    dx, dy, dz, begin = ray
     px, py, pz = dy * t[8] - dz * t[7], dz * t[6] - dx * t[8], dx * t[7] - dy * t[6]
     determinant = t[3] * px + t[4] * py + t[5] * pz
-    if determinant == 0.0 or (determinant < 0.0 and not is_two_sided):
+    if determinant == 0.0:
         return np.inf
     inverse = 1.0 / determinant
-    sx, sy, sz = ray[0] - t[0], ray[1] - t[1], ray[2] - t[2]
+    sx, sy, sz = origin[0] - t[0], origin[1] - t[1], origin[2] - t[2]
     u = (sx * px + sy * py + sz * pz) * inverse
     if u < -TOUCH or u > 1.0 + TOUCH:
         return np.inf
@@ -75,4 +76,4 @@ def meets_triangle(t: Array, is_two_sided: int, ray: Ray) -> float:
     if v < -TOUCH or u + v > 1.0 + TOUCH:
         return np.inf
     at = (t[6] * qx + t[7] * qy + t[8] * qz) * inverse
-    return at if at > ray[9] else np.inf
+    return at if at > begin else np.inf

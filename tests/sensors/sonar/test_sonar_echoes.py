@@ -199,3 +199,15 @@ def test_echoes_by_way_of_the_surface_come_only_if_wanted_and_later() -> None:
     ranges = listen(world, pose, **fields).ranges[added]
     assert ranges[0] == pytest.approx(math.hypot(10.0, 4.0) - 0.3, abs=0.06)
     assert ((both - direct).sum() < 0.5 * direct.sum()).all()
+
+
+def test_nothing_comes_by_way_of_the_surface_through_a_roof() -> None:
+    """Rays that end at the roof never get to the water's surface above it."""
+    roof = box((0.5, -50.0, 1.0), (8.0, 50.0, 1.2))
+    world = AcousticWorld(roof, surface_height=2.0, materials=[CHALK])
+    pose = at_height(0.0, np.eye(3))
+    fields = {"vertical_aperture": 70.0, "rows": 256, "half_width": 3.0}
+    direct = listen(world, pose, **fields).power(pose)
+    both = listen(world, pose, multipath=True, **fields).power(pose)
+    assert direct.sum() > 0.0
+    np.testing.assert_array_equal(both, direct)

@@ -25,7 +25,7 @@ from ...geometry import Array, Pose
 from ...numerics.elementwise import log
 from ...numerics.linear import product, turned_back
 from ...world import SensorWorld
-from .kernel import Singles, add_echoes, received
+from .kernel import BLOCK, Singles, add_echoes, received
 from .spec import SonarSpec
 
 MARGIN = 1.25
@@ -107,15 +107,17 @@ class Echoes:
     def power(self, world_from_sonar: Pose) -> Singles:
         """Mean power of the echoes of each bin and ray azimuth, (bins, m) [Pa2]."""
         spec, rays = self._spec, self._world.rays
-        power = np.zeros((spec.bins, len(self._ray_azimuths)), dtype=np.float32)
+        power = np.zeros((spec.bins, len(self._ray_azimuths)), dtype=np.float32, order="F")
         up = turned_back(world_from_sonar.rotation, np.array([0.0, 0.0, 1.0]))
         above = self._world.surface_height - world_from_sonar.position[2]
         rise = product(self.directions, up)
-        to_surface = np.where(rise > 1e-9, above / np.maximum(rise, 1e-9), np.inf)
         hits = rays.cast(world_from_sonar, self.directions, spec.range)
         normal = product(hits.normal, world_from_sonar.rotation)
-        wet = to_surface < np.minimum(hits.distance, spec.range)
-        if above > 0.0 and wet.any():
+        to_surface = np.full(len(rise), np.inf)  # of the rays that reach it
+        if 0.0 < above < spec.range * float(rise.max()):
+            to_surface = np.where(rise > 1e-9, above / np.maximum(rise, 1e-9), np.inf)
+            wet = to_surface < np.minimum(hits.distance, spec.range)
+            to_surface[~wet] = np.inf
             hits.distance[wet], normal[wet] = to_surface[wet], -up
             hits.surface[wet] = len(rays.materials)
         level = 10.0 ** (0.1 * (spec.source_level + MICROPASCAL))
@@ -124,7 +126,7 @@ class Echoes:
         bins = spec.min_range, self.bin_size, loss
         found = hits.distance, normal, hits.surface
         add_echoes(power, found, self.directions, level * self._rows, materials, bins)
-        if spec.multipath and above > 0.0 and wet.any():
+        if spec.multipath and np.isfinite(to_surface).any():
             self._add_multipath(power, world_from_sonar, to_surface, level, materials, bins)
         return power
 
@@ -156,10 +158,12 @@ class Echoes:
 
 
 def _directions(azimuths: Array, elevations: Array) -> Array:
-    """Unit vectors: x ahead, y to port, z up, all elevations of an azimuth in turn, (n k, 3)."""
-    azimuth, elevation = np.meshgrid(azimuths, elevations, indexing="ij")
+    """Unit vectors: x ahead, y to port, z up, in the order of `add_echoes`, (n k, 3)."""
+    azimuth, elevation = np.meshgrid(azimuths, elevations)
     x, y = np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth)
-    return np.ascontiguousarray(np.stack([x, y, np.sin(elevation)], axis=2).reshape(-1, 3))
+    rows = np.stack([x, y, np.sin(elevation)], axis=2)
+    blocks = [rows[:, k : k + BLOCK].reshape(-1, 3) for k in range(0, len(azimuths), BLOCK)]
+    return np.concatenate(blocks)
 
 
 def _gaussian(angle: float, width: float) -> float:

@@ -12,6 +12,8 @@ from ...numerics.jit import njit
 Array = npt.NDArray[np.float64]
 Singles = npt.NDArray[np.float32]
 Whole = npt.NDArray[np.int32]
+BLOCK = 8
+"""Azimuths whose rays are side by side: rays that are neighbours go together (`uwsim.rays`)."""
 GRAZING = 0.02
 """Least cosine of an angle of incidence that counts: 88.9 degrees."""
 
@@ -36,9 +38,10 @@ def add_echoes(
     above, where these are on the same surface; elsewhere no more than a bin.
 
     Args:
-        power: of each bin and azimuth, (bins, n), added to [Pa2].
-        hits: distance (n k,), normal in the sonar's frame (n k, 3), surface (n k,); of k rows of
-            each azimuth one after the other.
+        power: of each bin and azimuth, (bins, n), an azimuth's bins one after the other; added to
+            [Pa2].
+        hits: distance (n k,), normal in the sonar's frame (n k, 3), surface (n k,); `BLOCK`
+            azimuths side by side, k rows of them one above the other, then the next azimuths.
         directions: in the sonar's frame, (n k, 3).
         rows: weights of the rows, (k,) [Pa2 m2].
         materials: of each surface glint, sharpness of the glint and diffuse part, (m, 3).
@@ -46,23 +49,30 @@ def add_echoes(
     """
     distance, normal, surface = hits
     first, size, loss = bins
-    n_rows = len(rows)
-    for i in range(power.shape[1]):
-        for row in range(n_rows):
-            k = i * n_rows + row
-            r = distance[k]
-            if r == np.inf:
-                continue
-            cosine = max(_facing(normal, directions, k, k), GRAZING)
-            below = _half_way(hits, directions, k, k - 1 if row > 0 else -1, size, cosine)
-            above = _half_way(hits, directions, k, k + 1 if row + 1 < n_rows else -1, size, cosine)
-            square = cosine * cosine
-            glint, sharpness, diffuse = materials[surface[k]]
-            sigma = glint * math.exp(-sharpness * (1.0 / square - 1.0)) / (square * square)
-            sigma += diffuse * square
-            echo = rows[row] * sigma * math.exp(-loss * r) / (r * r * cosine)
-            near, far = (min(below, above) - first) / size, (max(below, above) - first) / size
-            _spread(power, i, echo, near, far)
+    n_rows, n_azimuths = len(rows), power.shape[1]
+    for k in range(len(distance)):
+        r = distance[k]
+        if r == np.inf:
+            continue
+        block = k // (BLOCK * n_rows) * BLOCK
+        width = min(BLOCK, n_azimuths - block)
+        row, beside = divmod(k - block * n_rows, width)
+        cosine = max(_facing(normal, directions, k, k), GRAZING)
+        below = above = r
+        if row > 0:
+            facing = _facing(normal, directions, k, k - width)
+            below += _half_way(r * cosine, facing, r, _gap(distance, surface, k, k - width), size)
+        if row + 1 < n_rows:
+            facing = _facing(normal, directions, k, k + width)
+            above += _half_way(r * cosine, facing, r, _gap(distance, surface, k, k + width), size)
+        square = cosine * cosine
+        material = surface[k]
+        glint = math.exp(-materials[material, 1] * (1.0 / square - 1.0))
+        sigma = materials[material, 0] * glint / (square * square)
+        sigma += materials[material, 2] * square
+        echo = rows[row] * sigma * math.exp(-loss * r) / (r * r * cosine)
+        near, far = (min(below, above) - first) / size, (max(below, above) - first) / size
+        _spread(power[:, block + beside], echo, near, far)
 
 
 @njit
@@ -77,44 +87,49 @@ def _facing(normal: Array, directions: Array, k: int, ray: int) -> float:
 
 
 @njit
-def _half_way(
-    hits: tuple[Array, Array, Whole],
-    directions: Array,
-    k: int,
-    other: int,
-    size: float,
-    cosine: float,
-) -> float:
-    """Range at which what belongs to a ray ends, towards another; -1: there is none [m]."""
-    distance, normal, surface = hits
-    r: float = distance[k]
-    if other < 0:
-        return r
-    facing = _facing(normal, directions, k, other)
-    if facing <= GRAZING:
-        return r
-    expected: float = r * cosine / facing - r  # if the other were on the same plane
-    if surface[other] == surface[k]:
-        gap: float = distance[other] - r
-        if abs(gap - expected) <= max(size, 0.5 * abs(expected)):
-            return r + 0.5 * gap
-    return r + min(max(0.5 * expected, -size), size)
+def _gap(distance: Array, surface: Whole, k: int, other: int) -> float:
+    """How much farther another hit is than hit k; infinite on another surface [m]."""
+    gap: float = distance[other] - distance[k]
+    return gap if surface[other] == surface[k] else np.inf
 
 
 @njit
-def _spread(power: Singles, i: int, echo: float, near: float, far: float) -> None:
-    """Share the power of an echo between the bins it covers, by how much of each."""
-    n_bins = power.shape[0]
+def _half_way(height: float, facing: float, r: float, gap: float, size: float) -> float:
+    """How much farther than the hit of a ray ends what belongs to it, towards another ray [m].
+
+    Args:
+        height: of the sonar over the plane of the hit [m].
+        facing: cosine of the angle between the normal of that plane and the other ray.
+        r: distance of the hit [m].
+        gap: how much farther the other hit is; infinite on another surface [m].
+        size: of a bin [m].
+    """
+    if facing <= GRAZING:
+        return 0.0
+    expected = height / facing - r  # if the other were on the same plane
+    if abs(gap - expected) <= max(size, 0.5 * abs(expected)):
+        return 0.5 * gap
+    return min(max(0.5 * expected, -size), size)
+
+
+@njit
+def _spread(power: Singles, echo: float, near: float, far: float) -> None:
+    """Share the power of an echo between the bins (n,) it covers, by how much of each."""
+    n_bins = len(power)
     if far <= 0.0 or near >= n_bins:
         return
     begin, end = math.floor(near), math.floor(far)
     if begin == end:
-        power[begin, i] += np.float32(echo)
+        power[begin] += np.float32(echo)
         return
     density = echo / (far - near)
-    for bin in range(max(begin, 0), min(end, n_bins - 1) + 1):
-        covered = min(far, bin + 1.0) - max(near, float(bin))
-        power[bin, i] += np.float32(density * covered)
+    if begin >= 0:
+        power[begin] += np.float32(density * (begin + 1.0 - near))
+    whole = np.float32(density)
+    for bin in range(max(begin + 1, 0), min(end, n_bins)):
+        power[bin] += whole
+    if end < n_bins:
+        power[end] += np.float32(density * (far - end))
 
 
 @njit
@@ -128,7 +143,7 @@ def received(
     """Amplitudes of the beams, (bins, beams) [Pa].
 
     Args:
-        power: of each bin and ray azimuth, (bins, m) [Pa2].
+        power: of each bin and ray azimuth, (bins, m), an azimuth's bins one after the other [Pa2].
         patterns: of the beams over neighbouring rays, (s, t): there are s beams from ray to ray,
             and beam ``s q + p`` hears the rays q to q + t - 1 by the pattern p.
         noise: mean power of what is received without any echo [Pa2].
@@ -139,8 +154,13 @@ def received(
     n_phases, n_taps = patterns.shape
     amplitude = np.empty((n_bins, n_beams), dtype=np.float32)
     heard = np.empty(n_beams, dtype=np.float32)
+    some = np.empty((BLOCK, power.shape[1]), dtype=np.float32)
     floor = np.float32(noise)
     for bin in range(n_bins):
+        if bin % BLOCK == 0:
+            for k in range(power.shape[1]):
+                for place in range(min(BLOCK, n_bins - bin)):
+                    some[place, k] = power[bin + place, k]
         for phase in range(n_phases):
             n = (n_beams - phase + n_phases - 1) // n_phases
             for k in range(n):
@@ -148,7 +168,7 @@ def received(
             for tap in range(n_taps):
                 weight = patterns[phase, tap]
                 for k in range(n):
-                    heard[k] += weight * power[bin, k + tap]
+                    heard[k] += weight * some[bin % BLOCK, k + tap]
             for k in range(n):
                 heard[k] = math.sqrt(heard[k])
             for k in range(n):
