@@ -42,6 +42,7 @@ COMPATIBILITY: dict[str, str] = {
     "time-log": "a time is 0 as long as it runs, in its log and in what is published",
     "unseen": "what is outside an image, or behind the camera, is projected all the same",
     "visual-frames": "cameras and sonars are on the visual frame of their link (before July 2014)",
+    "whole-rates": "a rate is a whole number: 33.3 is 33",
     "y0": "camera parameters x0, y0 count from the left and bottom edge, published as they are",
 }
 """Name -> what the original does. In alphabetical order."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..messages import JointState, header
 from ..vehicle import Vehicle
-from .interface import Interface, TopicWorld, VehiclePublisherSpec
+from .interface import Interface, TopicWorld, VehiclePublisherSpec, sample_rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +26,7 @@ class ArmToROSJointStateSpec(VehiclePublisherSpec):
     def bind(self, world: TopicWorld) -> JointPublisher:
         """Publish from now on; raises UnknownName if there is no such vehicle."""
         publisher = JointPublisher(self.topic, world.vehicle(self.vehicle_name), world)
-        world.every(self.rate, publisher.publish)
+        world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

@@ -9,7 +9,7 @@ from ..devices.comms.comms_device import CommsDevice
 from ..errors import UnknownName
 from ..messages import Pose, TFMessage
 from .frames import TF, transform
-from .interface import Interface, TopicWorld
+from .interface import Interface, TopicWorld, sample_rate
 from .sensor_topic import SensorTopicSpec
 
 
@@ -23,7 +23,7 @@ class CommsDeviceROSSpec(SensorTopicSpec):
         if not isinstance(device, CommsDevice):
             raise UnknownName("communication device", self.name, ())
         publisher = CommsDevicePublisher(self.topic, device, world)
-        world.every(self.rate, publisher.publish)
+        world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

@@ -8,8 +8,7 @@ from typing import ClassVar
 
 from ..errors import UnknownName
 from ..messages import Bool
-from ..schema import element
-from .interface import Interface, InterfaceSpec, TopicWorld
+from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,7 +22,7 @@ class ContactSensorToROSSpec(InterfaceSpec):
     """Name of the vehicle or object."""
     topic: str
     """Name of the topic."""
-    rate: int = element(default=10, minimum=1)
+    rate: float = rate_element()
     """How often [Hz]."""
 
     def bind(self, world: TopicWorld) -> ContactPublisher:
@@ -31,7 +30,7 @@ class ContactSensorToROSSpec(InterfaceSpec):
         if not world.is_touchable(self.name):
             raise UnknownName("vehicle or object with a shape", self.name, ())
         publisher = ContactPublisher(self.name, self.topic, world)
-        world.every(self.rate, publisher.publish)
+        world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

@@ -14,8 +14,7 @@ import numpy as np
 from ..errors import UnknownName
 from ..geometry import Array, Intrinsics
 from ..messages import CameraInfo, Image, PointCloud2, depth_image, point_cloud
-from ..schema import element
-from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
+from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 
 CAMERAS = ("virtualRangeImage", "virtualCamera")
 """Elements whose depth may be published."""
@@ -53,7 +52,7 @@ class RangeImageSensorToROSImageSpec(InterfaceSpec):
     """Topic of the images."""
     info_topic: str
     """Topic of the camera's description."""
-    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
+    rate: float = rate_element()
     """How often [Hz]."""
 
     def bind(self, world: TopicWorld) -> DepthImagePublisher:
@@ -94,14 +93,14 @@ class RangeCameraToPCLSpec(InterfaceSpec):
     """Name of the depth camera."""
     topic: str
     """Name of the topic."""
-    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
+    rate: float = rate_element()
     """How often [Hz]."""
 
     def bind(self, world: TopicWorld) -> PointCloudPublisher:
         """Publish from now on; raises UnknownName if there is no such camera."""
         camera = _find(world, self.camera_name)
         publisher = PointCloudPublisher(camera, self.camera_name, self.topic, world)
-        world.every(self.rate, publisher.publish)
+        world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 
@@ -140,7 +139,7 @@ def publish_depth(
         UnknownName: there is no such camera.
     """
     publisher = DepthImagePublisher(camera, *topics, world)
-    world.every(rate, publisher.publish)
+    world.every(sample_rate(rate, world), publisher.publish)
     return publisher
 
 

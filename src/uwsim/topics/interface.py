@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
-from ..schema import Spec, element
+from ..schema import Original, Spec, element
 from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..vehicle import Vehicle
@@ -16,6 +17,8 @@ from .frames import Frame
 M = TypeVar("M")
 MAX_RATE = 10_000
 """Nothing is published more often [Hz]."""
+MIN_RATE = 0.001
+"""Nor less often [Hz]."""
 
 
 class TopicWorld(World, Protocol):
@@ -51,6 +54,17 @@ class TopicWorld(World, Protocol):
 
     def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
         """Have ``obey(message)`` called at the start of the next step; a method of an interface."""
+
+
+def rate_element() -> Any:
+    """Declare the field of a rate."""
+    lenient = Original(lenient=True)
+    return element(default=10.0, minimum=MIN_RATE, maximum=MAX_RATE, original=lenient)
+
+
+def sample_rate(rate: float, world: World) -> float:
+    """Return the rate at which samples are taken [Hz]."""
+    return max(1.0, math.floor(rate)) if "whole-rates" in world.compatibility else rate
 
 
 class Interface:
@@ -106,5 +120,5 @@ class VehicleTopicSpec(InterfaceSpec):
 class VehiclePublisherSpec(VehicleTopicSpec):
     """An interface that publishes a quantity of a vehicle."""
 
-    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
+    rate: float = rate_element()
     """How often [Hz]."""

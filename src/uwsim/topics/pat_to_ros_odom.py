@@ -25,7 +25,7 @@ from ..messages import (
     header,
 )
 from ..vehicle import Vehicle
-from .interface import Interface, TopicWorld, VehiclePublisherSpec
+from .interface import Interface, TopicWorld, VehiclePublisherSpec, sample_rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +37,7 @@ class PATToROSOdomSpec(VehiclePublisherSpec):
     def bind(self, world: TopicWorld) -> OdometryPublisher:
         """Publish from now on; raises UnknownName if there is no such vehicle."""
         publisher = OdometryPublisher(self.topic, world.vehicle(self.vehicle_name), world)
-        world.every(self.rate, publisher.publish)
+        world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..devices import DEVICES
-from ..schema import element
 from ..schema.names import local
 from ..sensors import SENSORS
 from ..sensors.sensor import Sensor, measured_by
-from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
+from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +25,7 @@ class SensorTopicSpec(InterfaceSpec):
     """Name of the sensor or device."""
     topic: str
     """Name of the topic."""
-    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
+    rate: float = rate_element()
     """How often [Hz]."""
 
     @classmethod
@@ -46,7 +45,7 @@ class SensorTopicSpec(InterfaceSpec):
         sensor = world.sensor(self.name, self.sources)
         publish = world.sensor_publisher(self.name, self.topic, self.carries()["topic"])
         publisher = SensorPublisher(sensor, publish, lambda: world.time)
-        world.every(self.rate, publisher.publish)
+        world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar, Protocol, cast
 
 from ..messages import Image, ProjectedSonarImage
-from ..schema import element
 from ..sensors.sensor import Sensor
-from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
+from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,14 +24,14 @@ class SonarToROSSpec(InterfaceSpec):
     """Topic of the echoes."""
     image_topic: str
     """Topic of the images: a fan seen from above, or the waterfall of a side-scan."""
-    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
+    rate: float = rate_element()
     """How often it pings [Hz]."""
 
     def bind(self, world: TopicWorld) -> SonarPublisher:
         """Ping from now on; raises UnknownName if the sonar is not there."""
         sonar = cast("Sonar", world.sensor(self.name, self.sources))
         publisher = SonarPublisher(self, sonar, world)
-        world.every(self.rate, publisher.publish)
+        world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

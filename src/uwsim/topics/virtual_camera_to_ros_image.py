@@ -12,10 +12,9 @@ import numpy.typing as npt
 
 from ..messages import CameraInfo, Image, image, pixels_of
 from ..sampling import SampleTimer
-from ..schema import element
 from ..sensors.virtual_camera import VirtualCamera
 from .depth_images import DepthImagePublisher, publish_depth
-from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
+from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +30,7 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
     """Topic of the images."""
     info_topic: str
     """Topic of the camera's description."""
-    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
+    rate: float = rate_element()
     """How often [Hz]."""
     depth: bool = False
     """Whether depth is published instead of colour (range cameras only)."""
@@ -74,7 +73,7 @@ class ImagePublisher(Interface):
         self._publish_image = world.sensor_publisher(spec.camera_name, spec.image_topic, Image)
         self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
         self._digest = hashlib.sha256()
-        self.timer = SampleTimer(0, float(spec.rate), world.timestep, self.publish)
+        self.timer = SampleTimer(0, sample_rate(spec.rate, world), world.timestep, self.publish)
         """Publishes at the steps at which a sample is due."""
 
     @property

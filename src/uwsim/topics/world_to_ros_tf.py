@@ -22,9 +22,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..messages import TFMessage
-from ..schema import element
 from .frames import TF, Frame, transform
-from .interface import MAX_RATE, Interface, InterfaceSpec, TopicWorld
+from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,14 +37,14 @@ class WorldToROSTFSpec(InterfaceSpec):
     """Name of the frame of the file."""
     enable_objects: bool = False
     """Whether objects are published too."""
-    rate: int = element(default=10, minimum=1, maximum=MAX_RATE)
+    rate: float = rate_element()
     """How often [Hz]."""
 
     def bind(self, world: TopicWorld) -> FramePublisher:
         """Publish from now on."""
         frames = world.frames(with_objects=self.enable_objects)
         publisher = FramePublisher(self, frames, world)
-        world.every(self.rate, publisher.publish)
+        world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 
