@@ -10,6 +10,7 @@ import pytest
 
 from uwsim import errors, terminal
 from uwsim.cli import COMMANDS, app, exit_status, main
+from uwsim.numerics import compiling
 
 
 def uwsim(*arguments: str) -> subprocess.CompletedProcess[str]:
@@ -251,3 +252,20 @@ def test_a_reader_that_closes_the_pipe_early_causes_no_error() -> None:
         check=False,
     )
     assert (done.stdout, done.stderr) == ("scenes\n", "")
+
+
+@pytest.mark.parametrize("is_terminal", [True, False])
+def test_a_terminal_is_told_of_a_start_that_compiles(
+    is_terminal: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Once, when several functions are not on the disk."""
+
+    def start() -> None:
+        for _ in range(2 * compiling.MANY):
+            compiling.one_is_compiled()
+
+    monkeypatch.setattr(compiling, "_n_compiled", 0)
+    monkeypatch.setattr(app.Command, "load", lambda self: start)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: is_terminal)
+    assert main(["bench"]) == 0
+    assert capsys.readouterr().err == (f"{app.COMPILING}\n" if is_terminal else "")

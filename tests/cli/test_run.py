@@ -17,6 +17,7 @@ from rosbags.highlevel import AnyReader
 from uwsim.cli import main
 from uwsim.cli.run import duration_of
 from uwsim.errors import BadSetting
+from uwsim.simulation import Simulation
 
 PAGE = (Path(__file__).parents[2] / "docs" / "running-a-scene.md").read_text()
 SCENE = """<UWSimScene>
@@ -202,3 +203,22 @@ def test_ctrl_c_keeps_what_is_recorded(scene: Path) -> None:
     with AnyReader([record]) as reader:
         assert reader.message_count > 0
     assert not list(scene.parent.glob(".run-*"))
+
+
+def test_a_run_that_is_stopped_before_its_first_step_says_so(
+    scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def advance(self: Simulation, seconds: float | None = None) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Simulation, "advance", advance)
+    assert main(["run", str(scene), "--hz"]) == 130
+    said = capsys.readouterr().out
+    assert said == "scene.xml: stopped before the first step; nothing came on any topic\n"
+
+
+def test_a_run_of_no_time_still_lists_its_topics(
+    scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", str(scene), "--for", "0s"]) == 0
+    assert "/odom" in capsys.readouterr().out

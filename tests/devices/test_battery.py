@@ -77,6 +77,36 @@ def test_an_empty_battery_stays_empty() -> None:
         assert after(simulation, 0.5).percentage == 0.0
 
 
+@pytest.mark.parametrize("stops", [False, True])
+def test_an_empty_battery_stops_the_thrusters_if_it_is_to(stops: bool) -> None:
+    """Empty after 1 s, also in a simulation that goes on from a saved state."""
+    battery = replace(BATTERY, hotel_load=3600.0, charge=0.01, stops_thrusters=stops)
+    with vehicle(battery) as simulation:
+        ahead = Float64MultiArray(data=np.array([0.5, 0.5, 0.0, 0, 0]))
+        simulation.publish("/thrusters", ahead)
+        actuators = simulation.world.actuators(NAME)
+        assert actuators is not None
+        full = after(simulation, 0.5)
+        drawn = actuators.powers()[: len(actuators.thrusters)].sum()
+        assert full.power_supply_health == BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN
+        simulation.advance(1.0)
+        saved = simulation.save()
+        simulation.restore(saved)
+        simulation.publish("/thrusters", ahead)
+        empty = after(simulation, 0.5)
+        left = actuators.powers()[: len(actuators.thrusters)].sum()
+    assert empty.percentage == 0.0
+    assert empty.power_supply_health == BatteryState.POWER_SUPPLY_HEALTH_DEAD
+    assert drawn > 10.0
+    assert left == pytest.approx(0.0, abs=1e-9) if stops else left > 10.0
+
+
+def test_a_vehicle_without_dynamics_has_no_thrusters_to_stop() -> None:
+    battery = replace(BATTERY, hotel_load=3600.0, charge=0.0, stops_thrusters=True)
+    with vehicle(battery, dynamics=None) as simulation:
+        assert after(simulation, 0.1).percentage == 0.0
+
+
 def test_it_loses_the_energy_that_the_measure_counts() -> None:
     battery = replace(BATTERY, hotel_load=50.0)
     with vehicle(battery) as simulation:

@@ -14,6 +14,7 @@ import numba
 import numpy as np
 import pytest
 
+from uwsim.numerics import compiling
 from uwsim.numerics.jit import Signatures
 
 SOURCE = """
@@ -168,3 +169,21 @@ COMPILED = jit.c_function(thrice, types.float64(types.float64))
         "numba.core.ccallback._CFuncCompiler.compile", lambda *_, **__: pytest.fail("compiled")
     )
     assert call(fresh(cache).COMPILED.address)(2.0) == 6.0
+
+
+def test_one_is_told_when_many_functions_are_compiled_and_not_of_those_read(
+    cache: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compiling, "_n_compiled", 0)
+    told: list[int] = []
+    compiling.when_many_are_compiled(lambda: told.append(compiling._n_compiled))
+    module = fresh(cache)
+    module.twice(1.5), module.half(np.ones(2))
+    assert told == []
+    again = fresh(cache)
+    again.twice(1.5), again.half(np.ones(2))
+    assert compiling._n_compiled == 2
+    module.twice(1)  # of a whole number
+    assert told == [compiling.MANY]
+    module.twice(np.float32(1.0))
+    assert told == [compiling.MANY]

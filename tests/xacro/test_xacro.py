@@ -96,7 +96,19 @@ def test_what_it_expands_to(tmp_path: Path, body: str, expected: str | None) -> 
 @pytest.mark.parametrize(
     ("body", "message"),
     [
-        ("<xacro:mm/>", "no macro is called 'mm'"),
+        ("<xacro:mm/>", r"no macro is called 'mm'. Known: none"),
+        (
+            '<xacro:macro name="thruster"/><xacro:macro name="arm"/><xacro:trhuster/>',
+            "no macro is called 'trhuster'. Did you mean 'thruster'? Known: thruster, arm",
+        ),
+        (
+            '<xacro:macro name="thruster"/><xacro:macro name="arm"/><xacro:lamp/>',
+            "no macro is called 'lamp'. Known: thruster, arm",
+        ),
+        (
+            "".join(f'<xacro:macro name="part{i}"/>' for i in range(90)) + "<xacro:part7x/>",
+            "no macro is called 'part7x'. Did you mean 'part7'? Nearest of 90: part7",
+        ),
         (
             '<xacro:macro name="m" params="p"><b/></xacro:macro><xacro:m/>',
             "lacks its parameter 'p'",

@@ -15,6 +15,7 @@ from typing import Annotated
 import typer
 
 from .. import __version__
+from ..numerics.compiling import when_many_are_compiled
 from .exit_status import INTERRUPTED, exit_status, one_line
 from .options.completion import words_typed
 from .options.help_texts import HELP_NAMES, TaughtCommand
@@ -154,10 +155,14 @@ READER_LEFT = 1
 """Exit status when the reader of the output has closed it, as in ``uwsim list | head -1``."""
 
 
+COMPILING = "uwsim: compiling for this processor; this takes up to a minute, the first time only"
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``uwsim`` and return its exit status: 0 done, 2 wrong input, 3 the run failed."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     wanted = [argument for argument in given if argument != TRACEBACK] or ["--help"]
+    when_many_are_compiled(tell_of_compiling)
     try:
         result = build(wanted)(wanted, prog_name="uwsim", standalone_mode=False, obj=wanted)
         sys.stdout.flush()
@@ -173,6 +178,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if result == INTERRUPTED:
         return say(KeyboardInterrupt())
     return result if isinstance(result, int) else 0
+
+
+def tell_of_compiling() -> None:
+    """Say in a terminal why nothing is to be seen yet."""
+    if sys.stderr.isatty():
+        print(COMPILING, file=sys.stderr)
 
 
 def say(error: BaseException) -> int:

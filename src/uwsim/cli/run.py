@@ -30,7 +30,7 @@ from .render import scene_of
 
 if TYPE_CHECKING:
     from ..bus import Algorithm
-    from ..recording import ImageStorage, Recorder
+    from ..recording import ImageStorage, Recorder, TopicRates
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
 
@@ -201,7 +201,6 @@ def run_and_report(
         node = simulation.attach(wanted.program(), parameters=wanted.parameters, raises=False)
         for sentence in node.unconnected():
             warn(sentence)
-    show = print_json if output.as_json else print_topics
     with running(), ExitStack() as last, ExitStack() as stack:
         recorder = None
         if output.record is not None:
@@ -214,10 +213,29 @@ def run_and_report(
             lambda: simulation.time,
             reads=lambda type: output.hz or (recorder is not None and recorder.reads(type)),
         )
-        last.callback(lambda: show(spec.path, simulation, rates.rates(), output.record))
+        last.push(
+            lambda how, *_: report(simulation, spec, rates, output, is_stopped=how is not None)
+        )
         for _ in pieces(simulation, wanted.duration, Path(spec.path).stem):
             if node is not None and node.error is not None:
                 raise RunFailed(f"{node.name} {node.how}: {node.error}")
+
+
+def report(
+    simulation: Simulation,
+    spec: SceneSpec,
+    rates: TopicRates,
+    output: RecordOptions,
+    *,
+    is_stopped: bool,
+) -> None:
+    """Print what came; of a run that was stopped before its first step, that it was."""
+    if output.as_json:
+        print_json(spec.path, simulation, rates.rates(), output.record)
+    elif is_stopped and simulation.step == 0:
+        print(f"{Path(spec.path).name}: stopped before the first step; nothing came on any topic")
+    else:
+        print_topics(spec.path, simulation, rates.rates(), output.record)
 
 
 def pieces(simulation: Simulation, duration: float, title: str) -> Iterator[None]:

@@ -13,12 +13,14 @@ With the open-circuit voltage :math:`V_0` and the internal resistance R, a load 
 
 and the store loses :math:`V_0 I`. What the thrusters and joints draw is the law of the measure
 ``<u:energy>``, looked at 50 times a second. Not modelled: a voltage that falls with the charge,
-temperature, ageing, and what a vehicle does whose battery is empty: it goes on.
+temperature, ageing. With ``<stopsThrusters>`` an empty battery stops the thrusters; arms hold their
+place, as those with self-locking gears do. Without it the vehicle goes on.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -50,9 +52,15 @@ class BatterySpec(DeviceSpec):
     hotel_load: float = element(default=0.0, minimum=0.0, maximum=1e6)
     """What computers, sensors and lamps draw all the time [W]."""
 
+    stops_thrusters: bool = False
+    """Whether the thrusters of a simulated vehicle stop when it is empty."""
+
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Battery:
         """Find the consumers; of a vehicle that is not simulated there is the constant load."""
-        battery = Battery(self, stage, stage.actuators(vehicle.name))
+        actuators = stage.actuators(vehicle.name)
+        stopped = actuators.thrusters if actuators is not None and self.stops_thrusters else ()
+        cuts = tuple(vehicle.loss_setter(name) for name in stopped)
+        battery = Battery(self, stage, actuators, cuts)
         stage.every(RATE, battery.drain)
         return battery
 
@@ -62,8 +70,14 @@ class Battery(Device):
 
     STATE = ("_drawn", "_current", "_time")
 
-    def __init__(self, spec: BatterySpec, stage: Stage, actuators: Actuators | None) -> None:
-        self._spec, self._stage, self._actuators = spec, stage, actuators
+    def __init__(
+        self,
+        spec: BatterySpec,
+        stage: Stage,
+        actuators: Actuators | None,
+        cuts: tuple[Callable[[float], None], ...],
+    ) -> None:
+        self._spec, self._stage, self._actuators, self._cuts = spec, stage, actuators, cuts
         self._drawn = (1.0 - spec.charge) * self._full  # [A s]
         self._current, self._time = 0.0, stage.time
 
@@ -78,6 +92,9 @@ class Battery(Device):
         self._drawn += 0.5 * (self._current + current) * (now - self._time)
         self._drawn = min(self._drawn, self._full)
         self._current, self._time = current, now
+        if self._drawn >= self._full:
+            for cut in self._cuts:
+                cut(1.0)
 
     def _load(self) -> float:
         """Power that is drawn now [W]."""
@@ -94,6 +111,10 @@ class Battery(Device):
         """Read it now, at ``time`` [s]."""
         current = self._current_of(self._load())
         left = max(self._full - self._drawn, 0.0)
+        unknown, dead = (
+            BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN,
+            BatteryState.POWER_SUPPLY_HEALTH_DEAD,
+        )
         return BatteryState(
             header=header(time, self._spec.name),
             voltage=self._spec.voltage - self._spec.resistance * current,
@@ -104,5 +125,6 @@ class Battery(Device):
             design_capacity=self._full / 3600.0,
             percentage=left / self._full,
             power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
+            power_supply_health=unknown if left > 0.0 else dead,
             present=True,
         )

@@ -30,6 +30,7 @@ from numba.core.serialize import dumps
 
 from ..files import disk_cache
 from .compiled_source import source_digest
+from .compiling import one_is_compiled
 
 
 def _load_arrays() -> None:
@@ -118,6 +119,12 @@ class Signatures:
 
     def load(self, key: object) -> object | None:
         """Return the code compiled from this source for this key; None if there is none."""
+        compiled = self._stored(key)
+        if compiled is None:
+            one_is_compiled()
+        return compiled
+
+    def _stored(self, key: object) -> object | None:
         data = disk_cache.read(self._file(key))
         if data is None:
             return None
@@ -141,9 +148,17 @@ class Signatures:
         return self._folder / f"{self._base}.{called}.uwsim"
 
 
+class NoCache(NullCache):
+    """Of a function whose compiled code is kept nowhere."""
+
+    def load_overload(self, sig: object, target_context: object) -> None:
+        """Find nothing: it is compiled."""
+        one_is_compiled()
+
+
 def _cache(function: Callable[..., object]) -> Any:
     """A cache for a function, or none where there is no folder to keep it in."""
     try:
         return HashedCache(cast("FunctionType", function))
     except RuntimeError:
-        return NullCache()
+        return NoCache()

@@ -61,7 +61,7 @@ def _topics(*, simulated: bool) -> str:
         topics = ", ".join(f"`{each}`" for each in elements if each.lower().endswith("topic"))
         publishes = not spec.subscribes and (topics or spec.carries())
         if publishes and simulated is (limit_in("interfaces", name) == ""):
-            rate = f"{elements['rate'].default} Hz" if "rate" in elements else "-"
+            rate = f"{elements['rate'].default:g} Hz" if "rate" in elements else "-"
             rows.append((_linked(name), summary, topics or "-", rate))
     return _table(("element of `<rosInterfaces>`", "what it does", "topics", "default rate"), rows)
 

@@ -14,7 +14,7 @@ from typing import cast
 
 from lxml import etree
 
-from ..errors import FileError, did_you_mean
+from ..errors import FileError, choices
 from ..schema import MAX_NODES, Diagnostics
 from .expression import ExpressionError, written
 from .macro import Macro, parameters_of
@@ -197,8 +197,8 @@ class Expander:
     def _called(self, node: etree._Element, name: str, scope: Scope) -> Iterator[etree._Element]:
         macro = self._macros.get(name)
         if macro is None:
-            near = did_you_mean(name, self._macros)
-            raise ExpressionError(f"no macro is called {name[:60]!r}.{near}")
+            known = choices(name, self._macros)
+            raise ExpressionError(f"no macro is called {name[:60]!r}.{known}")
         inner = self._filled(node, macro, scope)
         line = self._line or (None if macro.file == str(self._path) else self._line_of(node))
         with self._nested(Path(macro.file), line):

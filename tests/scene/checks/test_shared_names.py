@@ -71,7 +71,7 @@ def test_one_interface_twice_on_a_topic(tmp_path: Path) -> None:
 def test_a_rate_that_nothing_has(tmp_path: Path) -> None:
     (message,) = said(tmp_path, rate=10**9)
     assert message == (
-        "error 8: <rate> is '1000000000'; expected a whole number >= 1 and <= 10000 [Hz]"
+        "error 8: <rate> is '1000000000'; expected a number >= 0.001 and <= 10000 [Hz]"
     )
 
 

@@ -1,0 +1,23 @@
+"""Word of functions that are compiled: the first start on a machine takes long, others do not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+MANY = 3
+"""So many functions make a start a slow one; a single one takes less than a second or two."""
+_listeners: list[Callable[[], None]] = []
+_n_compiled = 0
+
+
+def when_many_are_compiled(tell: Callable[[], None]) -> None:
+    """Have ``tell`` called once if this process compiles `MANY` functions."""
+    _listeners[:] = [tell]
+
+
+def one_is_compiled() -> None:
+    """Count a function that is not on the disk: what follows compiles it."""
+    global _n_compiled
+    _n_compiled += 1
+    if _n_compiled >= MANY and _listeners:
+        _listeners.pop()()
