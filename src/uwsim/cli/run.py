@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from ..recording import ImageStorage, Recorder, TopicRates
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
+    from ..viewer.scene_topics import SceneTopics
 
 UNITS = {"ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 DURATION = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*([a-z]*)\s*")
@@ -88,9 +89,14 @@ def run(
     ) as simulation:
         print_warnings(simulation.world.warnings)
         raise_from_now_on()
+        scene_topics = None
+        if connections.is_connected or output.record is not None:
+            from ..viewer.scene_topics import SceneTopics
+
+            scene_topics = SceneTopics(simulation, is_on_bus=connections.is_connected)
         pace = connections if not live.view else replace(connections, speed=0.0)
         with connected(simulation, pace), viewed(simulation, spec, wanted, live, connections):
-            run_and_report(simulation, spec, wanted, output)
+            run_and_report(simulation, spec, wanted, output, scene_topics)
 
 
 @contextmanager
@@ -191,7 +197,11 @@ def duration_of(text: str) -> float:
 
 
 def run_and_report(
-    simulation: Simulation, spec: SceneSpec, wanted: Wanted, output: RecordOptions
+    simulation: Simulation,
+    spec: SceneSpec,
+    wanted: Wanted,
+    output: RecordOptions,
+    scene_topics: SceneTopics | None = None,
 ) -> None:
     """Run, and print what came; also of a run that fails or is interrupted."""
     from ..recording import Recorder, TopicRates
@@ -207,6 +217,8 @@ def run_and_report(
             recorder = Recorder(simulation.bus, output.record, images=wanted.images)
             stack.enter_context(recorder)
             recorder.start(lambda: simulation.time)
+            if scene_topics is not None:
+                scene_topics.record(recorder)
             stack.callback(warn_of_left_out, recorder)
         rates = TopicRates(
             simulation.bus,

@@ -69,7 +69,7 @@ from .std_msgs import (
 )
 from .tf2_msgs import TFMessage
 from .underwater import DVL, LedLight, Pressure
-from .visualization_msgs import Marker, MeshFile
+from .visualization_msgs import Marker, MarkerArray, MeshFile
 
 __all__ = [
     "DVL",
@@ -93,6 +93,7 @@ __all__ = [
     "LaserScan",
     "LedLight",
     "Marker",
+    "MarkerArray",
     "MeshFile",
     "MultiArrayDimension",
     "MultiArrayLayout",

@@ -48,3 +48,10 @@ class Marker(ros.visualization_msgs__msg__Marker):
     mesh_resource: str = ""
     mesh_file: MeshFile = field(default_factory=MeshFile)
     mesh_use_embedded_materials: bool = False
+
+
+@dataclass
+class MarkerArray(ros.visualization_msgs__msg__MarkerArray):
+    """Several shapes."""
+
+    markers: list[ros.visualization_msgs__msg__Marker] = field(default_factory=list)

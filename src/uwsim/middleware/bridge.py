@@ -58,6 +58,8 @@ MAX_REQUESTS = 1000
 """Calls of services that may wait for the end of a step."""
 CALL_LIMIT = 60.0
 """How long a call of a service that is offered outside may take [s of wall time]."""
+LATCHED = ("tf_static", "robot_description", "scene")
+"""Topics whose newest message a late subscriber gets as well."""
 CLOSED = "The simulation has ended."
 
 
@@ -252,6 +254,13 @@ class Bridge(ABC):
         for name in sorted(self._from_outside):
             self.bus.withdraw(name)
         self._from_outside.clear()
+
+    def send_latched(self, topic: str) -> None:
+        """Send what was published on a latched topic before, and from now on whatever comes."""
+        before = self.bus.unread(topic)
+        if before is not None:
+            self.send(topic, before)
+        self.want(topic)
 
     def _follow(self) -> None:
         """Tell the transport what has changed on the bus."""

@@ -69,6 +69,7 @@ class Recorder:
 
     def start(self, clock: Callable[[], float]) -> None:
         """Subscribe to every topic; ``clock`` returns the simulation time [s]."""
+        self._clock = clock
 
         def appeared(topic: str, type: type) -> None:
             if not self.reads(type):
@@ -101,6 +102,13 @@ class Recorder:
             kind = packed
         self._file.write(topic, kind, time, message)
         self.n_messages += 1
+
+    def keep(self, topic: str, message: object) -> None:
+        """Record a message that is not on the bus; after `start`."""
+        own: type = type(message)
+        kind = wire_type(own)
+        if kind is not None and self._file.has(kind):
+            self._keep(topic, kind, round(self._clock() * NANOSECONDS), message)
 
     def close(self) -> None:
         """Stop, and finish the file."""

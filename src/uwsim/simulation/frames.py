@@ -34,17 +34,18 @@ def vehicle_frames(
     for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
         robot = robots[index]
         yield Frame("", spec.name, _in(localized_from_world, partial(state.poses.vehicle, index)))
-        yield Frame(spec.name, f"{spec.name}/{robot.root}", Pose.identity)
+        yield Frame(spec.name, f"{spec.name}/{robot.root}", Pose.identity, is_fixed=True)
         links = {link.name: partial(state.poses.link, index, link.name) for link in robot.links}
         for joint in robot.joints:
             parent, child = f"{spec.name}/{joint.parent}", f"{spec.name}/{joint.child}"
-            yield Frame(parent, child, _between(links[joint.parent], links[joint.child]))
+            between = _between(links[joint.parent], links[joint.child])
+            yield Frame(parent, child, between, is_fixed=not joint.moves)
         for sensor in _sensors(spec):
             if (link := links.get(sensor.relative_to)) is not None:
                 sensor_from_frame = Pose.from_rpy((0.0, 0.0, 0.0), sensor.frame_rpy)
                 frame = _on(vehicle.mount(sensor), sensor_from_frame)
                 parent = f"{spec.name}/{sensor.relative_to}"
-                yield Frame(parent, sensor.name, _between(link, frame))
+                yield Frame(parent, sensor.name, _between(link, frame), is_fixed=True)
 
 
 def _sensors(vehicle: VehicleSpec) -> Iterator[MountedSensor]:

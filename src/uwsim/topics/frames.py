@@ -22,6 +22,8 @@ class Frame:
     """Its name."""
     parent_from_child: Callable[[], Pose]
     """Returns where it is now."""
+    is_fixed: bool = False
+    """Whether it stays there."""
 
 
 def transform(parent: str, child: str, parent_from_child: Pose, time: float) -> TransformStamped:

@@ -14,19 +14,19 @@ from typing import Any
 
 import numpy as np
 
-from ..assets.mesh import Mesh
 from ..errors import BadSetting
 from ..geometry import Array, Pose, rotation_from_quaternion
-from ..messages import ColorRGBA, Float64, Marker, Point, String, TFMessage, Vector3, header
+from ..messages import Float64, MarkerArray, String, TFMessage
 from ..messages.build import NANOSECONDS
 from ..middleware.types import wire_type
-from ..numerics.linear import product
 from ..recording.mcap_file import McapFile
 from ..simulation import Simulation
+from ..simulation.parts import Part
 from ..simulation.tracked_bodies import TrackedBodies
 from ..topics.frames import transform
 from .film.puppets import Puppets
 from .recorded import RecordedTrial
+from .shapes import SCENE, shapes
 
 SUFFIX = ".mcap"
 WORLD = "world"
@@ -62,7 +62,10 @@ def write_recording(
         puppets.put(0.0)
         file = McapFile(path)
         try:
-            messages = [*_shapes(puppets.simulation), *_about(trial, puppets.simulation)]
+            messages = [
+                (0.0, f"/{SCENE}", _shapes(puppets.simulation)),
+                *_about(trial, puppets.simulation),
+            ]
             waiting = deque(sorted(messages, key=lambda each: each[0]))
             for time, message in _transforms(trial):
                 while waiting and waiting[0][0] <= time:
@@ -111,42 +114,16 @@ def _about(trial: RecordedTrial, simulation: Simulation) -> Iterator[Message]:
                     yield time, f"/measures/{curve.measure}", Float64(data=value)
 
 
-def _shapes(simulation: Simulation) -> Iterator[Message]:
-    """A marker for each mesh of the scene, in the frame of its body; what stands still in W."""
-    world = simulation.world
-    bodies = TrackedBodies(world)
-    rows, number = bodies.rows(), 0
-    for part in world.scenery.parts:
+def _shapes(simulation: Simulation) -> MarkerArray:
+    """The shapes in the frames of their bodies; what stands still in W."""
+    bodies = TrackedBodies(simulation.world)
+    rows = bodies.rows()
+
+    def frame_of(part: Part) -> tuple[str, Array]:
         body = bodies.body_of(part)
-        placed, frame = world.scenery.world_from_mesh(part), WORLD
-        if body is not None:
-            here = Pose(rows[body, :3], rotation_from_quaternion(rows[body, 3:]))
-            placed, frame = product(here.inverse().matrix, placed), bodies.names[body]
-        for mesh in part.model.meshes:
-            marker = Marker(
-                header=header(0.0, frame),
-                ns=part.name,
-                id=number,
-                type=Marker.TRIANGLE_LIST,
-                frame_locked=True,
-                scale=Vector3(x=1.0, y=1.0, z=1.0),
-                color=_colour(mesh),
-                points=[*_points(mesh, placed)],
-            )
-            marker.pose.orientation.w = 1.0
-            number += 1
-            yield 0.0, "/scene", marker
+        if body is None:
+            return WORLD, np.eye(4)
+        here = Pose(rows[body, :3], rotation_from_quaternion(rows[body, 3:]))
+        return bodies.names[body], here.inverse().matrix
 
-
-def _points(mesh: Mesh, frame_from_mesh: Array) -> list[Point]:
-    """Corners of all triangles in the frame, to 0.1 mm."""
-    vertices = mesh.vertices.astype(np.float64) @ frame_from_mesh[:3, :3].T + frame_from_mesh[:3, 3]
-    corners = np.round(vertices, 4)[mesh.triangles.ravel()]
-    return [Point(x=x, y=y, z=z) for x, y, z in corners.tolist()]
-
-
-def _colour(mesh: Mesh) -> ColorRGBA:
-    """The mesh's colour times the mean of its texture."""
-    mean = np.ones(3) if mesh.texture is None else mesh.texture.pixels.mean(axis=(0, 1)) / 255.0
-    r, g, b = (np.array(mesh.colour) * mean).tolist()
-    return ColorRGBA(r=r, g=g, b=b, a=mesh.opacity)
+    return shapes(simulation, frame_of)

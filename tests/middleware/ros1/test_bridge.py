@@ -18,6 +18,8 @@ from uwsim.messages import (
     GTpublish,
     GTpublishResponse,
     Image,
+    Marker,
+    MarkerArray,
     Odometry,
     Time,
     TwistStamped,
@@ -226,3 +228,15 @@ def test_what_happens_is_on_rosout(graph: Graph) -> None:
     assert frame is not None
     assert b"something happened" in frame
     peer.close()
+
+
+def test_a_late_node_gets_the_newest_message_of_a_latched_topic(graph: Graph) -> None:
+    uwsim, other = graph.node(), graph.node("/other")
+    say = uwsim.bus.publisher("scene", MarkerArray)
+    say(MarkerArray(markers=[Marker(ns="first")]))
+    graph.ready()
+    say(MarkerArray(markers=[Marker(ns="second", text="x")]))
+    graph.step()
+    heard = heard_by(other, "scene", MarkerArray)
+    until(lambda: heard, graph.step)
+    assert [each.ns for each in heard[-1].markers] == ["second"]

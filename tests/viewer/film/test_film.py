@@ -194,8 +194,9 @@ def test_a_recording_for_3d_panels_has_frames_shapes_and_measures(
     assert len(found["/tf"]) == 37  # 1.2 s at 30 Hz
     frames = {each.child_frame_id for each in found["/tf"][0].transforms}
     assert "girona500/base_link" in frames
-    assert {each.header.frame_id for each in found["/scene"]} <= {*frames, "world"}
-    assert all(len(each.points) % 3 == 0 and each.points for each in found["/scene"])
+    (scene,) = found["/scene"]
+    assert {each.header.frame_id for each in scene.markers} <= {*frames, "world"}
+    assert all(len(each.points) % 3 == 0 and each.points for each in scene.markers)
     assert [each.data for each in found["/level"]] == ["fog 0", "fog 0.4", "fog 0.8"]
     assert "<robot" in found["/robot_description"][0].data
     assert found["/measures/corners"]

@@ -58,6 +58,7 @@ class Publication:
         log: where it reports.
         send_timeout: how long a subscriber may take to read a message [s].
         encode: returns the bytes of a message.
+        is_latched: whether a subscriber begins with the newest message.
     """
 
     def __init__(
@@ -69,10 +70,12 @@ class Publication:
         send_timeout: float,
         *,
         encode: Encode = encode_message,
+        is_latched: bool = False,
     ) -> None:
         self.topic, self.kind = topic, kind
         self._caller, self._log, self._send_timeout = caller, log, send_timeout
-        self._encode = encode
+        self._encode, self._is_latched = encode, is_latched
+        self._newest: Outgoing | None = None
         self._lock = threading.Lock()
         self._queues: list[LatestQueue[Outgoing]] = []
         self._n_sent = 0
@@ -84,6 +87,7 @@ class Publication:
         outgoing = Outgoing(message, self._n_sent, self._encode)
         with self._lock:
             queues = list(self._queues)
+            self._newest = outgoing if self._is_latched else None
         for queue in queues:
             if queue.put(outgoing, outgoing.size):
                 self._log.say(
@@ -128,6 +132,8 @@ class Publication:
             if self._is_closed:
                 return
             self._queues.append(queue)  # before the header: who has it misses no message
+            if self._newest is not None:
+                queue.put(self._newest, self._newest.size)
         count(1)
         try:
             write(connection, encode_header(self._header()))
@@ -141,7 +147,7 @@ class Publication:
     def _header(self) -> dict[str, str]:
         return {
             "callerid": self._caller,
-            "latching": "0",
+            "latching": str(int(self._is_latched)),
             "md5sum": self.kind.md5,
             "message_definition": self.kind.ros1_definition,
             "topic": self.topic,

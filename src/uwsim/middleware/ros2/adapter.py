@@ -16,7 +16,7 @@ from ...bus import Bus, TopicEnds
 from ...errors import BadMessage, UwsimError
 from ...message_fields import size_of
 from ...messages.services import Service
-from ..bridge import Bridge
+from ..bridge import LATCHED, Bridge
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
 from ..queues import MAX_ITEMS, LatestQueue
@@ -25,7 +25,7 @@ from ..types import message_class, ros2_store, wire_service, wire_type
 from .names import topic_name, type_hash_data
 from .participant import READERS_CHANGED, WRITER_REFUSED, Participant, Writer
 from .presence import Presence
-from .quality import CLOCK, LATCHED, Quality, quality_of
+from .quality import CLOCK, Quality, quality_of
 from .raw_types import RawSample, raw_type
 from .service_server import ServiceServer
 from .settings import Ros2Settings
@@ -91,7 +91,7 @@ class Ros2(Bridge):
         for name in sorted(set(published) - set(self._writers)):
             self._add_writer(name, published[name].type, _Demand(self, name))
             if name in LATCHED:
-                self._send_latched(name)
+                self.send_latched(name)
         for name in sorted(set(read) - set(self._readers)):
             self._add_reader(name, read[name].type)
         self._presence.tell()
@@ -189,13 +189,6 @@ class Ros2(Bridge):
     def _drop(self, entity: Any) -> None:
         self._presence.remove(entity)
         self._participant.forget(entity)
-
-    def _send_latched(self, name: str) -> None:
-        """Write what was published before, and whatever comes, for readers that come late."""
-        before = self.bus.unread(name)
-        if before is not None:
-            self.send(name, before)
-        self.want(name)
 
     def _receive(self, name: str, type: type, sample: RawSample) -> None:
         try:

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 from cyclonedds.qos import Policy, Qos
 from cyclonedds.util import duration
 
+from ..bridge import LATCHED
 from ..lockstep.topics import TICK
 
-LATCHED = ("tf_static", "robot_description")
-"""Topics whose newest message a late subscriber gets as well (transient local)."""
 CLOCK = "clock"
 MAX_BLOCKING_S = 0.1
 """How long a write waits for a reader that does not keep up [s]; then the message is dropped."""

@@ -23,7 +23,7 @@ from ...bus import Bus, TopicEnds
 from ...errors import BadSetting, UnknownName, UwsimError
 from ...message_fields import size_of
 from ...messages.services import Service
-from ..bridge import Bridge
+from ..bridge import LATCHED, Bridge
 from ..log import Log
 from ..stamps import clock_time
 from ..types import message_class, wire_type
@@ -70,6 +70,7 @@ class WebBridge(Bridge):
         super().__init__(bus, clock, log or Log("web"))
         self._options = options
         self._readers: dict[str, tuple[tuple[Session, Subscription], ...]] = {}
+        self._latched: dict[str, Outgoing] = {}
         self._ends: Mapping[str, TopicEnds] = {}
         self.services: Mapping[str, Service] = {}
         """Services of the bus."""
@@ -92,7 +93,11 @@ class WebBridge(Bridge):
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         """Note what is there; clients ask."""
+        fresh = set(topics) - set(self._ends)
         self._ends = dict(topics)
+        for name in LATCHED:
+            if name in fresh and topics[name].is_published:
+                self.send_latched(name)
 
     def on_services(self, services: Mapping[str, Service]) -> None:
         """Note what is there; clients ask."""
@@ -101,8 +106,11 @@ class WebBridge(Bridge):
     def send(self, topic: str, message: object) -> None:
         """Give a message to all who read its topic."""
         readers = self._readers.get(topic, ())
-        if readers:
+        if readers or topic in LATCHED:
             outgoing = Outgoing(topic, message, size_of(message))
+            if topic in LATCHED:
+                self._latched[topic] = outgoing
+                readers = self._readers.get(topic, ())
             for session, subscription in readers:
                 session.post(subscription, outgoing)
 
@@ -149,7 +157,10 @@ class WebBridge(Bridge):
 
     def read(self, topic: str, session: Session, subscription: Subscription) -> None:
         """A client subscribes. In the thread of the server."""
+        latched = self._latched.get(topic)
         self._readers[topic] = (*self._readers.get(topic, ()), (session, subscription))
+        if latched is not None:
+            session.post(subscription, latched)
         if topic != CLOCK:
             self.want(topic)
 
