@@ -139,7 +139,8 @@ def draw_altitude(axes: Axes, survey: Survey) -> None:
     middle = survey.series("multibeam", lambda each: each.ranges[len(each.ranges) // 2])
     axes.plot(*middle, color=PALETTE[1], lw=0.8, label="middle beam of the multibeam")
     axes.set_ylabel("range to the bottom [m]")
-    axes.legend()
+    axes.set_ylim(top=5.3)
+    axes.legend(loc="upper right")
 
 
 def draw_gyro(axes: Axes, survey: Survey) -> None:
@@ -186,13 +187,15 @@ def draw_currents(axes: Axes, survey: Survey) -> None:
             series = survey.series("currents", lambda each, at=at: each.effort[at])
             axes.plot(*series, color=PALETTE[k], lw=0.8, label=name)
     axes.set_ylabel("u:motorCurrents [A]")
-    axes.legend()
+    axes.set_ylim(top=3.2)
+    axes.legend(ncols=2, fontsize=7)
 
 
 def draw_battery(axes: Axes, survey: Survey) -> None:
     axes.plot(*survey.series("battery", lambda each: each.voltage), color=PALETTE[0])
     axes.set_ylabel("u:battery: voltage [V]", color=PALETTE[0])
     charge = axes.twinx()
+    charge.grid(visible=False)
     charge.plot(*survey.series("battery", lambda each: each.charge), color=PALETTE[1])
     charge.set_ylabel("charge [A h]", color=PALETTE[1])
 
