@@ -16,7 +16,7 @@ NAMES = ["Slew", "Shoulder", "Elbow", "JawRotate", "JawOpening"]
 
 
 def main() -> None:
-    topic, *numbers = rospy.myargv()[1:]
+    topic, *numbers = rospy.myargv()[1:] or [""]
     if len(numbers) != len(NAMES):
         sys.exit(__doc__)
     rospy.init_node("set_joint_position", anonymous=True)

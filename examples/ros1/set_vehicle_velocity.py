@@ -14,7 +14,7 @@ from nav_msgs.msg import Odometry
 
 
 def main() -> None:
-    topic, *numbers = rospy.myargv()[1:]
+    topic, *numbers = rospy.myargv()[1:] or [""]
     velocity = [float(number) for number in numbers]
     if len(velocity) != 6:
         sys.exit(__doc__)

@@ -13,6 +13,11 @@ import pytest
 
 from tests.byte_hashes import short_currents
 from tests.short_benchmark import write_benchmark
+from tests.waiting import until
+from uwsim import load
+from uwsim.middleware.log import Log
+from uwsim.middleware.web.options import WebOptions
+from uwsim.middleware.web.server import WebBridge
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "websocket"
 LIMIT = 240.0
@@ -89,3 +94,36 @@ def test_a_controller_outside_scores_the_same_rows_also_when_it_dawdles(tmp_path
         benchmark, tmp_path / "outside", [*program, "--delay", "20"], *level
     )
     assert outside["rows"] == inside["rows"], said
+
+
+def test_a_program_puts_a_mesh_into_the_scene_and_takes_it_away() -> None:
+    with load("shapes-scene") as simulation:
+        log = Log("test", lambda line: None)
+        bridge = WebBridge(simulation.bus, lambda: simulation.time, WebOptions(port=0), log)
+        simulation.watch(bridge.step)
+
+        def spawn(action: str, *place: str) -> tuple[int, str]:
+            words = [action, "toys", "1", "buoy.stl", *place, "0", "0", "1.5"]
+            uri = f"ws://127.0.0.1:{bridge.port}"
+            program = subprocess.Popen(
+                [sys.executable, str(EXAMPLES / "spawn_marker.py"), *words, "--uri", uri],
+                stdout=subprocess.PIPE,
+                text=True,
+            )
+            try:
+                until(lambda: program.poll() is not None, lambda: simulation.advance(0.01))
+            finally:
+                program.kill()
+                printed, _ = program.communicate(timeout=LIMIT)
+            return program.returncode, printed
+
+        try:
+            added = spawn("add", "1", "2", "3")
+            assert added == (0, "object 1 toys was successfully ADDED.\n")
+            marker = simulation.world.markers.shown["1+toys"]
+            assert marker.mesh_resource == "package://uwsim/buoy.stl"
+            assert (marker.pose.position.x, marker.scale.z, marker.color.a) == (1.0, 1.0, 1.0)
+            assert spawn("del", "0", "0", "0") == (0, "object 1 toys was successfully DELETED.\n")
+            assert spawn("del", "0", "0", "0") == (1, "object 1 toys not found.\n")
+        finally:
+            bridge.close()

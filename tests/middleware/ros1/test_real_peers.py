@@ -3,64 +3,18 @@
 from __future__ import annotations
 
 import math
-import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 import uwsim
-from tests.ros1_peers import Peers, needs_ros1, peers
+from tests.middleware.ros1.sea import Sea
+from tests.ros1_peers import needs_ros1, peers
 from tests.waiting import LIMIT, until
-from uwsim.middleware.log import Log
-from uwsim.middleware.ros1 import Ros1Bridge
 from uwsim.middleware.types import wire_type
-from uwsim.simulation import Simulation
 
 pytestmark = [needs_ros1, pytest.mark.slow]
-
-
-class Sea:
-    """The scene cirs as a node of a real graph."""
-
-    def __init__(self, peers: Peers) -> None:
-        self.peers = peers
-        self.simulation: Simulation = uwsim.load("cirs")
-        self.printed: list[str] = []
-        self.bridge = Ros1Bridge(
-            self.simulation.bus,
-            lambda: self.simulation.time,
-            master=peers.uri,
-            log=Log("test", self.printed.append),
-        )
-        self.simulation.watch(self.bridge.step)
-        self.simulation.start()
-        self.bridge.step()
-        assert self.bridge.wait(LIMIT)
-
-    def advance(self) -> None:
-        """Let some time go by."""
-        self.simulation.advance(0.02)
-
-    def odometry(self) -> uwsim.messages.Odometry:
-        """The newest odometry."""
-        self.simulation.latest("/uwsim/girona500/odom")
-        self.simulation.advance(0.2)
-        found = self.simulation.latest("/uwsim/girona500/odom")
-        assert isinstance(found, uwsim.messages.Odometry)
-        return found
-
-    def output(self, program: subprocess.Popen[str]) -> str:
-        """Let time go by until a program has ended, and return what it printed."""
-        until(lambda: program.poll() is not None, self.advance)
-        printed, errors = program.communicate(timeout=LIMIT)
-        assert program.returncode == 0, errors
-        return printed
-
-    def close(self) -> None:
-        """End it."""
-        self.bridge.close()
-        self.simulation.close()
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""Take a vehicle along the lanes of a survey, as the original's makeVehicleSurvey: 20 Hz.
+
+    make_vehicle_survey.py TOPIC x y z yaw long step        m and rad
+
+At the angle a, 0.01 rad more each time, it is at (x + long sin a, y + step a, z); its yaw is
+(pi/2)(1 - cos a), with the sign of STEP. As in the original, YAW is not used.
+With `uwsim run cirs --ros1`:  make_vehicle_survey.py /dataNavigator 0 0 2 0 2 0.2
+"""
+
+import contextlib
+import math
+import sys
+
+import poses
+import rospy
+from nav_msgs.msg import Odometry
+
+
+def main() -> None:
+    topic, *numbers = rospy.myargv()[1:] or [""]
+    if len(numbers) != 6:
+        sys.exit(__doc__)
+    x, y, z, _, long, step = (float(number) for number in numbers)
+    rospy.init_node("make_vehicle_survey", anonymous=True)
+    publisher = rospy.Publisher(topic, Odometry, queue_size=1)
+    rate, a = rospy.Rate(20), 0.0
+    while not rospy.is_shutdown():
+        message = Odometry()
+        message.header.stamp = rospy.Time.now()
+        yaw = math.copysign(math.pi / 2, step) * (1 - math.cos(a))
+        place = (x + long * math.sin(a), y + step * a, z)
+        poses.write(message.pose.pose, place, poses.quaternion(0.0, 0.0, yaw))
+        publisher.publish(message)
+        a += 0.01
+        rate.sleep()
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(rospy.ROSInterruptException):
+        main()

@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""Move the joints of an arm at velocities, as the original's setJointVelocity: 30 Hz.
+
+    set_joint_velocity.py TOPIC v1 v2 v3 v4 v5              rad/s
+
+With `uwsim run cirs --ros1`:  set_joint_velocity.py /uwsim/joint_state_command 0.1 0 0 0 0
+"""
+
+import contextlib
+import sys
+
+import rospy
+from sensor_msgs.msg import JointState
+
+NAMES = ["Slew", "Shoulder", "Elbow", "JawRotate", "JawOpening"]
+
+
+def main() -> None:
+    topic, *numbers = rospy.myargv()[1:] or [""]
+    if len(numbers) != len(NAMES):
+        sys.exit(__doc__)
+    rospy.init_node("set_joint_velocity", anonymous=True)
+    publisher = rospy.Publisher(topic, JointState, queue_size=1)
+    rate = rospy.Rate(30)
+    while not rospy.is_shutdown():
+        message = JointState(name=NAMES, velocity=[float(number) for number in numbers])
+        message.header.stamp = rospy.Time.now()
+        publisher.publish(message)
+        rate.sleep()
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(rospy.ROSInterruptException):
+        main()
