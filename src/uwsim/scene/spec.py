@@ -41,9 +41,13 @@ from .vehicle import VehicleSpec
 class NedOriginSpec(Spec):
     """A ``<nedOrigin>``: where on Earth the origin of W is, for ``<fdm>`` and GPS."""
 
-    lat: float = element(default=0.0, original=Original(lenient=True, required=True))
+    lat: float = element(
+        default=0.0, minimum=-90, maximum=90, original=Original(lenient=True, required=True)
+    )
     """Latitude [deg]."""
-    lon: float = element(default=0.0, original=Original(lenient=True, required=True))
+    lon: float = element(
+        default=0.0, minimum=-360, maximum=360, original=Original(lenient=True, required=True)
+    )
     """Longitude [deg]."""
 
     @property

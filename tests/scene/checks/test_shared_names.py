@@ -68,6 +68,19 @@ def test_one_interface_twice_on_a_topic(tmp_path: Path) -> None:
     assert message.startswith("warning 9: <ImuToROSImu>: the topic 'imu' of 'imu' carries 'imu'")
 
 
+@pytest.mark.parametrize("topic", ["/", "/a b", "/1st", "/a//b", "/a-b", "/é"])
+def test_a_topic_that_ros_cannot_name(topic: str, tmp_path: Path) -> None:
+    again = f"<PATToROSOdom> <topic>{topic}</topic> <vehicleName>rov</vehicleName> </PATToROSOdom>"
+    (message,) = said(tmp_path, interfaces=again)
+    assert message == f"warning 9: <PATToROSOdom>: the topic {topic!r} is no name of a topic in ROS"
+
+
+def test_a_topic_that_is_heard_has_a_name_too(tmp_path: Path) -> None:
+    heard = "<ROSTwistToPAT> <topic>/a b</topic> <vehicleName>rov</vehicleName> </ROSTwistToPAT>"
+    (message,) = said(tmp_path, interfaces=heard)
+    assert message.endswith("<ROSTwistToPAT>: the topic '/a b' is no name of a topic in ROS")
+
+
 def test_a_rate_that_nothing_has(tmp_path: Path) -> None:
     (message,) = said(tmp_path, rate=10**9)
     assert message == (

@@ -211,3 +211,23 @@ def test_nothing_comes_by_way_of_the_surface_through_a_roof() -> None:
     both = listen(world, pose, multipath=True, **fields).power(pose)
     assert direct.sum() > 0.0
     np.testing.assert_array_equal(both, direct)
+
+
+def test_no_ray_goes_past_straight_up_and_sends_back_less_than_nothing() -> None:
+    """0.6 times an aperture of 160 degrees is more than a quarter of a turn."""
+    world = AcousticWorld(plate(50.0, -3.0), surface_height=1.0)
+    pose = at_height(0.0, np.eye(3))
+    echoes = listen(world, pose, vertical_aperture=160.0, rows=64, multipath=True)
+    assert echoes.directions[:, 0].min() > 0.0
+    assert echoes.power(pose).min() >= 0.0
+    assert np.isfinite(echoes.ping(pose, 1)).all()
+
+
+def test_beams_that_hardly_differ_cost_no_more_than_others() -> None:
+    """A million of them fit between two rays: each hears what all hear."""
+    world = AcousticWorld(plate(100.0, -3.0))
+    fields = {"beam_width": 1.0, "speckle": False, "noise_level": 0.0}
+    echoes = listen(world, at_height(0.0), half_width=1e-6, n=9, rows=16, **fields)
+    assert len(echoes._patterns) == 9
+    heard = echoes.ping(at_height(0.0), 1)
+    np.testing.assert_allclose(heard, np.broadcast_to(heard[:, :1], heard.shape), rtol=1e-3)

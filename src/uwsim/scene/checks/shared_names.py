@@ -1,12 +1,17 @@
-"""Warnings about names and topics that several parts of a scene share."""
+"""Warnings about names and topics that parts of a scene share, and that ROS cannot name."""
 
 from __future__ import annotations
+
+import re
 
 from ...schema import Diagnostics
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...topics import InterfaceSpec, element_of
 from ...topics.interface import VehiclePublisherSpec
 from ..spec import SceneSpec
+
+NAME = re.compile(r"[A-Za-z]\w*(/\w+)*", re.ASCII)
+"""Of a topic in ROS, without the slash that it may begin with."""
 
 
 def check_shared_names(scene: SceneSpec, diagnostics: Diagnostics) -> None:
@@ -62,13 +67,14 @@ def _check_parts(scene: SceneSpec, diagnostics: Diagnostics) -> None:
 def _check_topics(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     writers: dict[str, tuple[str, str]] = {}
     for interface in scene.ros_interfaces:
-        if interface.subscribes:
-            continue
         element, own = element_of(interface), _source(interface)
         for field in interface.carries():
             topic = str(getattr(interface, field))
             key = topic.strip("/")
-            if not key:
+            if not NAME.fullmatch(key):
+                why = "is no name of a topic in ROS"
+                diagnostics.warning(interface, f"<{element}>: the topic {topic!r} {why}")
+            if interface.subscribes:
                 continue
             other = writers.get(key)
             if other is not None and isinstance(interface, VehiclePublisherSpec):

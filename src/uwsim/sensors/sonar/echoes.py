@@ -33,7 +33,7 @@ MARGIN = 1.25
 RAYS_A_WIDTH = 2.5
 """At least so many rays are side by side in the width of a beam."""
 HIGH = 0.6
-"""Rays go so many vertical apertures up and down from the middle."""
+"""Rays go so many vertical apertures up and down from the middle, but not past straight up."""
 LINE_WIDTH = 0.4429
 """Half width of a line array at half power is the arc sine of this, in wave lengths over length."""
 SURFACE_LOSS = 0.631
@@ -60,14 +60,16 @@ class Echoes:
         n_phases = max(1, int(width / RAYS_A_WIDTH / abs(step)))
         apart = n_phases * step
         n_side = max(1, math.ceil(MARGIN * width / abs(apart)))
-        off = np.arange(-n_side, n_side + 2) * apart - np.arange(n_phases)[:, None] * step
+        phases = np.arange(min(n_phases, len(azimuths)))
+        off = np.arange(-n_side, n_side + 2) * apart - phases[:, None] * step
         powers = [[_gaussian(angle, width) for angle in line] for line in off.tolist()]
         self._patterns = np.array(powers, dtype=np.float32)
         n_rays = (len(azimuths) - 1) // n_phases + 2 * n_side + 2
         self._ray_azimuths = azimuths[0] + apart * np.arange(-n_side, n_rays - n_side)
         aperture = math.radians(spec.vertical_aperture)
-        rise = 2.0 * HIGH * aperture / spec.rows
-        elevations: Array = rise * (np.arange(spec.rows, dtype=np.float64) + 0.5) - HIGH * aperture
+        highest = min(HIGH * aperture, 0.5 * math.pi)
+        rise = 2.0 * highest / spec.rows
+        elevations: Array = rise * (np.arange(spec.rows, dtype=np.float64) + 0.5) - highest
         self.directions = _directions(self._ray_azimuths, elevations)
         """Of the rays in the sonar's frame, (n k, 3)."""
         patterns = np.array([_line(angle, aperture) ** 4 for angle in elevations.tolist()])
