@@ -1,10 +1,12 @@
 """The tree over fixed shapes finds what the engine's own finds, and looks into fewer boxes."""
 
+import copy
+
 import mujoco
 import numpy as np
 import pytest
 
-from uwsim.physics.world_tree import MAX_DEPTH, rebuild_world_tree
+from uwsim.physics.world_tree import MAX_DEPTH, PLACED, place_fixed_shapes, rebuild_world_tree
 
 
 def plates(n: int, seed: int) -> tuple[mujoco.MjModel, mujoco.MjModel]:
@@ -71,3 +73,36 @@ def test_a_row_of_ever_larger_shapes_is_not_too_deep_for_the_engine() -> None:
     model = spec.compile()
     rebuild_world_tree(model)
     assert model.bvh_depth.max() <= MAX_DEPTH + 8
+
+
+def fallen(model: mujoco.MjModel, data: mujoco.MjData, n: int) -> np.ndarray:
+    """The state after n steps, with where contacts are."""
+    for _ in range(n):
+        mujoco.mj_step(model, data)
+    return np.concatenate([data.qpos, data.qvel, data.contact.pos.ravel()])
+
+
+def test_placed_for_good_fixed_shapes_are_met_just_as_before() -> None:
+    _, model = plates(150, 5)
+    known = mujoco.MjData(model)
+    everywhere = mujoco.MjData(model)
+    expected = fallen(model, everywhere, 200)
+    place_fixed_shapes(model, known)
+    assert model.body_geomnum[0] == PLACED
+    state = mujoco.mjtState.mjSTATE_INTEGRATION
+    start = np.empty(mujoco.mj_stateSize(model, state))
+    mujoco.mj_getState(model, known, start, state)
+    assert fallen(model, known, 200).tobytes() == expected.tobytes()
+    assert known.ncon > 5
+    other = copy.copy(known)
+    mujoco.mj_setState(model, other, start, state)
+    assert fallen(model, other, 200).tobytes() == expected.tobytes()
+
+
+def test_shapes_of_several_kinds_stay_known_to_the_engine() -> None:
+    spec = mujoco.MjSpec()
+    for bit in (1, 1, 1, 2):
+        spec.worldbody.add_geom(size=[1, 0, 0], contype=bit)
+    model = spec.compile()
+    place_fixed_shapes(model, mujoco.MjData(model))
+    assert model.body_geomnum[0] == 4

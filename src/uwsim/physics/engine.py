@@ -30,6 +30,7 @@ from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
 from .uwsim_physics import UwsimPhysics
+from .world_tree import place_fixed_shapes
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics
@@ -65,6 +66,7 @@ class Engine:
         self._robots, self._dynamics = robots, dynamics
         self._model = model = compile_scene(scene, robots, dynamics, timestep, shapes)
         self._data = data = mujoco.MjData(model)
+        place_fixed_shapes(model, data)
         names = [body_name(scene, model.body(i).name) for i in range(model.nbody)]
         self.motion = Motion(model, data, names)
         """Positions and velocities of all bodies, as one row of numbers."""

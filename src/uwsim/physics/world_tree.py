@@ -9,6 +9,8 @@ where the surface area heuristic is least,
 with A the area of a half's box and n its number of shapes (MacDonald and Booth, Heuristics for
 ray tracing using space subdivision, The Visual Computer 6, 1990). The tree holds the same shapes;
 only fewer of its boxes are looked into.
+
+What never moves is placed once: see `place_fixed_shapes`.
 """
 
 from __future__ import annotations
@@ -21,6 +23,8 @@ from ..geometry import Array
 
 WORLD = 0
 """The engine's number of the body of fixed shapes."""
+PLACED = 2
+"""Fixed shapes that the engine goes through at every step; with one it would not use the tree."""
 MAX_DEPTH = 40
 """Nodes below this are halved at the median; the engine allows 50."""
 
@@ -53,6 +57,26 @@ def rebuild_world_tree(model: mujoco.MjModel) -> None:
             left, right = _cut(members, low, high, depth)
             waiting += [(right, node, 1, depth + 1), (left, node, 0, depth + 1)]
         node += 1
+
+
+def place_fixed_shapes(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Place the shapes of the world's body for good, and tell the engine of only a few of them.
+
+    The engine goes through all of them to learn which kinds of shapes the world's body may touch,
+    for each body at every step, and, unless sleeping is enabled, to place them anew. The tree,
+    through which contacts are found, keeps them all. Only ``data`` and its copies know where they
+    are: other data of this model find no contacts with them, nor does ``data`` after a reset.
+    """
+    first, count = int(model.body_geomadr[WORLD]), int(model.body_geomnum[WORLD])
+    if count <= PLACED or model.body_bvhnum[WORLD] == 0:
+        return
+    shapes = slice(first, first + count)
+    if any(
+        len(np.unique(bits[shapes])) > 1 for bits in (model.geom_contype, model.geom_conaffinity)
+    ):
+        return
+    mujoco.mj_kinematics(model, data)
+    model.body_geomnum[WORLD] = PLACED
 
 
 def _cut(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, Ints]:
