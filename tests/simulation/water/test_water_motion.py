@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.currents import Place
+from uwsim.currents import Constant, Place, TargetCurrent, TotalCurrent, UwsimSinusoidSpec
 from uwsim.currents.current import Current
 from uwsim.physics.hydrodynamics import BodyHydrodynamics
 from uwsim.physics.vehicle_file import read_vehicle
@@ -100,3 +100,38 @@ def test_a_hull_below_its_origin_feels_the_water_where_it_is() -> None:
     assert water.felt_at(water.bodies[0]) == pytest.approx(own.centre_of_buoyancy)
     row[3:6] += shift  # the centre of buoyancy
     assert water.felt_at(water.bodies[0])[2] == pytest.approx(own.centre_of_buoyancy[2] + 2.0)
+
+
+@pytest.mark.parametrize("vehicles", [(), ("",), ("a", "", "b", "b", "a", "")])
+def test_uniform_water_of_several_steps_is_that_of_each_step(vehicles: tuple[str, ...]) -> None:
+    scene = read_scene(SCENE).nominal
+    place = Place(stream=lambda _: np.random.Generator(np.random.Philox(4)))
+    swelling = UwsimSinusoidSpec(
+        speed=0.3, speed_variation=0.1, speed_period=2.0, phi=0.7, theta=1.1, random=0.1
+    ).bind(place)
+    motion = WaterMotion(scene, place)
+    motion.set(TotalCurrent([Constant((0.1, -0.2, 0.03)), TargetCurrent(swelling, "b")]))
+    times = (0.001, 0.003, 0.499)
+    found = motion.during(lambda: np.zeros((len(vehicles), 3)), times, vehicles)
+    assert found is not None
+    assert found.shape == (3, len(vehicles), 9)
+    for row, time in zip(found, times, strict=True):
+        velocity, acceleration, rotation = motion.at(np.ones((len(vehicles), 3)), time, vehicles)
+        assert rotation is None
+        assert (
+            row.tobytes() == np.hstack([velocity, acceleration, np.zeros_like(velocity)]).tobytes()
+        )
+
+
+def test_uniform_water_is_asked_for_once_a_vehicle() -> None:
+    asked = []
+
+    class Asked(Constant):
+        def velocity(self, points: np.ndarray, time: float, vehicles: Sequence[str] = ()):
+            asked.append(tuple(vehicles))
+            return super().velocity(points, time, vehicles)
+
+    motion = WaterMotion(read_scene(SCENE).nominal, Place(stream=lambda _: np.random.default_rng()))
+    motion.set(Asked((0.1, 0.0, 0.0)))
+    motion.during(lambda: np.zeros((5, 3)), (0.1, 0.2), ("a", "a", "", "a", ""))
+    assert asked == [("a", "")] * 2

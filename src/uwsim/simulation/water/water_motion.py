@@ -6,9 +6,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from ...currents import Place, TotalCurrent, bind_currents
 from ...geometry import Array, Pose
+from ...numerics.jit import njit
 from ...numerics.linear import product
 from ...scene.spec import SceneSpec
 from ...world import Flow
@@ -77,13 +79,26 @@ class WaterMotion:
         """
         if self._is_still:
             return None
-        points = np.zeros((len(vehicles), 3)) if self._flow.is_uniform else positions()
+        if self._flow.is_uniform:
+            return self._everywhere(times, vehicles)
+        points = positions()
         found = np.zeros((len(times), len(vehicles), 9))
         for row, time in zip(found, times, strict=True):
             row[:, 0:3], row[:, 3:6], rotation = self.at(points, time, vehicles)
             if rotation is not None:
                 row[:, 6:9] = rotation
         return found
+
+    def _everywhere(self, times: Sequence[float], vehicles: Sequence[str]) -> Array:
+        """Return `during` of uniform water: a vehicle's points feel the same, asked for once."""
+        names = tuple(dict.fromkeys(vehicles))
+        flow, points = self._flow, np.zeros((len(names), 3))
+        localized = np.empty((len(times), 2, len(names), 3))
+        for row, time in zip(localized, times, strict=True):
+            row[0] = flow.velocity(points, time, names)
+            row[1] = flow.acceleration(points, time, names)
+        felt = np.array([names.index(name) for name in vehicles], dtype=np.int64)
+        return _spread(localized, felt, self._localized_from_world.rotation)
 
     def at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
         r"""Return how the water moves, in W.
@@ -136,6 +151,25 @@ class WaterMotion:
         velocity = self._flow.velocity(point, time, (vehicle,))[0]  # (3,) [m/s]
         moved = self._world_from_localized.transform(point + velocity * timestep)[0]
         return Pose(moved, world_from_base.rotation)
+
+
+@njit
+def _spread(localized: Array, felt: npt.NDArray[np.int64], turn: Array) -> Array:
+    """Turn velocities and accelerations (times, 2, m, 3) to W, and give each point its own.
+
+    Returns:
+        What `WaterMotion.during` does, (times, n, 9).
+    """
+    found = np.zeros((len(localized), len(felt), 9))
+    for t in range(len(localized)):
+        for kind in range(2):
+            for i in range(len(felt)):
+                for k in range(3):
+                    total = 0.0
+                    for j in range(3):
+                        total += localized[t, kind, felt[i], j] * turn[j, k]
+                    found[t, i, 3 * kind + k] = total
+    return found
 
 
 def water_motion(
