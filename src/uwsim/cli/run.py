@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import AllErrors, BadSetting, RunFailed, did_you_mean
 from ..interrupts import raise_from_now_on
@@ -95,8 +95,30 @@ def run(
 
             scene_topics = SceneTopics(simulation, is_on_bus=connections.is_connected)
         pace = connections if not live.view else replace(connections, speed=0.0)
-        with connected(simulation, pace), viewed(simulation, spec, wanted, live, connections):
+        options = {"seed": seed, "data_path": folders, "compatibility": quirks}
+        with (
+            images_elsewhere(simulation, spec, options, pace),
+            connected(simulation, pace),
+            viewed(simulation, spec, wanted, live, connections),
+        ):
             run_and_report(simulation, spec, wanted, output, scene_topics)
+
+
+@contextmanager
+def images_elsewhere(
+    simulation: Simulation, spec: SceneSpec, options: dict[str, Any], pace: ConnectionOptions
+) -> Iterator[None]:
+    """In a run in real time with programs outside, draw images in a process of their own."""
+    if not pace.is_connected or pace.pace == 0 or pace.client:
+        yield
+        return
+    from ..simulation.scenery.image_process import ImageProcess
+
+    process = ImageProcess(simulation, spec, options, warn)
+    try:
+        yield
+    finally:
+        process.close()
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from __future__ import annotations
 import dataclasses
 import io
 import pickle
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import numpy as np
@@ -33,20 +33,21 @@ ARRAYS = {
 """Types allowed in saved bytes, besides numbers, texts and dataclasses of uwsim and rosbags."""
 
 
-def state_of(thing: object) -> dict[str, Any]:
-    """Return the values of the attributes that ``STATE`` of its class names."""
-    return {name: _saved(getattr(thing, name)) for name in _names(thing)}
+def state_of(thing: object, names: Collection[str] = ()) -> dict[str, Any]:
+    """Return the values of the attributes that ``STATE`` of its class names, or of some of them."""
+    return {name: _saved(getattr(thing, name)) for name in names or _names(thing)}
 
 
-def put_state(thing: object, values: Values) -> None:
-    """Set the attributes again; arrays keep their place in memory.
+def put_state(thing: object, values: Values, names: Collection[str] = ()) -> None:
+    """Set the attributes again that `state_of` was asked for; arrays keep their place in memory.
 
     Raises:
         UwsimError: the values are those of another thing.
     """
-    if set(values) != set(_names(thing)):
+    names = names or _names(thing)
+    if set(values) != set(names):
         raise _of_another_scene()
-    for name in _names(thing):
+    for name in names:
         now, then = getattr(thing, name), values[name]
         if not _restored(now, then):
             setattr(thing, name, then)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -73,6 +73,8 @@ class ImagePublisher(Interface):
         self._publish_image = world.sensor_publisher(spec.camera_name, spec.image_topic, Image)
         self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
         self._digest = hashlib.sha256()
+        self.elsewhere: Callable[[ImagePublisher, float], bool] | None = None
+        """Has the sample of a time [s] drawn elsewhere, and calls `deliver`; False: it does not."""
         self.timer = SampleTimer(0, sample_rate(spec.rate, world), world.timestep, self.publish)
         """Publishes at the steps at which a sample is due."""
 
@@ -90,11 +92,17 @@ class ImagePublisher(Interface):
         if not bus.has_readers(self.image_topic):
             self.camera.skip()
             return
-        if self._blank is None:
-            message = self.camera.sample(time)
-            self._digest.update(message.data.data)
+        if self._blank is not None:
+            self.deliver(image(self._blank, time=time, frame_id=self.camera.frame_id))
+        elif self.elsewhere is not None and self.elsewhere(self, time):
+            self.camera.skip()
         else:
-            message = image(self._blank, time=time, frame_id=self.camera.frame_id)
+            self.deliver(self.camera.sample(time))
+
+    def deliver(self, message: Image) -> None:
+        """Publish an image of the camera."""
+        if self._blank is None:
+            self._digest.update(message.data.data)
         self.n_frames += 1
         self._publish_image(message)
         self.last = pixels_of(message)
