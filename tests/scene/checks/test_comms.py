@@ -73,3 +73,12 @@ def test_names_and_addresses_that_two_devices_share_are_named(tmp_path: Path) ->
     texts = [text for _, text in reported(tmp_path, {}, {})]
     assert any("two devices are called 'rf'" in text for text in texts)
     assert any("both receive what is sent to it" in text for text in texts)
+
+
+def test_two_channels_of_one_id(tmp_path: Path) -> None:
+    scene = tmp_path / "scene.xml"
+    twice = "<CustomCommsChannel> <id>1</id> </CustomCommsChannel>\n" * 2
+    other = "<AcousticCommsChannel> <id>1</id> </AcousticCommsChannel>"
+    scene.write_text(f"<UWSimScene> {twice} {other} </UWSimScene>")
+    (message,) = diagnostics_of(scene)
+    assert str(message).endswith(":2: warning: several channels have the id 1; the first is used")

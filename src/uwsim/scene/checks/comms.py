@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec
-from ...devices.comms.comms_channels import acoustic_channel, custom_channel
+from ...devices.comms.comms_channels import (
+    AcousticCommsChannelSpec,
+    CustomCommsChannelSpec,
+    acoustic_channel,
+    custom_channel,
+)
 from ...devices.comms.comms_device import MacProtocolSpec
 from ...devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from ...expression import ScoreError
@@ -19,11 +24,16 @@ CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
 
 def check_comms(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     """Report formulas that cannot be read, and names and addresses that lead nowhere or twice."""
-    channels = {each.name for each in scene.custom_comms_channels}
-    channels |= {each.name for each in scene.acoustic_comms_channels}
+    channels: set[str] = set()
+    given: tuple[CustomCommsChannelSpec | AcousticCommsChannelSpec, ...]
+    given = (*scene.custom_comms_channels, *scene.acoustic_comms_channels)
+    for each in given:
+        if each.name in channels:
+            diagnostics.warning(each, f"several channels have the id {each.id}; the first is used")
+        channels.add(each.name)
     names: dict[str, None] = {}
     addresses: dict[tuple[str, int], str] = {}
-    for device in (each for vehicle in scene.vehicles for each in comms_devices(vehicle)):
+    for device in (one for vehicle in scene.vehicles for one in comms_devices(vehicle)):
         if device.name in names:
             said = f"two devices are called {device.name!r}: they share their topics"
             diagnostics.warning(device, said)
