@@ -14,6 +14,8 @@ Singles = npt.NDArray[np.float32]
 Whole = npt.NDArray[np.int32]
 BLOCK = 8
 """Azimuths whose rays are side by side: rays that are neighbours go together (`uwsim.rays`)."""
+LINES = 16
+"""Bins that are taken from all azimuths in one go: those of a line of the processor's cache."""
 GRAZING = 0.02
 """Least cosine of an angle of incidence that counts: 88.9 degrees."""
 
@@ -154,12 +156,12 @@ def received(
     n_phases, n_taps = patterns.shape
     amplitude = np.empty((n_bins, n_beams), dtype=np.float32)
     heard = np.empty(n_beams, dtype=np.float32)
-    some = np.empty((BLOCK, power.shape[1]), dtype=np.float32)
+    some = np.empty((LINES, power.shape[1]), dtype=np.float32)
     floor = np.float32(noise)
     for bin in range(n_bins):
-        if bin % BLOCK == 0:
+        if bin % LINES == 0:
             for k in range(power.shape[1]):
-                for place in range(min(BLOCK, n_bins - bin)):
+                for place in range(min(LINES, n_bins - bin)):
                     some[place, k] = power[bin + place, k]
         for phase in range(n_phases):
             n = (n_beams - phase + n_phases - 1) // n_phases
@@ -168,7 +170,7 @@ def received(
             for tap in range(n_taps):
                 weight = patterns[phase, tap]
                 for k in range(n):
-                    heard[k] += weight * some[bin % BLOCK, k + tap]
+                    heard[k] += weight * some[bin % LINES, k + tap]
             for k in range(n):
                 heard[k] = math.sqrt(heard[k])
             for k in range(n):

@@ -35,6 +35,7 @@ def sonar_image(
         time: of the ping [s].
     """
     n = len(directions)
+    ahead, starboard, up = (directions * [1.0, -1.0, 1.0]).T.tolist()
     return ProjectedSonarImage(
         header=header(time, spec.name),
         ping_info=PingInfo(
@@ -44,7 +45,7 @@ def sonar_image(
             rx_beamwidths=np.full(n, math.radians(spec.beam_width), dtype=np.float32),
         ),
         # in the frame of the message: z ahead, x up, y to starboard
-        beam_directions=[Vector3(up, -port, ahead) for ahead, port, up in directions.tolist()],
+        beam_directions=list(map(Vector3, up, starboard, ahead)),
         ranges=ranges.astype(np.float32),
         image=SonarImageData(
             is_bigendian=False,
