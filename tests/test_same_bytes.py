@@ -34,7 +34,7 @@ MAKE_NO_NUMBERS = {
     "physics/hydrodynamics/self_test.py": "says that MuJoCo is another",
     "viewer/film/paths.py": "where the camera of a film is",
     "viewer/live/view.py": "refuses a view that is none",
-    "viewer/recording.py": "meshes for the viewers of recordings",
+    "viewer/shapes.py": "meshes for the viewers of recordings",
     "examples/paper/station_keeping.py": "the theory beside the measurements in a report",
 }
 POSES = re.compile(r"_from_|[pP]ose|_before|\.now|motion|place|scaled")
