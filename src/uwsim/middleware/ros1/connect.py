@@ -50,7 +50,9 @@ class Ros1Connection:
 def connect(
     bus: Bus, clock: Callable[[], float], options: Ros1Options, log: Log | None = None
 ) -> Ros1Connection:
-    """Join the graph of a master; starts one on this computer where none answers.
+    """Join the graph of a master; starts one where none answers, if that is this computer.
+
+    This computer is 127.0.0.1, and the address at which the node listens.
 
     Args:
         bus: of the simulation.
@@ -74,9 +76,9 @@ def connect(
     try:
         call(uri, "getUri", options.node)
     except PeerError as error:
-        if name not in LOOPBACK:
+        if name not in (*LOOPBACK, options.host):
             raise BadSetting(f"The ROS master does not answer: {error}.") from None
-        master = _start(log, port, error)
+        master = _start(log, "127.0.0.1" if name in LOOPBACK else name, port, error)
         uri = master.uri
     if name not in LOOPBACK and options.host in LOOPBACK:
         log.say(
@@ -92,9 +94,9 @@ def connect(
     return Ros1Connection(bridge, master)
 
 
-def _start(log: Log, port: int, why: PeerError) -> Master:
+def _start(log: Log, host: str, port: int, why: PeerError) -> Master:
     try:
-        master = Master(log, port=port)
+        master = Master(log, host=host, port=port)
     except OSError as error:
         raise BadSetting(
             f"{why}, and no master can be started at port {port}: {error.strerror or error}."
