@@ -49,6 +49,9 @@ class BenchmarkSpec(Spec):
         default=None, attribute=True, namespaced=True
     )
     """Execution of the levels; None: sequential."""
+    prelude: bool = element(default=True, attribute=True, namespaced=True)
+    """Whether an independent level begins with a prelude: 1 s at the initial values of the
+    updaters, and 1 s on the way to its own; else its values hold from the first image on."""
     compatibility: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
     """Compatibility quirks of the original to reproduce (`uwsim.compatibility`), separated by
     blanks; ``uwsim`` is all of them but ``visual-frames``."""

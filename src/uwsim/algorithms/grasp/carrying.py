@@ -35,7 +35,12 @@ class Lift(Phase):
             task.why = "dropped: the jaw closed while the box was lifted"
             return "retry"
         above = float(self._start[2] - task.craft.pose.position[2])
-        return "hold" if above > task.lift - 0.05 else None
+        if above <= task.lift - 0.05:
+            return None
+        if not task.carries_something:
+            task.why = "missed: the wrist carries no weight after the lift"
+            return "retry"
+        return "hold"
 
     def _risen(self, time: float, task: Task) -> tuple[float, float]:
         """How far the goal has risen [m] at a time [s], and its velocity (down) [m/s].
@@ -65,8 +70,8 @@ class Hold(Phase):
     def step(self, task: Task) -> str | None:
         """Wait; the box must not fall."""
         task.go(self._place)
-        if not task.holds_something:
-            task.why = "dropped: the jaw closed while the box was held"
+        if not (task.holds_something and task.carries_something):
+            task.why = "dropped: jaw and wrist lost the box while it was held"
             return "retry"
         return "retreat" if task.elapsed > task.hold else None
 
@@ -87,8 +92,8 @@ class Retreat(Phase):
         """Raise the goal."""
         risen = min(0.1 * task.elapsed, 0.5)
         task.go(self._start - np.array([0.0, 0.0, risen]), np.array([0.0, 0.0, -0.1]))
-        if not task.holds_something:
-            task.why = "dropped: the jaw closed while the box was brought up"
+        if not (task.holds_something and task.carries_something):
+            task.why = "dropped: jaw and wrist lost the box while it was brought up"
             return "retry"
         return "done" if risen >= 0.5 else None
 

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from ...geometry import Array, Pose
-from ...messages import JointState, Twist, TwistStamped, Vector3, header
-from ...numerics.linear import turned
+from ...messages import JointState, Twist, TwistStamped, Vector3, WrenchStamped, header
+from ...numerics.linear import length, turned
 from .arm import DOWN, FOLDED, JAW, JOINTS, OPEN, Kinematics
 from .station import Motion, StationLaw
 
@@ -16,6 +16,8 @@ MAX_REACH = 0.08
 """The arm makes up for this much of the vehicle's error at most [m]."""
 JOINT_STEP = 0.004
 """Smaller changes of the arm's command are not sent [rad]."""
+WRIST_SHARE = 0.1
+"""Share of a sample of the wrist's force in the smoothed one: 0.2 s at 50 Hz."""
 STILL = 0.02
 """A joint that is slower stands still [rad/s]."""
 
@@ -55,6 +57,9 @@ class Craft:
         """Of the fingers [rad/s]."""
         self.jaw_effort = 0.0
         """Torque of the fingers' drive, as its current tells [N m]."""
+        self.wrist: Array | None = None
+        """Force on the wrist, smoothed, in the sensor's axes, (3,) [N]; None: it has no sensor."""
+        self._tare: Array | None = None
         self._sent: Array = np.full(5, math.inf)
 
     @property
@@ -94,6 +99,25 @@ class Craft:
             self.joints = np.array([where[name] for name in JOINTS])
             self.jaw, self.jaw_speed = where[JAW], speeds.get(JAW, 0.0)
             self.jaw_effort = abs(efforts.get(JAW, 0.0))
+
+    def on_wrist(self, message: WrenchStamped) -> None:
+        """Take a sample of the force sensor in the wrist."""
+        force = message.wrench.force
+        sample = np.array([force.x, force.y, force.z])
+        self.wrist = (
+            sample if self.wrist is None else self.wrist + WRIST_SHARE * (sample - self.wrist)
+        )
+
+    def tare(self) -> None:
+        """Take the wrist's force now as that of the arm alone."""
+        self._tare = self.wrist
+
+    @property
+    def load(self) -> float | None:
+        """Force that hangs on the wrist since `tare` [N]; None without a sensor."""
+        if self.wrist is None or self._tare is None:
+            return None
+        return length(self.wrist - self._tare)
 
     def twist(self, time: float, dt: float) -> TwistStamped:
         """Return the twist that leads to the goal."""

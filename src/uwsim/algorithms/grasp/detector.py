@@ -3,7 +3,9 @@ r"""Finding the outline of an orange box in an image: no weights, nothing learne
 The colour score of a pixel is :math:`s = 2R - G - B`. Water takes contrast away but not the order:
 fog of transmission T leaves :math:`T s` of a score, plus the same offset everywhere. So the
 threshold is relative: half way between the median of the image (the bottom) and its brightest
-spot, provided that this stands out from the noise by `CONTRAST` deviations. The blobs above it are
+spot, provided that this stands out from the noise by `CONTRAST` deviations. A blob that is no
+redder than the bottom by `REDDER` is none: in fog a dark hull has less green and blue than the
+water before it, and as little red. The blobs above it are
 closed over bands, lettering and handle. What is returned is, for each, the support function of its
 convex hull: how far it reaches along `N_DIRECTIONS` directions. It is all that a convex outline
 has, and is not known where the blob ends at the rim of the image.
@@ -32,6 +34,8 @@ LEAST = 6.0
 """Least height of a blob over the bottom [grey levels of the score]."""
 SHARE = 0.17
 """Where the threshold is between the bottom (0) and the brightest spot (1)."""
+REDDER = 8.0
+"""Least height of the red of a blob over that of the bottom [grey levels]."""
 RIM = 2
 """Pixels at the rim of the image where an outline is not known [px]."""
 MAX_BLOBS = 3
@@ -96,9 +100,10 @@ class ColourDetector:
         if top < max(CONTRAST * noise, LEAST):
             return []
         level = bottom + max(SHARE * top, 2.5 * noise)
+        red = float(np.median(image[::6, ::6, 0])) + REDDER
         found: list[tuple[float, Array]] = []
         for left, above, right, below in self._blobs(score > level, scale / 2.0):
-            hull = self._hull(image[above:below, left:right], level, scale)
+            hull = self._hull(image[above:below, left:right], level, scale, red)
             if hull is not None:
                 found.append((hull[0], hull[1] + np.array([left, above])))
         found.sort(key=lambda one: -one[0])
@@ -119,12 +124,20 @@ class ColourDetector:
         found.sort(key=lambda one: -one[0])
         return [place for _, place in found[:MAX_BLOBS]]
 
-    def _hull(self, part: Pixels, level: float, scale: float) -> tuple[float, Array] | None:
-        """Area [px^2] and corners (n, 2) [px] of the largest hull in a part of the image."""
+    def _hull(
+        self, part: Pixels, level: float, scale: float, red: float
+    ) -> tuple[float, Array] | None:
+        """Area [px^2] and corners (n, 2) [px] of the largest hull in a part of the image.
+
+        None where it is too small, or its brightest tenth has less red than ``red``.
+        """
         import cv2
 
         score = cv2.blur(colour_score(part), (3, 3))
-        mask = self._closed(score > level, scale)
+        orange = score > level
+        if not orange.any() or float(np.percentile(part[:, :, 0][orange], 90)) < red:
+            return None
+        mask = self._closed(orange, scale)
         contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
         hulls = [cv2.convexHull(contour) for contour in contours if len(contour) > 8]
         sized = [(float(cv2.contourArea(hull)), hull) for hull in hulls]

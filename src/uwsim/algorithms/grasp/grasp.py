@@ -1,9 +1,9 @@
 """``grasp``: finds a box with a camera, takes it by its handle with the ARM5E, and brings it up.
 
-It uses what a real vehicle has: images, DVL, IMU, depth, joint states, efforts of the drives. It is
-made of parts, each of which a derived class can replace: `Grasp.navigation`, `Grasp.detector`,
-`Grasp.tracker`, `Grasp.controller`, `Grasp.kinematics`. `uwsim.algorithms.grasp.phases` says what
-it does when.
+It uses what a real vehicle has: images, DVL, IMU, depth, joint states, efforts of the drives, and
+the force on the wrist. It is made of parts, each of which a derived class can replace:
+`Grasp.navigation`, `Grasp.detector`, `Grasp.tracker`, `Grasp.controller`, `Grasp.kinematics`.
+`uwsim.algorithms.grasp.phases` says what it does when.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from ...messages import (
     JointState,
     String,
     TwistStamped,
+    WrenchStamped,
     pixels_of,
 )
 from ...numerics.linear import product
@@ -76,6 +77,7 @@ class Grasp:
         "dvl_topic": "/girona500/dvl",
         "depth_topic": "/girona500/pressure",
         "joint_topic": "/girona500/joint_state",
+        "wrist_topic": "/girona500/wrist",
         "twist_topic": "/girona500/twist",
         "arm_topic": "/girona500/joint_command",
     }
@@ -168,6 +170,7 @@ class Grasp:
     def _subscribe(self, node: Node) -> None:
         self._navigator = self.navigation(node)
         node.subscribe(self.text("joint_topic"), JointState, self.craft.on_joints)
+        node.subscribe(self.text("wrist_topic"), WrenchStamped, self.craft.on_wrist)
         node.subscribe(self.text("info_topic"), CameraInfo, self._on_info)
         node.subscribe(self.text("image_topic"), Image, self._on_image)
 

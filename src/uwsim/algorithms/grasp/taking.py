@@ -69,7 +69,8 @@ class Close(Phase):
     looks = False
 
     def enter(self, task: Task) -> None:
-        """Close; the arm stays as it is, the vehicle over the handle."""
+        """Close; the arm stays as it is, the vehicle over the handle; the wrist carries no load."""
+        task.craft.tare()
         task.craft.grip_goal = None
         task.craft.jaw_wanted = CLOSED
 

@@ -19,6 +19,8 @@ ABOVE = 0.30
 """Height of the grip over the handle from which it begins to descend [m]."""
 GRIPPED = 0.02
 """Fingers that stand further open than closed by this have something between them [rad]."""
+MIN_LOAD = 15.0
+"""Something hangs in the jaw when the wrist carries more than this [N]."""
 PRESSED = 2.0
 """Least torque of their drive while they press [N m]."""
 
@@ -81,6 +83,12 @@ class Task:
     def holds_something(self) -> bool:
         """Whether the fingers press, and are kept apart by something."""
         return self.craft.jaw > CLOSED + GRIPPED and self.craft.jaw_effort > PRESSED
+
+    @property
+    def carries_something(self) -> bool:
+        """Whether the wrist carries a weight; taken for true where it has no sensor."""
+        load = self.craft.load
+        return load is None or load > MIN_LOAD
 
     def is_target_lost(self, patience: float) -> bool:
         """Whether the target was not seen for longer than this [s]; the reason is noted."""

@@ -2,7 +2,8 @@
 
 *Sequential*: algorithm and scene live on from level to level. *Independent*: a level is run alone
 and begins with a prelude at the updaters' initial values: the algorithm starts, gets the place of
-its target and runs 1 s; then the level's values are ramped in over 1 s; only then is measured.
+its target and runs 1 s; then the level's values are ramped in over 1 s; only then is measured. A
+benchmark with ``u:prelude="false"`` has none: the level's values hold from the first image on.
 """
 
 from __future__ import annotations
@@ -136,7 +137,7 @@ class _Execution:
         simulation.bus.withdraw(SPAWN_MARKER)  # not offered in a benchmark, as in the original
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # as they are bound for the next level
-        ramp_level(self._updaters, initial_level(self._updater))
+        ramp_level(self._updaters, self._before(trial))
         for gated in self._bind_measures():
             gated.close()  # the bus now keeps the messages that they read when they start
         self._triggers = LevelTriggers(benchmark, simulation.world)
@@ -183,7 +184,8 @@ class _Execution:
             if self._trial.is_alone:
                 if floor is not None:
                     floor.start()
-                self._prelude(level)
+                if plan.benchmark.prelude:
+                    self._prelude(level)
             self._begin(level, before)
             self._settle(settling_time(self._updater, level, after=before))
             if floor is not None:
@@ -207,6 +209,11 @@ class _Execution:
             motion=self._motion.track(),
             inputs=b"" if self._inputs is None else self._inputs.data(),
         )
+
+    def _before(self, trial: Trial) -> Level:
+        """The values before the first level."""
+        begins_as_it_is = trial.is_alone and not self._plan.benchmark.prelude
+        return trial.levels[0] if begins_as_it_is else initial_level(self._updater)
 
     def _title(self) -> str:
         """``currents, pi, seed 7``."""
@@ -315,7 +322,7 @@ class _Execution:
     def _begin(self, level: Level, before: Level | None) -> None:
         """Bring the scene to a level, and wait until it may begin."""
         self._step_to(level, before)
-        from_initial = initial_level(self._updater) if self._trial.is_alone else before
+        from_initial = self._before(self._trial) if self._trial.is_alone else before
         self._live.changed(level, after=from_initial)
         self._triggers.arm()
         if self._wait(f"Level {level} never began"):
