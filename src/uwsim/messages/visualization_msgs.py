@@ -54,4 +54,4 @@ class Marker(ros.visualization_msgs__msg__Marker):
 class MarkerArray(ros.visualization_msgs__msg__MarkerArray):
     """Several shapes."""
 
-    markers: list[ros.visualization_msgs__msg__Marker] = field(default_factory=list)
+    markers: list[Any] = field(default_factory=list)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -175,3 +176,28 @@ def test_nothing_is_computed_for_topics_that_nobody_reads(
     monkeypatch.setattr(live_topics, "details", None)
     function = '<function publishResult="true">t</function>'
     assert len(rows_of(make_plan(tmp_path, Deaf, NESTED, function=function))) == 4
+
+
+class RemembersFog(Simulation):
+    """A simulation that notes the fog of its first image."""
+
+    first: ClassVar[list[float]] = []
+
+    def start(self) -> None:
+        super().start()
+        self.first.append(self.world.scenery.water.fog)
+
+
+@pytest.mark.parametrize(("prelude", "expected"), [(True, 0.0), (False, 0.5)])
+def test_an_independent_level_without_prelude_has_its_fog_from_the_first_image_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, prelude: bool, expected: float
+) -> None:
+    monkeypatch.setattr(trial, "Simulation", RemembersFog)
+    monkeypatch.setattr(RemembersFog, "first", [])
+    plan = make_plan(tmp_path, Deaf, NESTED, mode="independent")
+    plan = replace(plan, benchmark=replace(plan.benchmark, prelude=prelude))
+    second = plan.trials()[1]
+    assert dict(second.levels[0].values)["fog"] == 0.5
+    [row, *_] = trial.execute(plan, second)
+    assert RemembersFog.first == [expected]
+    assert row.status == "ok"
