@@ -12,7 +12,7 @@ from uwsim import messages
 from uwsim.message_fields import unfit
 from uwsim.messages import PingInfo, ProjectedSonarImage, SonarImageData, Vector3
 
-TEXTS = Path(messages.__file__).parent / "msg"
+TEXTS = Path(messages.__file__).parent / "marine_acoustic_msgs" / "msg"
 STORE = get_typestore(Stores.ROS2_JAZZY)
 for text in sorted(TEXTS.glob("*.msg")):
     STORE.register(get_types_from_msg(text.read_text(), f"marine_acoustic_msgs/msg/{text.stem}"))

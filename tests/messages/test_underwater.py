@@ -11,7 +11,7 @@ from uwsim import messages
 from uwsim.message_fields import unfit
 from uwsim.messages import DVL, LedLight, Pressure
 
-TEXTS = Path(messages.__file__).parent / "msg"
+TEXTS = Path(messages.__file__).parent / "underwater_sensor_msgs" / "msg"
 STORE = get_typestore(Stores.ROS2_JAZZY)
 for kind in (DVL, LedLight, Pressure):
     text = (TEXTS / f"{kind.__name__}.msg").read_text()

@@ -1,6 +1,6 @@
 """Service types, each a request and a response.
 
-``srv/`` holds their text; a test holds the two together.
+A folder for each package holds their texts; a test holds the two together.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Message and service types of the bus as ROS 1 and ROS 2 know them: names, hashes, definitions.
 
-The source is text: ROS's own definitions, which rosbags ships, and the files of ``messages/msg``
-and ``messages/srv``. From it rosbags derives the MD5 sum by which ROS 1 compares types, the
-RIHS01 hash of ROS 2, and the definition that goes into bags.
+The source is text: ROS's own definitions, which rosbags ships, and the files of a folder
+for each package in ``messages``. From it rosbags derives the MD5 sum by which ROS 1 compares types,
+the RIHS01 hash of ROS 2, and the definition that goes into bags.
 
 A class of the bus is looked up by either name, ``geometry_msgs/Twist`` or
 ``geometry_msgs/msg/Twist``. Types that `uwsim.messages` lacks (``std_msgs/Int32``) are the classes
@@ -24,7 +24,7 @@ from .. import messages
 from ..errors import UnknownName
 from ..messages.services import SERVICES as OWN_SERVICES
 from ..messages.services import Service
-from ..messages.simulation_control import MESSAGES, PACKAGE, SIMULATION_SERVICES
+from ..messages.simulation_control import MESSAGES, SIMULATION_SERVICES
 
 SERVICES: dict[str, Service] = {**OWN_SERVICES, **SIMULATION_SERVICES}
 """Service types by their names in ROS 2."""
@@ -213,10 +213,9 @@ def _register_ours(store: Any) -> None:
 
 
 def _text(name: str) -> str:
-    """The definition of a type of ours; packages that are not UWSim's have folders of their own."""
+    """The definition of a type of ours."""
     package, kind, base = name.split("/")
-    folder = FOLDER / package if package == PACKAGE else FOLDER
-    return (folder / kind / f"{base}.{kind}").read_text(encoding="utf-8")
+    return (FOLDER / package / kind / f"{base}.{kind}").read_text(encoding="utf-8")
 
 
 def _halves(name: str) -> tuple[str, str]:
