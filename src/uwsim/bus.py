@@ -118,6 +118,8 @@ class Bus:
         """The current step; set by the owner of the clock."""
         self.revision = 0
         """Grows when a topic, a publisher, a subscriber or a service comes or goes."""
+        self.keeps_unread = True
+        """Whether somebody may ask for `unread`; else nobody needs what has no subscriber."""
 
     def subscribe(
         self,

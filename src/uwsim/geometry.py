@@ -39,7 +39,17 @@ def rotation_z(angle: float) -> Array:
 
 def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Array:
     """``Rz(yaw) Ry(pitch) Rx(roll)``: about fixed axes, as in ROS and URDF [rad], (3, 3)."""
-    return product(product(rotation_z(yaw), rotation_y(pitch)), rotation_x(roll))
+    a, b, c = math.cos(roll), math.cos(pitch), math.cos(yaw)
+    u, v, w = math.sin(roll), math.sin(pitch), math.sin(yaw)
+    right, below = c * v, w * v
+    rotation = np.array(
+        [
+            [c * b, right * u - w * a, w * u + right * a],
+            [w * b, c * a + below * u, below * a - c * u],
+            [-v, b * u, b * a],
+        ]
+    )
+    return rotation + 0.0  # no zero is negative
 
 
 def rotation_from_xyz(x: float, y: float, z: float) -> Array:
@@ -72,20 +82,20 @@ def rotation_about(axis: Array, angle: float) -> Array:
 
 def quaternion_from_rotation(rotation: Array) -> Array:
     """Unit quaternion wxyz, w >= 0, of a rotation matrix (3, 3) (Shepperd's method), (4,)."""
-    r = rotation
-    choices = np.array([np.trace(r), r[0, 0], r[1, 1], r[2, 2]])
-    i = int(np.argmax(choices))
-    q = np.empty(4)
-    if i == 0:
-        q[:] = 1.0 + choices[0], r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation.tolist()
+    trace = xx + yy + zz
+    most = max(trace, xx, yy, zz)
+    if trace == most:
+        w, x, y, z = 1.0 + trace, zy - yz, xz - zx, yx - xy
+    elif xx == most:
+        w, x, y, z = zy - yz, 1.0 + xx - yy - zz, yx + xy, zx + xz
+    elif yy == most:
+        w, x, y, z = xz - zx, xy + yx, 1.0 + yy - zz - xx, zy + yz
     else:
-        a, b, c = i - 1, i % 3, (i + 1) % 3
-        q[0] = r[c, b] - r[b, c]
-        q[1 + a] = 1.0 + r[a, a] - r[b, b] - r[c, c]
-        q[1 + b] = r[b, a] + r[a, b]
-        q[1 + c] = r[c, a] + r[a, c]
-    q /= length(q)
-    return -q if q[0] < 0.0 else q
+        w, x, y, z = yx - xy, xz + zx, yz + zy, 1.0 + zz - xx - yy
+    size = math.sqrt(w * w + x * x + y * y + z * z)
+    found = np.array([w / size, x / size, y / size, z / size])
+    return -found if found[0] < 0.0 else found
 
 
 def rotation_from_quaternion(wxyz: Array) -> Array:

@@ -99,4 +99,6 @@ class InertialUnit:
 
 def _diagonal(variance: float) -> Array:
     """A covariance of equal variances, by rows (9,)."""
-    return (variance * np.eye(3)).reshape(9)
+    covariance = np.zeros(9)
+    covariance[::4] = variance
+    return covariance

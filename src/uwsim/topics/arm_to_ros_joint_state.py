@@ -14,7 +14,7 @@ import numpy as np
 
 from ..messages import JointState, header
 from ..vehicle import Vehicle
-from .interface import Interface, TopicWorld, VehiclePublisherSpec, sample_rate
+from .interface import Interface, TopicWorld, VehiclePublisherSpec, is_needed, sample_rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,10 +35,12 @@ class JointPublisher(Interface):
 
     def __init__(self, topic: str, vehicle: Vehicle, world: TopicWorld) -> None:
         self._vehicle, self._world = vehicle, world
-        self._publish = world.bus.publisher(topic, JointState)
+        self._topic, self._publish = topic, world.bus.publisher(topic, JointState)
 
     def publish(self) -> None:
         """Publish the state as it is now."""
+        if not is_needed(self._world.bus, self._topic):
+            return
         names, servos = list(self._vehicle.joint_names), self._vehicle.servos
         velocity, effort = np.zeros(0), np.zeros(len(names))
         if servos is not None:

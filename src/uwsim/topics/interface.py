@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
+from ..bus import Bus
 from ..schema import Original, Spec, element
 from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
@@ -122,3 +123,8 @@ class VehiclePublisherSpec(VehicleTopicSpec):
 
     rate: float = rate_element()
     """How often [Hz]."""
+
+
+def is_needed(bus: Bus, topic: str) -> bool:
+    """Whether anyone reads a topic now, or may later ask for what is published on it now."""
+    return bus.keeps_unread or bus.has_readers(topic)

@@ -25,7 +25,7 @@ from ..messages import (
     header,
 )
 from ..vehicle import Vehicle
-from .interface import Interface, TopicWorld, VehiclePublisherSpec, sample_rate
+from .interface import Interface, TopicWorld, VehiclePublisherSpec, is_needed, sample_rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,10 +48,12 @@ class OdometryPublisher(Interface):
         self._vehicle, self._world = vehicle, world
         self._localized_from_world = world.world_from_localized.inverse()
         self._is_simulated = vehicle.autopilot is not None
-        self._publish = world.bus.publisher(topic, Odometry)
+        self._topic, self._publish = topic, world.bus.publisher(topic, Odometry)
 
     def publish(self) -> None:
         """Publish the state as it is now."""
+        if not is_needed(self._world.bus, self._topic):
+            return
         pose = self._localized_from_world @ self._vehicle.world_from_base
         w, x, y, z = quaternion_from_rotation(pose.rotation).tolist()
         px, py, pz = pose.position.tolist()

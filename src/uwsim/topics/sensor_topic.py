@@ -8,13 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 from ..devices import DEVICES
 from ..schema.names import local
 from ..sensors import SENSORS
 from ..sensors.sensor import Sensor, measured_by
-from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
+from .interface import (
+    Interface,
+    InterfaceSpec,
+    TopicWorld,
+    is_needed,
+    rate_element,
+    sample_rate,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,6 +35,8 @@ class SensorTopicSpec(InterfaceSpec):
     """Name of the topic."""
     rate: float = rate_element()
     """How often [Hz]."""
+    is_pure: ClassVar[bool] = False
+    """Whether a sample changes nothing in the sensor, so that it need not be taken for nobody."""
 
     @classmethod
     def is_simulated(cls) -> bool:
@@ -45,6 +55,8 @@ class SensorTopicSpec(InterfaceSpec):
         sensor = world.sensor(self.name, self.sources)
         publish = world.sensor_publisher(self.name, self.topic, self.carries()["topic"])
         publisher = SensorPublisher(sensor, publish, lambda: world.time)
+        if self.is_pure:
+            publisher.rests_unless(partial(is_needed, world.bus, self.topic))
         world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
@@ -56,9 +68,16 @@ class SensorPublisher(Interface):
         self, sensor: Sensor, publish: Callable[[object], None], clock: Callable[[], float]
     ) -> None:
         self._sensor, self._publish, self._clock = sensor, publish, clock
+        self._is_needed: Callable[[], bool] = lambda: True
+
+    def rests_unless(self, is_needed: Callable[[], bool]) -> None:
+        """Take samples only when they are needed; else even for nobody: random streams advance."""
+        self._is_needed = is_needed
 
     def publish(self) -> None:
-        """Take a sample and publish it, even without a subscriber: the random stream advances."""
+        """Take a sample and publish it."""
+        if not self._is_needed():
+            return
         message = self._sensor.sample(self._clock())
         if message is not None:
             self._publish(message)
@@ -125,6 +144,7 @@ class ForceSensorROSSpec(SensorTopicSpec):
     """Publishes a force sensor as geometry_msgs/WrenchStamped."""
 
     sources: ClassVar[tuple[str, ...]] = ("ForceSensor",)
+    is_pure: ClassVar[bool] = True
 
 
 @dataclass(frozen=True, kw_only=True)

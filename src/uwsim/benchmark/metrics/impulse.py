@@ -8,11 +8,10 @@ Unlike the peak of the force, the impulse does not depend on the softness or the
 
 from __future__ import annotations
 
+import math
 from collections import deque
 
-import numpy as np
-
-from ...geometry import Array
+from ...geometry import ZERO, Array, Triple
 from ...numerics.linear import length
 
 WINDOW = 0.05
@@ -24,7 +23,7 @@ class Impulse:
 
     def __init__(self, timestep: float) -> None:
         self._timestep = timestep
-        self._forces: deque[Array] = deque(maxlen=max(1, round(WINDOW / timestep)))
+        self._forces: deque[Triple] = deque(maxlen=max(1, round(WINDOW / timestep)))
         self._n_idle = 0
         self.largest = 0.0
         """[N s]"""
@@ -33,15 +32,20 @@ class Impulse:
 
     def add(self, force: Array | None) -> None:
         """Take the force of one more step, (3,) [N]; None: none."""
-        self.now = 0.0 if force is None else length(force)
         if force is None:
+            self.now = 0.0
             self._n_idle += 1
             if self._n_idle >= (self._forces.maxlen or 1):
                 self._forces.clear()
             elif self._forces:
-                self._forces.append(np.zeros(3))
+                self._forces.append(ZERO)
             return
+        self.now = length(force)
         self._n_idle = 0
-        self._forces.append(force)
-        total = np.sum(self._forces, axis=0) * self._timestep
-        self.largest = max(self.largest, length(total))
+        x, y, z = force.tolist()
+        self._forces.append((x, y, z))
+        x = y = z = 0.0  # plain floats: a few numbers at every step are dearer as arrays
+        for one in self._forces:
+            x, y, z = x + one[0], y + one[1], z + one[2]
+        x, y, z = x * self._timestep, y * self._timestep, z * self._timestep
+        self.largest = max(self.largest, math.sqrt(x * x + y * y + z * z))

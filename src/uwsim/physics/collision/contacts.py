@@ -14,12 +14,12 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array
+from ...numerics.jit import njit
 from ...numerics.linear import dot, turned_back
 from ...scene.spec import SceneSpec
 from ...world import Contact
 
-_NORMAL_AND_TANGENTS = np.arange(3)
-"""Places of a contact's force in ``efc_force``, of an elliptic cone."""
+Numbers = npt.NDArray[np.int64]
 
 
 class EngineContacts:
@@ -46,8 +46,12 @@ class EngineContacts:
         owners = [owner_of(model.geom(i).name) for i in range(model.ngeom)]
         self._owners = np.array(owners)
         self._names = [name_of(scene, owner) for owner in owners]
+        self._numbers = {owner: i for i, owner in enumerate(sorted(set(owners)))}
+        self._owner_numbers = np.array([self._numbers[owner] for owner in owners], np.int64)
+        self._labels = sorted(set(self._names))
+        labels = {name: i for i, name in enumerate(self._labels)}
+        self._name_numbers = np.array([labels[name] for name in self._names], np.int64)
         self._touchable = frozenset(owner_of(name) for name in shapes)
-        self._masks: dict[str, npt.NDArray[np.bool_]] = {}
         self.hold = False
         """Whether the engine's contacts are those of its state."""
 
@@ -65,24 +69,20 @@ class EngineContacts:
         found: dict[str, Array] = {}
         if not self.hold or self._data.ncon == 0:
             return found
-        contacts, owner = self._data.contact, f"{kind}/{index}"
-        if owner not in self._masks:
-            self._masks[owner] = self._owners == owner
-        geoms = contacts.geom  # (n, 2)
-        is_own = self._masks[owner][geoms]  # (n, 2)
-        address = np.asarray(contacts.efc_address)
-        chosen = np.flatnonzero((is_own[:, 0] != is_own[:, 1]) & (address >= 0))
-        if len(chosen) == 0:
+        owner, contacts = f"{kind}/{index}", self._data.contact
+        if owner not in self._numbers:
             return found
-        own = self._data.efc_force[address[chosen, None] + _NORMAL_AND_TANGENTS]  # (k, 3)
-        frames = contacts.frame[chosen].reshape(-1, 3, 3)  # rows, in W
-        forces = own[:, :1] * frames[:, 0] + own[:, 1:2] * frames[:, 1] + own[:, 2:] * frames[:, 2]
-        seconds = is_own[chosen, 1]  # the force is the first's on the second
-        forces = np.where(seconds[:, None], forces, -forces)
-        others = geoms[chosen, np.where(seconds, 0, 1)]
-        for other, force in zip(others.tolist(), forces, strict=True):
-            name = self._names[other]
-            found[name] = found[name] + force if name in found else force
+        labels, forces = _summed_forces(
+            contacts.geom,
+            contacts.efc_address,
+            contacts.frame,
+            self._data.efc_force,
+            self._owner_numbers,
+            self._name_numbers,
+            self._numbers[owner],
+        )
+        for label, force in zip(labels.tolist(), forces, strict=True):
+            found[self._labels[label]] = force
         return found
 
     def wrench(self, body: int, point: Array) -> Array:
@@ -105,6 +105,51 @@ class EngineContacts:
             total[:3] += force
             total[3:] += sign * turned_back(axes, own[3:]) + np.cross(found.pos[i] - point, force)
         return total
+
+
+@njit
+def _summed_forces(
+    geoms: npt.NDArray[np.int32],
+    addresses: npt.NDArray[np.int32],
+    frames: Array,
+    pressures: Array,
+    owners: Numbers,
+    names: Numbers,
+    own: int,
+) -> tuple[Numbers, Array]:
+    """Numbers of the names of what touches an owner, (k,), and its forces on it in W, (k, 3) [N].
+
+    Args:
+        geoms: both shapes of each contact, (n, 2).
+        addresses: where each contact begins in the forces, (n,); negative: it does not press.
+        frames: rows are normal and tangents of each, in W, (n, 9).
+        pressures: forces along them, of an elliptic cone.
+        owners: number of the owner of each shape.
+        names: number of the name of each shape's owner.
+        own: number of the owner.
+    """
+    labels, forces = np.empty(len(geoms), np.int64), np.empty((len(geoms), 3))
+    n = 0
+    for i in range(len(geoms)):
+        is_first = owners[geoms[i, 0]] == own
+        at = addresses[i]
+        if is_first == (owners[geoms[i, 1]] == own) or at < 0 or at + 2 >= len(pressures):
+            continue
+        label = names[geoms[i, 1 if is_first else 0]]
+        place = 0
+        while place < n and labels[place] != label:
+            place += 1
+        for k in range(3):
+            force = pressures[at] * frames[i, k]
+            force = force + pressures[at + 1] * frames[i, 3 + k]
+            force = force + pressures[at + 2] * frames[i, 6 + k]
+            if is_first:  # the force is the first's on the second
+                force = -force
+            forces[place, k] = force if place == n else forces[place, k] + force
+        if place == n:
+            labels[n] = label
+            n += 1
+    return labels[:n], forces[:n]
 
 
 def owner_of(name: str) -> str:
