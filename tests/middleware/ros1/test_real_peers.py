@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import signal
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -42,6 +44,26 @@ def test_rostopic_echoes_a_message(sea: Sea) -> None:
     printed = sea.output(echo)
     assert "secs:" in printed
     assert "orientation:" in printed
+
+
+def test_rostopic_hz_finds_a_rate(sea: Sea) -> None:
+    lines: list[str] = []
+    program = sea.peers.start("rostopic", "hz", "/uwsim/girona500/odom")
+    assert program.stdout is not None
+    reader = threading.Thread(target=lines.extend, args=(program.stdout,), daemon=True)
+    reader.start()
+    until(lambda: any(line.startswith("average rate: ") for line in lines), sea.advance)
+    program.send_signal(signal.SIGINT)
+    until(lambda: not reader.is_alive(), sea.advance)
+
+
+def test_the_robot_is_told_to_a_node_that_comes_late(sea: Sea) -> None:
+    publish = sea.simulation.bus.publisher("robot_description", uwsim.messages.String)
+    publish(uwsim.messages.String(data="<robot/>"))
+    sea.advance()
+    assert sea.bridge.wait(LIMIT)
+    echo = sea.peers.start("rostopic", "echo", "-n", "1", "/robot_description")
+    assert 'data: "<robot/>"' in sea.output(echo)
 
 
 def test_a_program_of_the_originals_kind_drives_the_vehicle(sea: Sea) -> None:

@@ -298,6 +298,19 @@ def test_bytes_that_are_no_http_a_large_frame_and_a_vanished_peer_do_no_harm(
     stalled.close()
 
 
+def test_a_reader_that_breaks_off_while_images_come_is_forgotten(setting: Setting) -> None:
+    say = setting.bus.publisher("image", Image)
+    client = setting.client(max_queue=1)
+    send(client, op="subscribe", topic="/image")
+    setting.step_until(lambda: setting.bus.has_readers("image"))
+    for _ in range(20):
+        say(Image(height=480, width=640, step=1920, data=np.zeros(921_600, np.uint8)))
+        setting.bus.deliver()
+    client.socket.shutdown(socket.SHUT_RDWR)
+    setting.step_until(lambda: not setting.bus.has_readers("image"))
+    assert setting.ask(setting.client(), service="/rosapi/nodes")["result"] is True
+
+
 def test_pages_of_other_origins_are_refused(setting: Setting) -> None:
     assert setting.client(origin="http://localhost:8080")
     for origin in ("https://example.org", "null", "http://localhost.example.org"):
