@@ -5,6 +5,7 @@ import http.client
 import json
 import struct
 import threading
+import tracemalloc
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -99,8 +100,8 @@ def server_has(server: LiveServer, n: int) -> list[tuple[int, dict[str, Any]]]:
 
 @pytest.mark.parametrize(
     "said",
-    ["x" * 5000, "no json", "[1]", '{"type": 3}', b"bytes", "[" * 4000],
-    ids=["long", "text", "list", "number", "bytes", "deep"],
+    ["x" * 5000, "x" * 10_000_000, "no json", "[1]", '{"type": 3}', b"bytes", "[" * 4000],
+    ids=["long", "10 MB", "text", "list", "number", "bytes", "deep"],
 )
 def test_a_viewer_who_says_nonsense_is_disconnected_and_the_others_stay(
     server: LiveServer, said: str | bytes
@@ -108,11 +109,15 @@ def test_a_viewer_who_says_nonsense_is_disconnected_and_the_others_stay(
     server.publish("row", b"1")
     with socket_of(server) as good, socket_of(server) as bad:
         assert good.recv(timeout=WAIT) == bad.recv(timeout=WAIT) == b"1"
-        bad.send(said)
         with pytest.raises(ConnectionClosed):
-            bad.recv(timeout=WAIT)
+            say(bad, said)
         server.publish("row", b"2")
         assert good.recv(timeout=WAIT) == b"2"
+
+
+def say(socket: ClientConnection, text: str | bytes) -> None:
+    socket.send(text)  # may end while it is being sent
+    socket.recv(timeout=WAIT)
 
 
 def test_a_viewer_who_says_too_much_is_disconnected(
@@ -140,6 +145,22 @@ def test_a_reader_who_stalls_costs_nothing_and_the_others_go_on(server: LiveServ
             data = good.recv(timeout=WAIT)
             assert isinstance(data, bytes)
             (last,) = struct.unpack_from("<I", data)
+
+
+def test_a_reader_who_stalls_holds_less_than_a_megabyte(server: LiveServer) -> None:
+    image, n = bytes(60_000), 400  # 24 MB: more than sockets of the system hold
+    server.publish("row", image)
+    with socket_of(server, max_queue=1), socket_of(server, max_queue=1) as good:
+        good.recv(timeout=WAIT)
+        tracemalloc.start()
+        try:
+            for k in range(n):
+                server.publish("row", struct.pack("<I", k) + image)
+                good.recv(timeout=WAIT)
+            _, peak = tracemalloc.get_traced_memory()
+        finally:
+            tracemalloc.stop()
+    assert peak < 1e6  # [byte]; readers and server are in this process
 
 
 def test_a_port_that_is_taken_is_said_in_a_line(server: LiveServer) -> None:
