@@ -140,28 +140,9 @@ def compile_scene(
     """
     _check_step(timestep, is_simulated=bool(dynamics) or scene.has_uwsim_physics)
     hush()
-    spec = mujoco.MjSpec()
-    spec.compiler.degree = False
-    spec.option.timestep = timestep
-    spec.option.integrator = INTEGRATORS[scene.sim_params.integrator]
-    if scene.sim_params.contacts == "precise":
-        spec.option.noslip_iterations = NOSLIP
-    spec.option.gravity = [0.0, 0.0, -GRAVITY if dynamics else 0.0]
-    if scene.has_uwsim_physics:
-        spec.option.gravity = list(scene.sim_params.original_gravity)
+    spec = _with_options(scene, timestep, is_simulated=bool(dynamics))
     world_from_localized = scene.world_from_localized
-    for index, vehicle in enumerate(scene.vehicles):
-        robot = robots[index]
-        links = {link.name: link for link in robot.links}
-        is_dynamic = index in dynamics
-        base = _add_body(
-            spec.worldbody,
-            vehicle_body(index, robot.root),
-            world_from_localized @ vehicle.localized_from_base,
-            links[robot.root] if is_dynamic else None,
-        )
-        base.add_freejoint(name=vehicle_joint(index, ""))
-        _add_children(spec, base, robot, robot.root, index, links if is_dynamic else {})
+    _add_vehicles(spec, scene, robots, dynamics)
     loose: dict[str, PhysicsSpec] = {}
     for index, thing in enumerate(scene.objects):
         name = object_body(index)
@@ -201,6 +182,41 @@ def compile_scene(
         model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER)
     return model
+
+
+def _with_options(scene: SceneSpec, timestep: float, *, is_simulated: bool) -> mujoco.MjSpec:
+    """A model without bodies: the step, the integrator, the contacts and gravity of a scene."""
+    spec = mujoco.MjSpec()
+    spec.compiler.degree = False
+    spec.option.timestep = timestep
+    spec.option.integrator = INTEGRATORS[scene.sim_params.integrator]
+    if scene.sim_params.contacts == "precise":
+        spec.option.noslip_iterations = NOSLIP
+    spec.option.gravity = [0.0, 0.0, -GRAVITY if is_simulated else 0.0]
+    if scene.has_uwsim_physics:
+        spec.option.gravity = list(scene.sim_params.original_gravity)
+    return spec
+
+
+def _add_vehicles(
+    spec: mujoco.MjSpec,
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    dynamics: Mapping[int, VehicleHydrodynamics],
+) -> None:
+    """Add every vehicle where the scene puts it; without dynamics its links weigh nothing."""
+    for index, vehicle in enumerate(scene.vehicles):
+        robot = robots[index]
+        links = {link.name: link for link in robot.links}
+        is_dynamic = index in dynamics
+        base = _add_body(
+            spec.worldbody,
+            vehicle_body(index, robot.root),
+            scene.world_from_localized @ vehicle.localized_from_base,
+            links[robot.root] if is_dynamic else None,
+        )
+        base.add_freejoint(name=vehicle_joint(index, ""))
+        _add_children(spec, base, robot, robot.root, index, links if is_dynamic else {})
 
 
 def _check_step(timestep: float, *, is_simulated: bool) -> None:

@@ -17,9 +17,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ...algorithms.pilot import AXES, TOPIC
-from ...errors import ResultError
+from ...errors import ResultError, RunFailed
 from ...messages import Float64MultiArray, MultiArrayLayout
 from ...simulation import Simulation
+from ..planning.plan import Plan, Trial
+from .onlooker import Onlooker
 
 VERSION = 1
 RATE = 30.0
@@ -89,3 +91,17 @@ def read_inputs(data: bytes) -> tuple[Input, ...]:
     except (ValueError, KeyError, TypeError) as error:
         raise ResultError(f"is no file of a pilot's inputs: {error}") from None
     return tuple(found)
+
+
+def pilot_inputs(
+    plan: Plan, trial: Trial, simulation: Simulation, onlooker: Onlooker | None
+) -> PilotInputs | None:
+    """A pilot's inputs, live or stored; None where the algorithm takes none."""
+    if not getattr(plan.algorithm, "IS_PILOTED", False):
+        return None
+    stored = plan.inputs.get(trial.index)
+    if stored is not None:
+        return PilotInputs(simulation, lambda: None, read_inputs(stored))
+    if onlooker is None:
+        raise RunFailed(f"{plan.algorithm_name} needs somebody who pilots: --view.")
+    return PilotInputs(simulation, onlooker.pilot)

@@ -47,7 +47,7 @@ from .log_columns import log_columns
 from .moments import Moments, all_snapshots
 from .motion_recorder import MotionRecorder
 from .onlooker import Onlooker
-from .pilot_inputs import PilotInputs, read_inputs
+from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
 from .status import StatusMonitor, legible
 from .triggered_measure import TriggeredMeasure, finite
@@ -146,7 +146,7 @@ class _Execution:
         status = simulation.bus.inbox(STATUS_TOPIC, String)
         self._calls = calls
         self._onlooker = onlooker
-        self._inputs = _inputs_of(plan, trial, simulation, onlooker)
+        self._inputs = pilot_inputs(plan, trial, simulation, onlooker)
         found = {} if self._inputs is None else pilot_topics(simulation)
         self._parameters = {**found, **known_corners(plan), **plan.parameters}
         self._algorithm = _make(plan, partial(program, simulation), self._parameters, calls)
@@ -425,20 +425,6 @@ def _make(
             f"Algorithm {plan.algorithm_name!r} cannot be made: "
             f"{legible(what_broke(error, plan.algorithm))}"
         ) from error
-
-
-def _inputs_of(
-    plan: Plan, trial: Trial, simulation: Simulation, onlooker: Onlooker | None
-) -> PilotInputs | None:
-    """A pilot's inputs, live or stored; None where the algorithm takes none."""
-    if not getattr(plan.algorithm, "IS_PILOTED", False):
-        return None
-    stored = plan.inputs.get(trial.index)
-    if stored is not None:
-        return PilotInputs(simulation, lambda: None, read_inputs(stored))
-    if onlooker is None:
-        raise RunFailed(f"{plan.algorithm_name} needs somebody who pilots: --view.")
-    return PilotInputs(simulation, onlooker.pilot)
 
 
 def _tick(measures: list[TriggeredMeasure]) -> None:
