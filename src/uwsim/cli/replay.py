@@ -93,7 +93,8 @@ class FilmOptions:
             INPUT,
             "--curve",
             metavar="MEASURE",
-            help="A measure whose curve is drawn; may be repeated. Without it the first four.",
+            help="A measure whose curve is drawn, or a column of its log as "
+            "'success.height'; may be repeated. Without it the first four.",
         ),
     ] = None
     plain: Annotated[

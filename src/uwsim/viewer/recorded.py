@@ -33,9 +33,9 @@ class Curve:
     """The samples of a measure in one level."""
 
     measure: str
-    """Its name."""
+    """Its name; of a further column of its log also the column's, as ``success.height``."""
     unit: str
-    """Of its value."""
+    """Of its value; empty where the log says none."""
     times: Array
     """Since the simulation began, (n,) [s]."""
     values: Array
@@ -60,6 +60,8 @@ class RecordedLevel:
     """Measure -> its value at the end."""
     curves: tuple[Curve, ...]
     """Of all measures that have a log, in the file's order."""
+    details: tuple[Curve, ...] = ()
+    """Of the further columns of their logs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -199,9 +201,27 @@ def _level(row: journal.Record, began: TrackLevel) -> RecordedLevel:
             for name, samples in row["logs"].items()
             if samples
         ),
+        details=tuple(
+            _detail(name, column, place, row["logs"][name], began.began)
+            for name, columns in row["log_headers"].items()
+            for place, column in enumerate(columns[1:], start=2)
+            if row["logs"].get(name)
+        ),
     )
 
 
-def _curve(name: str, unit: str, samples: list[list[float | None]], began: float) -> Curve:
-    values = np.array([[np.nan if v is None else v for v in sample[:2]] for sample in samples])
+def _detail(
+    measure: str, column: str, place: int, samples: list[list[float | None]], began: float
+) -> Curve:
+    """The curve of a further column of a log, named as ``height [m]``."""
+    name, _, unit = column.partition(" [")
+    return _curve(f"{measure}.{name}", unit.rstrip("]"), samples, began, place)
+
+
+def _curve(
+    name: str, unit: str, samples: list[list[float | None]], began: float, place: int = 1
+) -> Curve:
+    """The curve of one place in the samples; place 0 is the time in the level [s]."""
+    chosen = [(sample[0], sample[place]) for sample in samples]
+    values = np.array([[np.nan if v is None else v for v in pair] for pair in chosen])
     return Curve(measure=name, unit=unit, times=began + values[:, 0], values=values[:, 1])

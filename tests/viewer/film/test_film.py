@@ -17,9 +17,10 @@ from PIL import Image
 from tests.short_benchmark import run, write_benchmark
 from uwsim.cli import main
 from uwsim.results.journal import track_path
+from uwsim.viewer.film.curves import chosen
 from uwsim.viewer.film.film import Film, FilmSpec, record
 from uwsim.viewer.film.puppets import Puppets
-from uwsim.viewer.recorded import RecordedTrial, trials_of
+from uwsim.viewer.recorded import Curve, RecordedLevel, RecordedTrial, _level, trials_of
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +51,51 @@ def test_a_recorded_trial_has_its_levels_and_the_samples_of_its_measures(
     curve = trial.levels[1].curves[0]
     assert (curve.measure, curve.unit) == ("corners", "px")
     assert curve.times[0] == pytest.approx(trial.levels[1].began, abs=0.051)
+
+
+def level_with(*curves: Curve, details: tuple[Curve, ...] = ()) -> RecordedLevel:
+    return RecordedLevel(
+        label="",
+        status="ok",
+        why="",
+        began=0.0,
+        ended=1.0,
+        values={},
+        curves=curves,
+        details=details,
+    )
+
+
+def curve(name: str, value: float = 1.0) -> Curve:
+    return Curve(measure=name, unit="m", times=np.zeros(1), values=np.full(1, value))
+
+
+def test_the_further_columns_of_a_log_are_curves_with_their_units(trial: RecordedTrial) -> None:
+    row = {
+        "status": "ok",
+        "missing": {},
+        "measures": {"success": (1.0, "1")},
+        "logs": {"success": [[0.0, 0.0, 0.1, None], [0.5, 1.0, 0.3, 2.0]]},
+        "log_headers": {"success": ["value", "height [m]", "phase [1]"]},
+    }
+    level = _level(row, replace(trial.track.levels[0], began=2.0))
+    assert [(one.measure, one.unit) for one in level.details] == [
+        ("success.height", "m"),
+        ("success.phase", "1"),
+    ]
+    height, phase = level.details
+    assert height.times.tolist() == [2.0, 2.5]
+    assert height.values.tolist() == [0.1, 0.3]
+    assert np.isnan(phase.values[0])
+    assert phase.values[1] == 2.0
+
+
+def test_a_measure_alone_is_drawn_with_the_further_columns_of_its_log() -> None:
+    details = (curve("a.x"), curve("a.nothing", np.nan), curve("a.y"))
+    alone, two = level_with(curve("a"), details=details), level_with(curve("a"), curve("b"))
+    assert [one.measure for one in chosen(alone, ())] == ["a", "a.x", "a.y"]
+    assert [one.measure for one in chosen(two, ())] == ["a", "b"]
+    assert [one.measure for one in chosen(alone, ("a.y", "a"))] == ["a.y", "a"]
 
 
 def test_bodies_are_put_where_they_were_and_cameras_go_with_them(trial: RecordedTrial) -> None:

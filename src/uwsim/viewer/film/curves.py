@@ -10,15 +10,27 @@ from .overlay import COLOURS, DIM, INK, Pixels, blend, polyline, shade, write
 
 MAX_CURVES = 4
 """Drawn at once."""
+MAX_OF_ONE = 6
+"""The same, of the one measure that has a log, with the further columns of it."""
 
 
 def chosen(level: RecordedLevel, names: tuple[str, ...]) -> list[Curve]:
-    """Return the curves of a level that are drawn: those named, or the first ones."""
-    curves = [curve for curve in level.curves if np.isfinite(curve.values).any()]
+    """Return the curves of a level that are drawn: those named, or the first ones.
+
+    Where one measure alone has a log, the further columns of the log are drawn with it.
+    """
     if names:
-        by_name = {curve.measure: curve for curve in curves}
+        by_name = {curve.measure: curve for curve in _seen((*level.curves, *level.details))}
         return [by_name[name] for name in names if name in by_name]
+    curves = _seen(level.curves)
+    if len(curves) == 1:
+        return [*curves, *_seen(level.details)][:MAX_OF_ONE]
     return curves[:MAX_CURVES]
+
+
+def _seen(curves: tuple[Curve, ...]) -> list[Curve]:
+    """Those that have a value at all."""
+    return [curve for curve in curves if np.isfinite(curve.values).any()]
 
 
 class CurvePanel:

@@ -14,7 +14,7 @@ from ...geometry import Intrinsics
 from ...simulation import Simulation
 from ..recorded import RecordedLevel, RecordedTrial
 from . import overlay
-from .curves import CurvePanel
+from .curves import CurvePanel, chosen
 from .encoder import Chapter, encoder_of
 from .overlay import Pixels
 from .paths import CameraPath, ViewKind
@@ -204,7 +204,7 @@ class Film:
     def _panel(self, number: int, level: RecordedLevel) -> CurvePanel:
         if number not in self._panels:
             width, height = self.spec.size
-            n = max(1, len(self.spec.curves) or min(4, len(level.curves)))
+            n = max(1, len(chosen(level, self.spec.curves)))
             tall = round(min(0.34, 0.1 * n) * height)
             wide = round(0.42 * width)
             box = MARGIN, height - tall - MARGIN - BAR, wide, tall
@@ -312,7 +312,8 @@ def centred(image: Pixels, size: tuple[int, int]) -> Pixels:
 
 def _check_curves(trial: RecordedTrial, spec: FilmSpec) -> None:
     """Refuse measures that have no log."""
-    known = dict.fromkeys(curve.measure for level in trial.levels for curve in level.curves)
+    curves = [curve for level in trial.levels for curve in (*level.curves, *level.details)]
+    known = dict.fromkeys(curve.measure for curve in curves)
     for name in spec.curves:
         if name not in known:
             raise UnknownName("measure with a log", name, tuple(known))
