@@ -54,4 +54,6 @@ class Marker(ros.visualization_msgs__msg__Marker):
 class MarkerArray(ros.visualization_msgs__msg__MarkerArray):
     """Several shapes."""
 
-    markers: list[Any] = field(default_factory=list)
+    markers: list[ros.visualization_msgs__msg__Marker] = field(  # type: ignore[assignment]
+        default_factory=list
+    )

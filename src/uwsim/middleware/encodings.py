@@ -214,7 +214,8 @@ def of_class(kind: type[M], found: Any) -> M:
         BadMessage: it lacks a field that has no default.
     """
     values: dict[str, Any] = {}
-    theirs = {name.lower(): name for name in vars(found)}
+    # of a constant POINTS and a field points the field, which is the later in this order
+    theirs = {name.lower(): name for name in sorted(vars(found))}
     for field, description in ros2_store().fielddefs[_name_of(kind)][1]:
         if field.lower() not in theirs:
             continue
