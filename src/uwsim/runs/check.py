@@ -157,7 +157,7 @@ def _unknown_names(
         try:
             load_algorithm(benchmark.algorithm, tables.algorithms)
         except BadSetting as error:
-            diagnostics.error(_root_line(file), str(error))
+            diagnostics.error(benchmark, str(error))
     wanted = scene or benchmark.scene
     if wanted is None:
         return diagnostics.all()
@@ -169,9 +169,9 @@ def _unknown_names(
     except FileError:
         if scene is None:
             message = f"the scene {str(wanted)!r} has errors: uwsim check {wanted}"
-            diagnostics.error(_root_line(file), message)
+            diagnostics.error(benchmark, message)
     except UwsimError as error:
-        diagnostics.error(_root_line(file) if scene is None else None, str(error))
+        diagnostics.error(benchmark if scene is None else None, str(error))
     else:
         try:
             return [
@@ -182,13 +182,6 @@ def _unknown_names(
         finally:
             simulation.close()
     return diagnostics.all()
-
-
-def _root_line(file: Path) -> int:
-    """Return the line of the root element, where a benchmark names scene and algorithm."""
-    from ..schema import parse
-
-    return int(str(parse(file).root.sourceline))
 
 
 class _Folders:

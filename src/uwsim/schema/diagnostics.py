@@ -79,27 +79,23 @@ class Diagnostics:
 def diagnostic_at(
     spec: object,
     message: str,
-    element: str | None = None,
-    number: int = 0,
+    element: str = "",
     *,
     file: str | None = None,
     severity: Literal["error", "warning"] = "error",
 ) -> Diagnostic:
-    """Make an error or a warning at the ``number``th ``element`` in a spec, else at the spec.
+    """Make an error or a warning at the first ``element`` in a spec, else at the spec.
 
     Args:
         spec: what is wrong.
         message: why.
         element: qualified name of the element in it.
-        number: which of several such.
         file: named where the spec was read from none.
         severity: of the diagnostic.
     """
     source = spec.source_line if isinstance(spec, Spec) else None
     name = (file or "the scene") if source is None else source.file
-    return Diagnostic(
-        file=name, line=line_of(spec, element, number), message=message, severity=severity
-    )
+    return Diagnostic(file=name, line=line_of(spec, element), message=message, severity=severity)
 
 
 def _diagnostic(file: str, line: int | None, message: str, severity: str) -> Diagnostic:

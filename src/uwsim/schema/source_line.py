@@ -16,13 +16,8 @@ class SourceLine:
     """The file."""
     line: int
     """Line of the element, from 1."""
-    elements: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
-    """Lines of the elements in it, by their qualified names."""
-
-    def of(self, element: str | None = None, number: int = 0) -> int:
-        """Line of the ``number``th ``element`` in it; its own where there is none."""
-        lines = () if element is None else self.elements.get(element, ())
-        return lines[number] if number < len(lines) else self.line
+    elements: Mapping[str, int] = field(default_factory=dict)
+    """Lines of the first element of each qualified name in it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,18 +30,17 @@ class Spec:
     """Where it was read; None for one that a program made."""
 
 
-def line_of(spec: object, element: str | None = None, number: int = 0) -> int | None:
-    """Line of the ``number``th ``element`` in a spec, else of the spec; None if it has none."""
-    source_line = spec.source_line if isinstance(spec, Spec) else None
-    return None if source_line is None else source_line.of(element, number)
+def line_of(spec: object, element: str = "") -> int | None:
+    """Line of the first ``element`` in a spec, else of the spec; None if it has none."""
+    source = spec.source_line if isinstance(spec, Spec) else None
+    return None if source is None else source.elements.get(element, source.line)
 
 
 def source_line(node: etree._Element, file: str) -> SourceLine | None:
     """Return the line of an element of a file, with those in it; None of one made by a program."""
     if node.sourceline is None:
         return None
-    elements: dict[str, tuple[int, ...]] = {}
+    elements: dict[str, int] = {}
     for child in node.iterchildren("*"):
-        tag = str(child.tag)
-        elements[tag] = (*elements.get(tag, ()), int(str(child.sourceline)))
+        elements.setdefault(str(child.tag), int(str(child.sourceline)))
     return SourceLine(file, int(str(node.sourceline)), elements)

@@ -140,7 +140,8 @@ class Search:
             self._say(
                 f"{len(names)} links of the vehicle {vehicle!r} have no mass and are given "
                 f"{1e3 * MIN_MASS:g} g each ({shown}); a <mass> in its URDF or its set says more",
-                *(self._scene.vehicles[index], DYNAMICS),
+                self._scene.vehicles[index],
+                DYNAMICS,
                 severity="warning",
             )
 
@@ -160,7 +161,8 @@ class Search:
             self._say(
                 f"the sets of the vehicles are for water of different density ({message} kg/m3); "
                 "expected <u:density> in <oceanState>, which says what the water has",
-                *(self._scene.vehicles[max(given)], DYNAMICS),
+                self._scene.vehicles[max(given)],
+                DYNAMICS,
             )
             return
         for index, own in given.items():
@@ -188,7 +190,8 @@ class Search:
                 f"the water has {density:.6g} kg/m3 and the set {before.name!r} of {name!r} was "
                 f"trimmed in {before.density:.6g}: it is {abs(lift):.3g} N "
                 f"{'lighter' if lift > 0.0 else 'heavier'} here than there",
-                *(self._scene.vehicles[index], DYNAMICS),
+                self._scene.vehicles[index],
+                DYNAMICS,
                 severity="warning",
             )
 
@@ -206,7 +209,8 @@ class Search:
                 f"the vehicle {vehicle.name!r} is simulated (<u:dynamics>) and has a <scaleFactor> "
                 f"of {x:g} {y:g} {z:g}; expected 1 1 1: what a scaled vehicle weighs and resists "
                 "nobody has said. Change its URDF and its hydrodynamics file instead",
-                *(vehicle, "scaleFactor"),
+                vehicle,
+                "scaleFactor",
             )
 
     def _follow_thrusters(self, index: int, vehicle: VehicleSpec) -> None:
@@ -301,7 +305,7 @@ class Search:
                 self._say(str(error), current)
 
     def _say(
-        self, message: str, spec: Spec, element: str | None = None, severity: Severity = "error"
+        self, message: str, spec: Spec, element: str = "", severity: Severity = "error"
     ) -> None:
         """Keep an error of an ``element`` in a spec, or of the spec."""
         file = self._scene.path

@@ -17,15 +17,14 @@ from ...scene.checks.plausibility import VehicleWarning, unless_meant
 from ...scene.reader import scene_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
-from ...schema import NAMESPACE, diagnostic_at
+from ...schema import diagnostic_at
 from ..bodies import read_robots
 from ..collision.hull import hull_of
-from ..dynamics import read_dynamics
+from ..dynamics import DYNAMICS, read_dynamics
 from .start_plausibility import Starts
 from .thrust_warnings import thrust_said
 from .vehicle_plausibility import OF_SIMULATED, candidate_of, size_said
 
-DYNAMICS = f"{{{NAMESPACE}}}dynamics"
 MAX_VEHICLES = 50
 """Number of vehicles of a scene that are checked."""
 MAX_LOOSE = 200
