@@ -255,7 +255,7 @@ class Bridge(ABC):
             self.bus.withdraw(name)
         self._from_outside.clear()
 
-    def send_latched(self, topic: str) -> None:
+    def _send_latched(self, topic: str) -> None:
         """Send what was published on a latched topic before, and from now on whatever comes."""
         before = self.bus.unread(topic)
         if before is not None:
@@ -275,8 +275,11 @@ class Bridge(ABC):
                 continue
             topics[name] = ends
         if topics != self._topics:
-            self._topics = topics
+            before, self._topics = self._topics, topics
             self.on_topics(topics)
+            for name in LATCHED:
+                if name in _published(topics) and name not in _published(before):
+                    self._send_latched(name)
         services: dict[str, Service] = {}
         for name in self.bus.services:
             request_type = self.bus.request_type(name)
@@ -373,3 +376,8 @@ class Bridge(ABC):
             self._publishers[topic](message)
         except UwsimError as error:
             self.log.say(f"/{topic}: a message was refused: {error}", kind=f"refused {topic}")
+
+
+def _published(topics: Mapping[str, TopicEnds]) -> set[str]:
+    """Names of the topics on which anyone publishes."""
+    return {name for name, ends in topics.items() if ends.is_published}

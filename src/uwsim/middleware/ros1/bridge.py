@@ -121,7 +121,7 @@ class Ros1Bridge(Bridge):
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         """Advertise what is published on the bus, subscribe to what is read there."""
         publications, subscriptions = dict(self._publications), dict(self._subscriptions)
-        to_read, fresh = _topics_to_read(topics), []
+        to_read = _topics_to_read(topics)
         for name, ends in topics.items():
             kind = wire_type(ends.type)
             if kind is None or not kind.md5:
@@ -137,7 +137,6 @@ class Ros1Bridge(Bridge):
                     self._send_timeout,
                     is_latched=name in LATCHED,
                 )
-                fresh.append(name)
             if topic in to_read and topic not in subscriptions:
                 subscriptions[topic] = Subscription(
                     topic, kind, self._node, self.log, self._receiver(topic)
@@ -146,9 +145,6 @@ class Ros1Bridge(Bridge):
         # at once, because other nodes ask for them: who sees a publication sees all subscriptions
         self._subscriptions = subscriptions
         self._publications = publications
-        for name in fresh:
-            if name in LATCHED:
-                self.send_latched(name)
         for subscription in gone:
             subscription.close()
         self._register()

@@ -90,8 +90,6 @@ class Ros2(Bridge):
             self._drop(self._readers.pop(name))
         for name in sorted(set(published) - set(self._writers)):
             self._add_writer(name, published[name].type, _Demand(self, name))
-            if name in LATCHED:
-                self.send_latched(name)
         for name in sorted(set(read) - set(self._readers)):
             self._add_reader(name, read[name].type)
         self._presence.tell()

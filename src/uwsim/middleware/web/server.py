@@ -93,11 +93,7 @@ class WebBridge(Bridge):
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         """Note what is there; clients ask."""
-        fresh = set(topics) - set(self._ends)
         self._ends = dict(topics)
-        for name in LATCHED:
-            if name in fresh and topics[name].is_published:
-                self.send_latched(name)
 
     def on_services(self, services: Mapping[str, Service]) -> None:
         """Note what is there; clients ask."""
@@ -105,13 +101,12 @@ class WebBridge(Bridge):
 
     def send(self, topic: str, message: object) -> None:
         """Give a message to all who read its topic."""
-        readers = self._readers.get(topic, ())
-        if readers or topic in LATCHED:
+        is_latched = topic in LATCHED
+        if is_latched or topic in self._readers:
             outgoing = Outgoing(topic, message, size_of(message))
-            if topic in LATCHED:
+            if is_latched:  # before the readers are looked at: who comes meanwhile finds it here
                 self._latched[topic] = outgoing
-                readers = self._readers.get(topic, ())
-            for session, subscription in readers:
+            for session, subscription in self._readers.get(topic, ()):
                 session.post(subscription, outgoing)
 
     def tick(self) -> None:
