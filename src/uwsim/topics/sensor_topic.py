@@ -54,9 +54,8 @@ class SensorTopicSpec(InterfaceSpec):
         """Publish the sensor from now on; raises UnknownName if it is not there."""
         sensor = world.sensor(self.name, self.sources)
         publish = world.sensor_publisher(self.name, self.topic, self.carries()["topic"])
-        publisher = SensorPublisher(sensor, publish, lambda: world.time)
-        if self.is_pure:
-            publisher.rests_unless(partial(is_needed, world.bus, self.topic))
+        needed = partial(is_needed, world.bus, self.topic) if self.is_pure else None
+        publisher = SensorPublisher(sensor, publish, lambda: world.time, needed)
         world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
@@ -65,18 +64,19 @@ class SensorPublisher(Interface):
     """Publishes what a sensor measures."""
 
     def __init__(
-        self, sensor: Sensor, publish: Callable[[object], None], clock: Callable[[], float]
+        self,
+        sensor: Sensor,
+        publish: Callable[[object], None],
+        clock: Callable[[], float],
+        is_needed: Callable[[], bool] | None,
     ) -> None:
         self._sensor, self._publish, self._clock = sensor, publish, clock
-        self._is_needed: Callable[[], bool] = lambda: True
-
-    def rests_unless(self, is_needed: Callable[[], bool]) -> None:
-        """Take samples only when they are needed; else even for nobody: random streams advance."""
         self._is_needed = is_needed
+        """Whether a sample is to be taken; None: even for nobody, as random streams advance."""
 
     def publish(self) -> None:
         """Take a sample and publish it."""
-        if not self._is_needed():
+        if self._is_needed is not None and not self._is_needed():
             return
         message = self._sensor.sample(self._clock())
         if message is not None:

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..geometry import Array, Pose
+from ..geometry import Array
 from ..messages import String, TFMessage
 from ..simulation import Simulation
 from ..simulation.parts import Part
@@ -54,8 +54,9 @@ class SceneTopics:
         fixed = {
             each.name for i, each in enumerate(world.scene.objects) if world.state.poses.is_fixed(i)
         }
-        objects = world.frames(with_objects=True)[len(world.frames(with_objects=False)) :]
-        missing = [] if own else [*world.frames(with_objects=False)]
+        vehicles = world.frames(with_objects=False)
+        objects = world.frames(with_objects=True)[len(vehicles) :]
+        missing = [] if own else vehicles
         self._moving = [each for each in missing if not each.is_fixed]
         self._fixed = [each for each in missing if each.is_fixed]
         if not has_objects:
@@ -63,8 +64,9 @@ class SceneTopics:
             self._fixed += [each for each in objects if each.child in fixed]
         self._recorder: Recorder | None = None
         self._publish_tf = None
+        self._latched = tuple(self._published_once())
         if is_on_bus:
-            for topic, message in self._latched():
+            for topic, message in self._latched:
                 simulation.bus.publisher(topic, type(message))(message)
             if self._moving and not simulation.bus.has_readers(TF):
                 self._publish_tf = simulation.bus.publisher(TF, TFMessage)
@@ -75,7 +77,7 @@ class SceneTopics:
     def record(self, recorder: Recorder) -> None:
         """Have them recorded, too, from now on."""
         self._recorder = recorder
-        for topic, message in self._latched():
+        for topic, message in self._latched:
             recorder.keep(topic, message)
 
     def _tick(self) -> None:
@@ -95,7 +97,7 @@ class SceneTopics:
             ]
         )
 
-    def _latched(self) -> Iterator[tuple[str, Any]]:
+    def _published_once(self) -> Iterator[tuple[str, Any]]:
         """What is published once."""
         world = self._simulation.world
         robots = world.robots
@@ -116,5 +118,4 @@ class SceneTopics:
         if poses.is_fixed(part.object):
             return self._root, world.world_from_localized.inverse().matrix
         name = scene.objects[part.object].name
-        here = world.body(name).world_from_body @ Pose.identity()
-        return name, here.inverse().matrix
+        return name, world.body(name).world_from_body.inverse().matrix

@@ -138,7 +138,7 @@ class _Execution:
         simulation.bus.keeps_unread = False  # all who read subscribe
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # as they are bound for the next level
-        ramp_level(self._updaters, self._before(trial))
+        ramp_level(self._updaters, self._before())
         for gated in self._bind_measures():
             gated.close()  # the bus now keeps the messages that they read when they start
         self._triggers = LevelTriggers(benchmark, simulation.world)
@@ -211,10 +211,11 @@ class _Execution:
             inputs=b"" if self._inputs is None else self._inputs.data(),
         )
 
-    def _before(self, trial: Trial) -> Level:
+    def _before(self) -> Level:
         """The values before the first level."""
-        begins_as_it_is = trial.is_alone and not self._plan.benchmark.prelude
-        return trial.levels[0] if begins_as_it_is else initial_level(self._updater)
+        if self._trial.is_alone and not self._plan.benchmark.prelude:
+            return self._trial.levels[0]
+        return initial_level(self._updater)
 
     def _title(self) -> str:
         """``currents, pi, seed 7``."""
@@ -323,7 +324,7 @@ class _Execution:
     def _begin(self, level: Level, before: Level | None) -> None:
         """Bring the scene to a level, and wait until it may begin."""
         self._step_to(level, before)
-        from_initial = self._before(self._trial) if self._trial.is_alone else before
+        from_initial = self._before() if self._trial.is_alone else before
         self._live.changed(level, after=from_initial)
         self._triggers.arm()
         if self._wait(f"Level {level} never began"):
