@@ -3,7 +3,7 @@
 One seed at fog 0 without current, run in this process as a worker runs it: the software rasteriser
 has no threads of its own, so that CPU time is that of one core. The episode is what is measured of
 it, from the beginning of its level to its end; beside it the whole trial, with making the scene
-live and the prelude. A first trial warms the caches. One JSON on stdout.
+live. A first trial warms the caches. One JSON on stdout.
 """
 
 from __future__ import annotations
