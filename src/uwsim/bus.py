@@ -73,6 +73,8 @@ class _Topic:
     readers: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
     owners: list[object] = dataclasses.field(default_factory=list)
     """Who reads, of each reader; None for anyone."""
+    hearers: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
+    """Who hears what there is, and counts as no reader."""
     checks: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
     writers: list[object] = dataclasses.field(default_factory=list)
     """Who publishes, each once; None for anyone."""
@@ -129,6 +131,7 @@ class Bus:
         *,
         check: Callable[[M], None] | None = None,
         owner: object = None,
+        counts: bool = True,
     ) -> Callable[[], None]:
         """Call ``callback`` with every message on ``topic``; returns the way to stop it.
 
@@ -137,8 +140,15 @@ class Bus:
 
         ``object`` as the type stands for any: such a reader hears whatever the topic carries, and
         leaves it to others to say what that is. ``owner`` is who reads, for `ends`.
+
+        One that does not count (``counts``) changes nothing for anyone: for it alone nothing is
+        drawn. It hears what others read when it is delivered, and what nobody reads while it is
+        published; it must not keep the message, which stays its sender's.
         """
         entry = self._typed(topic, type)
+        if not counts:
+            entry.hearers.append(callback)
+            return lambda: entry.hearers.remove(callback)
         entry.readers.append(callback)
         entry.owners.append(owner)
         self.revision += 1
@@ -225,6 +235,9 @@ class Bus:
                 raise BadMessage(f"Topic {topic!r} carries {_type_name(type)}, {wrong_class}.")
             if not entry.readers:
                 entry.unread = message
+                if entry.hearers and not unfit(message):
+                    for hear in entry.hearers:
+                        hear(message)
                 return
             if wrong := unfit(message):
                 raise BadMessage(f"Topic {topic!r} carries {_type_name(type)}: {wrong}.")
@@ -377,7 +390,8 @@ class Bus:
             if not self._due_now:
                 return
             topic, message = self._due_now.popleft()
-            for reader in list(self._topics[topic].readers):
+            entry = self._topics[topic]
+            for reader in (*entry.readers, *entry.hearers):
                 reader(message)
         raise UwsimError(
             f"More than {MAX_MESSAGES_PER_STEP} messages in one step: two callbacks answer each "

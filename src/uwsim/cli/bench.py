@@ -35,6 +35,7 @@ from .options.options import (
     WorkerOptions,
     request_of,
 )
+from .options.run_options import TrialRecordOptions
 from .output.console import standard_output
 from .output.progress import progress
 
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from ..runs.planning.plan import Plan
     from ..runs.run import Run
     from ..runs.trial.onlooker import Onlooker
+    from ..viewer.trial_recording import TrialRecording
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,8 +102,12 @@ class BenchOptions:
         bool, in_group(OUTPUT, "--resume", help="Resume an interrupted run in --out.")
     ] = False
     overwrite: Annotated[
-        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier result in --out.")
+        bool,
+        in_group(
+            OUTPUT, "--overwrite", help="Replace an earlier result in --out, and its recordings."
+        ),
     ] = False
+    recorded: TrialRecordOptions
     live: LiveOptions
     files: CodeOptions
 
@@ -128,7 +134,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
 
     Written into --out: result.json (all numbers, with units, seeds and hashes), result.dat (the
     original's table), logs as CSV, plots, report.html. Same files and same seed: the same bytes.
-    --resume continues an interrupted run.
+    --resume continues an interrupted run; trials that are run again are recorded anew.
     """
     from ..results.directory import check, prepared
     from ..runs.prepare import prepare_runs
@@ -148,12 +154,17 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
         folders = folders_of(options.algorithm or ())
     with wrong.kept():
         check(options.directory, **how, results=folders)
+    recordings: list[TrialRecording] = []
+    with wrong.kept():
+        if len(plans) == len(options.algorithm or (None,)):
+            recordings = recordings_of(options, plans, folders)
     wrong.check()
     assert executor is not None
 
     watch = Stopwatch()
     announce_code(plans[0].scene)
     runs = prepare_runs(plans, options.directory, folders)
+    record(runs, recordings)
     say_warnings(plans[0])
     raise_from_now_on()
     if note := repeats_note(len(plans), len(plans[0].levels()), options.repeat):
@@ -168,6 +179,40 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
 
             executor = SerialExecutor(onlooker)
         run_and_finish(runs, executor, options.by.workers, watch, context.obj)
+
+
+def recordings_of(
+    options: BenchOptions, plans: Sequence[Plan], folders: Sequence[str]
+) -> list[TrialRecording]:
+    """Return what records each plan; none without ``--record``.
+
+    Raises:
+        BadSetting: nothing can be recorded there.
+    """
+    from ..recording import image_storage
+    from ..runs.executors.choose import RAY
+
+    images, file = image_storage(options.recorded.images), options.recorded.record
+    if file is None:
+        return []
+    from ..viewer.trial_recording import check_recordings, trial_recordings
+
+    if options.by.workers == RAY:
+        raise BadSetting("--record: a worker of a Ray cluster may be on another machine.")
+    recordings = trial_recordings(plans, file, images, folders)
+    how = {"resume": options.resume, "overwrite": options.overwrite}
+    check_recordings(plans, recordings, options.directory, **how)
+    return recordings
+
+
+def record(runs: Sequence[Run], recordings: Sequence[TrialRecording]) -> None:
+    """Have the trials to come recorded; names those that are over and are not."""
+    if not recordings:
+        return
+    for run, recording in zip(runs, recordings, strict=True):
+        run.recorder = recording
+        for path in recording.missing(run):
+            warn(f"{path} is not written: its trial is finished, and is not run again")
 
 
 def check_live(options: BenchOptions, plans: Sequence[Plan]) -> None:

@@ -7,7 +7,6 @@ folder lies next to the file until `McapFile.close`, so that a run that is kille
 from __future__ import annotations
 
 import shutil
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +34,9 @@ class McapFile:
     def __init__(self, path: Path) -> None:
         self._path = path
         path.parent.mkdir(parents=True, exist_ok=True)
-        self._folder = Path(tempfile.mkdtemp(prefix=f".{path.stem}-", dir=path.parent))
+        self._folder = path.with_name(f".{path.name}.partial")
+        shutil.rmtree(self._folder, ignore_errors=True)  # of a run that was killed
+        self._folder.mkdir()
         self._writer = Writer(
             self._folder / BAG, version=Writer.VERSION_LATEST, storage_plugin=StoragePlugin.MCAP
         )

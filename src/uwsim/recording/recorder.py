@@ -12,7 +12,7 @@ import numpy as np
 
 from ..bus import OBSERVER, Bus
 from ..errors import BadSetting, did_you_mean
-from ..messages import CompressedImage, Image, pixels_of
+from ..messages import CompressedImage, Image, PointCloud2, pixels_of
 from ..messages.build import NANOSECONDS
 from ..middleware.types import WireType, wire_type
 from .bag_file import BagFile
@@ -22,6 +22,8 @@ FILES: dict[str, type[McapFile] | type[BagFile]] = {".mcap": McapFile, ".bag": B
 """Ending of a recording's name -> what writes it: ROS 2 in MCAP, a bag of ROS 1."""
 ImageStorage = Literal["raw", "png", "none"]
 """How images are kept: as they are, as ``TOPIC/compressed`` without loss, or not at all."""
+DRAWN = (Image, PointCloud2)
+"""Messages that are drawn only where somebody reads them."""
 PNG_ENCODINGS = ("rgb8", "mono8")
 """Encodings of images that PNG holds as they are; others are kept raw."""
 
@@ -67,9 +69,17 @@ class Recorder:
         self.left_out: dict[str, str] = {}
         """Topic -> name of its type, of topics whose type has no definition."""
 
-    def start(self, clock: Callable[[], float]) -> None:
-        """Subscribe to every topic; ``clock`` returns the simulation time [s]."""
+    def start(self, clock: Callable[[], float], *, is_unnoticed: bool = False) -> None:
+        """Subscribe to every topic.
+
+        Args:
+            clock: returns the simulation time [s].
+            is_unnoticed: whether nothing else may differ for it: images and point clouds are
+                recorded where others read them, and what programs publish on topics of their own
+                is none the more checked. Begin before programs are attached.
+        """
         self._clock = clock
+        is_before = True
 
         def appeared(topic: str, type: type) -> None:
             if not self.reads(type):
@@ -82,9 +92,12 @@ class Recorder:
             def receive(message: object) -> None:
                 self._keep(f"/{topic}", kind, round(clock() * NANOSECONDS), message)
 
-            self._stops.append(self._bus.subscribe(topic, type, receive, owner=OBSERVER))
+            counts = not is_unnoticed or (is_before and type not in DRAWN)
+            stop = self._bus.subscribe(topic, type, receive, owner=OBSERVER, counts=counts)
+            self._stops.append(stop)
 
         self._stops.append(self._bus.observe(appeared))
+        is_before = False
 
     def reads(self, type: type) -> bool:
         """Whether topics of that message type are recorded, if it has a definition."""

@@ -23,6 +23,7 @@ from .collect import collect
 from .described import described
 from .planning.plan import Plan, Trial
 from .trial.status import ended_its_process, was_stopped
+from .trial.trial_recorder import TrialRecorder
 from .uwsim_files import save_dat, save_data
 
 
@@ -40,6 +41,8 @@ class Run:
     """What draws the images (`prepare`)."""
     files: tuple[InputFile, ...] = ()
     """Files that must not change during the run (`watchable`)."""
+    recorder: TrialRecorder | None = None
+    """Writes down the messages of its trials."""
     n_resumed: int = 0
     """Levels that were on disk already when the run began."""
     n_lost: int = 0

@@ -49,6 +49,19 @@ class ProgramOptions:
     ] = None
 
 
+ImagesOption = Annotated[
+    str,
+    in_group(
+        OUTPUT,
+        "--images",
+        metavar="raw|png|none",
+        help="In the recording: images as they are, as TOPIC/compressed without loss (smaller, "
+        "slower), or none.",
+        autocompletion=one_of(("raw", "png", "none")),
+    ),
+]
+
+
 @dataclass(frozen=True, kw_only=True)
 class RecordOptions:
     """What is written."""
@@ -71,18 +84,26 @@ class RecordOptions:
             ".bag of ROS 1 (rosbag).",
         ),
     ] = None
-    images: Annotated[
-        str,
-        in_group(
-            OUTPUT,
-            "--images",
-            metavar="raw|png|none",
-            help="In the recording: images as they are, as TOPIC/compressed without loss (smaller, "
-            "slower), or none.",
-            autocompletion=one_of(("raw", "png", "none")),
-        ),
-    ] = "raw"
+    images: ImagesOption = "raw"
     overwrite: Annotated[
         bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier recording.")
     ] = False
     as_json: JsonOption = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrialRecordOptions:
+    """What is recorded of the trials of a benchmark."""
+
+    record: Annotated[
+        Path | None,
+        in_group(
+            OUTPUT,
+            "--record",
+            metavar="FILE.mcap|.bag",
+            help="Record the topics of each trial, for ROS 2 or ROS 1; of several trials "
+            "FILE-00000.mcap and so on, as numbered in the result, whose bytes stay the same. "
+            "Not for ray.",
+        ),
+    ] = None
+    images: ImagesOption = "raw"

@@ -205,7 +205,7 @@ def run_and_record(
     writer = JournalWriter(job.run, job.trial)
     here = Path.cwd()  # an algorithm may go elsewhere
     try:
-        for event in run_trial(job.run.plan, job.trial, pool, calls, onlooker):
+        for event in run_trial(job.run.plan, job.trial, pool, calls, onlooker, job.run.recorder):
             raise_if_interrupted()
             with chdir(here):
                 is_new = writer.keep(event)

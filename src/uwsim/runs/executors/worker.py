@@ -26,6 +26,7 @@ from ..run import Run
 from ..trial.level_row import LevelRow, TrialEnd
 from ..trial.onlooker import Onlooker
 from ..trial.trial import execute
+from ..trial.trial_recorder import TrialRecorder
 
 IMAGES = "pictures"
 
@@ -69,6 +70,7 @@ def run_trial(
     pool: RendererPool,
     calls: Calls | None = None,
     onlooker: Onlooker | None = None,
+    recorder: TrialRecorder | None = None,
 ) -> Iterator[Event]:
     """Run a trial; yields each level as it ends, and finally the end of the trial.
 
@@ -78,11 +80,13 @@ def run_trial(
         pool: lends the renderer.
         calls: counts those into the algorithm.
         onlooker: looks on between the steps.
+        recorder: writes down the messages.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    for n, outcome in enumerate(execute(plan, trial, pool=pool, calls=calls, onlooker=onlooker)):
+    outcomes = execute(plan, trial, pool=pool, calls=calls, onlooker=onlooker, recorder=recorder)
+    for n, outcome in enumerate(outcomes):
         if isinstance(outcome, TrialEnd):
             yield TrialEnded(record=_end(outcome), motion=outcome.motion, inputs=outcome.inputs)
         else:

@@ -9,7 +9,7 @@ benchmark with ``u:prelude="false"`` has none: the level's values hold from the 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import closing
+from contextlib import closing, nullcontext
 from functools import partial
 from pathlib import Path
 
@@ -50,6 +50,7 @@ from .onlooker import Onlooker
 from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
 from .status import StatusMonitor, legible
+from .trial_recorder import TrialRecorder
 from .triggered_measure import TriggeredMeasure, finite
 from .visibility import Fact, TargetMotion, visibility_facts
 
@@ -67,6 +68,7 @@ def execute(
     pool: RendererPool | None = None,
     calls: Calls | None = None,
     onlooker: Onlooker | None = None,
+    recorder: TrialRecorder | None = None,
 ) -> Iterator[LevelRow | TrialEnd]:
     """Run a trial; yields a LevelRow as each level ends, and at last the TrialEnd.
 
@@ -76,6 +78,7 @@ def execute(
         pool: lends the renderer; without one the trial has a renderer of its own.
         calls: counts those into the algorithm.
         onlooker: looks on between the steps.
+        recorder: writes down the messages.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
@@ -93,6 +96,7 @@ def execute(
         )
         try:
             with (
+                nullcontext() if recorder is None else recorder.recording(simulation, trial),
                 attribute_errors_to(plan.plugins, is_running=True),
                 closing(
                     _Execution(plan, trial, simulation, program, calls or Calls(), onlooker)

@@ -1,0 +1,16 @@
+"""Somebody who writes down the messages of a trial."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from typing import Protocol
+
+from ...simulation import Simulation
+from ..planning.plan import Trial
+
+
+class TrialRecorder(Protocol):
+    """What records trials; it changes nothing in them, and can be sent to another process."""
+
+    def recording(self, simulation: Simulation, trial: Trial) -> AbstractContextManager[None]:
+        """Record a trial until its end; its simulation is at step 0, and nothing is attached."""

@@ -1,0 +1,111 @@
+"""Recordings of a benchmark: the messages of each trial in a file of its own.
+
+Times are those of the trial's simulation, from 0 s. Where there are several trials a file's name
+has the number that the trial has in the result (``units/00003.motion``: ``dive-00003.mcap``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import BadSetting
+from ..recording import ImageStorage, Recorder, check_path
+from ..runs.planning.plan import Plan, Trial
+from ..runs.run import Run
+from ..simulation import Simulation
+from ..terminal import warn
+from .scene_topics import SceneTopics
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrialRecording:
+    """Records the trials of one run; it changes no byte of the result.
+
+    Images and point clouds are recorded where the algorithm or a measure reads them: none is drawn
+    for the recording.
+    """
+
+    path: Path
+    """The file, or what the names of several begin with."""
+    images: ImageStorage
+    """How images are kept."""
+    is_single: bool
+    """Whether there is but one trial, whose file is `path` itself."""
+
+    def path_of(self, trial: Trial) -> Path:
+        """Return the file of a trial."""
+        if self.is_single:
+            return self.path
+        return self.path.with_name(f"{self.path.stem}-{trial.index:05d}{self.path.suffix}")
+
+    def missing(self, run: Run) -> list[Path]:
+        """Return the files that are not there of trials that are finished."""
+        to_run = {trial.index for trial in run.unfinished()}
+        files = [self.path_of(t) for t in run.plan.trials() if t.index not in to_run]
+        return [file for file in files if not file.exists()]
+
+    @contextmanager
+    def recording(self, simulation: Simulation, trial: Trial) -> Iterator[None]:
+        """Record a trial until its end."""
+        topics = SceneTopics(simulation, is_on_bus=False)
+        path = self.path_of(trial).absolute()  # an algorithm may go elsewhere
+        with Recorder(simulation.bus, path, images=self.images) as recorder:
+            recorder.start(lambda: simulation.time, is_unnoticed=True)
+            topics.record(recorder)
+            yield
+        if trial.index == 0:
+            for topic, type_name in recorder.left_out.items():
+                warn(f"/{topic} is not recorded: {type_name} has no message definition")
+
+
+def trial_recordings(
+    plans: Sequence[Plan], path: Path, images: ImageStorage, folders: Sequence[str]
+) -> list[TrialRecording]:
+    """Return what records each of some plans that are run together.
+
+    Args:
+        plans: an algorithm each.
+        path: the file that the user named.
+        images: how images are kept.
+        folders: names of the algorithms' folders; none where there is one algorithm.
+    """
+    return [
+        TrialRecording(
+            path=path.with_name(f"{path.stem}-{folder}{path.suffix}") if folder else path,
+            images=images,
+            is_single=len(plan.trials()) == 1,
+        )
+        for plan, folder in zip(plans, folders or [""], strict=True)
+    ]
+
+
+def check_recordings(
+    plans: Sequence[Plan],
+    recordings: Sequence[TrialRecording],
+    out: Path,
+    *,
+    resume: bool,
+    overwrite: bool,
+) -> None:
+    """Refuse what cannot be recorded; changes nothing.
+
+    Args:
+        plans: an algorithm each.
+        recordings: what records them.
+        out: the result directory.
+        resume: whether a run is gone on with: its trials may have their recordings.
+        overwrite: whether earlier recordings are replaced.
+
+    Raises:
+        BadSetting: no recording can be written there.
+    """
+    for plan, recording in zip(plans, recordings, strict=True):
+        if recording.path.resolve().is_relative_to(out.resolve()):
+            raise BadSetting(
+                f"--record {recording.path}: is in the result directory, which holds nothing else."
+            )
+        for trial in plan.trials():
+            check_path(recording.path_of(trial), overwrite=overwrite or resume)
