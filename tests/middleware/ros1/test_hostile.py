@@ -245,6 +245,34 @@ def test_a_client_of_a_service_that_sends_garbage_gets_an_error(graph: Graph) ->
         assert peer.recv(1) == b"\x00"
 
 
+def test_a_client_of_a_service_killed_in_the_middle_of_its_request_is_forgotten(
+    graph: Graph,
+) -> None:
+    from uwsim.messages import GTpublish, GTpublishResponse
+
+    sim = graph.node()
+    asked: list[object] = []
+
+    def answer(request: object) -> GTpublishResponse:
+        asked.append(request)
+        return GTpublishResponse()
+
+    sim.bus.serve("init", GTpublish, answer)
+    graph.ready()
+    fields = encode_header({"callerid": "/x", "md5sum": "*", "service": "/init"})
+    request = framed(to_ros1(GTpublish(groundTruth=np.ones(8, np.float32))))
+    for sent in (fields[:9], fields, fields + request[:5]):
+        peer = connect(port_of(sim))
+        peer.sendall(sent)
+        peer.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        peer.close()  # with a reset
+    with connect(port_of(sim)) as peer:
+        peer.sendall(fields + request)
+        until(lambda: asked, graph.step)
+    until(lambda: not sim._listener.n_connections, graph.step)
+    assert len(asked) == 1
+
+
 def test_many_connections_are_bounded(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("uwsim.middleware.ros1.listener.MAX_CONNECTIONS", 5)
     sim = graph.node()

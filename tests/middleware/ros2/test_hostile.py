@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import random
+import signal
 import socket
+import subprocess
+import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,7 +23,7 @@ from uwsim.messages.build import image
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
 from tests.middleware.ros2.simulator import Simulator, running
-from uwsim.middleware.encodings import to_cdr
+from uwsim.middleware.encodings import from_cdr, to_cdr
 from uwsim.middleware.ros2.participant import Participant, Writer
 from uwsim.middleware.ros2.quality import Quality
 from uwsim.middleware.ros2.raw_types import RawSample, raw_type
@@ -27,6 +33,53 @@ from uwsim.middleware.types import ros2_store
 N_FLOOD = 100_000
 MAX_KEPT = 1000
 """Messages of a topic that wait for the simulation."""
+MIB = 2**20
+PEER = """
+import sys, time
+from uwsim.messages import Image, image
+from uwsim.middleware.encodings import to_cdr
+from uwsim.middleware.ros2.participant import Participant
+from uwsim.middleware.ros2.quality import Quality
+from uwsim.middleware.ros2.raw_types import raw_type
+from uwsim.middleware.ros2.settings import Ros2Settings
+from uwsim.middleware.types import ros2_store
+import numpy as np
+
+domain = int(sys.argv[1])
+participant = Participant(domain, Ros2Settings(domain=domain).configuration())
+type = raw_type(ros2_store(), "sensor_msgs/msg/Image")
+"""
+READS = """
+participant.reader("rt/camera", type, Quality(), lambda sample: print("one", flush=True))
+time.sleep(1000.0)
+"""
+WRITES = """
+writer = participant.writer("rt/picture", type, Quality())
+data = bytes(to_cdr(image(np.zeros((960, 1280, 3), np.uint8), time=0.0)))
+while True:
+    writer.write(data)
+"""
+
+
+@contextmanager
+def process(source: str, domain: int) -> Iterator[subprocess.Popen[bytes]]:
+    """A participant in a process of its own, killed at the end."""
+    command = [sys.executable, "-c", PEER + source, str(domain)]
+    found = subprocess.Popen(command, stdout=subprocess.PIPE)
+    assert found.stdout is not None
+    os.set_blocking(found.stdout.fileno(), False)
+    try:
+        yield found
+    finally:
+        found.kill()
+        found.wait()
+        found.stdout.close()
+
+
+def memory() -> float:
+    """What this process holds [MiB]."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / MIB
 
 
 @pytest.fixture
@@ -129,3 +182,53 @@ spin_until(lambda: False)
             began = simulator.bus.step
             until(lambda: got, lambda: (step(), got.extend(a["n"] for a in second.answers())))
     assert simulator.bus.step > began
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/statm").is_file(), reason="Linux tells what is held")
+def test_a_reader_that_is_frozen_costs_bounded_memory_and_holds_nobody_up(
+    simulator: Simulator, other: Participant
+) -> None:
+    publish = simulator.bus.publisher("camera", Image)
+    say = simulator.bus.publisher("text", String)
+    heard: list[str] = []
+    other.reader(
+        "rt/text",
+        raw_type(ros2_store(), "std_msgs/msg/String"),
+        Quality(depth=0),
+        lambda sample: heard.append(from_cdr(String, sample.data).data),
+    )
+    pixels = np.zeros((960, 1280, 3), np.uint8)
+
+    def step() -> None:
+        publish(image(pixels.copy(), time=simulator.time))
+        say(String(data=f"{simulator.time:.3f}"))
+        simulator.step()
+
+    with process(READS, simulator.domain) as reader:
+        assert reader.stdout is not None
+        until(reader.stdout.read, step)
+        until(lambda: heard, step)
+        os.kill(reader.pid, signal.SIGSTOP)
+        before = memory()
+        for _ in range(100):  # 370 MB, of which the reader takes none
+            step()
+            said = f"{simulator.time - 0.002:.3f}"
+            until(partial(heard.__contains__, said), lambda: None)
+        assert memory() - before < 200.0
+        until(lambda: not simulator.bus.has_readers("camera"), step)  # it has not been heard of
+
+
+@pytest.mark.slow
+def test_a_writer_killed_in_the_middle_of_an_image_does_no_harm(
+    simulator: Simulator, other: Participant
+) -> None:
+    inbox = simulator.bus.inbox("picture", Image)
+    texts = simulator.bus.inbox("text", String)
+    with process(WRITES, simulator.domain) as writer:
+        until(lambda: inbox.last is not None, simulator.step)
+        writer.kill()
+    mine = writer_to(simulator, other, "text")
+    mine.write(text("still here"))
+    until(lambda: texts.last is not None, simulator.step)
+    assert all(each.data.size == 960 * 1280 * 3 for each in inbox.take())

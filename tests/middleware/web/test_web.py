@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import socket
+import struct
 import threading
 import time
 from collections.abc import Iterator
@@ -277,6 +278,62 @@ def test_a_flood_of_messages_is_bounded_and_the_others_are_served(setting: Setti
     setting.step_until(lambda: setting.bridge.n_arrived["twist"] == 5000)
     setting.bridge.step()
     assert inbox.last is not None
+
+
+def masked(text: str) -> bytes:
+    """A frame of a client with a text of less than 126 bytes; its mask is 0."""
+    data = text.encode()
+    assert len(data) < 126
+    return bytes((0x81, 0x80 | len(data), 0, 0, 0, 0)) + data
+
+
+@pytest.mark.slow
+def test_of_a_flood_of_100_000_the_newest_are_kept_and_the_log_says_so(
+    setting: Setting, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("uwsim.middleware.web.server.MAX_RATE", 1e9)  # as fast as it can
+    found: list[String] = []
+    setting.bus.subscribe("text", String, found.append)
+    setting.bridge.step()
+    flooder = setting.client()
+    n = 100_000
+    frames = b"".join(
+        masked(json.dumps({"op": "publish", "topic": "/text", "msg": {"data": str(i)}}))
+        for i in range(n)
+    )
+    thread = threading.Thread(target=flooder.socket.sendall, args=(frames,))
+    thread.start()
+    most = 0
+    until_ = time.monotonic() + LIMIT
+    while setting.bridge.n_arrived["text"] < n:  # while it does not step
+        most = max(most, len(setting.bridge._incoming.get("text", ())))
+        assert time.monotonic() < until_, "they never came"
+        time.sleep(0.01)
+    thread.join()
+    assert 0 < most <= 1000
+    assert any("faster than the simulation takes them" in line for line in setting.lines)
+    assert len(setting.lines) < 20
+    setting.bridge.step()
+    assert [int(each.data) for each in found] == list(range(n - 1000, n))
+    assert setting.ask(setting.client(), service="/rosapi/nodes")["result"] is True
+
+
+def test_a_publisher_that_breaks_off_in_the_middle_of_a_frame_is_forgotten(
+    setting: Setting,
+) -> None:
+    inbox = setting.bus.inbox("text", String)
+    setting.bridge.step()
+    frame = masked('{"op": "publish", "topic": "/text", "msg": {"data": "whole"}}')
+    broken = setting.client()
+    broken.socket.sendall(frame + frame[:20])
+    setting.step_until(lambda: inbox.last is not None)
+    linger = struct.pack("ii", 1, 0)
+    broken.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
+    broken.socket.shutdown(socket.SHUT_RDWR)
+    setting.step_until(lambda: setting.bridge._n_clients == 0)
+    other = setting.client()
+    other.socket.sendall(frame)
+    setting.step_until(lambda: setting.bridge.n_arrived["text"] == 2)
 
 
 def test_bytes_that_are_no_http_a_large_frame_and_a_vanished_peer_do_no_harm(
