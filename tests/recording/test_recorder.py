@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -69,6 +70,48 @@ def test_mcap_ros2_support_reads_it(tmp_path: Path) -> None:
         found = {channel.topic: message for _, channel, _, message in decoded}
     assert found["/depth"].data == 3.0
     assert found["/sonar"].ping_info.frequency == 9e5
+
+
+def latched_and_not(path: Path) -> dict[str, Any]:
+    """Record a latched topic and one that is not; returns topic -> its connection."""
+    bus = Bus()
+    texts = {name: bus.publisher(name, String) for name in ("/robot_description", "/text")}
+    with Recorder(bus, path) as recorder:
+        recorder.start(lambda: 0.0)
+        for say in texts.values():
+            say(String(data="here"))
+        bus.deliver()
+    with AnyReader([path]) as reader:
+        return {each.topic: each for each in reader.connections}
+
+
+def test_a_latched_topic_has_the_quality_with_which_ros2_bag_plays_it_latched(
+    tmp_path: Path,
+) -> None:
+    found = latched_and_not(tmp_path / "run.mcap")
+    offered = {topic: each.ext.offered_qos_profiles for topic, each in found.items()}
+    ((latched,), (other,)) = offered["/robot_description"], offered["/text"]
+    assert latched.durability.name == "TRANSIENT_LOCAL"
+    assert other.durability.name == "VOLATILE"
+    for each in (latched, other):
+        assert each.reliability.name == "RELIABLE"
+        assert each.history.name == "KEEP_LAST"
+        assert (each.deadline.sec, each.deadline.nsec) == (9223372036, 854775807)
+    bags = latched_and_not(tmp_path / "run.bag")
+    assert bags["/robot_description"].ext.latching == 1
+    assert not bags["/text"].ext.latching
+
+
+def test_what_ros2_publishes_has_the_recorded_quality() -> None:
+    pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
+    from uwsim.middleware.ros2.quality import quality_of as offered
+    from uwsim.recording.mcap_file import quality_of as recorded
+
+    for topic in ("tf_static", "robot_description", "scene", "odom"):
+        mine, theirs = offered(topic), recorded(f"/{topic}")
+        assert mine.depth == theirs.depth
+        assert mine.is_reliable == (theirs.reliability.name == "RELIABLE")
+        assert mine.is_latched == (theirs.durability.name == "TRANSIENT_LOCAL")
 
 
 def test_two_recordings_of_the_same_messages_have_the_same_bytes(tmp_path: Path) -> None:

@@ -60,6 +60,8 @@ CALL_LIMIT = 60.0
 """How long a call of a service that is offered outside may take [s of wall time]."""
 LATCHED = ("tf_static", "robot_description", "scene")
 """Topics whose newest message a late subscriber gets as well."""
+DEPTH, LATCHED_DEPTH = 10, 100
+"""Messages of a topic that ROS 2 keeps for a reader that is behind, or late."""
 CLOSED = "The simulation has ended."
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from rosbags.rosbag1 import Writer
 
 from ..interrupts import ignoring_interrupts
+from ..middleware.bridge import LATCHED
 from ..middleware.encodings import to_ros1
 from ..middleware.types import WireType, ros1_store
 
@@ -56,7 +57,10 @@ class BagFile:
         with ignoring_interrupts():
             if topic not in self._connections:
                 self._connections[topic] = self._writer.add_connection(
-                    topic, kind.ros2_name, typestore=ros1_store()
+                    topic,
+                    kind.ros2_name,
+                    typestore=ros1_store(),
+                    latching=1 if topic.lstrip("/") in LATCHED else None,
                 )
             self._writer.write(self._connections[topic], time, data)
             self._n_written[topic] = seq + 1

@@ -2,6 +2,8 @@
 
 It is written by rosbags, which writes a folder (a rosbag2); its one file is what is kept. The
 folder lies next to the file until `McapFile.close`, so that a run that is killed loses no disk.
+The channel of a topic has the quality of service that the simulator offers over ROS 2, where
+``ros2 bag play`` looks for it: latched topics are replayed latched.
 """
 
 from __future__ import annotations
@@ -10,15 +12,42 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from rosbags.interfaces import (
+    Qos,
+    QosDurability,
+    QosHistory,
+    QosLiveliness,
+    QosReliability,
+    QosTime,
+)
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
 from ..interrupts import ignoring_interrupts
+from ..middleware.bridge import DEPTH, LATCHED, LATCHED_DEPTH
 from ..middleware.encodings import to_cdr
 from ..middleware.types import WireType, ros2_store
 
 SUFFIX = ".mcap"
 BAG = "recording"
 """Name of the rosbag2 inside; the same for every file, so that equal runs give equal bytes."""
+FOREVER = QosTime(9223372036, 854775807)
+"""What ROS 2 writes for an infinite time."""
+
+
+def quality_of(topic: str) -> Qos:
+    """Return the quality of service with which the simulator publishes a topic over ROS 2."""
+    is_latched = topic.lstrip("/") in LATCHED
+    return Qos(
+        history=QosHistory.KEEP_LAST,
+        depth=LATCHED_DEPTH if is_latched else DEPTH,
+        reliability=QosReliability.RELIABLE,
+        durability=QosDurability.TRANSIENT_LOCAL if is_latched else QosDurability.VOLATILE,
+        deadline=FOREVER,
+        lifespan=FOREVER,
+        liveliness=QosLiveliness.AUTOMATIC,
+        liveliness_lease_duration=FOREVER,
+        avoid_ros_namespace_conventions=False,
+    )
 
 
 class McapFile:
@@ -62,7 +91,10 @@ class McapFile:
         with ignoring_interrupts():
             if topic not in self._channels:
                 self._channels[topic] = self._writer.add_connection(
-                    topic, kind.ros2_name, typestore=ros2_store()
+                    topic,
+                    kind.ros2_name,
+                    typestore=ros2_store(),
+                    offered_qos_profiles=[quality_of(topic)],
                 )
             self._writer.write(self._channels[topic], time, data)
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from cyclonedds.qos import Policy, Qos
 from cyclonedds.util import duration
 
-from ..bridge import LATCHED
+from ..bridge import DEPTH, LATCHED, LATCHED_DEPTH
 from ..lockstep.topics import TICK
 
 CLOCK = "clock"
@@ -23,7 +23,7 @@ MAX_BLOCKING_S = 0.1
 class Quality:
     """Of one endpoint."""
 
-    depth: int = 10
+    depth: int = DEPTH
     """Messages kept for a reader that is behind (keep last); 0 keeps all."""
     is_reliable: bool = True
     is_latched: bool = False
@@ -61,4 +61,6 @@ class Quality:
 
 def quality_of(topic: str) -> Quality:
     """Return the quality of a topic of the simulator; no leading slash."""
-    return Quality(depth=100, is_latched=True) if topic in (*LATCHED, TICK) else Quality()
+    if topic in (*LATCHED, TICK):
+        return Quality(depth=LATCHED_DEPTH, is_latched=True)
+    return Quality()
