@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import shutil
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -140,13 +141,42 @@ def later(x):
         assert fresh(cache).times(1.0) == pytest.approx(product, abs=1e-12)
 
 
-def test_without_a_place_to_keep(cache: Path) -> None:
+@pytest.mark.parametrize("is_gone_after", [0, 1])
+def test_without_a_place_to_keep(cache: Path, is_gone_after: int) -> None:
     module = fresh(cache)
-    for path in sorted(cache.rglob("*"), reverse=True):
-        path.rmdir()
-    cache.rmdir()
+    for number in (1.5, 3)[:is_gone_after]:
+        assert module.twice(number) == 2.0 * number
+    shutil.rmtree(cache, ignore_errors=True)
     cache.touch()
+    assert module.twice(3) == 6.0
+    assert cache.is_file()
+
+
+def test_a_folder_to_keep_in_is_looked_for_at_the_first_call(cache: Path) -> None:
+    module = fresh(cache)
+    assert not cache.exists()
     assert module.twice(1.5) == 3.0
+    assert len(files(cache)) == 1
+
+
+def test_what_is_read_back_needs_none_of_the_tables_for_compiling(cache: Path) -> None:
+    assert fresh(cache).twice(1.5) == 3.0
+    code = (
+        "import doubles, sys; print(doubles.twice(1.5), 'numba.cpython.printimpl' in sys.modules)"
+    )
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(cache.parent), *sys.path])}
+    run = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+    )
+    assert run.stdout.split() == ["3.0", "False"]
+
+
+def test_read_back_code_is_called_by_what_is_compiled_later(cache: Path) -> None:
+    assert fresh(cache).twice(1.5) == 3.0
+    module = fresh(cache)
+    assert module.twice(1.5) == 3.0
+    twice = module.twice
+    assert numba.njit(lambda x: twice(x) + 1.0)(1.5) == 4.0
 
 
 def test_a_c_function_is_read_back(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:

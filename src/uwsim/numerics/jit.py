@@ -26,6 +26,7 @@ import numpy as np
 import numpy.typing as npt
 from numba.core.caching import FunctionCache, NullCache
 from numba.core.ccallback import CFunc
+from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 
 from ..files import disk_cache
@@ -33,6 +34,7 @@ from .compiled_source import source_digest
 from .compiling import one_is_compiled
 
 
+@functools.cache
 def _load_arrays() -> None:
     """Import numba's array functions without scipy.linalg, which they look for as they load.
 
@@ -47,8 +49,6 @@ def _load_arrays() -> None:
         linear.ensure_blas = look
 
 
-_load_arrays()
-
 P = ParamSpec("P")
 R = TypeVar("R")
 Elementwise = Callable[..., npt.NDArray[np.float64]]
@@ -58,14 +58,14 @@ def njit(function: Callable[P, R]) -> Callable[P, R]:
     """Compile with numba: cached on disk, GIL released, no fast-math, one thread."""
     compiled: Any = numba.njit(nogil=True)(function)
     if compiled is not function:  # as it is with NUMBA_DISABLE_JIT
-        compiled._cache = _cache(function)
+        compiled._cache = CacheOnUse(function)
     return cast("Callable[P, R]", compiled)
 
 
 def elementwise(function: Callable[..., float]) -> Elementwise:
     """Compile a function of numbers as one of arrays, element by element, as numpy's own are."""
     compiled: Any = numba.vectorize(function)  # type: ignore[no-untyped-call]
-    compiled._dispatcher.cache = _cache(function)
+    compiled._dispatcher.cache = CacheOnUse(function, is_typed=True)
     return cast("Elementwise", compiled)
 
 
@@ -79,7 +79,7 @@ def c_function(function: Callable[..., object], signature: Any) -> Any:
     """Compile a function of the module's level as a C function, with ``address``; cached alike."""
     arguments = (signature.args, signature.return_type)
     compiled: Any = CFunc(function, arguments, {}, {})
-    compiled._cache = _cache(cast("FunctionType", function))
+    compiled._cache = CacheOnUse(function)
     compiled.compile()
     return compiled
 
@@ -95,6 +95,16 @@ class HashedCache(FunctionCache):
             base=self._impl.filename_base,
             stamp=lambda: source_digest(function),
         )
+
+    def load_overload(self, sig: object, target_context: Any) -> object | None:
+        """Load compiled code; None if there is none.
+
+        numba's own would first fill the tables of all that it can compile: 0.2 s and 20 MB of a
+        start. Code that is compiled already needs only the functions that count references.
+        """
+        rtsys.initialize(target_context)
+        _load_arrays()
+        return cast("object | None", super()._load_overload(sig, target_context))  # type: ignore[no-untyped-call]
 
     def save_overload(self, sig: object, data: object) -> None:
         """Store compiled code if possible: a full disk or a deleted folder is no error."""
@@ -153,12 +163,35 @@ class NoCache(NullCache):
 
     def load_overload(self, sig: object, target_context: object) -> None:
         """Find nothing: it is compiled."""
+        _load_arrays()
         one_is_compiled()
 
 
-def _cache(function: Callable[..., object]) -> Any:
-    """A cache for a function, or none where there is no folder to keep it in."""
-    try:
-        return HashedCache(cast("FunctionType", function))
-    except RuntimeError:
-        return NoCache()
+class CacheOnUse(NullCache):
+    """The cache of a function from its first call on: to look for a folder writes a file there.
+
+    Args:
+        function: whose cache it is.
+        is_typed: whether what is loaded is compiled into more code, which takes numba's tables.
+    """
+
+    def __init__(self, function: Callable[..., object], *, is_typed: bool = False) -> None:
+        self._function, self._is_typed = cast("FunctionType", function), is_typed
+
+    @functools.cached_property
+    def _found(self) -> HashedCache | NoCache:
+        try:
+            return HashedCache(self._function)
+        except RuntimeError:  # there is no folder to keep it in
+            return NoCache()
+
+    def load_overload(self, sig: object, target_context: Any) -> object | None:
+        """Load compiled code; None if there is none, and it is compiled."""
+        found = self._found.load_overload(sig, target_context)
+        if found is None or self._is_typed:
+            target_context.refresh()
+        return found
+
+    def save_overload(self, sig: object, data: object) -> None:
+        """Store compiled code if possible."""
+        self._found.save_overload(sig, data)

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array, Triple
-from ...numerics.elementwise import arccos
+from ...numerics.jit import njit
 from ...numerics.linear import dot, length, product
 from ..mesh import Mesh, Texture
 
@@ -117,7 +117,7 @@ def _normals(corners: Array, crease: float) -> Array:
     sides = np.roll(corners, -1, axis=1) - corners  # (m, 3, 3) from each corner to the next
     sides /= np.linalg.norm(sides, axis=2, keepdims=True)
     cosine = -np.einsum("ijk,ijk->ij", sides, np.roll(sides, 1, axis=1))
-    weighted = face[:, None] * arccos(np.clip(cosine, -1.0, 1.0))[..., None]
+    weighted = face[:, None] * _angles(np.clip(cosine, -1.0, 1.0))[..., None]
     weighted = weighted.reshape(-1, 3)  # (3m, 3)
     point = _groups(corners.reshape(-1, 3) / _grain(corners))
     order = by_point = np.argsort(point, kind="stable")
@@ -140,6 +140,16 @@ def _normals(corners: Array, crease: float) -> Array:
     normals: Array = np.where(long > 0.0, total / np.where(long > 0.0, long, 1.0),
                               np.repeat(unit, 3, axis=0))  # fmt: skip
     return normals
+
+
+@njit
+def _angles(cosines: Array) -> Array:
+    """Of cosines (m, 3) [rad]; every scene with a mesh needs them, see `elementwise` for others."""
+    angles = np.empty(cosines.shape)
+    for row in range(cosines.shape[0]):
+        for corner in range(cosines.shape[1]):
+            angles[row, corner] = math.acos(cosines[row, corner])
+    return angles
 
 
 def _grain(corners: Array) -> float:
