@@ -1,4 +1,4 @@
-"""Messages have ROS's defaults, and are rosbags' messages all the same."""
+"""Messages have ROS's defaults, and the fields and constants that rosbags has for them."""
 
 from __future__ import annotations
 
@@ -41,8 +41,15 @@ def test_a_message_is_made_without_an_argument_and_is_what_ros_reads_from_zeros(
     name = kind.__msgtype__  # type: ignore[attr-defined]
     back = STORE.deserialize_cdr(STORE.serialize_cdr(message, name), name)
     assert back.__class__ is STORE.types[name]
-    assert isinstance(message, STORE.types[name])
     assert same(message, back)
+
+
+@pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
+def test_fields_and_constants_are_those_of_the_definition(kind: typing.Any) -> None:
+    constants, fields = STORE.fielddefs[kind.__msgtype__]
+    assert [field.name for field in dataclasses.fields(kind)] == [name for name, _ in fields]
+    found = {name: value for name, value in vars(kind).items() if name.isupper()}
+    assert found == {name: value for name, _, value in constants}
 
 
 def same(one: object, other: object) -> bool:

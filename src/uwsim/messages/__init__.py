@@ -1,10 +1,10 @@
 """ROS message and service types of the bus.
 
-Messages are the ROS 2 (Jazzy) dataclasses that rosbags ships, one module a ROS package. Those want
-every field; here each field has the default that ROS gives it: 0, False, an empty text or list,
-arrays of zeros in their length, and for a quaternion that of no rotation, w = 1, so that
-``Twist()`` is one that is all zero. Names, order, units and text are ROS's own. Services and the
-types of the UWSim packages are in this package; a test compares them with the ``.srv`` text.
+Messages are dataclasses of ROS 2 (Jazzy), one module a ROS package. Each field has the default that
+ROS gives it: 0, False, an empty text or list, arrays of zeros in their length, and for a quaternion
+that of no rotation, w = 1, so that ``Twist()`` is one that is all zero. Names, order, units and
+constants are ROS's own; a test compares them with the definitions that rosbags ships. Services and
+the types of the UWSim packages are in this package; a test compares them with the ``.srv`` text.
 Headers are ROS 2's; the ROS 1 adapter adds ``seq``.
 """
 
@@ -69,7 +69,7 @@ from .std_msgs import (
 )
 from .tf2_msgs import TFMessage
 from .underwater import DVL, LedLight, Pressure
-from .visualization_msgs import Marker, MarkerArray, MeshFile
+from .visualization_msgs import Marker, MarkerArray, MeshFile, UVCoordinate
 
 __all__ = [
     "DVL",
@@ -126,6 +126,7 @@ __all__ = [
     "TwistStamped",
     "TwistWithCovariance",
     "UInt8MultiArray",
+    "UVCoordinate",
     "Vector3",
     "Wrench",
     "WrenchStamped",

@@ -10,7 +10,6 @@ from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
-from rosbags.typesys.stores import ros2_jazzy as ros
 
 from .geometry_msgs import Pose, PoseStamped, Twist, Vector3
 from .services import Service
@@ -21,11 +20,12 @@ _CODES: Any = partial(np.zeros, 0, np.uint16)
 
 
 @dataclass
-class Accel(ros.geometry_msgs__msg__Accel):
+class Accel:
     """Linear [m/s^2] and angular [rad/s^2] acceleration."""
 
     linear: Vector3 = field(default_factory=Vector3)
     angular: Vector3 = field(default_factory=Vector3)
+    __msgtype__: ClassVar[str] = "geometry_msgs/msg/Accel"
 
 
 @dataclass
@@ -107,7 +107,7 @@ class Bounds:
     """A region; without points there is none."""
 
     type: int = 0
-    points: list[ros.geometry_msgs__msg__Vector3] = field(default_factory=list)
+    points: list[Vector3] = field(default_factory=list)
     __msgtype__: ClassVar[str] = "simulation_interfaces/msg/Bounds"
 
 

@@ -11,8 +11,8 @@ from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
-from rosbags.typesys.stores import ros2_jazzy as ros
 
+from .geometry_msgs import Vector3
 from .std_msgs import Header
 
 _FLOATS_0: Any = partial(np.zeros, 0, np.float32)
@@ -51,7 +51,7 @@ class ProjectedSonarImage:
 
     header: Header = field(default_factory=Header)
     ping_info: PingInfo = field(default_factory=PingInfo)
-    beam_directions: list[ros.geometry_msgs__msg__Vector3] = field(default_factory=list)
+    beam_directions: list[Vector3] = field(default_factory=list)
     ranges: np.ndarray[tuple[int, ...], np.dtype[np.float32]] = field(default_factory=_FLOATS_0)
     image: SonarImageData = field(default_factory=SonarImageData)
     __msgtype__: ClassVar[str] = "marine_acoustic_msgs/msg/ProjectedSonarImage"

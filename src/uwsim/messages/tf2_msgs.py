@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
-from rosbags.typesys.stores import ros2_jazzy as ros
+from .geometry_msgs import TransformStamped
 
 
 @dataclass
-class TFMessage(ros.tf2_msgs__msg__TFMessage):
+class TFMessage:
     """Transforms between frames."""
 
-    transforms: list[ros.geometry_msgs__msg__TransformStamped] = field(default_factory=list)
+    transforms: list[TransformStamped] = field(default_factory=list)
+    __msgtype__: ClassVar[str] = "tf2_msgs/msg/TFMessage"

@@ -40,7 +40,7 @@ def to_cdr(message: object) -> memoryview:
         return memoryview(EMPTY_CDR)
     try:
         return cast(
-            memoryview, ros2_store().serialize_cdr(_cast(message), name, little_endian=True)
+            memoryview, ros2_store().serialize_cdr(_cast(message, name), name, little_endian=True)
         )
     except Exception as error:
         raise BadMessage(f"{name} cannot be encoded: {error}") from error
@@ -69,7 +69,8 @@ def to_ros1(message: object, *, seq: int = 0) -> memoryview:
     if is_fieldless(name):
         return memoryview(b"")
     try:
-        return cast(memoryview, ros1_store().serialize_ros1(_as_ros1(_cast(message), seq), name))
+        view = _as_ros1(_cast(message, name), seq, name)
+        return cast(memoryview, ros1_store().serialize_ros1(view, name))
     except Exception as error:
         raise BadMessage(f"{name} cannot be encoded: {error}") from error
 
@@ -121,10 +122,10 @@ def _arrays(name: str) -> tuple[tuple[str, str, Any], ...]:
     return tuple(found)
 
 
-def _cast(message: Any, name: str | None = None) -> Any:
+def _cast(message: Any, name: str) -> Any:
     """The message, or a view of it whose arrays have the dtypes of the definition."""
     changed: dict[str, object] = {}
-    for field, kind, inner in _arrays(name or message.__msgtype__):
+    for field, kind, inner in _arrays(name):
         value = getattr(message, field)
         if kind == "array":
             is_exact = (
@@ -163,9 +164,9 @@ def _pairs(name: str) -> tuple[tuple[str, str, str, str], ...] | None:
     return None if is_equal else tuple(pairs)
 
 
-def _as_ros1(message: Any, seq: int, name: str | None = None) -> Any:
+def _as_ros1(message: Any, seq: int, name: str) -> Any:
     """A message as the serialiser of ROS 1 reads it."""
-    pairs = _pairs(name or message.__msgtype__)
+    pairs = _pairs(name)
     if pairs is None:
         return message
     values: dict[str, object] = {}
