@@ -12,8 +12,9 @@ Copy this file next to your node. It needs rclpy and std_msgs, and nothing of uw
     lockstep.run("tracker", Tracker)
 
 and `uwsim bench visibility --ros2 --client tracker`. For each trial there is a new node and a new
-Tracker. Its callbacks are called in the order of topics' names and then of arrival, once all
-messages of a step are there; whatever they publish takes effect in the same step.
+Tracker. Its callbacks are called in the order in which the simulation published, once all messages
+of a step are there; whatever they publish takes effect in the same step. Services that the
+simulation calls (`autoInit`) are offered by `LockStep.serve`.
 """
 
 import json
@@ -40,20 +41,25 @@ class LockStep:
         self._client, self._period = client, period
         self._callbacks, self._waiting, self._arrived, self._published = {}, {}, {}, {}
         self._calls, self._publishers, self._ticks, self._types = [], [], [], {}
+        self._handlers, self._services, self._timers = {}, {}, []
         self.run, self.next_run = "", ""
+        self.before_answer = lambda: None  # called before each answer; a test lets it sleep
         self._join = self._publisher(JOIN, String)
         self._ack = self._publisher(ACK, String)
         node.create_subscription(String, TICK, self._on_tick, WHOLE)
 
-    def subscribe(self, topic: str, kind: type, callback) -> None:
-        """Have a callback called with each message of a topic."""
-        self._callbacks[topic], self._waiting[topic], self._arrived[topic] = callback, [], 0
+    def subscribe(self, topic: str, kind: type, callback, *, raw: bool = False) -> None:
+        """Have a callback called with each message of a topic; ``raw``: with its bytes (CDR)."""
+        self._callbacks.setdefault(topic, []).append(callback)
+        if topic in self._waiting:
+            return
+        self._waiting[topic], self._arrived[topic] = [], 0
 
         def receive(message) -> None:
             self._waiting[topic].append(message)
             self._arrived[topic] += 1
 
-        self.node.create_subscription(kind, topic, receive, DEPTH)
+        self.node.create_subscription(kind, topic, receive, DEPTH, raw=raw)
 
     def publisher(self, topic: str, kind: type):
         """Return ``publish(message)``."""
@@ -72,6 +78,18 @@ class LockStep:
         """Call a service of std_srvs/Empty with the next answer, as ``startBench``."""
         self._calls.append(service)
 
+    def serve(self, service: str, kind: str, handler) -> None:
+        """Offer a service to the simulation, with requests and responses as dicts.
+
+        They come by the topics of lock-step: its type (``package/srv/Name``) need not be
+        installed, and it does not matter which DDS the node uses.
+        """
+        self._services[service], self._handlers[service] = kind, handler
+
+    def every(self, period: float, callback) -> None:
+        """Have a callback called every ``period`` [s] of simulation time."""
+        self._timers.append(([self.now, period, 0], callback))
+
     def is_connected(self) -> bool:
         """Whether every topic has its other end, but for those that the algorithm publishes."""
         return all(each.get_subscription_count() for each in (self._join, self._ack)) and all(
@@ -82,34 +100,51 @@ class LockStep:
         """Tell the simulation to wait for this client from now on."""
         self.run = self.next_run
         topics, later = list(self._callbacks), self._next(0.0)
-        self._say(self._join, topics=topics, publishes=self._types, **later)
+        self._say(
+            self._join, topics=topics, publishes=self._types, services=self._services, **later
+        )
 
     def answer(self) -> None:
         """Answer the tick for which all messages are there, if there is one."""
         if not self._ticks or not all(o.get_subscription_count() for o in self._publishers):
             return
         tick = self._ticks[0]
+        if "call" in tick:
+            self._ticks.pop(0)
+            values = self._handlers[tick["service"]](tick["args"])
+            self._say_done(call=tick["call"], values=values)
+            return
         if any(self._arrived.get(topic, 0) < n for topic, n in named(tick["sent"]).items()):
             return
         self._ticks.pop(0)
         self.now = tick["time"]
-        for topic in sorted(self._waiting):
-            messages, self._waiting[topic] = self._waiting[topic], []
-            for message in messages:
-                self._callbacks[topic](message)
+        for topic in tick["order"]:  # in which they came on the bus
+            message = self._waiting[topic].pop(0)
+            for callback in self._callbacks[topic]:
+                callback(message)
+        for timer, callback in self._timers:
+            if self.now >= due(timer):
+                timer[2] += 1
+                callback()
+        self._say_done(tick=tick["tick"], **self._next(self.now + self._period))
+
+    def _say_done(self, **content) -> None:
+        """Let the simulation go on, when it has what was published meanwhile."""
+        self.before_answer()
         calls, self._calls = self._calls, []
-        later = self._next(self.now + self._period)
-        self._say(self._ack, tick=tick["tick"], published=self._published, calls=calls, **later)
+        self._say(self._ack, published=self._published, calls=calls, **content)
 
     def _next(self, time: float) -> dict:
         """Wish for a tick at a time at the latest, whether there are messages or not."""
-        return {"next": time} if self._period > 0.0 else {}
+        times = [due(timer) for timer, _ in self._timers]
+        times += [time] if self._period > 0.0 else []
+        return {"next": min(times)} if times else {}
 
     def _on_tick(self, message: String) -> None:
         tick = json.loads(message.data)
         if tick.get("client") != self._client:
             return
-        if tick["tick"] == 0:  # a simulation invites
+        if tick.get("tick") == 0:  # a simulation invites
             self.next_run = tick["run"]
         elif tick["run"] == self.run:
             self._ticks.append(tick)
@@ -120,6 +155,12 @@ class LockStep:
 
     def _say(self, out, **content) -> None:
         out.publish(String(data=json.dumps({"client": self._client, "run": self.run, **content})))
+
+
+def due(timer: list) -> float:
+    """Return when a timer is due next [s]."""
+    start, period, n = timer
+    return start + n * period - 1e-9 * period
 
 
 def named(counts: dict) -> dict:

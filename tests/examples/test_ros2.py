@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 
+from tests.byte_hashes import short_currents
 from tests.ros2_peers import (
     BOUND_S,
     PYTHON,
@@ -24,7 +25,7 @@ from tests.ros2_peers import (
     needs_rclpy,
     peer,
 )
-from tests.short_benchmark import BENCHMARK
+from tests.short_benchmark import BENCHMARK, write_benchmark
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
@@ -141,3 +142,72 @@ def test_a_node_in_lock_step_scores_the_rows_of_the_same_algorithm_in_process(
     for part in ("rows", "columns", "missing", "facts"):
         assert inside[part] == outside[part]
     assert outside["run"]["clients"] == [["dark_box", "lock-step, ros2"]]
+
+
+BUNDLED = """
+import sys
+sys.path[:0] = ["examples/ros2", *{ours!r}]
+sys.argv = ["run_algorithm.py", *{arguments!r}]
+import run_algorithm
+run_algorithm.main()
+"""
+"""The example, in the environment of rclpy with that of uwsim before it."""
+of_one_version = pytest.mark.skipif(
+    not (PYTHON.parents[1] / "lib" / f"python3.{sys.version_info.minor}").is_dir(),
+    reason="rclpy is installed for another version of Python than uwsim",
+)
+
+
+MEASURED = ("rows", "columns", "missing", "image_streams", "pictures")
+"""What a client outside may not change; facts of its own parameters are not known of it."""
+
+
+def scored(benchmark: Path, out: Path, *options: str) -> dict[str, Any]:
+    """Run a benchmark; returns what is in result.json."""
+    done = subprocess.run(
+        [sys.executable, "-m", "uwsim", "bench", str(benchmark), *options, "--out", str(out)],
+        timeout=BOUND_S,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    found: dict[str, Any] = json.loads((out / "result.json").read_text())
+    return found
+
+
+def scored_by_a_node(
+    benchmark: Path, out: Path, algorithm: str, delay: str, *options: str
+) -> dict[str, Any]:
+    """Run a benchmark with a bundled algorithm as a node of rclpy, which dawdles [ms]."""
+    ours = [path for path in sys.path if path and Path(path).is_dir()]
+    arguments = [algorithm, "--name", "outside", "--patience", "240", "--delay", delay]
+    node = BUNDLED.format(ours=ours, arguments=arguments)
+    with free_domain() as domain, peer(node, domain, prelude=""):
+        client = ["--ros2", "--domain", str(domain), "--client", "outside", "--client-limit", "120"]
+        return scored(benchmark, out, *options, *client)
+
+
+@of_one_version
+@pytest.mark.slow
+@pytest.mark.parametrize("delay", ["0", "20"])
+def test_the_bundled_tracker_as_a_node_scores_the_rows_of_the_process(
+    tmp_path: Path, delay: str
+) -> None:
+    benchmark = write_benchmark(tmp_path, "0.5")
+    inside = scored(benchmark, tmp_path / "inside", "--algorithm", "esm")
+    outside = scored_by_a_node(benchmark, tmp_path / "outside", "uwsim.algorithms:Esm", delay)
+    assert {part: inside[part] for part in MEASURED} == {part: outside[part] for part in MEASURED}
+    assert outside["run"]["clients"] == [["outside", "lock-step, ros2"]]
+
+
+@of_one_version
+@pytest.mark.slow
+def test_the_bundled_controller_as_a_node_scores_the_rows_of_the_process(tmp_path: Path) -> None:
+    benchmark = short_currents(tmp_path)
+    level = ("--level", "current=0.2")
+    inside = scored(benchmark, tmp_path / "inside", "--algorithm", "p", *level)
+    outside = scored_by_a_node(
+        benchmark, tmp_path / "outside", "uwsim.algorithms.control:P", "20", *level
+    )
+    assert {part: inside[part] for part in MEASURED} == {part: outside[part] for part in MEASURED}

@@ -11,7 +11,7 @@ import pytest
 
 from uwsim.bus import Bus, TopicEnds
 from uwsim.errors import BadSetting, ClientLost, NeverStarted
-from uwsim.messages import Float64, String
+from uwsim.messages import Float64, GTpublish, GTpublishResponse, String
 from uwsim.messages.services import Service
 from uwsim.middleware.bridge import Bridge
 from uwsim.middleware.lockstep.client import LockStepClient, lockstep_clients
@@ -27,7 +27,8 @@ class Outside(Bridge):
     """A transport whose clients answer ticks as they are sent."""
 
     def __init__(self, bus: Bus, answer: Answer) -> None:
-        super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", lambda line: None))
+        self.lines: list[str] = []
+        super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", self.lines.append))
         self.answer = answer
         self.ticks: list[dict[str, Any]] = []
 
@@ -153,6 +154,83 @@ def test_acks_of_other_ticks_and_nonsense_do_not_count() -> None:
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
     assert len(outside.ticks) == 1
+
+
+def test_a_client_offers_a_service_by_the_topics_of_lock_step() -> None:
+    bus = Bus()
+
+    def replies(outside: Outside, tick: dict[str, Any]) -> None:
+        if "call" in tick:
+            assert tick["args"] == {"groundTruth": [1.5, 0.25]}
+            outside.says(ACK, client="a", call=99, values={"nonsense": 1})
+            outside.says(ACK, client="a", call=tick["call"], values={}, published={"/answer": 1})
+            outside.put("answer", Float64(data=7.0))
+
+    outside = Outside(bus, replies)
+    kind = "underwater_sensor_msgs/srv/GTpublish"
+    nodes = started(bus, outside, "a", services={"/autoInit": kind})
+    answers = bus.inbox("answer", Float64)
+    truth = np.array([1.5, 0.25], np.float32)
+    assert bus.call("autoInit", GTpublish(groundTruth=truth)) == GTpublishResponse()
+    outside.step()
+    step(bus, nodes)
+    assert [message.data for message in answers.take()] == [7.0]
+
+
+def test_a_service_that_is_not_answered_ends_the_run_and_a_wrong_answer_is_an_error() -> None:
+    bus = Bus()
+    kind = "underwater_sensor_msgs/srv/GTpublish"
+    request = GTpublish(groundTruth=np.zeros(8, np.float32))
+    started(bus, Outside(bus, is_silent), "a", limit=0.01, services={"/autoInit": kind})
+    with pytest.raises(ClientLost, match=r"'a' did not answer the call of /autoInit within 0.01 s"):
+        bus.call("autoInit", request)
+
+    def wrong(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(ACK, client="b", call=tick["call"], values={"nonsense": 1})
+
+    (node,) = started(bus, Outside(bus, wrong), "b", services={"/other": kind})
+    assert bus.call("other", request) is None
+    assert "Client 'b': service /other: " in str(node.error)
+
+
+def test_topics_that_a_client_publishes_itself_are_not_waited_for() -> None:
+    bus = Bus()
+    outside = Outside(bus, is_silent)
+    outside.must_meet = True  # type: ignore[misc]
+    for topic in (TICK, "depth"):  # what it reads of others
+        outside.want(topic)
+    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
+    own = {"/mine": "std_msgs/Float64"}
+    outside.says(JOIN, client="a", topics=["/depth", "/mine"], publishes=own)
+    node_of(bus, client)
+
+
+def test_a_tick_says_in_which_order_the_messages_came() -> None:
+    bus = Bus()
+    outside = Outside(bus, echoes)
+    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
+    outside.says(JOIN, client="a", topics=["/depth", "/alarm"])
+    nodes = [node_of(bus, client)]
+    for topic in ("depth", "alarm", "depth"):
+        bus.publisher(topic, Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    bus.publisher("alarm", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    orders = [tick["order"] for tick in outside.ticks]
+    assert orders == [["/depth", "/alarm", "/depth"], ["/alarm"]]
+
+
+def test_a_service_that_nobody_offers_is_reported_and_the_run_goes_on() -> None:
+    bus = Bus()
+
+    def calls(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(ACK, client="a", tick=tick["tick"], calls=["startBench"])
+
+    outside = Outside(bus, calls)
+    nodes = started(bus, outside, "a")
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    assert any("startBench: nobody offers it" in line for line in outside.lines)
 
 
 def test_a_client_that_does_not_answer_ends_the_run() -> None:

@@ -12,11 +12,14 @@ from functools import partial
 from typing import Any
 
 from ...bus import Node
-from ...errors import BadSetting, ClientLost, NeverStarted
+from ...errors import BadMessage, BadSetting, ClientLost, NeverStarted
 from ...messages import Empty, String
+from ...messages.services import Service
 from ..bridge import Bridge
 from ..connection import ConnectionSpec
-from ..types import message_class
+from ..json_encoding import from_json, to_json
+from ..stamps import inward, outward
+from ..types import message_class, service
 from .topics import ACK, JOIN, TICK
 
 MAX_ROUNDS = 1000
@@ -49,9 +52,11 @@ class LockStepClient:
         self._bridge, self._name, self._timestep, self._limit = bridge, name, timestep, limit
         self._joins: deque[dict[str, Any]] = deque()
         self._acks: deque[dict[str, Any]] = deque()
+        self._replies: dict[int, dict[str, Any]] = {}
         self._sent: Counter[str] = Counter()
+        self._order: list[str] = []  # topics of the messages since the last tick
         self._is_due, self._next_time = False, math.inf
-        self._n_ticks = 0
+        self._n_ticks = self._n_calls = 0
         self._run = secrets.token_hex(8)  # what tells simulations apart; not in any result
 
     @property
@@ -84,13 +89,18 @@ class LockStepClient:
     def _connect(self, joined: dict[str, Any]) -> None:
         """Subscribe for the client, and read what it will publish."""
         bridge, topics = self._bridge, _texts(joined.get("topics"))
-        publishes = joined.get("publishes")
-        for topic, kind in publishes.items() if isinstance(publishes, dict) else ():
-            bridge.read_all(str(topic))
-            bridge.bus.subscribe(str(topic), message_class(str(kind)), _nothing)
+        publishes = _object(joined.get("publishes"))
+        for topic, kind in publishes.items():
+            bridge.read_all(topic)
+            bridge.bus.subscribe(topic, message_class(str(kind)), _nothing)
+        for name, kind in _object(joined.get("services")).items():
+            of = service(str(kind))
+            self._node.serve(name, of.request, partial(self._ask, name, of))
         bridge.step()
+        own = {topic.lstrip("/") for topic in publishes}  # the client has those from itself
+        met = [TICK, *(topic for topic in topics if topic.lstrip("/") not in own)]
         if not bridge.wait_for(
-            lambda: not bridge.must_meet or all(map(bridge.is_wanted, [TICK, *topics])), self._limit
+            lambda: not bridge.must_meet or all(map(bridge.is_wanted, met)), self._limit
         ):
             raise NeverStarted(
                 f"Client {self._name!r} has joined, and does not subscribe to all of its topics."
@@ -105,12 +115,18 @@ class LockStepClient:
 
     def hear(self, topic: str, content: dict[str, Any]) -> None:
         """Take in what the client says on one of the topics of lock-step. Any thread."""
-        if content.get("run", self._run) == self._run:  # else: to a simulation before this one
+        if content.get("run", self._run) != self._run:
+            return  # to a simulation before this one
+        if topic == ACK and "call" in content:
+            if content["call"] == self._n_calls:
+                self._replies[self._n_calls] = content
+        else:
             (self._joins if topic == JOIN else self._acks).append(content)
 
     def _counter(self, topic: str) -> Any:
         def count(message: object) -> None:
             self._sent[topic] += 1
+            self._order.append(topic)
             self._is_due = True
 
         return count
@@ -131,7 +147,8 @@ class LockStepClient:
         self._n_ticks += 1
         number = self._n_ticks
         who = {"client": self._name, "run": self._run}
-        tick = {**who, "tick": number, "time": now, "sent": dict(self._sent)}
+        order, self._order = self._order, []
+        tick = {**who, "tick": number, "time": now, "sent": dict(self._sent), "order": order}
         bridge.send(TICK, String(data=json.dumps(tick)))
         if not bridge.wait_for(lambda: self._is_answered(number), self._limit):
             raise ClientLost(
@@ -140,9 +157,41 @@ class LockStepClient:
             )
         answer = self._acks.popleft()
         self._wish(answer)
-        for name in _texts(answer.get("calls")):
-            self._node.call(name, Empty())
+        self._call(answer)
         bridge.step()
+
+    def _call(self, answer: dict[str, Any]) -> None:
+        """Call the services of std_srvs/Empty that an answer names."""
+        for name in _texts(answer.get("calls")):
+            if self._bridge.bus.serves(name):
+                self._node.call(name, Empty())
+            else:
+                self._bridge.log.say(f"client {self._name!r} calls {name}: nobody offers it")
+
+    def _ask(self, name: str, of: Service, request: object) -> object:
+        """Call a service that the client offers by the topics of lock-step.
+
+        Raises:
+            ClientLost: it did not answer within the limit.
+            BadMessage: its answer is no response of that service.
+        """
+        self._n_calls += 1
+        number = self._n_calls
+        who = {"client": self._name, "run": self._run}
+        asked = {"call": number, "service": name, "args": to_json(outward(request))}
+        self._bridge.send(TICK, String(data=json.dumps({**who, **asked})))
+        if not self._bridge.wait_for(lambda: self._is_replied(number), self._limit):
+            raise ClientLost(
+                f"Client {self._name!r} did not answer the call of {name} within "
+                f"{self._limit:g} s of wall time (--client-limit): the run is invalid."
+            )
+        answer = self._replies.pop(number)
+        self._call(answer)
+        try:
+            response: object = inward(from_json(of.response, answer.get("values") or {}))
+        except BadMessage as error:
+            raise BadMessage(f"Client {self._name!r}: service {name}: {error}") from None
+        return response
 
     def _wish(self, said: dict[str, Any]) -> None:
         """Take note of when the client wants its next tick at the latest."""
@@ -160,10 +209,17 @@ class LockStepClient:
                 raise ClientLost(f"Client {self._name!r} left at {now:g} s: the run is invalid.")
         if not self._acks:
             return False
-        published = self._acks[0].get("published")
-        return not isinstance(published, dict) or all(
-            self._bridge.n_arrived[str(topic).lstrip("/")] >= n
-            for topic, n in published.items()
+        return self._has_arrived(self._acks[0])
+
+    def _is_replied(self, number: int) -> bool:
+        """Whether the answer to a call is there, and all that it announces."""
+        return number in self._replies and self._has_arrived(self._replies[number])
+
+    def _has_arrived(self, answer: dict[str, Any]) -> bool:
+        """Whether all messages that an answer announces are there."""
+        return all(
+            self._bridge.n_arrived[topic.lstrip("/")] >= n
+            for topic, n in _object(answer.get("published")).items()
             if isinstance(n, int)
         )
 
@@ -215,7 +271,11 @@ def _object_in(message: object) -> dict[str, Any]:
         found = json.loads(message.data) if isinstance(message, String) else None
     except (ValueError, RecursionError):
         return {}
-    return found if isinstance(found, dict) else {}
+    return _object(found)
+
+
+def _object(value: object) -> dict[str, Any]:
+    return value if isinstance(value, dict) else {}
 
 
 def _texts(value: object) -> list[str]:
