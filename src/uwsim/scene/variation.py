@@ -23,7 +23,7 @@ from __future__ import annotations
 import abc
 import dataclasses
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
@@ -170,7 +170,24 @@ def draw(spec: Any, seed: int, *, find: Find = locate) -> tuple[Draw, ...]:
         seed: the run's seed.
         find: where a path leads in it.
     """
-    found = []
+    return tuple(
+        Draw(place.path, value, place.unit, variation.shown)
+        for variation, place, value in _values(spec, seed, find)
+    )
+
+
+def varied(spec: T, seed: int, *, find: Find = locate) -> T:
+    """Return the scene, or benchmark, of a seed: its variations are drawn, and none is left."""
+    if not spec.vary:  # type: ignore[attr-defined]
+        return spec
+    drawn: Any = dataclasses.replace(spec, vary=())  # type: ignore[type-var]
+    for _, place, value in _values(spec, seed, find):
+        drawn = find(drawn, place.path).with_value(_text(value))
+    return cast(T, drawn)
+
+
+def _values(spec: Any, seed: int, find: Find) -> Iterator[tuple[VariationSpec, Place, float]]:
+    """Draw a value for each variation of ``spec``, in their order, and say for which place."""
     for variation in spec.vary:
         try:
             place = find(spec, variation.path)
@@ -179,18 +196,7 @@ def draw(spec: Any, seed: int, *, find: Find = locate) -> tuple[Draw, ...]:
                 f"<u:vary> {variation.path}: {error} The scene without variations is its `nominal`."
             ) from None
         share = float(stream(seed, f"vary/{place.path}").uniform())
-        found.append(Draw(place.path, _drawn(variation, place, share), place.unit, variation.shown))
-    return tuple(found)
-
-
-def varied(spec: T, seed: int, *, find: Find = locate) -> T:
-    """Return the scene, or benchmark, of a seed: its variations are drawn, and none is left."""
-    if not spec.vary:  # type: ignore[attr-defined]
-        return spec
-    drawn: Any = dataclasses.replace(spec, vary=())  # type: ignore[type-var]
-    for each in draw(spec, seed, find=find):
-        drawn = find(drawn, each.path).with_value(_text(each.value))
-    return cast(T, drawn)
+        yield variation, place, _drawn(variation, place, share)
 
 
 def check_variations(
