@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import logging
 import warnings
+from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -15,7 +17,7 @@ from ...errors import AssetError
 from ...files.input_files import read_bytes
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
-from . import collada_limits, gltf_limits
+from . import collada_limits, gltf_limits, mesh_cache
 from .looks import Looks, check_size
 from .obj_lines import wrong_line
 from .references import References
@@ -60,9 +62,25 @@ def read_meshes(
     Raises:
         AssetError: Broken, empty or too large.
     """
-    within = within or (path.absolute().parent,)
+    with _errors_as_ours(path):
+        data = _bytes(path, name or path.name, original)
+        file = mesh_cache.file_of(data, path.suffix.lower(), max_triangles)
+        kept = mesh_cache.read(file) if original is None else None
+        if kept is not None:
+            return kept
+        references = _references(path, name or path.name, within, original)
+        parts = _parts(path, data, references)
+    meshes = _meshes(path, parts, max_triangles)
+    if original is None and not references.were_needed:
+        mesh_cache.keep(file, meshes)
+    return meshes
+
+
+@contextlib.contextmanager
+def _errors_as_ours(path: Path) -> Iterator[None]:
+    """Make one `AssetError`, with the place, of whatever the readers of a file raise."""
     try:
-        parts = _parts(path, name or path.name, within, original)
+        yield
     except AssetError as error:
         message = str(error)
         raise AssetError(message if f"{path}:" in message else f"{path}: {message}.") from error
@@ -77,6 +95,11 @@ def read_meshes(
             f"{path}: not a {path.suffix.lower()} file that can be read "
             f"({type(error).__name__}{': ' + why if why else ''})."
         ) from error
+
+
+def _meshes(
+    path: Path, parts: list[tuple[Any, Any]], max_triangles: int | None
+) -> tuple[Mesh, ...]:
     looks = Looks(path)
     total = sum(len(part.faces) for part, _ in parts)
     keep = 1.0 if max_triangles is None else min(1.0, max_triangles / total)
@@ -125,29 +148,34 @@ def _is_text(data: bytes, suffix: str) -> bool:
     return suffix in (".obj", ".dae", ".gltf", ".mtl") or b"format ascii" in data[:200]
 
 
-def _parts(
+def _references(
     path: Path, name: str, within: tuple[Path, ...], original: Path | None
-) -> list[tuple[Any, Any]]:
-    """The meshes of a file at the poses of its nodes, with their materials."""
-    import trimesh
-
+) -> References:
     folders = [path.parent, *([] if original is None else [original.parent])]
-    references: Any = References(
+    within = within or (path.absolute().parent,)
+    return References(
         folders,
         [path.parent, *within] if original is not None else within,
         lambda found, place: _referred(
             found, str(PurePosixPath(name).parent / place), original, place.suffix.lower()
         ),
     )
+
+
+def _parts(path: Path, data: bytes, references: References) -> list[tuple[Any, Any]]:
+    """The meshes of a file at the poses of its nodes, with their materials."""
+    import trimesh
+
+    resolver: Any = references
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
     suffix = path.suffix.lower()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
             scene = trimesh.load_scene(
-                io.BytesIO(in_utf8(_bytes(path, name, original), suffix)),
+                io.BytesIO(in_utf8(data, suffix)),
                 file_type=suffix.lstrip("."),
-                resolver=references,
+                resolver=resolver,
                 process=False,
             )
         finally:

@@ -32,9 +32,12 @@ class References:
     ) -> None:
         self._folders, self._within, self._read = tuple(folders), tuple(within), read
         self._refused: list[AssetError] = []
+        self.were_needed = False
+        """Whether any file was asked for."""
 
     def get(self, name: str) -> bytes:
         """Return the bytes of a file."""
+        self.were_needed = True
         try:
             return self._found(name)
         except AssetError as error:
