@@ -177,7 +177,8 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
         if onlooker is not None:
             from ..runs.executors.executor import SerialExecutor
 
-            executor = SerialExecutor(onlooker)
+            limit = options.by.callback_limit or None
+            executor = SerialExecutor(onlooker, callback_limit=limit)
         run_and_finish(runs, executor, options.by.workers, watch, context.obj)
 
 

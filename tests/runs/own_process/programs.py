@@ -197,3 +197,11 @@ class Hangs(Does):
         while True:
             with suppress(BaseException):
                 time.sleep(600.0)
+
+
+class NeverMade:
+    """Its making does not come back."""
+
+    def __init__(self) -> None:
+        while True:
+            time.sleep(10.0)

@@ -14,9 +14,15 @@ from tests.runs.own_process import programs
 from tests.short_trial import TIME, make_plan, rows_of
 from tests.waiting import until
 from uwsim.errors import BadSetting, NeverStarted, RunFailed
+from uwsim.results.inputs import Inputs
+from uwsim.runs.executors.executor import SerialExecutor, run_all
+from uwsim.runs.executors.processes import ProcessExecutor
+from uwsim.runs.own_process.process import OwnProcess, ProcessAlgorithm
 from uwsim.runs.planning.plan import Plan
+from uwsim.runs.run import Run
 from uwsim.runs.trial.level_row import LevelRow, TrialEnd
 from uwsim.runs.trial.trial import execute
+from uwsim.simulation import Stopped
 
 LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
 <step>0.2</step> <interval>0.7</interval> </sceneFogUpdater>"""
@@ -105,6 +111,36 @@ def test_a_process_that_ends_ends_its_rows_and_no_more(
     assert [row.status for row in found] == ["algorithm error"] * 2
     assert why in found[0].missing["total"]
     assert [row.measures["t"][0] for row in found] == pytest.approx([0.7, 0.7])
+
+
+def test_a_request_that_takes_too_long_ends_the_process() -> None:
+    with OwnProcess() as process:
+        ProcessAlgorithm(process, programs.Does)  # the start of the process takes as long as it may
+        process._limit = 0.1
+        with pytest.raises(Stopped, match="a callback took longer than --callback-limit"):
+            process.request(["make", sys.path, [], programs.__name__, "NeverMade"], lambda asked: 0)
+        until(lambda: not is_there(process.pid))
+        with pytest.raises(Stopped, match=r"its process ended \(killed by SIGKILL\)"):
+            process.request(["parameters", {}], lambda asked: 0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("workers", [0, 1])
+def test_an_algorithm_that_hangs_costs_its_rows_with_any_executor(
+    tmp_path: Path, workers: int
+) -> None:
+    limit = 10.0  # the start of a process is well within it
+    executor = ProcessExecutor(1, callback_limit=limit)
+    run = Run(
+        plan=plan_of(tmp_path, programs.Hangs),
+        out=tmp_path / "out",
+        inputs=Inputs(),
+        renderer="none",
+    )
+    (result,) = run_all([run], executor if workers else SerialExecutor(callback_limit=limit))
+    why = "algorithm was stopped at 0.4 s: a callback took longer than --callback-limit"
+    assert [result.why(row, "total") for row in range(len(result.rows))] == [why, why]
+    assert run.n_lost == 0, "the trial is not run again"
 
 
 def test_there_is_nothing_of_the_simulation_in_its_process(tmp_path: Path) -> None:

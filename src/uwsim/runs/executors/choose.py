@@ -50,7 +50,7 @@ def executor_of(workers: str, callback_limit: float) -> Executor:
             f"{did_you_mean(workers, [RAY])}"
         )
     if number == 0:
-        return SerialExecutor()
+        return SerialExecutor(callback_limit=callback_limit or None)
     from .processes import ProcessExecutor
 
     return ProcessExecutor(number, callback_limit=callback_limit or None)

@@ -172,18 +172,23 @@ class SerialExecutor:
 
     Args:
         onlooker: looks on at each trial.
+        callback_limit: how long a call into an algorithm in a process of its own may take [s of
+            wall time]; None: for ever.
     """
 
-    def __init__(self, onlooker: Onlooker | None = None) -> None:
-        self._onlooker = onlooker
+    def __init__(
+        self, onlooker: Onlooker | None = None, *, callback_limit: float | None = None
+    ) -> None:
+        self._onlooker, self._limit = onlooker, callback_limit
 
     def execute(self, queue: JobQueue) -> None:
         """Execute all jobs."""
         pool = RendererPool()
         try:
             while (job := queue.take()) is not None:
+                calls = Calls(limit=self._limit)
                 try:
-                    for _ in run_and_record(job, pool, Calls(), self._onlooker):
+                    for _ in run_and_record(job, pool, calls, self._onlooker):
                         queue.level(job)
                 except Exception as error:
                     raise_if_interrupted()

@@ -20,7 +20,7 @@ from multiprocessing.connection import Connection, wait
 from ...environment import environment
 from ...interrupts import is_of_user
 from ...simulation import BEFORE, Calls, Counter, Cut, RendererPool, open_call
-from ..own_process.process import how
+from ..own_process.process import TOO_LONG, how
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 from .worker import TrialFailed, picklable
@@ -29,10 +29,6 @@ PATIENCE = 10.0
 """How long a worker without work may take to leave, before it is made to [s]."""
 GLANCE = 1.0
 """The longest time between two looks at the calls [s]."""
-
-
-TOO_LONG = "a callback took longer than --callback-limit"
-"""The reason of a row whose algorithm did not come back."""
 
 
 @dataclass(frozen=True)
@@ -65,20 +61,21 @@ class ProcessExecutor:
 
     def execute(self, queue: JobQueue) -> None:
         """Execute all jobs; stops all workers when interrupted."""
+        limit = self._limit
         n = min(self._n, len(queue))
         plans = queue.plans()
         if n <= 1 and len(plans) <= 1 and all(plan.is_bundled for plan in plans):
             SerialExecutor().execute(queue)
             return
         settings = ENVIRONMENT if n > 1 else {}
-        workers = [WorkerProcess(settings) for _ in range(n)]
+        workers = [WorkerProcess(settings, limit) for _ in range(n)]
         try:
             while True:
                 for i, worker in enumerate(workers):
                     if worker.job is None and (job := queue.take()) is not None:
                         if not worker.may_play(job):
                             worker.kill()
-                            workers[i] = WorkerProcess(settings)
+                            workers[i] = WorkerProcess(settings, limit)
                         workers[i].give(job)
                 busy = [worker for worker in workers if worker.job is not None]
                 if not busy:
@@ -107,14 +104,15 @@ class WorkerProcess:
 
     Args:
         settings: environment variables that it gets unless the user has set them.
+        limit: how long a call into an algorithm in a process of its own may take [s].
     """
 
-    def __init__(self, settings: Mapping[str, str]) -> None:
+    def __init__(self, settings: Mapping[str, str], limit: float | None = None) -> None:
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
         parent, self._parent = context.Pipe(duplex=False)
         self._counter: Counter = context.RawValue(ctypes.c_longlong, BEFORE)
-        self._process = context.Process(target=work, args=(theirs, parent, self._counter))
+        self._process = context.Process(target=work, args=(theirs, parent, self._counter, limit))
         with environment(settings):
             start_ignoring_interrupts(self._process)
         for end in (theirs, parent):
@@ -171,7 +169,11 @@ class WorkerProcess:
         self._seen_for = self._seen_for + waited if count == self._seen else 0.0
         self._seen = count
         call = open_call(count)
-        if self.job is None or call is None or self._seen_for <= limit:
+        if self.job is None or call is None:
+            return
+        if self.job.run.plan.own_process:
+            limit *= 2.0  # the worker itself looks at the clock
+        if self._seen_for <= limit:
             return
         self._process.kill()
         self._process.join()
@@ -198,14 +200,16 @@ class WorkerProcess:
                 yield self._pipe.recv()
 
 
-def work(pipe: Connection, parent: Connection, counter: Counter) -> None:
+def work(
+    pipe: Connection, parent: Connection, counter: Counter, limit: float | None = None
+) -> None:
     """Run the jobs from the pipe until ``None`` comes, or until the parent has ended."""
     exit_with_parent(parent)
     pool = RendererPool()
     try:
         while (job := pipe.recv()) is not None:
             try:
-                for _ in run_and_record(job, pool, Calls(counter, job.cut)):
+                for _ in run_and_record(job, pool, Calls(counter, job.cut, limit=limit)):
                     pipe.send(LevelKept())
             except BaseException as error:
                 if is_of_user(error):

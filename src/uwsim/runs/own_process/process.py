@@ -9,10 +9,12 @@ simulation time does not move: the rows are the same.
 from __future__ import annotations
 
 import os
+import select
 import signal
 import socket
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Mapping, Sequence
 from multiprocessing.connection import Connection
 from types import TracebackType
@@ -28,15 +30,23 @@ from .codec import MAX_FRAME, FrameError, decode, encode
 
 PROCESS_ENDED = "its process ended"
 """How the reason begins of an algorithm whose process is gone."""
+TOO_LONG = "a callback took longer than --callback-limit"
+"""The reason of a row whose algorithm did not come back."""
+GLANCE = 1.0
+"""The longest time between two looks at the clock [s]."""
 PATIENCE = 10.0
 """How long a process that has closed its socket may take to end [s of wall time]."""
 MODULE = "uwsim.runs.own_process.child"
 
 
 class OwnProcess:
-    """A process that waits for the class of an algorithm; a context manager, which ends it."""
+    """A process that waits for the class of an algorithm; a context manager, which ends it.
 
-    def __init__(self) -> None:
+    Args:
+        limit: how long it may compute for one request [s of wall time]; None: for ever.
+    """
+
+    def __init__(self, limit: float | None = None) -> None:
         ours, theirs = socket.socketpair()
         with theirs, ignoring_interrupts():
             self._process = subprocess.Popen(
@@ -46,6 +56,9 @@ class OwnProcess:
                 env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
             )
         self._pipe = Connection(ours.detach())
+        self._limit = limit
+        self._ready = select.poll()
+        self._ready.register(self._pipe.fileno(), select.POLLIN)
 
     def __enter__(self) -> Self:
         return self
@@ -75,10 +88,12 @@ class OwnProcess:
         Raises:
             RaisedElsewhere: the algorithm raised, or broke a rule.
             BadSetting: it refused a parameter in its start.
-            Stopped: its process has ended, or sent what is no frame.
+            Stopped: its process has ended, sent what is no frame, or took too long.
         """
         self._send(frame)
+        waited = 0.0
         while True:
+            waited = self._wait(waited)
             kind, *rest = self._receive()
             if kind == "ask":
                 self._send(_answered(answer, rest))
@@ -91,6 +106,24 @@ class OwnProcess:
                 raise _raised(str(frame[0]), *map(str, rest))
             else:
                 raise Stopped("its process sent a frame that nobody understands")
+
+    def _wait(self, waited: float) -> float:
+        """Wait for a frame, which comes ``waited`` after the request; returns when it came [s].
+
+        Raises:
+            Stopped: it did not come within the limit.
+        """
+        if self._limit is None:
+            return 0.0
+        glance = min(GLANCE, self._limit / 4)
+        while waited <= self._limit:
+            began = time.monotonic()
+            if self._ready.poll(max(1.0, 1000.0 * glance)):
+                return waited + time.monotonic() - began
+            # of a time in which this process itself was stopped only so much counts
+            waited += min(time.monotonic() - began, 2 * glance)
+        self._process.kill()
+        raise Stopped(TOO_LONG)
 
     def _send(self, frame: list[object]) -> None:
         try:

@@ -19,13 +19,18 @@ OWN_PROCESS, IN_PROCESS, LOCK_STEP = "own process", "in process", "lock-step"
 
 
 @contextmanager
-def program_of(plan: Plan) -> Iterator[Program]:
-    """Yield what makes the algorithm of a plan; its process, or connection, ends with the block."""
+def program_of(plan: Plan, limit: float | None = None) -> Iterator[Program]:
+    """Yield what makes the algorithm of a plan; its process, or connection, ends with the block.
+
+    Args:
+        plan: names the algorithm.
+        limit: how long a callback in a process of its own may take [s of wall time].
+    """
     with ExitStack() as stack:
         if plan.client is not None:
             yield partial(_client, plan.client, stack)
         elif plan.own_process:
-            yield partial(_in_own_process, plan, stack.enter_context(OwnProcess()))
+            yield partial(_in_own_process, plan, stack.enter_context(OwnProcess(limit)))
         else:
             yield lambda simulation, parameters: plan.algorithm()
 

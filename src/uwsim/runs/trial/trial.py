@@ -83,7 +83,8 @@ def execute(
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    with program_of(plan) as program:  # its process starts while the scene is opened
+    calls = calls or Calls()
+    with program_of(plan, calls.limit) as program:  # its process starts while the scene is opened
         simulation = Simulation(
             plan.scene,
             seed=trial.seed,
@@ -98,9 +99,7 @@ def execute(
             with (
                 nullcontext() if recorder is None else recorder.recording(simulation, trial),
                 attribute_errors_to(plan.plugins, is_running=True),
-                closing(
-                    _Execution(plan, trial, simulation, program, calls or Calls(), onlooker)
-                ) as running,
+                closing(_Execution(plan, trial, simulation, program, calls, onlooker)) as running,
             ):
                 yield from running.rows()
         finally:

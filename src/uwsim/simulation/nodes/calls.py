@@ -42,10 +42,20 @@ class Calls:
     Args:
         counter: shared memory in which calls are counted; None: not shared.
         cut: the call that is not made.
+        limit: how long one may take [s of wall time], where the algorithm has a process of its
+            own; None: for ever.
     """
 
-    def __init__(self, counter: Counter | None = None, cut: Cut | None = None) -> None:
+    def __init__(
+        self,
+        counter: Counter | None = None,
+        cut: Cut | None = None,
+        *,
+        limit: float | None = None,
+    ) -> None:
         self._counter, self._cut = counter, cut
+        self.limit = limit
+        """How long one may take [s of wall time]; None: for ever."""
         self._n, self._depth = 0, 0
         if counter is not None:
             counter.value = BEFORE
