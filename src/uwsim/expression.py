@@ -33,13 +33,15 @@ import functools
 import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import lark
 import numpy as np
 
 from .errors import UwsimError, did_you_mean
 from .numerics import elementwise
+
+if TYPE_CHECKING:
+    import lark
 
 MAX_LENGTH = 4096
 MAX_DEPTH = 100
@@ -191,8 +193,15 @@ def parse(text: str, names: Collection[str], *, kind: str = "measure") -> Expres
         raise ScoreError(text[:60] + " ...", 0, f"longer than {MAX_LENGTH} characters")
     text = _one_line(text)
     _check_depth(text)
+    steps, used = _compile(_tree(text), text, tuple(names), kind)
+    return Expression(text, tuple(used), tuple(steps))
+
+
+def _tree(text: str) -> lark.Tree[Any]:
+    import lark
+
     try:
-        tree = _parser().parse(text)
+        return _parser().parse(text)
     except lark.exceptions.UnexpectedCharacters as error:
         column = error.pos_in_stream or 0
         raise ScoreError(text, column, f"{text[column]!r} is not allowed here") from None
@@ -201,8 +210,6 @@ def parse(text: str, names: Collection[str], *, kind: str = "measure") -> Expres
             raise ScoreError(text, len(text), "the expression ends too early") from None
         column = error.token.start_pos or 0
         raise ScoreError(text, column, f"{str(error.token)!r} is not allowed here") from None
-    steps, used = _compile(tree, text, tuple(names), kind)
-    return Expression(text, tuple(used), tuple(steps))
 
 
 def _one_line(text: str) -> str:
@@ -220,6 +227,8 @@ def _check_depth(text: str) -> None:
 
 @functools.cache
 def _parser() -> lark.Lark:
+    import lark
+
     return lark.Lark(GRAMMAR, parser="lalr", propagate_positions=True)
 
 
@@ -242,8 +251,8 @@ def _compile(
         elif node.data == "name":
             steps.append(_name(str(parts[0]), column, text, names, kind, used))
         else:
-            operands = [part for part in parts if isinstance(part, lark.Tree)]
-            tokens = [part for part in parts if isinstance(part, lark.Token)]
+            tokens = [part for part in parts if isinstance(part, str)]  # lark's are texts
+            operands = [part for part in parts if not isinstance(part, str)]
             if node.data != "start":
                 todo.append(_operation(node.data, tokens, len(operands), column, text))
             todo.extend(reversed(operands))
@@ -272,7 +281,7 @@ def _name(
     raise ScoreError(text, column, f"no {kind} is called {name!r}.{near} Known: {known}")
 
 
-def _operation(kind: str, tokens: list[lark.Token], count: int, column: int, text: str) -> _Step:
+def _operation(kind: str, tokens: list[Any], count: int, column: int, text: str) -> _Step:
     if kind == "choice":
         return _Step(column, 3, _if)
     if kind == "signed":

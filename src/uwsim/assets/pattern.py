@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
-from PIL import Image
 
 from ..errors import AssetError
 from .loaders.looks import check_size
@@ -23,6 +22,8 @@ def read_pattern(path: Path) -> npt.NDArray[np.uint8]:
     Raises:
         AssetError: it is no image that is read, or too large.
     """
+    from PIL import Image
+
     check_size(path.read_bytes(), path.name)
     try:
         with Image.open(path, formats=FORMATS) as image:

@@ -63,10 +63,22 @@ def njit(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def elementwise(function: Callable[..., float]) -> Elementwise:
-    """Compile a function of numbers as one of arrays, element by element, as numpy's own are."""
-    compiled: Any = numba.vectorize(function)  # type: ignore[no-untyped-call]
-    compiled._dispatcher.cache = CacheOnUse(function, is_typed=True)
-    return cast("Elementwise", compiled)
+    """Compile a function of numbers as one of arrays, element by element, as numpy's own are.
+
+    That takes numba's tables of all that it can compile, so it waits for the first call.
+    """
+
+    @functools.cache
+    def compiled() -> Any:
+        made: Any = numba.vectorize(function)  # type: ignore[no-untyped-call]
+        made._dispatcher.cache = CacheOnUse(function, is_typed=True)
+        return made
+
+    @functools.wraps(function)
+    def of_arrays(*arrays: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        return cast("npt.NDArray[np.float64]", compiled()(*arrays))
+
+    return of_arrays
 
 
 def link_library(path: str) -> None:

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image
 
 from ...errors import AssetError
 from ..mesh import Texture
@@ -29,6 +28,8 @@ def check_size(data: bytes, name: object) -> None:
     Raises:
         AssetError: it is one.
     """
+    from PIL import Image
+
     try:
         with Image.open(io.BytesIO(data)):
             pass

@@ -1,0 +1,48 @@
+"""A start imports nothing that it does not use: `benchmarks/start.py` measures what it costs."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+LEFT_OUT = ("cv2", "lark", "matplotlib", "PIL", "pandas", "rosbags", "scipy.linalg", "trimesh")
+"""Modules that a scene without cameras, images and formulas does without."""
+COMPILING = "numba.cpython.printimpl"
+"""One of numba's that only compiling needs."""
+SCENE = """<?xml version="1.0"?>
+<UWSimScene xmlns:u="urn:uwsim:1">
+  <vehicle> <name>v</name> <file>data/scenes/g500ARM5.urdf</file>
+    <position> <x>0</x> <y>0</y> <z>-1</z> </position>
+    <orientation> <r>0</r> <p>0</p> <y>0</y> </orientation>
+    <u:dynamics>g500_physical</u:dynamics>
+  </vehicle>
+  <object> <name>floor</name> <file>floor.obj</file>
+    <position> <x>0</x> <y>0</y> <z>-3</z> </position>
+    <orientation> <r>0</r> <p>0</p> <y>0</y> </orientation>
+    <physics> <mass>0</mass> <collisionShapeType>trimesh</collisionShapeType> </physics>
+  </object>
+  <rosInterfaces>
+    <ROSTwistToPAT> <topic>/v</topic> <vehicleName>v</vehicleName> </ROSTwistToPAT>
+  </rosInterfaces>
+</UWSimScene>
+"""
+FLOOR = "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3\nf 1 3 4\n"
+PROGRAM = """
+import sys
+import uwsim
+with uwsim.load(sys.argv[1]) as simulation:
+    simulation.advance(0.01)
+print(*(name for name in sys.argv[2:] if name in sys.modules))
+"""
+
+
+def test_a_second_start_without_cameras_imports_no_library_that_it_does_not_use(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "scene.xml").write_text(SCENE)
+    (tmp_path / "floor.obj").write_text(FLOOR)
+    command = [sys.executable, "-c", PROGRAM, str(tmp_path / "scene.xml"), *LEFT_OUT, COMPILING]
+    subprocess.run(command, capture_output=True, check=True)  # fills the caches
+    second = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert second.stdout.split() == []
