@@ -127,19 +127,18 @@ def test_a_lifted_box_is_held_for_ten_seconds(timestep: float) -> None:
     start = grasp.box_in_jaw()
     run(grasp.simulation, 10.0)
     assert grasp.touches == {"girona500"}
-    assert slip(start, grasp.box_in_jaw()) < 0.0015
+    assert slip(start, grasp.box_in_jaw()) < 0.001
 
 
-@pytest.mark.parametrize("timestep", [0.002, 0.005, 0.008])
+@pytest.mark.parametrize("timestep", [0.002, 0.005, 0.01])
 def test_a_lifted_box_is_held_for_ten_seconds_and_while_the_arm_moves(timestep: float) -> None:
-    """With 10 ms the contacts are too coarse for it: the box turns by 13 degrees in the jaw."""
     grasp = Grasp(timestep=timestep)
     grasp.lift()
     start = grasp.box_in_jaw()
     assert grasp.touches == {"girona500"}
     run(grasp.simulation, 10.0)
     held = grasp.box_in_jaw()
-    assert slip(start, held) < 0.0015  # 0.74 mm: the creep of soft friction
+    assert slip(start, held) < 0.001  # 0.49 mm: the creep of soft friction
     for speeds, seconds in (
         ((0.1, 0.0, 0.0, 0.0), 4.0),
         ((-0.1, 0.1, -0.1, 0.0), 4.0),
@@ -185,7 +184,7 @@ def test_a_box_of_52_newton_creeps_by_so_little_in_ten_seconds(
     start = grasp.box_in_jaw()
     run(grasp.simulation, 10.0)
     assert grasp.touches == {"girona500"}
-    assert slip(start, grasp.box_in_jaw()) < most  # 0.83 and 0.04 mm
+    assert slip(start, grasp.box_in_jaw()) < most  # 0.50 and 0.05 mm
 
 
 @pytest.mark.parametrize("friction", [0.1, 0.2])
@@ -218,5 +217,18 @@ def test_the_fingers_stay_mirror_images_of_each_other() -> None:
         data.qpos[model.joint(f"vehicle/0/joint/{name}").qposadr[0]]
         for name in ("JawOpening", "part4_to_link4_jaw2")
     )
-    assert first > 0.0  # on the bar
+    assert first > -0.01  # on the bar; closed to -0.05 where there is none
     assert second == pytest.approx(first, abs=0.01)
+
+
+def test_the_faces_of_the_fingers_are_parallel_on_the_bar_and_touch_it_with_all_corners() -> None:
+    """Faces like a wedge touch the bar with one edge: load goes to one end, and the box swings."""
+    grasp = Grasp()
+    grasp.lift()
+    fingers = {"girona500/part4_jaw1": 1.0, "girona500/part4_jaw2": -1.0}
+    normals = [
+        side * grasp.simulation.world.body(name).world_from_body.rotation[:, 0]
+        for name, side in fingers.items()
+    ]
+    assert float(normals[0] @ normals[1]) < -np.cos(0.01)
+    assert len(grasp.simulation.world.contacts("blackbox")) == 8
