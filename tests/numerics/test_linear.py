@@ -5,6 +5,7 @@ import pytest
 
 from uwsim.numerics.linear import (
     composed,
+    cross,
     determinant,
     determinants,
     dot,
@@ -131,3 +132,8 @@ def test_what_hardly_moves_counts_as_zero_in_a_pseudo_inverse() -> None:
     )
     assert rank(matrix) == np.linalg.matrix_rank(matrix) == 2
     assert rank(random(4, 6)) == 4
+
+
+def test_a_vector_product_has_numpys_bytes() -> None:
+    for left, right in zip(random(20, 3), random(3, 20).T, strict=True):
+        assert cross(left, right).tobytes() == np.cross(left, right).tobytes()

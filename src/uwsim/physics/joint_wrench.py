@@ -17,6 +17,7 @@ import mujoco
 import numpy as np
 
 from ..geometry import Array
+from ..numerics.linear import cross
 from .poses import Poses
 
 if TYPE_CHECKING:
@@ -57,4 +58,4 @@ class JointWrench:
         mujoco.mj_rnePostConstraint(model, own)
         wrench = self._water.wrenches(own)[body] - own.cfrc_int[body]  # torque, then force
         lever = point - own.subtree_com[model.body_rootid[body]]
-        return np.concatenate([wrench[3:], wrench[:3] - np.cross(lever, wrench[3:])])
+        return np.concatenate([wrench[3:], wrench[:3] - cross(lever, wrench[3:])])

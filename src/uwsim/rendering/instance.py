@@ -102,7 +102,9 @@ class Instances:
         self._follow()
         if len(rows) == len(self.ids):
             return np.arange(len(self._owners))
-        return np.flatnonzero(np.isin(self._owners, rows))
+        has = np.zeros(len(self.ids), dtype=bool)
+        has[list(rows)] = True
+        return np.flatnonzero(has[self._owners])
 
     def casting(self, rows: Sequence[int]) -> npt.NDArray[np.intp]:
         """Numbers of the batches of rows that cast shadows; transparent ones cast none."""

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from ...geometry import Array
 from ...numerics.jit import njit
-from ...numerics.linear import dot, turned_back
+from ...numerics.linear import cross, dot, turned_back
 from ...scene.spec import SceneSpec
 from ...world import Contact
 
@@ -103,7 +103,7 @@ class EngineContacts:
             sign = 1.0 if is_own[i, 1] else -1.0  # the force of the first on the second
             force = sign * turned_back(axes, own[:3])
             total[:3] += force
-            total[3:] += sign * turned_back(axes, own[3:]) + np.cross(found.pos[i] - point, force)
+            total[3:] += sign * turned_back(axes, own[3:]) + cross(found.pos[i] - point, force)
         return total
 
 
@@ -214,5 +214,5 @@ def _velocity(model: mujoco.MjModel, data: mujoco.MjData, body: int, point: Arra
     """Velocity of a body's point, W, (3,) [m/s]."""
     twist = data.cvel[body]
     lever = point - data.subtree_com[model.body_rootid[body]]
-    velocity: Array = twist[3:] + np.cross(twist[:3], lever)
+    velocity: Array = twist[3:] + cross(twist[:3], lever)
     return velocity

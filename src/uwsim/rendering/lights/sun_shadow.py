@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array, Pose
-from ...numerics.linear import length, product, solve
+from ...numerics.linear import cross, length, product, solve
 from ..instance import INSTANCE, Instances, Slots
 from ..program import build
 
@@ -162,9 +162,9 @@ def _corner_rays(clip_from_camera: Array) -> Array:
 
 def _axes(sun: Array) -> tuple[Array, Array]:
     """Right and up vectors of a camera that looks from the sun, (3,) each."""
-    aside = np.cross(-sun, [0.0, 0.0, 1.0] if abs(sun[2]) < 0.9 else [1.0, 0.0, 0.0])
+    aside = cross(-sun, np.eye(3)[2 if abs(sun[2]) < 0.9 else 0])
     aside /= length(aside)
-    return aside, np.cross(aside, -sun)
+    return aside, cross(aside, -sun)
 
 
 def _fit(spheres: Array, sun: Array) -> tuple[Array, float]:
