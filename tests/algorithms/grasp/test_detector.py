@@ -40,3 +40,14 @@ def test_a_dark_hull_before_the_fog_is_no_box() -> None:
 
 def test_fog_alone_is_no_box() -> None:
     assert ColourDetector().detect(foggy(1.0, FOG), VIEW) == []
+
+
+def test_an_orange_box_is_found_where_the_light_falls_off_and_the_hull_is_none() -> None:
+    """Sand that is brighter ahead than aft is no noise; nor is the hull in a corner a box."""
+    image = foggy(0.3, (220.0, 95.0, 20.0)).astype(float)
+    ahead = np.linspace(1.0, 0.0, 240)[:, None, None]
+    image += ahead**2 * np.array([75.0, 55.0, 40.0])
+    image[200:240, 0:45] = (4.0, 9.0, 11.0)
+    noise = np.random.default_rng(2).normal(0.0, 2.55, image.shape)
+    found = ColourDetector().detect(np.clip(image + noise, 0, 255).astype(np.uint8), VIEW)
+    assert [outline.middle for outline in found] == [pytest.approx((159.5, 119.5), abs=3.0)]

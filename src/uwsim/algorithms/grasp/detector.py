@@ -1,12 +1,12 @@
 r"""Finding the outline of an orange box in an image: no weights, nothing learned.
 
 The colour score of a pixel is :math:`s = 2R - G - B`. Water takes contrast away but not the order:
-fog of transmission T leaves :math:`T s` of a score, plus the same offset everywhere. So the
-threshold is relative: half way between the median of the image (the bottom) and its brightest
-spot, provided that this stands out from the noise by `CONTRAST` deviations. A blob that is no
-redder than the bottom by `REDDER` is none: in fog a dark hull has less green and blue than the
-water before it, and as little red. The blobs above it are
-closed over bands, lettering and handle. What is returned is, for each, the support function of its
+fog of transmission T leaves :math:`T s` of a score, plus an offset that changes slowly over the
+image (`Background`). So the threshold is relative: a share of the way between the bottom and the
+brightest spot, provided that this stands out from the noise by `CONTRAST` deviations. A blob that
+is no redder than the bottom by `REDDER` is none: in fog a dark hull has less green and blue than
+the water before it, and as little red. The blobs above the threshold are closed over bands,
+lettering and handle. What is returned is, for each, the support function of its
 convex hull: how far it reaches along `N_DIRECTIONS` directions. It is all that a convex outline
 has, and is not known where the blob ends at the rim of the image.
 
@@ -24,6 +24,7 @@ import numpy.typing as npt
 from ...geometry import Array
 from ...numerics.linear import product
 from ...numerics.opencv import plain_opencv
+from .background import Background, Layer
 from .camera import View
 
 Pixels = npt.NDArray[np.uint8]
@@ -36,6 +37,8 @@ SHARE = 0.17
 """Where the threshold is between the bottom (0) and the brightest spot (1)."""
 REDDER = 8.0
 """Least height of the red of a blob over that of the bottom [grey levels]."""
+DARKEST = 10.0
+"""Where there is nothing but water, the red is that of this darkest part of an image [%]."""
 RIM = 2
 """Pixels at the rim of the image where an outline is not known [px]."""
 MAX_BLOBS = 3
@@ -94,16 +97,21 @@ class ColourDetector:
         if height <= 0.1:
             return []
         scale = view.pinhole.fx / height  # [px/m] on the bottom
-        score = cv2.blur(colour_score(image[::2, ::2]), (3, 3)).astype(np.float32)
-        bottom, noise = _bottom(score)
-        top = float(score.max()) - bottom
+        half = image[::2, ::2]
+        score = cv2.blur(colour_score(half), (3, 3)).astype(np.float32)
+        bottom = Background.of(score, 2)
+        over = score - bottom.over(score.shape, step=2)
+        top, noise = float(over.max()), bottom.deviation
         if top < max(CONTRAST * noise, LEAST):
             return []
-        level = bottom + max(SHARE * top, 2.5 * noise)
-        red = float(np.median(image[::6, ::6, 0])) + REDDER
+        level = max(SHARE * top, 2.5 * noise)
+        red = Background.of(half[:, :, 0].astype(np.float32), 2)
+        darkest = float(np.percentile(half[::3, ::3, 0], DARKEST))
         found: list[tuple[float, Array]] = []
-        for left, above, right, below in self._blobs(score > level, scale / 2.0):
-            hull = self._hull(image[above:below, left:right], level, scale, red)
+        for left, above, right, below in self._blobs(over > level, scale / 2.0):
+            part, corner = image[above:below, left:right], (above, left)
+            own = bottom.over(part.shape, corner), red.over(part.shape, corner).clip(darkest)
+            hull = self._hull(part, own, level, scale)
             if hull is not None:
                 found.append((hull[0], hull[1] + np.array([left, above])))
         found.sort(key=lambda one: -one[0])
@@ -125,17 +133,18 @@ class ColourDetector:
         return [place for _, place in found[:MAX_BLOBS]]
 
     def _hull(
-        self, part: Pixels, level: float, scale: float, red: float
+        self, part: Pixels, bottom: tuple[Layer, Layer], level: float, scale: float
     ) -> tuple[float, Array] | None:
         """Area [px^2] and corners (n, 2) [px] of the largest hull in a part of the image.
 
-        None where it is too small, or its brightest tenth has less red than ``red``.
+        None where it is too small, or not redder than the bottom; ``bottom`` has score and red
+        of that, (h, w) each.
         """
         import cv2
 
-        score = cv2.blur(colour_score(part), (3, 3))
-        orange = score > level
-        if not orange.any() or float(np.percentile(part[:, :, 0][orange], 90)) < red:
+        orange = cv2.blur(colour_score(part), (3, 3)) > bottom[0] + level
+        redder = (part[:, :, 0] - bottom[1])[orange]
+        if not len(redder) or float(np.percentile(redder, 90)) < REDDER:
             return None
         mask = self._closed(orange, scale)
         contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
@@ -190,11 +199,3 @@ def outline_of(hull: Array, shape: tuple[int, ...], area: float, contrast: float
         area=area,
         contrast=contrast,
     )
-
-
-def _bottom(score: npt.NDArray[np.float32]) -> tuple[float, float]:
-    """Median of a score, and its deviation without what stands out, from some of its pixels."""
-    sample = score[::3, ::3]
-    middle = float(np.median(sample))
-    spread = 1.4826 * float(np.median(np.abs(sample - middle)))
-    return middle, max(spread, 0.5)
