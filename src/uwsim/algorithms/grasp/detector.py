@@ -3,11 +3,12 @@ r"""Finding the outline of an orange box in an image: no weights, nothing learne
 The colour score of a pixel is :math:`s = 2R - G - B`. Water takes contrast away but not the order:
 fog of transmission T leaves :math:`T s` of a score, plus an offset that changes slowly over the
 image (`Background`). So the threshold is relative: a share of the way between the bottom and the
-brightest spot, provided that this stands out from the noise by `CONTRAST` deviations. A blob that
-is no redder than the bottom by `REDDER` is none: in fog a dark hull has less green and blue than
-the water before it, and as little red. The blobs above the threshold are closed over bands,
-lettering and handle. What is returned is, for each, the support function of its
-convex hull: how far it reaches along `N_DIRECTIONS` directions. It is all that a convex outline
+brightest spot, provided that this stands out from the noise by `CONTRAST` deviations. A blob whose
+score does not come from its red, by a share of `RED_SHARE`, is none: in fog a dark hull has less
+green and blue than the water behind it, and hardly more red. What is far larger than the box, as
+the arm before the camera, is left out, and the threshold is that of the rest. The blobs above it
+are closed over bands, lettering and handle. What is returned is, for each, the support function of
+its convex hull: how far it reaches along `N_DIRECTIONS` directions. It is all that a convex outline
 has, and is not known where the blob ends at the rim of the image.
 
 Not modelled: other orange things of the size of the box.
@@ -35,8 +36,11 @@ LEAST = 6.0
 """Least height of a blob over the bottom [grey levels of the score]."""
 SHARE = 0.17
 """Where the threshold is between the bottom (0) and the brightest spot (1)."""
-REDDER = 8.0
+REDDER = 5.0
 """Least height of the red of a blob over that of the bottom [grey levels]."""
+RED_SHARE = 0.2
+"""Least height of its red, as a share of that of its score: 0.3 and more for the box, 0.15 for a
+hull in fog [1]."""
 DARKEST = 10.0
 """Where there is nothing but water, the red is that of this darkest part of an image [%]."""
 RIM = 2
@@ -76,14 +80,17 @@ class Detector(Protocol):
 class ColourDetector:
     """Finds blobs that are more orange than the rest."""
 
-    def __init__(self, *, band: float = 0.03, least_size: float = 0.1) -> None:
+    def __init__(
+        self, *, band: float = 0.03, least_size: float = 0.1, most_size: float = 0.4
+    ) -> None:
         """Set its sizes.
 
         Args:
             band: gaps as wide as this are closed [m].
             least_size: what is smaller on the bottom is nothing [m].
+            most_size: what is larger on the bottom is something else [m].
         """
-        self._band, self._least_size = band, least_size
+        self._band, self._least_size, self._most_size = band, least_size, most_size
 
     @plain_opencv()
     def detect(self, image: Pixels, view: View) -> list[Outline]:
@@ -101,50 +108,74 @@ class ColourDetector:
         score = cv2.blur(colour_score(half), (3, 3)).astype(np.float32)
         bottom = Background.of(score, 2)
         over = score - bottom.over(score.shape, step=2)
-        top, noise = float(over.max()), bottom.deviation
-        if top < max(CONTRAST * noise, LEAST):
+        level, blobs = self._blobs(over, bottom.deviation, scale / 2.0)
+        if not blobs:
             return []
-        level = max(SHARE * top, 2.5 * noise)
         red = Background.of(half[:, :, 0].astype(np.float32), 2)
         darkest = float(np.percentile(half[::3, ::3, 0], DARKEST))
+        contrast = float(over.max()) / bottom.deviation
         found: list[tuple[float, Array]] = []
-        for left, above, right, below in self._blobs(over > level, scale / 2.0):
+        for left, above, right, below in blobs:
             part, corner = image[above:below, left:right], (above, left)
             own = bottom.over(part.shape, corner), red.over(part.shape, corner).clip(darkest)
             hull = self._hull(part, own, level, scale)
             if hull is not None:
                 found.append((hull[0], hull[1] + np.array([left, above])))
         found.sort(key=lambda one: -one[0])
-        return [outline_of(hull, image.shape, area, top / noise) for area, hull in found]
+        return [outline_of(hull, image.shape, area, contrast) for area, hull in found]
 
-    def _blobs(self, mask: npt.NDArray[np.bool_], scale: float) -> list[tuple[int, int, int, int]]:
-        """Left, top, right, bottom of where to look closer, in the whole image [px]."""
+    def _blobs(
+        self, over: Layer, noise: float, scale: float
+    ) -> tuple[float, list[tuple[int, int, int, int]]]:
+        """The threshold, and left, top, right, bottom of where to look closer [px].
+
+        Args:
+            over: scores of every second pixel over the bottom; what is too large is taken out.
+            noise: deviation of the bottom's score.
+            scale: of these pixels on the bottom [px/m].
+        """
         import cv2
 
-        _, _, stats, _ = cv2.connectedComponentsWithStats(self._closed(mask, scale))
-        found = []
+        least, most = (0.25 * (self._least_size * scale) ** 2, (self._most_size * scale) ** 2)
         margin = round(self._band * scale) + 3
+        while True:
+            top = float(over.max())
+            if top < max(CONTRAST * noise, LEAST):
+                return 0.0, []
+            level = max(SHARE * top, 2.5 * noise)
+            closed = self._closed(over > level, scale)
+            _, labels, stats, _ = cv2.connectedComponentsWithStats(closed)
+            large = 1 + np.flatnonzero(stats[1:, cv2.CC_STAT_AREA] > most)
+            if not len(large):
+                break
+            over[np.isin(labels, large)] = 0.0
+        found = []
         for left, above, width, height, area in np.asarray(stats)[1:].tolist():
-            if area > 0.25 * (self._least_size * scale) ** 2:
+            if area > least:
                 corner = max(left - margin, 0), max(above - margin, 0)
                 far = left + width + margin, above + height + margin
                 found.append((area, (2 * corner[0], 2 * corner[1], 2 * far[0], 2 * far[1])))
         found.sort(key=lambda one: -one[0])
-        return [place for _, place in found[:MAX_BLOBS]]
+        return level, [place for _, place in found[:MAX_BLOBS]]
 
     def _hull(
         self, part: Pixels, bottom: tuple[Layer, Layer], level: float, scale: float
     ) -> tuple[float, Array] | None:
         """Area [px^2] and corners (n, 2) [px] of the largest hull in a part of the image.
 
-        None where it is too small, or not redder than the bottom; ``bottom`` has score and red
-        of that, (h, w) each.
+        None where it is too small, too large, or not redder than the bottom; ``bottom`` has score
+        and red of that, (h, w) each.
         """
         import cv2
 
-        orange = cv2.blur(colour_score(part), (3, 3)) > bottom[0] + level
-        redder = (part[:, :, 0] - bottom[1])[orange]
-        if not len(redder) or float(np.percentile(redder, 90)) < REDDER:
+        over = cv2.blur(colour_score(part), (3, 3)) - bottom[0]
+        orange = over > level
+        if not orange.any():
+            return None
+        score, red = (
+            float(np.percentile(each[orange], 90)) for each in (over, part[:, :, 0] - bottom[1])
+        )
+        if red < max(RED_SHARE * score, REDDER):
             return None
         mask = self._closed(orange, scale)
         contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
@@ -153,7 +184,7 @@ class ColourDetector:
         if not sized:
             return None
         area, hull = max(sized, key=lambda one: one[0])
-        if area < (self._least_size * scale) ** 2:
+        if not (self._least_size * scale) ** 2 <= area <= (self._most_size * scale) ** 2:
             return None
         return area, hull[:, 0, :].astype(np.float64)
 
