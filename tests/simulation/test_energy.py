@@ -16,8 +16,8 @@ from uwsim.errors import UnknownName
 from uwsim.messages import Float64MultiArray, JointState, MultiArrayLayout, header
 from uwsim.physics.actuation.power import power_table
 from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
-from uwsim.physics.compile import servo_gains
 from uwsim.physics.hydrodynamics import VehicleHydrodynamics
+from uwsim.physics.joints import servo_gains
 from uwsim.physics.vehicle_file import read_vehicle
 from uwsim.physics.vehicle_sets import vehicle_sets
 from uwsim.scene.vehicle import VehicleSpec

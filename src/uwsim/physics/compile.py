@@ -20,7 +20,7 @@ from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..numerics.linear import product
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import JointSpec, LinkSpec, MimicSpec, RobotSpec
+from ..scene.urdf.robot import LinkSpec, RobotSpec
 from ..world import GRAVITY
 from .collision.shapes import CollisionShape
 from .engine_warnings import hush
@@ -32,6 +32,7 @@ from .hydrodynamics import (
     VehicleHydrodynamics,
     prepare,
 )
+from .joints import add_gear, add_joint, add_servo, is_geared
 from .world_tree import rebuild_world_tree
 
 MAX_STEP = 0.02
@@ -41,16 +42,6 @@ MIN_MASS = 0.01
 """Of a link whose URDF gives none [kg]."""
 MIN_INERTIA = 1e-4
 """Of a link whose URDF gives none [kg m2]."""
-SERVO = (400.0, 60.0)
-"""Stiffness [N m/rad or N/m] and damping of the servo that holds a joint of much effort."""
-STRONG = 100.0
-"""Servos of less effort than this are softer in proportion [N m or N]."""
-GEAR = (500.0, 10.0)
-"""Stiffness [N m/rad or N/m] and damping between a joint and the one that it mimics; a constraint
-would bind them as well, and cost a solver at every step."""
-ROTOR = 0.1
-"""Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2 or kg]."""
-
 FRICTION = (0.8, 0.005, 0.0001)
 """Sliding [1], spinning [m] and rolling [m], rubber on metal; of two shapes the greater counts."""
 SOFTNESS = (0.95, 0.99, 0.001, 0.5, 2.0)
@@ -314,60 +305,12 @@ def _add_children(
         )
         if joint.moves:
             name = vehicle_joint(index, joint.name)
-            child.add_joint(
-                name=name,
-                type=(
-                    mujoco.mjtJoint.mjJNT_SLIDE
-                    if joint.kind == "prismatic"
-                    else mujoco.mjtJoint.mjJNT_HINGE
-                ),
-                axis=list(joint.axis),
-                range=[joint.lower, joint.upper],
-                limited=mujoco.mjtLimited.mjLIMITED_FALSE,  # the servo's targets are
-                armature=ROTOR if links else 0.0,
-            )
+            add_joint(child, name, joint, is_driven=bool(links))
             if links:
-                _add_servo(spec, name, joint.effort)
+                add_servo(spec, name, joint.effort)
                 if joint.mimic is not None and is_geared(joint, robot):
-                    _add_gear(spec, name, vehicle_joint(index, joint.mimic.joint), joint.mimic)
+                    add_gear(spec, name, vehicle_joint(index, joint.mimic.joint), joint.mimic)
         _add_children(spec, child, robot, joint.child, index, links)
-
-
-def is_geared(joint: JointSpec, robot: RobotSpec) -> bool:
-    """Whether a joint is coupled to another by a gear."""
-    moving = [other.name for other in robot.joints if other.moves]
-    is_bound = joint.mimic is not None and joint.mimic.joint in moving
-    return is_bound and "slidercrank" not in joint.name
-
-
-def _add_gear(spec: mujoco.MjSpec, joint: str, leader: str, mimic: MimicSpec) -> None:
-    """Couple a joint that mimics to its leader by a stiff spring, as a linkage does."""
-    stiffness, damping = GEAR
-    gear = spec.add_tendon(
-        name=f"{joint}/gear",
-        stiffness=stiffness,
-        damping=damping,
-        springlength=[mimic.offset] * 2,
-    )
-    gear.wrap_joint(joint, 1.0)
-    gear.wrap_joint(leader, -mimic.multiplier)
-
-
-def servo_gains(effort: float) -> tuple[float, float]:
-    """Stiffness and damping of the servo of a joint, by its greatest effort [N m or N]."""
-    share = min(1.0, effort / STRONG)
-    return share * SERVO[0], share * SERVO[1]
-
-
-def _add_servo(spec: mujoco.MjSpec, joint: str, effort: float) -> None:
-    stiffness, damping = servo_gains(effort)
-    servo = spec.add_actuator(
-        name=f"{joint}/servo", target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT
-    )
-    servo.set_to_position(kp=stiffness, kv=damping)
-    if math.isfinite(effort):
-        servo.forcerange = [-effort, effort]
-        servo.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
 
 
 def _add_grips(

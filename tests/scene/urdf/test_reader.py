@@ -309,6 +309,10 @@ def test_negative_and_endless_sizes_are_errors(shape: str, said: str, tmp_path: 
     [
         ('<axis xyz="0 0 0"/><limit lower="-1" upper="1"/>', "has the axis 0 0 0; held fixed"),
         ('<limit lower="1" upper="-1"/>', "lower 1 is above upper -1"),
+        (
+            '<limit lower="-1" upper="1"/><dynamics friction="-2"/>',
+            "has the friction -2; expected 0 or more: 0",
+        ),
     ],
 )
 def test_joints_that_cannot_move_are_warned_of_with_their_line(

@@ -18,7 +18,8 @@ import numpy.typing as npt
 
 from ...geometry import Array
 from ...scene.urdf.robot import JointSpec, RobotSpec
-from ..compile import servo_gains, vehicle_joint
+from ..compile import vehicle_joint
+from ..joints import servo_gains
 from .records import CRANKED, GEARED, JOINT, JOINT_STATE, OWN
 
 MAX_SPEED = 2.0

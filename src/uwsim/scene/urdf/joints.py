@@ -1,4 +1,4 @@
-"""Reads ``<joint>`` of a robot file: type, limits and mimic."""
+"""Reads ``<joint>`` of a robot file: type, limits, damping, friction and mimic."""
 
 from __future__ import annotations
 
@@ -59,6 +59,8 @@ def read_joint(
         upper=upper,
         effort=_most(node, "effort", diagnostics),
         velocity=_most(node, "velocity", diagnostics),
+        damping=_loss(node, "damping", diagnostics),
+        friction=_loss(node, "friction", diagnostics),
         mimic=_mimic(node, diagnostics) if given in MOVABLE else None,
     )
 
@@ -98,6 +100,17 @@ def _most(node: etree._Element, what: str, diagnostics: Diagnostics) -> float:
     limit = node.find("limit")
     most = 0.0 if limit is None else number_of(limit, what, diagnostics, 0.0)
     return most if most > 0.0 else math.inf
+
+
+def _loss(node: etree._Element, what: str, diagnostics: Diagnostics) -> float:
+    """A damping or friction of ``<dynamics>``; 0 without one, as for one below 0."""
+    dynamics = node.find("dynamics")
+    loss = 0.0 if dynamics is None else number_of(dynamics, what, diagnostics, 0.0)
+    if loss < 0.0:
+        diagnostics.warning(
+            dynamics, f"joint {name_of(node)!r} has the {what} {loss:g}; expected 0 or more: 0"
+        )
+    return max(loss, 0.0)
 
 
 def _mimic(node: etree._Element, diagnostics: Diagnostics) -> MimicSpec | None:

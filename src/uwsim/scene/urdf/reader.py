@@ -8,7 +8,7 @@ of simulated vehicles. Of a link all ``<visual>`` and ``<collision>`` elements c
 took the first. A material is meant by its name wherever it is defined, as in URDF.
 
 What a plug-in or another program wrote into the file (``<gazebo>``, ``<transmission>``, ...) is
-passed over, as the original does. Not read: joint dynamics, safety controllers, textures.
+passed over, as the original does. Not read: safety controllers, textures.
 """
 
 from __future__ import annotations

@@ -116,6 +116,10 @@ class JointSpec(Spec):
     """Greatest effort of what drives it; of a simulated vehicle only [N m or N]."""
     velocity: float = math.inf
     """Greatest speed at which it is driven; of a simulated vehicle only [rad/s or m/s]."""
+    damping: float = 0.0
+    """Effort against its speed; of a simulated vehicle only [N m s/rad or N s/m]."""
+    friction: float = 0.0
+    """Effort of its dry friction; of a simulated vehicle only [N m or N]."""
     mimic: MimicSpec | None = None
     """Whom it follows."""
 

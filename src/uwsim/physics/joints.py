@@ -1,0 +1,75 @@
+"""Joints of a MuJoCo model: their losses, what drives them, and gears between them."""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+
+from ..scene.urdf.robot import JointSpec, MimicSpec, RobotSpec
+
+SERVO = (400.0, 60.0)
+"""Stiffness [N m/rad or N/m] and damping of the servo that holds a joint of much effort."""
+STRONG = 100.0
+"""Servos of less effort than this are softer in proportion [N m or N]."""
+STIFF_FRICTION = [0.9999, 0.9999, 0.001, 0.5, 2.0]
+"""Impedance of the dry friction of joints: with the engine's own a joint that is held creeps."""
+GEAR = (500.0, 10.0)
+"""Stiffness [N m/rad or N/m] and damping between a joint and the one that it mimics; a constraint
+would bind them as well, and cost a solver at every step."""
+ROTOR = 0.1
+"""Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2 or kg]."""
+
+
+def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: bool) -> None:
+    """Let a link's body turn or slide; ``is_driven`` with rotor, damping and friction."""
+    is_slide = joint.kind == "prismatic"
+    body.add_joint(
+        name=name,
+        type=mujoco.mjtJoint.mjJNT_SLIDE if is_slide else mujoco.mjtJoint.mjJNT_HINGE,
+        axis=list(joint.axis),
+        range=[joint.lower, joint.upper],
+        limited=mujoco.mjtLimited.mjLIMITED_FALSE,  # the servo's targets are
+        armature=ROTOR if is_driven else 0.0,
+        damping=[joint.damping if is_driven else 0.0, 0.0, 0.0],  # the first of a joint of one
+        frictionloss=joint.friction if is_driven else 0.0,
+        solimp_friction=STIFF_FRICTION,
+    )
+
+
+def is_geared(joint: JointSpec, robot: RobotSpec) -> bool:
+    """Whether a joint is coupled to another by a gear."""
+    moving = [other.name for other in robot.joints if other.moves]
+    is_bound = joint.mimic is not None and joint.mimic.joint in moving
+    return is_bound and "slidercrank" not in joint.name
+
+
+def add_gear(spec: mujoco.MjSpec, joint: str, leader: str, mimic: MimicSpec) -> None:
+    """Couple a joint that mimics to its leader by a stiff spring, as a linkage does."""
+    stiffness, damping = GEAR
+    gear = spec.add_tendon(
+        name=f"{joint}/gear",
+        stiffness=stiffness,
+        damping=damping,
+        springlength=[mimic.offset] * 2,
+    )
+    gear.wrap_joint(joint, 1.0)
+    gear.wrap_joint(leader, -mimic.multiplier)
+
+
+def servo_gains(effort: float) -> tuple[float, float]:
+    """Stiffness and damping of the servo of a joint, by its greatest effort [N m or N]."""
+    share = min(1.0, effort / STRONG)
+    return share * SERVO[0], share * SERVO[1]
+
+
+def add_servo(spec: mujoco.MjSpec, joint: str, effort: float) -> None:
+    """Hold a joint by a servo of at most this effort [N m or N]."""
+    stiffness, damping = servo_gains(effort)
+    servo = spec.add_actuator(
+        name=f"{joint}/servo", target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT
+    )
+    servo.set_to_position(kp=stiffness, kv=damping)
+    if math.isfinite(effort):
+        servo.forcerange = [-effort, effort]
+        servo.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
