@@ -275,6 +275,12 @@ def test_an_algorithm_that_calls_exit_fails_alone(benchmark: Path, tmp_path: Pat
     assert "SystemExit" in str(result.why(0, "corners"))
 
 
+def test_a_level_alone_ends_when_the_algorithm_has_failed(benchmark: Path, tmp_path: Path) -> None:
+    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Leaves", mode="independent")
+    assert result.values("status") == ("algorithm error",) * 3
+    assert max(result.numbers("taskTime")) < 0.15  # of 0.2 s
+
+
 def test_what_an_algorithm_says_is_one_printable_line(benchmark: Path, tmp_path: Path) -> None:
     result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Shouts", levels=["fog=0"])
     why = str(result.why(0, "corners"))

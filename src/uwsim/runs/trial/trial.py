@@ -364,7 +364,8 @@ class _Execution:
             monitor.listen(simulation.time)
             stopped = not self._triggers.is_open()
             ended = _end_of_level(measures)
-            if stopped or ended is not None:
+            is_over = self._trial.is_alone and monitor.failed is not None  # nothing can follow
+            if stopped or ended is not None or is_over:
                 break
         for gated in measures:
             gated.end()
