@@ -123,6 +123,25 @@ def test_dynamics_that_name_no_set_are_an_error(tmp_path: Path) -> None:
     assert "<u:dynamics> is empty; expected text" in diagnostic
 
 
+@pytest.mark.parametrize("element", ["ForceSensor", "u:lamp"])
+def test_a_device_on_no_link_is_refused_with_its_line(tmp_path: Path, element: str) -> None:
+    parts = {
+        "ForceSensor": "<name>f</name> <target>part9</target> "
+        "<offsetp> <x>0</x> <y>0</y> <z>0</z> </offsetp> "
+        "<offsetr> <x>0</x> <y>0</y> <z>0</z> </offsetr>",
+        "u:lamp": "<u:name>f</u:name> <u:relativeTo>part9</u:relativeTo>",
+    }
+    device = f"\n<{element}> {parts[element]} </{element}>\n</vehicle>"
+    path = tmp_path / "scene.xml"
+    path.write_text(TEXT.replace("</vehicle>", device, 1))
+    line = path.read_text().splitlines().index(device.splitlines()[1]) + 1
+    with pytest.raises(SceneError, match="No link is called 'part9'") as caught:
+        Simulation(read_scene(path))
+    (diagnostic,) = caught.value.diagnostics
+    assert diagnostic.line == line
+    assert diagnostic.message.startswith(f"<{element}>: ")
+
+
 def test_all_are_reported_at_once(tmp_path: Path) -> None:
     changed = TEXT
     for way in ("a thruster", "thruster commands for nobody", "a field that is not there"):

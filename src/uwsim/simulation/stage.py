@@ -14,13 +14,14 @@ from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
 from ..devices.led_array import Led, LedArray
 from ..devices.structured_light_projector import MountedProjector
-from ..errors import AssetNotFound, UnknownName
+from ..errors import AssetNotFound, SceneError, UnknownName
 from ..geodesy import Geodetic
 from ..geometry import Array
 from ..messages import SpawnMarker, String
 from ..network import Channel, Network, nanoseconds
 from ..sampling import SampleTimer
 from ..scene.spec import SceneSpec
+from ..schema import diagnostic_at
 from ..sensors.sensor import Sensor
 from ..topics.frames import Frame
 from ..topics.interface import Binds, Interface
@@ -87,7 +88,7 @@ class SceneStage(SceneWorld):
         for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
             for element, part in spec.all_parts():
                 if isinstance(part, DeviceSpec):
-                    device = self._bound_device(part, vehicle)
+                    device = self._bound_device(element, part, vehicle)
                     if device is None:
                         continue
                     yield device
@@ -114,13 +115,15 @@ class SceneStage(SceneWorld):
         self.files |= {path.name: path}
         self.scenery.set_projector(projector, read_pattern(path))
 
-    def _bound_device(self, spec: DeviceSpec, vehicle: SceneVehicle) -> Device | None:
+    def _bound_device(self, element: str, spec: DeviceSpec, vehicle: SceneVehicle) -> Device | None:
         try:
             return spec.bind(self, vehicle)
-        except UnknownName:
+        except UnknownName as error:
             if spec.is_left_out:
                 return None
-            raise
+            if spec.source_line is None:
+                raise
+            raise SceneError([diagnostic_at(spec, f"<{element}>: {error}")]) from error
 
     def sensor_publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
         """Return what publishes the messages of a sensor on a topic, with the sensor's faults."""
