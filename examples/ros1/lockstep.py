@@ -18,6 +18,7 @@ while a service of the program is called.
 
 import json
 import threading
+import time
 from xmlrpc.client import ServerProxy
 
 import rosgraph
@@ -28,6 +29,8 @@ JOIN, TICK, ACK = (f"/uwsim/lockstep/{name}" for name in ("join", "tick", "ack")
 SIMULATOR = "/uwsim"
 """Name of the node."""
 DEPTH = 1000
+PATIENCE = 2.0
+"""How often it joins until it is ticked [s]."""
 GLANCE = 0.05
 """How often connections are looked at; they come and go without a notice [s]."""
 
@@ -86,11 +89,15 @@ class LockStep:
             self._expect(topic)
             self._in(topic, self._kinds[topic], self._receiver(topic))
         outs = {**self._publishers, JOIN: join, ACK: ack}
-        if not self._wait(lambda: self._is_connected(outs)):
-            return
-        for topic in sorted(set(self._callbacks) & set(self._published)):
-            self._expect(topic)
-        self._say(join, topics=list(self._waiting), next=self._next())
+        while not self._ticks:
+            if not self._wait(lambda: self._is_connected(outs)):
+                return
+            own = sorted(set(self._callbacks) & set(self._published))
+            for topic in set(own) - set(self._waiting):
+                self._expect(topic)
+            self._say(join, topics=list(self._waiting), own=own, next=self._next())
+            again = time.monotonic() + PATIENCE  # this may have gone to a trial that ends
+            self._wait(lambda: self._ticks or time.monotonic() > again)  # noqa: B023
         while self._wait(lambda: self._is_complete() or not join.get_num_connections()):
             if not self._is_complete():
                 break

@@ -81,6 +81,9 @@ class Bridge(ABC):
     must_meet: ClassVar[bool] = False
     """Whether messages are lost before both ends of a topic know each other."""
 
+    invites: ClassVar[bool] = False
+    """Whether a client in lock-step joins when it is invited, and not of its own accord."""
+
     def __init__(self, bus: Bus, clock: Callable[[], float], log: Log) -> None:
         self.bus, self.clock, self.log = bus, clock, log
         self._lock = threading.Lock()

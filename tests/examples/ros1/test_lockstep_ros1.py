@@ -21,14 +21,7 @@ TOTAL = LIMIT
 """Nothing takes longer unless it hangs [s]."""
 
 
-pytestmark = [
-    needs_ros1,
-    pytest.mark.slow,
-    pytest.mark.skipif(
-        "UWSIM_TEST_ROS1_LOCKSTEP" not in os.environ,
-        reason="a run once stopped at the tick of 0 s; UWSIM_TEST_ROS1_LOCKSTEP=1 runs it",
-    ),
-]
+pytestmark = [needs_ros1, pytest.mark.slow]
 
 
 @pytest.fixture
@@ -72,14 +65,12 @@ def test_a_tracker_of_rospy_scores_the_same_rows_also_when_it_dawdles(
 ) -> None:
     benchmark = write_benchmark(tmp_path, "0.5")
     inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", "esm")
-    for delay in ("0", "20"):
-        program = ("uwsim.algorithms:Esm", "--delay", delay)
-        out = tmp_path / f"outside-{delay}"
-        outside = scored_outside(graph, benchmark, out, program=program)
-        assert outside["rows"] == inside["rows"]
-        assert outside["run"]["clients"] == [["outside", "lock-step, ros1"]]
-        log = "measure-corners.csv"
-        assert (out / log).read_bytes() == (tmp_path / "inside" / log).read_bytes()
+    out, log = tmp_path / "outside", "measure-corners.csv"
+    program = ("uwsim.algorithms:Esm", "--delay", "20")
+    outside = scored_outside(graph, benchmark, out, program=program)
+    assert outside["rows"] == inside["rows"]
+    assert outside["run"]["clients"] == [["outside", "lock-step, ros1"]]
+    assert (out / log).read_bytes() == (tmp_path / "inside" / log).read_bytes()
 
 
 def test_a_controller_of_rospy_scores_the_currents_as_in_process(

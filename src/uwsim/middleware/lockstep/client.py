@@ -73,7 +73,7 @@ class LockStepClient:
         self._node = node
         bridge = self._bridge
         bridge.step()
-        if bridge.must_meet:
+        if bridge.invites:
             invitation = {"client": self._name, "tick": 0, "run": self._run}
             bridge.send(TICK, String(data=json.dumps(invitation)))
         if not bridge.wait_for(lambda: bool(self._joins), self._limit):
@@ -97,8 +97,10 @@ class LockStepClient:
             of = service(str(kind))
             self._node.serve(name, of.request, partial(self._ask, name, of))
         bridge.step()
-        own = {topic.lstrip("/") for topic in publishes}  # the client has those from itself
-        met = [TICK, *(topic for topic in topics if topic.lstrip("/") not in own)]
+        # what the client publishes itself it has from itself
+        own = {topic.lstrip("/") for topic in (*publishes, *_texts(joined.get("own")))}
+        read = [topic.lstrip("/") for topic in topics]
+        met = [TICK, *(topic for topic in read if topic not in own and self._is_sent(topic))]
         if not bridge.wait_for(
             lambda: not bridge.must_meet or all(map(bridge.is_wanted, met)), self._limit
         ):
@@ -107,6 +109,11 @@ class LockStepClient:
             )
         for topic in topics:
             self._node.subscribe(topic, object, self._counter(topic))
+
+    def _is_sent(self, topic: str) -> bool:
+        """Whether the simulation publishes a topic."""
+        ends = self._bridge.bus.ends(topic, besides=self._bridge)
+        return ends is not None and ends.is_published
 
     @property
     def parameters(self) -> dict[str, float | str]:

@@ -58,6 +58,8 @@ class Ros1Bridge(Bridge):
         poll: how often the master is looked for [s].
     """
 
+    must_meet = True
+
     def __init__(
         self,
         bus: Bus,

@@ -52,7 +52,7 @@ class Ros2(Bridge):
         UwsimError: the domain cannot be joined.
     """
 
-    must_meet = True
+    must_meet = invites = True
 
     def __init__(
         self,
