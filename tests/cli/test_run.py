@@ -192,7 +192,7 @@ def test_ctrl_c_keeps_what_is_recorded(scene: Path) -> None:
         stderr=subprocess.PIPE,
         text=True,
     )
-    while not list(scene.parent.glob(".run-*/recording/*.mcap")):
+    while not list(scene.parent.glob(".run.mcap.partial/recording/*.mcap")):
         time.sleep(0.05)
         assert process.poll() is None
     time.sleep(2.0)
@@ -203,7 +203,7 @@ def test_ctrl_c_keeps_what_is_recorded(scene: Path) -> None:
     assert "/odom" in out
     with AnyReader([record]) as reader:
         assert reader.message_count > 0
-    assert not list(scene.parent.glob(".run-*"))
+    assert not list(scene.parent.glob(".run*"))
 
 
 def test_a_run_that_is_stopped_before_its_first_step_says_so(
