@@ -13,12 +13,16 @@ TIMESTEP = 0.002
 
 
 class Graph:
-    """A master and nodes; to be closed."""
+    """A master and nodes; to be closed.
 
-    def __init__(self) -> None:
+    Args:
+        master: class of the master.
+    """
+
+    def __init__(self, master: type[Master] = Master) -> None:
         self.printed: list[str] = []
         self.log = Log("test", self.printed.append)
-        self.master = Master(self.log, port=free_port())
+        self.master = master(self.log, port=free_port())
         self.nodes: list[Ros1Bridge] = []
 
     def node(self, name: str = "/uwsim", **options: Any) -> Ros1Bridge:

@@ -263,7 +263,7 @@ class Ros1Bridge(Bridge):
         return future
 
     def _publisherUpdate(self, caller: str, topic: str, uris: list[str]) -> Answer:  # noqa: N802
-        self._update(topic, [each for each in uris if isinstance(each, str)])
+        self._registrar.update(topic, [each for each in uris if isinstance(each, str)])
         return [1, "", 0]
 
     def _requestTopic(self, caller: str, topic: str, protocols: list[Any]) -> Answer:  # noqa: N802

@@ -65,6 +65,8 @@ class Registrar:
         self._parameters = dict(parameters)
         self._before: dict[str, Any] = {}
         self._lock = threading.Lock()
+        self._update_lock = threading.Lock()
+        self._updated: set[str] = set()  # topics of updates since their registration was begun
         self._wanted: set[tuple[str, str, str]] = set()
         self._registered: set[tuple[str, str, str]] = set()
         self._is_lost = self._has_given_up = False
@@ -85,6 +87,12 @@ class Registrar:
             return self._settled.wait_for(
                 lambda: bool(self._wanted) and self._wanted == self._registered, timeout
             )
+
+    def update(self, topic: str, uris: list[str]) -> None:
+        """Take in an update of the master: the publishers of a topic. Any thread."""
+        with self._update_lock:
+            self._updated.add(topic)
+            self._publishers(topic, uris)
 
     def close(self) -> None:
         """Unregister everything."""
@@ -155,12 +163,20 @@ class Registrar:
         if kind == "publishers":
             self.call("registerPublisher", name, value, self._uri)
         elif kind == "subscribers":
-            found = self.call("registerSubscriber", name, value, self._uri)
-            self._publishers(name, [each for each in found if isinstance(each, str)])
+            self._subscribe(name, value)
         else:
             self.call("registerService", name, value, self._uri)
         with self._lock:
             self._registered.add(item)
+
+    def _subscribe(self, topic: str, kind: str) -> None:
+        """Register a subscriber; an update that overtakes the answer is newer than it."""
+        with self._update_lock:
+            self._updated.discard(topic)
+        found = self.call("registerSubscriber", topic, kind, self._uri)
+        with self._update_lock:
+            if topic not in self._updated:
+                self._publishers(topic, [each for each in found if isinstance(each, str)])
 
     def _unregister(self, item: tuple[str, str, str]) -> None:
         kind, name, value = item
